@@ -1,0 +1,32 @@
+// Ctrl-C ends long work at its next report of progress, so that it can clean up behind itself.
+#pragma once
+
+#include <stdexcept>
+
+#include <csignal>
+
+namespace isochron::app {
+
+/// Thrown to leave the work; `main` prints its line and exits with `status`.
+class Cancelled : public std::runtime_error {
+  public:
+    explicit Cancelled(int signal) : std::runtime_error("cancelled"), status(128 + signal) {}
+    int status; ///< 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP
+};
+
+/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of obeyed. One at a time.
+class CancelOnSignal {
+  public:
+    CancelOnSignal();
+    ~CancelOnSignal();
+    CancelOnSignal(const CancelOnSignal&) = delete;
+    CancelOnSignal& operator=(const CancelOnSignal&) = delete;
+
+    /// @throws Cancelled when a signal has come
+    void check() const;
+
+  private:
+    struct sigaction previous_[3];
+};
+
+} // namespace isochron::app

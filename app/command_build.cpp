@@ -1,0 +1,182 @@
+// `isochron build`: reads a series of volume files and writes its index.
+#include "app/cancel.h"
+#include "app/commands.h"
+#include "app/file_patterns.h"
+#include "app/positive_number.h"
+#include "app/progress_bar.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/index_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BuildArguments {
+    std::vector<std::string> files;
+    fs::path out;
+    index::ReadOptions read;
+    std::string type;
+    std::vector<std::uint32_t> dims;
+    std::vector<double> spacing, origin;
+    index::BuildOptions build;
+    bool quiet = false;
+};
+
+std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
+    if (numbers.empty())
+        return std::nullopt;
+    return glm::dvec3(numbers[0], numbers[1], numbers[2]);
+}
+
+index::ReadOptions read_options(const BuildArguments& arguments) {
+    index::ReadOptions read = arguments.read;
+    if (!arguments.dims.empty())
+        read.dims = {arguments.dims[0], arguments.dims[1], arguments.dims[2]};
+    if (!arguments.type.empty())
+        read.type = index::value_type_from_name(arguments.type);
+    read.spacing = vector_of(arguments.spacing);
+    read.origin = vector_of(arguments.origin);
+    return read;
+}
+
+std::string summary(const fs::path& out, const index::IndexFile& file) {
+    const index::SeriesInfo& info = file.info();
+    const index::IndexStats& stats = file.stats();
+    const auto& n = info.grid.vertices;
+    std::string text =
+        fmt::format("{}: {} x {} x {} vertices, {} step{}, {}, values {} to {}{}\n"
+                    "{}: volume {}, tree {}\n",
+                    out.string(), n[0], n[1], n[2], info.steps(), info.steps() == 1 ? "" : "s",
+                    index::name_of(info.type), stats.low, stats.high, with_space(info.value_unit),
+                    human_bytes(static_cast<double>(stats.file_bytes)),
+                    human_bytes(static_cast<double>(stats.volume_bytes)),
+                    stats.tree_bytes ? human_bytes(static_cast<double>(stats.tree_bytes)) : "none");
+    for (const std::string& note : info.notes)
+        text += fmt::format("note: {}\n", note);
+    return text;
+}
+
+void run_build(const BuildArguments& arguments) {
+    const CancelOnSignal signals;
+    const std::vector<fs::path> files = expand_patterns(arguments.files);
+    refuse_input_as_output(files, arguments.out);
+    const auto series = index::open_series(files, read_options(arguments));
+    const index::SeriesInfo& info = series->info();
+    {
+        ProgressBar bar(stderr,
+                        static_cast<double>(info.step_bytes()) * static_cast<double>(info.steps()));
+        index::build_index(*series, arguments.out, arguments.build,
+                           [&](std::string_view phase, double fraction) {
+                               signals.check();
+                               if (!arguments.quiet)
+                                   bar.show(phase, fraction);
+                           });
+    }
+    if (!arguments.quiet)
+        fmt::print("{}", summary(arguments.out, *index::IndexFile::open(arguments.out)));
+}
+
+void add_reading_options(CLI::App& command, BuildArguments& arguments) {
+    index::ReadOptions& read = arguments.read;
+    command.add_option("--array", read.array, "Scalar array to read, where files hold several")
+        ->group("Reading");
+    command
+        .add_option("--component", read.component,
+                    "Component of a vector array: a number from 0, or magnitude")
+        ->group("Reading");
+    command
+        .add_option("--spacing", arguments.spacing,
+                    "Distance between vertices along each axis, in length units "
+                    "(default: as the files say, else 1 1 1)")
+        ->expected(3)
+        ->type_name("SX SY SZ")
+        ->check(positive_number())
+        ->group("Reading");
+    command
+        .add_option("--origin", arguments.origin,
+                    "Position of the first vertex, in length units "
+                    "(default: as the files say, else 0 0 0)")
+        ->expected(3)
+        ->type_name("OX OY OZ")
+        ->group("Reading");
+    command
+        .add_option("--time-step", read.time_step,
+                    "Physical time between steps, in time units (default: as the files say, "
+                    "else 1)")
+        ->check(positive_number())
+        ->group("Reading");
+    command.add_option("--length-unit", read.length_unit, "Unit of positions, such as mm")
+        ->group("Reading");
+    command.add_option("--time-unit", read.time_unit, "Unit of times, such as s")->group("Reading");
+    command.add_option("--value-unit", read.value_unit, "Unit of the values, such as K")
+        ->group("Reading");
+
+    const char* raw = "Headerless raw files";
+    command.add_option("--dims", arguments.dims, "Vertices along each axis, x fastest")
+        ->expected(3)
+        ->type_name("NX NY NZ")
+        ->check(CLI::Range(2u, 65537u))
+        ->group(raw);
+    command.add_option("--type", arguments.type, "Type of the stored values")
+        ->check(CLI::IsMember({"i8", "u8", "i16", "u16", "i32", "f32", "f64"}))
+        ->group(raw);
+    command
+        .add_flag("--big-endian", read.big_endian, "Most significant byte first (default: least)")
+        ->group(raw);
+    command
+        .add_option("--header-bytes", read.header_bytes, "Bytes to skip at the start of each file")
+        ->capture_default_str()
+        ->group(raw);
+}
+
+} // namespace
+
+void add_build(CLI::App& program) {
+    auto arguments = std::make_shared<BuildArguments>();
+    CLI::App* command = program.add_subcommand(
+        "build", "Read a series of volume files and write its index, one file.");
+    command
+        ->add_option("files", arguments->files,
+                     "One .pvd, or the steps' files or quoted patterns ('t*.vti') in any order: "
+                     ".vti .vtk .mhd .mha .nhdr .nrrd .nii .nii.gz, or raw")
+        ->required()
+        ->type_name("FILES");
+    command->add_option("-o,--out", arguments->out, "Index to write; replaced when complete")
+        ->required()
+        ->type_name("NAME.isochron");
+    add_reading_options(*command, *arguments);
+
+    const char* index_group = "Index";
+    command
+        ->add_option("--lattice", arguments->build.tree.lattice,
+                     "SpanSpaceSize L: the lattice has L x L elements, 1 to 4096")
+        ->check(CLI::Range(1u, 4096u))
+        ->capture_default_str()
+        ->group(index_group);
+    command
+        ->add_option("--max-variation", arguments->build.tree.max_variation,
+                     "Most distinct lattice elements of a cell that is stored once for a time "
+                     "span, 1 to 64")
+        ->check(CLI::Range(1u, 64u))
+        ->capture_default_str()
+        ->group(index_group);
+    command
+        ->add_flag("--no-tree", arguments->build.exact_only,
+                   fmt::format("Write no tree: queries scan the volume (default beyond {} million "
+                               "cell-steps)",
+                               arguments->build.max_tree_cell_steps / 1'000'000))
+        ->group(index_group);
+    command->add_flag("--quiet", arguments->quiet, "Print nothing but errors");
+    command->footer("Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "
+                    "0, no file is left behind\nand an older index stays as it was.");
+    command->callback([arguments] { run_build(*arguments); });
+}
+
+} // namespace isochron::app

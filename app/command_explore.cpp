@@ -1,0 +1,213 @@
+// `isochron explore`: the live program, in a window.
+#include "app/commands.h"
+#include "app/file_patterns.h"
+#include "app/positive_number.h"
+#include "app/session.h"
+#include "app/version.h"
+#include "index/error.h"
+#include "index/new_file.h"
+#include "interaction/recording.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Seconds;
+
+struct ExploreOptions {
+    std::string file;
+    std::string config = "desktop";
+    std::optional<std::string> context, stereo, quality;
+    std::optional<std::string> record, report;
+    std::optional<double> isovalue, seconds;
+    std::optional<std::uint32_t> step;
+    std::vector<int> size;
+    std::string screenshots = ".";
+    bool no_panel = false;
+};
+
+Config configure(const ExploreOptions& options) {
+    Config config = read_config(options.config);
+    stereo::Window& window = config.installation.windows.front();
+    if (options.context)
+        config.context = *stereo::context_kind_from_name(*options.context);
+    if (options.stereo)
+        window.stereo = *stereo::stereo_mode_from_name(*options.stereo);
+    if (options.quality)
+        config.quality = quality_mode_from_name(*options.quality);
+    if (!options.size.empty()) {
+        window.size = {options.size[0], options.size[1]};
+        window.fullscreen = false;
+    }
+    if (config.context != stereo::ContextKind::glfw)
+        throw UsageError(
+            fmt::format("explore needs a window: --context glfw, not {}; `isochron replay` "
+                        "draws pictures without one",
+                        stereo::name_of(config.context)));
+    return config;
+}
+
+ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps) {
+    if (options.step && *options.step >= steps)
+        throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
+    if (options.isovalue && !std::isfinite(*options.isovalue))
+        throw UsageError(
+            fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
+    state.isovalue = options.isovalue.value_or(state.isovalue);
+    state.step = options.step.value_or(state.step);
+    state.panel = !options.no_panel;
+    return state;
+}
+
+interaction::RecordingHeader header_of(const Session& session, const Config& config,
+                                       const index::IndexFile& file, const std::string& path,
+                                       glm::ivec2 window) {
+    interaction::RecordingHeader header;
+    header.program = kProgram;
+    header.configuration = config.text;
+    header.data = std::filesystem::absolute(path).string();
+    header.window = {window.x, window.y};
+    header.data_hash = fmt::format("{:016x}", file.content_hash());
+    header.start = session.state().as_commands();
+    return header;
+}
+
+/// Refuses now what would fail, or destroy something, only when the session ends.
+void check_outputs(const ExploreOptions& options) {
+    namespace fs = std::filesystem;
+    for (const auto& out : {options.record, options.report})
+        if (out)
+            refuse_input_as_output({options.file}, *out);
+    if (options.record && fs::exists(*options.record))
+        interaction::read_recording(*options.record); // only a recording may be replaced by one
+    if (options.report)
+        index::NewFile{*options.report};
+    if (!fs::is_directory(options.screenshots))
+        throw index::Error(
+            fmt::format("{}: expected a folder for screenshots", options.screenshots));
+}
+
+/// Sleeps where no display paces the frames, so that an idle window does not burn the processor.
+class Pacer {
+  public:
+    explicit Pacer(double frames_per_second)
+        : interval_(std::chrono::duration_cast<Clock::duration>(Seconds(1.0 / frames_per_second))) {
+    }
+    void wait() {
+        next_ = std::max(next_ + interval_, Clock::now());
+        std::this_thread::sleep_until(next_);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::duration interval_;
+    Clock::time_point next_ = Clock::now();
+};
+
+void explore(const ExploreOptions& options) {
+    const Config config = configure(options);
+    for (const std::string& warning : screen_warnings(config))
+        fmt::print(stderr, "isochron: warning: {}\n", warning);
+    const auto file = index::IndexFile::open(options.file);
+    check_outputs(options);
+    const stereo::Window& window = config.installation.windows.front();
+    const auto context =
+        stereo::make_context(config.context, {.size = window.size,
+                                              .position = window.position,
+                                              .title = fmt::format("Isochron: {}", options.file),
+                                              .fullscreen = window.fullscreen,
+                                              .monitor = window.monitor,
+                                              .vsync = config.vsync});
+    Session session(config, file, *context);
+    session.set_state(start_from(session.state(), options, file->info().steps()));
+    session.set_screenshots(options.screenshots);
+    // The writer lives on the thread that writes: a slow disk delays the recording, not the
+    // picture.
+    BackgroundWork recording;
+    std::shared_ptr<interaction::RecordingWriter> recorder;
+    if (options.record) {
+        recorder = std::make_shared<interaction::RecordingWriter>(
+            *options.record,
+            header_of(session, config, *file, options.file, context->framebuffer_size()));
+        session.set_recording(true);
+    }
+
+    interaction::DesktopEmulation emulation(emulation_for(config));
+    Pacer pacer(config.frame_rate_limit);
+    const auto start = std::chrono::steady_clock::now();
+    for (bool running = true; running && !context->should_close();) {
+        emulation.feed(session.panel_events(context->poll_events()));
+        const Seconds now = std::chrono::steady_clock::now() - start;
+        const interaction::InputState input = emulation.poll(now);
+        interaction::Commands commands = session.commands_from(input);
+        const interaction::Commands from_panel = session.take_panel_commands();
+        interaction::merge(commands, from_panel);
+        session.frame(input, commands, Waiting::never);
+        if (recorder)
+            recording.post(
+                [recorder, frame = interaction::RecordedFrame{input, commands, from_panel}] {
+                    recorder->append(frame);
+                    return std::string();
+                });
+        session.show_messages(recording.messages());
+        running = !commands.quit && !(options.seconds && now.count() >= *options.seconds);
+        pacer.wait();
+    }
+    recording.finish();
+    if (recorder)
+        recorder->finish();
+    session.pictures().finish();
+    if (options.report)
+        session.log().write(*options.report, context->description());
+}
+
+std::string footer() {
+    std::string text = "Mouse and keyboard:\n";
+    for (const std::string& line : interaction::Controls::documentation())
+        text += "  " + line + "\n";
+    text += "\nExit status: 0 done, 1 bad input, 2 bad usage.";
+    return text;
+}
+
+} // namespace
+
+void add_explore(CLI::App& program) {
+    auto options = std::make_shared<ExploreOptions>();
+    CLI::App* command = program.add_subcommand("explore", "Explore an index in a window, live.");
+    command->add_option("file", options->file, "Index made by `isochron build`")->required();
+    command
+        ->add_option("--config", options->config,
+                     "TOML file, or the name of a shipped one (desktop)")
+        ->capture_default_str();
+    command->add_option("--context", options->context, "GL context; explore needs glfw")
+        ->check(CLI::IsMember({"glfw", "egl", "osmesa"}));
+    command->add_option("--stereo", options->stereo, "Stereo mode to start in")
+        ->check(CLI::IsMember(stereo_mode_names()));
+    command->add_option("--quality", options->quality, "auto, fast or quality")
+        ->check(CLI::IsMember(quality_mode_names()));
+    command->add_option("--size", options->size, "Window size in pixels")
+        ->expected(2)
+        ->check(CLI::Range(16, 16384));
+    command->add_option("--isovalue", options->isovalue, "Isovalue to start with, in data units");
+    command->add_option("--step", options->step, "Step to start at, from 0");
+    command->add_option("--record", options->record,
+                        "Record the session to this file (JSON Lines)");
+    command->add_option("--report", options->report,
+                        "Write the time of every frame's stages to this JSON file");
+    command->add_option("--screenshots", options->screenshots, "Folder for screenshots (key P)")
+        ->capture_default_str();
+    command->add_option("--seconds", options->seconds, "Leave after this many seconds")
+        ->check(positive_number());
+    command->add_flag("--no-panel", options->no_panel,
+                      "Start with the panel hidden (Tab shows it)");
+    command->footer(footer());
+    command->callback([options] { explore(*options); });
+}
+
+} // namespace isochron::app

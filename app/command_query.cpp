@@ -1,0 +1,183 @@
+// `isochron query`: the active cells of one isovalue at one step, and what finding them took.
+#include "app/commands.h"
+#include "app/file_patterns.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/extractor.h"
+#include "index/new_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+
+namespace isochron::app {
+namespace {
+
+struct QueryArguments {
+    std::filesystem::path file, ids;
+    double isovalue = 0;
+    std::int64_t step = 0;
+    std::uint32_t repeats = 5;
+    bool scan = false, json = false;
+};
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+struct Times {
+    Milliseconds search{}, shading{};
+};
+
+struct Measured {
+    index::CellSetPtr set;
+    Times cold, warm; ///< warm: medians; zero without repetitions
+};
+
+/// Every repetition starts a new search: otherwise it would find its own last result.
+Measured measure(const std::shared_ptr<const index::IndexFile>& file, const index::Query& query,
+                 bool scan, std::uint32_t repeats) {
+    const auto run = [&] {
+        return (scan ? index::scan_in(file) : index::search_in(file))(query, {});
+    };
+    Measured result;
+    result.set = run();
+    result.cold = {result.set->search_time, result.set->shading_time};
+    std::vector<std::chrono::nanoseconds> search, shading;
+    for (std::uint32_t i = 0; i < repeats; ++i) {
+        const index::CellSetPtr again = run();
+        search.push_back(again->search_time);
+        shading.push_back(again->shading_time);
+    }
+    const auto median = [](std::vector<std::chrono::nanoseconds> times) -> Milliseconds {
+        const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+        std::nth_element(times.begin(), middle, times.end());
+        return *middle;
+    };
+    if (repeats > 0)
+        result.warm = {median(search), median(shading)};
+    return result;
+}
+
+void write_ids(const std::filesystem::path& path, const std::vector<index::CellId>& ids) {
+    static_assert(std::endian::native == std::endian::little && sizeof(index::CellId) == 4);
+    index::NewFile file(path);
+    file.write_at(0, std::as_bytes(std::span(ids)));
+    file.commit();
+}
+
+std::string as_json(const QueryArguments& arguments, const index::IndexFile& file,
+                    const Measured& result, bool scanned) {
+    const index::SeriesInfo& info = file.info();
+    const std::uint64_t active = result.set->ids.size();
+    const std::uint64_t false_positives = result.set->candidates - active;
+    nlohmann::ordered_json j{
+        {"file", arguments.file.string()},
+        {"step", arguments.step},
+        {"time", info.times[result.set->query.step]},
+        {"time_unit", info.time_unit},
+        {"isovalue", arguments.isovalue},
+        {"value_unit", info.value_unit},
+        {"method", scanned ? "scan" : "tree"},
+        {"active_cells", active},
+        {"candidates", result.set->candidates},
+        {"false_positives", false_positives},
+        {"false_positive_rate",
+         active ? nlohmann::ordered_json(double(false_positives) / double(active)) : nullptr},
+        {"cold_search_ms", result.cold.search.count()},
+        {"cold_shading_ms", result.cold.shading.count()},
+        {"repetitions", arguments.repeats}};
+    if (arguments.repeats > 0) {
+        j["search_ms"] = result.warm.search.count();
+        j["shading_ms"] = result.warm.shading.count();
+    }
+    if (!arguments.ids.empty())
+        j["ids"] = arguments.ids.string();
+    return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string as_text(const QueryArguments& arguments, const index::IndexFile& file,
+                    const Measured& result, bool scanned) {
+    const index::SeriesInfo& info = file.info();
+    const std::uint64_t active = result.set->ids.size();
+    const std::uint64_t false_positives = result.set->candidates - active;
+    std::string text = fmt::format("isovalue {}{} at step {} (time {}{})\n"
+                                   "active cells     {}\n",
+                                   arguments.isovalue, with_space(info.value_unit), arguments.step,
+                                   info.times[result.set->query.step], with_space(info.time_unit),
+                                   grouped(active));
+    if (scanned)
+        text += "found by         scan of the volume\n";
+    else
+        text += fmt::format("found by         THI tree: {} candidates, {} false positives{}\n",
+                            grouped(result.set->candidates), grouped(false_positives),
+                            active ? fmt::format(" ({:.2f} % of the active cells)",
+                                                 100.0 * double(false_positives) / double(active))
+                                   : "");
+    const auto times = [](const Times& t) {
+        return fmt::format("search {:.3f} ms, shading {:.3f} ms", t.search.count(),
+                           t.shading.count());
+    };
+    text += fmt::format("first, cold      {}\n", times(result.cold));
+    if (arguments.repeats > 0)
+        text += fmt::format("repeated, warm   {} (medians of {} full searches)\n",
+                            times(result.warm), arguments.repeats);
+    if (!arguments.ids.empty())
+        text += fmt::format("ids              {}\n", arguments.ids.string());
+    return text;
+}
+
+void run_query(const QueryArguments& arguments) {
+    if (!arguments.ids.empty())
+        refuse_input_as_output({arguments.file}, arguments.ids);
+    const auto file = index::IndexFile::open(arguments.file);
+    const auto steps = static_cast<std::int64_t>(file->info().steps());
+    if (arguments.step < 0 || arguments.step >= steps)
+        throw index::Error(fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(),
+                                       arguments.step, steps - 1));
+    const bool scanned = arguments.scan || file->stats().tree_bytes == 0;
+    const Measured result =
+        measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue}, scanned,
+                arguments.repeats);
+    if (!arguments.ids.empty())
+        write_ids(arguments.ids, result.set->ids);
+    fmt::print("{}", arguments.json ? as_json(arguments, *file, result, scanned)
+                                    : as_text(arguments, *file, result, scanned));
+}
+
+} // namespace
+
+void add_query(CLI::App& program) {
+    auto arguments = std::make_shared<QueryArguments>();
+    CLI::App* command = program.add_subcommand(
+        "query", "Find the active cells of an isovalue at a step: min < isovalue <= max.");
+    command->add_option("file", arguments->file, "Index")->required()->type_name("NAME.isochron");
+    command
+        ->add_option("--isovalue", arguments->isovalue,
+                     "In the values' unit, compared after scaling")
+        ->required();
+    command->add_option("--step", arguments->step, "From 0 to the number of steps - 1")->required();
+    command
+        ->add_option("--ids", arguments->ids,
+                     "Write the cell ids: u32, little-endian, ascending; "
+                     "id = (z * (ny - 1) + y) * (nx - 1) + x")
+        ->type_name("OUT.bin");
+    command->add_option("--repeat", arguments->repeats, "Warm repetitions to take the median of")
+        ->check(CLI::Range(0u, 1000u))
+        ->capture_default_str();
+    command->add_flag("--scan", arguments->scan, "Scan the volume even if there is a tree");
+    command->add_flag("--json", arguments->json, "Print one JSON object");
+    command->footer(
+        "JSON keys: file, step, time, time_unit, isovalue (null unless finite), value_unit,\n"
+        "method (tree or scan), active_cells, candidates (before the exact test),\n"
+        "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
+        "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
+        "file), repetitions, search_ms and shading_ms (medians of the repetitions, each a full\n"
+        "search; absent with --repeat 0), ids (only with --ids). Search includes the exact test;\n"
+        "shading is positions and normals.");
+    command->callback([arguments] { run_query(*arguments); });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,222 @@
+// `isochron replay`: a recording becomes pictures and measurements, or plays again in a window.
+#include "app/commands.h"
+#include "app/file_patterns.h"
+#include "app/positive_number.h"
+#include "app/progress_bar.h"
+#include "app/replay.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::string recording;
+    std::optional<std::string> data, out, config, context, stereo, quality, report;
+    std::size_t every = 0;
+    bool stamps = false, from_devices = false, live = false, any_data = false;
+    std::string eyes = "window";
+    std::string format = "png";
+    std::vector<int> size;
+};
+
+Config configure(const Options& options, const interaction::RecordingHeader& header) {
+    Config config =
+        options.config ? read_config(*options.config)
+                       : parse_config(header.configuration, options.recording + " (configuration)");
+    // A recording made in a window replays without one unless a window is asked for.
+    config.context = options.live ? stereo::ContextKind::glfw : stereo::ContextKind::egl;
+    if (options.context)
+        config.context = *stereo::context_kind_from_name(*options.context);
+    if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
+        config.installation.windows.front().size = {header.window[0], header.window[1]};
+    if (!options.size.empty())
+        config.installation.windows.front().size = {options.size[0], options.size[1]};
+    return config;
+}
+
+std::shared_ptr<const index::IndexFile> open_data(const Options& options,
+                                                  const interaction::RecordingHeader& header) {
+    std::string path = options.data.value_or(header.data);
+    if (!options.data && !fs::exists(path)) {
+        // A relative name is from where the session was started; the data may lie beside the
+        // recording.
+        path = (fs::path(options.recording).parent_path() / header.data).string();
+        if (!fs::exists(path))
+            throw interaction::Error(
+                fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
+                            options.recording, header.data));
+    }
+    auto file = index::IndexFile::open(path);
+    const std::string hash = fmt::format("{:016x}", file->content_hash());
+    // A recording without a hash is not bound to one data set: demonstrations are like that.
+    if (!options.any_data && !header.data_hash.empty() && header.data_hash != hash)
+        throw interaction::Error(
+            fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
+                        "(--any-data replays all the same)",
+                        options.recording, header.data_hash, path, hash));
+    return file;
+}
+
+/// Writes the pictures of one frame under names that start with `stem`, and notes which.
+void write_pictures(Session& session, const Options& options, const std::string& stem,
+                    std::vector<fs::path>& written) {
+    const fs::path folder = *options.out;
+    const auto write = [&](render::Image image, const std::string& eye) {
+        session.pictures().wait_for_room();
+        written.push_back(folder / fmt::format("{}{}.{}", stem, eye, options.format));
+        session.write_image(std::move(image), written.back());
+    };
+    if (options.eyes == "window")
+        return write(session.display().read_window(), "");
+    for (stereo::Eye eye : stereo::eyes_of(session.state().stereo))
+        write(session.display().read_eye(eye), eye == stereo::Eye::left    ? "_left"
+                                               : eye == stereo::Eye::right ? "_right"
+                                                                           : "_centre");
+}
+
+/// A stamp's name as part of a file name.
+std::string file_name(std::string stamp) {
+    for (char& c : stamp)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_')
+            c = '_';
+    return stamp;
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw interaction::Error(
+            fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+}
+
+int report_differences(const std::vector<std::string>& lines, std::size_t frames) {
+    constexpr std::size_t kShown = 20;
+    for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i)
+        fmt::print(stderr, "differs: {}\n", lines[i]);
+    fmt::print("commands recomputed from devices: {} of {} frames differ\n", lines.size(), frames);
+    return lines.empty() ? 0 : 1;
+}
+
+void check(const Options& options) {
+    if ((options.every > 0 || options.stamps) && !options.out)
+        throw UsageError("--every and --stamps need --out DIR");
+    if (options.out && options.every == 0 && !options.stamps)
+        throw UsageError("--out writes nothing without --every N or --stamps");
+    if (options.live && (options.every > 0 || options.stamps || options.from_devices))
+        throw UsageError("--live does not go with --every, --stamps or --from-devices");
+}
+
+void run(const Options& options) {
+    check(options);
+    if (options.report)
+        refuse_input_as_output({options.recording}, *options.report);
+    const interaction::Recording recording = interaction::read_recording(options.recording);
+    if (!recording.note.empty())
+        fmt::print(stderr, "note: {}\n", recording.note);
+    const Config config = configure(options, recording.header);
+    const auto file = open_data(options, recording.header);
+    ReplayOptions replay{.from_devices = options.from_devices, .stereo = {}, .quality = {}};
+    if (options.stereo)
+        replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
+    if (options.quality)
+        replay.quality = quality_mode_from_name(*options.quality);
+    const stereo::Window& window = config.installation.windows.front();
+    const auto context =
+        stereo::make_context(config.context, {.size = window.size,
+                                              .position = window.position,
+                                              .title = "Isochron: " + options.recording});
+    Session session(config, file, *context);
+    session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
+    if (options.out)
+        make_folder(*options.out);
+
+    std::vector<std::string> different;
+    std::vector<fs::path> written;
+    if (options.live) {
+        replay_live(session, recording, replay, *context);
+    } else {
+        ProgressBar bar;
+        different = replay_fixed_step(
+            session, recording, replay,
+            [&](std::size_t number, const interaction::RecordedFrame& frame) {
+                if (options.every > 0 && number % options.every == 0)
+                    write_pictures(session, options, fmt::format("frame_{:05}", number), written);
+                if (options.stamps)
+                    for (const std::string& stamp : frame.commands.stamps)
+                        write_pictures(session, options,
+                                       fmt::format("stamp_{:05}_{}", number, file_name(stamp)),
+                                       written);
+                bar.show("replaying", static_cast<double>(number + 1) /
+                                          static_cast<double>(recording.frames.size()));
+            });
+    }
+    session.pictures().finish();
+    for (const fs::path& path : written)
+        fmt::print("wrote {}\n", path.string());
+    if (options.report)
+        session.log().write(*options.report, context->description());
+    fmt::print("{}\n{}", context->description(), session.log().table());
+    if (options.from_devices && report_differences(different, recording.frames.size()) != 0)
+        throw interaction::Error(options.recording +
+                                 ": the devices no longer lead to its commands");
+}
+
+} // namespace
+
+void add_replay(CLI::App& program) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = program.add_subcommand(
+        "replay", "Replay a recording: to pictures, to a timing report, or live in a window.");
+    command->add_option("recording", options->recording, "Recording made by `explore --record`")
+        ->required();
+    command->add_option("--data", options->data,
+                        "Index to use instead of the recorded path (which may also be relative "
+                        "to the recording)");
+    command->add_flag("--any-data", options->any_data,
+                      "Accept data other than the recorded (another hash)");
+    command->add_option("--out", options->out, "Folder for the pictures; made where it is missing");
+    command->add_option("--every", options->every, "Write a picture every N frames")
+        ->check(positive_number());
+    command->add_flag("--stamps", options->stamps, "Write a picture at every stamp");
+    command
+        ->add_option("--eyes", options->eyes,
+                     "window: one picture, composed as the stereo mode says; "
+                     "each: one picture per eye")
+        ->check(CLI::IsMember({"window", "each"}))
+        ->capture_default_str();
+    command->add_option("--format", options->format, "png, or exr (linear)")
+        ->check(CLI::IsMember({"png", "exr"}))
+        ->capture_default_str();
+    command
+        ->add_option("--size", options->size,
+                     "Size of the pictures or the window in pixels (default: as recorded)")
+        ->expected(2)
+        ->check(CLI::Range(16, 16384));
+    command->add_option("--stereo", options->stereo, "Stereo mode instead of the recorded one")
+        ->check(CLI::IsMember(stereo_mode_names()));
+    command->add_option("--quality", options->quality, "Quality mode instead of the recorded one")
+        ->check(CLI::IsMember(quality_mode_names()));
+    command->add_option("--config", options->config,
+                        "TOML file or shipped name instead of the recorded configuration");
+    command
+        ->add_option("--context", options->context,
+                     "GL context: egl (default), osmesa, glfw (default with --live)")
+        ->check(CLI::IsMember({"glfw", "egl", "osmesa"}));
+    command->add_option("--report", options->report,
+                        "Write times and states of every frame to this JSON file");
+    command->add_flag("--from-devices", options->from_devices,
+                      "Recompute the commands from the recorded devices; differences are an error");
+    command->add_flag("--live", options->live,
+                      "Play on the wall clock in a window; frames wait for nothing");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace isochron::app

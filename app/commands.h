@@ -1,0 +1,21 @@
+// The subcommands: each adds itself to the command line and runs in its callback.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace isochron::app {
+
+/// Thrown by a callback for wrong usage that the parser cannot see: exit status 2.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+void add_generate(CLI::App& program);
+void add_build(CLI::App& program);
+void add_query(CLI::App& program);
+void add_info(CLI::App& program);
+void add_explore(CLI::App& program);
+void add_replay(CLI::App& program);
+
+} // namespace isochron::app

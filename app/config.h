@@ -1,0 +1,53 @@
+// An installation and its habits, as a TOML file describes them.
+#pragma once
+
+#include "app/placement.h"
+#include "interaction/desktop_emulation.h"
+#include "interaction/motion_gate.h"
+#include "stereo/gl_context.h"
+#include "stereo/installation.h"
+
+#include <filesystem>
+#include <string>
+
+namespace isochron::app {
+
+struct Config {
+    std::string name; ///< file name for messages; empty for the built-in defaults
+    std::string text; ///< the file's whole text, as recordings keep it
+    stereo::ContextKind context = stereo::ContextKind::glfw;
+    bool vsync = true;
+    float frame_rate_limit = 120.0f; ///< [1/s] where no display paces the frames
+    stereo::Installation installation;
+    interaction::EmulationOptions emulation;
+    interaction::StillnessLimits stillness;
+    interaction::QualityMode quality = interaction::QualityMode::automatic;
+    PlacementOptions placement;
+    int upload_kilobytes_per_frame = 4096;         ///< cells sent to the GPU per frame at most
+    glm::vec3 background{0.055f, 0.063f, 0.078f};  ///< sRGB
+    glm::vec3 surface_colour{0.94f, 0.86f, 0.70f}; ///< sRGB
+    bool bounding_box = true;
+    bool wand_ray = true;
+};
+
+/// @param name stands before the line number in messages
+/// @throws ConfigError naming file, line, key and, for an unknown one, the nearest known key
+Config parse_config(const std::string& text, const std::string& name);
+
+/// @param path a file, or the name of a shipped configuration (`desktop`, `headless`)
+/// @throws ConfigError as above, or when the file cannot be read
+Config read_config(const std::filesystem::path& path);
+
+/// The emulation's options with the field of view of the first window's first screen.
+interaction::EmulationOptions emulation_for(const Config& config);
+
+/// What is odd about the screens, one line each with the window's name; empty when nothing is.
+std::vector<std::string> screen_warnings(const Config& config);
+
+/// Names as configuration files and the command line use them.
+std::string name_of(interaction::QualityMode mode);
+interaction::QualityMode quality_mode_from_name(const std::string& name); ///< @throws ConfigError
+std::vector<std::string> quality_mode_names();
+std::vector<std::string> stereo_mode_names();
+
+} // namespace isochron::app

@@ -1,0 +1,110 @@
+// What every frame did and how long each stage took.
+#include "app/frame_log.h"
+
+#include "app/version.h"
+#include "index/new_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using Stage = Milliseconds FrameReport::*;
+constexpr std::array<std::pair<const char*, Stage>, 7> kStages{{
+    {"search", &FrameReport::search},
+    {"shading", &FrameReport::shading},
+    {"wait", &FrameReport::wait},
+    {"upload", &FrameReport::upload},
+    {"draw", &FrameReport::draw},
+    {"present", &FrameReport::present},
+    {"total", &FrameReport::total},
+}};
+
+nlohmann::json query_json(const index::Query& query) {
+    return {{"step", query.step}, {"isovalue", query.isovalue}};
+}
+
+const char* name_of(interaction::Pace pace) {
+    return pace == interaction::Pace::settled ? "settled" : "moving";
+}
+
+} // namespace
+
+TimeSummary summarize(std::vector<double> milliseconds) {
+    if (milliseconds.empty())
+        return {};
+    std::sort(milliseconds.begin(), milliseconds.end());
+    const std::size_t last = milliseconds.size() - 1;
+    return {milliseconds[last / 2], milliseconds[last * 99 / 100], milliseconds[last]};
+}
+
+void FrameLog::add(const FrameReport& frame) {
+    constexpr std::size_t kKept = 60 * 60 * 60;
+    if (frames_.size() == kKept)
+        frames_.pop_front();
+    frames_.push_back(frame);
+}
+
+TimeSummary FrameLog::stage(Stage stage, std::size_t count) const {
+    const std::size_t first = count == 0 || count > frames_.size() ? 0 : frames_.size() - count;
+    std::vector<double> times;
+    for (std::size_t i = first; i < frames_.size(); ++i)
+        if (stage != &FrameReport::draw || frames_[i].redrawn)
+            times.push_back((frames_[i].*stage).count());
+    return summarize(std::move(times));
+}
+
+double FrameLog::frames_per_second(std::size_t count) const {
+    const std::size_t frames = std::min(count, frames_.size());
+    if (frames < 2)
+        return 0;
+    const auto span = frames_.back().time - frames_[frames_.size() - frames].time;
+    return span.count() > 0 ? static_cast<double>(frames - 1) / span.count() : 0;
+}
+
+void FrameLog::write(const std::filesystem::path& path, const std::string& context) const {
+    nlohmann::json report{{"program", kProgram}, {"context", context}, {"frames", frames_.size()}};
+    for (const auto& [name, member] : kStages) {
+        const TimeSummary summary = stage(member);
+        report["milliseconds"][name] = {
+            {"median", summary.median}, {"p99", summary.p99}, {"worst", summary.worst}};
+    }
+    nlohmann::json& rows = report["rows"] = nlohmann::json::array();
+    for (const FrameReport& frame : frames_) {
+        nlohmann::json row{{"t", frame.time.count()},
+                           {"asked", query_json(frame.asked)},
+                           {"shown", frame.shown ? query_json(*frame.shown) : nlohmann::json()},
+                           {"pace", name_of(frame.pace)},
+                           {"footprint", frame.footprint},
+                           {"redrawn", frame.redrawn},
+                           {"cells", frame.cells},
+                           {"candidates", frame.candidates},
+                           {"reused", frame.reused}};
+        for (const auto& [name, member] : kStages)
+            row[std::string(name) + "_ms"] = (frame.*member).count();
+        rows.push_back(std::move(row));
+    }
+    const std::string text = report.dump(1) + "\n";
+    index::NewFile file(path);
+    file.write_at(0, std::as_bytes(std::span(text)));
+    file.commit();
+}
+
+std::string FrameLog::table() const {
+    std::string text = fmt::format("{} frames{:>15} {:>8} {:>8}  [ms]\n", frames_.size(), "median",
+                                   "p99", "worst");
+    for (const auto& [name, member] : kStages) {
+        const TimeSummary summary = stage(member);
+        text += fmt::format("  {:<14}{:>8.2f} {:>8.2f} {:>8.2f}\n", name, summary.median,
+                            summary.p99, summary.worst);
+    }
+    return text;
+}
+
+} // namespace isochron::app

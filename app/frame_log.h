@@ -1,0 +1,66 @@
+// What every frame did and how long each stage took: the program's own measurement.
+#pragma once
+
+#include "index/query.h"
+#include "interaction/motion_gate.h"
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+/// One frame, stage after stage in the order of the frame.
+struct FrameReport {
+    interaction::Seconds time{0}; ///< session time of the frame
+    index::Query asked;
+    std::optional<index::Query> shown; ///< of the cells drawn; empty before the first set
+    interaction::Pace pace = interaction::Pace::moving;
+    const char* footprint = "quad";
+    bool redrawn = true;                ///< false: nothing that the eyes see had changed
+    std::uint64_t cells = 0;            ///< drawn
+    std::uint64_t candidates = 0;       ///< of the search behind them
+    std::uint64_t reused = 0;           ///< of these, taken over by incremental search
+    Milliseconds search{0}, shading{0}; ///< on the worker, of the shown set
+    Milliseconds wait{0};               ///< for the worker; fixed-step replay only
+    Milliseconds upload{0}, draw{0}, present{0}, total{0};
+};
+
+/// The middle, the 99th percentile and the largest of some times.
+struct TimeSummary {
+    double median = 0, p99 = 0, worst = 0; ///< milliseconds
+};
+TimeSummary summarize(std::vector<double> milliseconds);
+
+/// Keeps the newest frames, an hour at 60 frames per second: a session may last for days.
+class FrameLog {
+  public:
+    void add(const FrameReport& frame);
+    const std::deque<FrameReport>& frames() const { return frames_; }
+
+    /// Times of one stage, of drawing over redrawn frames only, over the newest `count` frames (0:
+    /// all of them).
+    TimeSummary stage(Milliseconds FrameReport::*stage, std::size_t count = 0) const;
+
+    /// Rate of the newest `count` frames, by their session times; 0 before the second frame.
+    double frames_per_second(std::size_t count) const;
+
+    /// JSON with a summary per stage and a row per frame, under a temporary name, renamed.
+    /// @param context description of the GL context, for the reader
+    /// @throws index::Error
+    void write(const std::filesystem::path& path, const std::string& context) const;
+
+    /// A few lines for a terminal.
+    std::string table() const;
+
+  private:
+    std::deque<FrameReport> frames_;
+};
+
+} // namespace isochron::app

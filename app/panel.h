@@ -1,0 +1,43 @@
+// The control panel: shows what is asked for and what is shown, and turns clicks into commands.
+#pragma once
+
+#include "app/explorer_state.h"
+#include "app/frame_log.h"
+#include "index/cell_set.h"
+#include "interaction/commands.h"
+
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// What the panel shows in one frame; nothing in it is changed by showing it.
+struct PanelModel {
+    const index::SeriesInfo& info;
+    const index::IndexStats& stats;
+    const ExplorerState& asked;
+    const FrameReport& frame;
+    TimeSummary frame_times; ///< of the last frames
+    double frames_per_second = 0;
+    bool searching = false; ///< the worker has not answered yet
+    bool recording = false;
+    std::string failure;                      ///< of the worker; empty when all is well
+    std::string message;                      ///< newest note, such as a saved screenshot
+    const std::vector<std::string>& controls; ///< one line per key
+};
+
+/// The rectangle that the panel covers: pixels from the top left.
+struct PanelArea {
+    float left = 0, top = 0, right = 0, bottom = 0;
+    bool contains(float x, float y) const {
+        return x >= left && x < right && y >= top && y < bottom;
+    }
+};
+
+/// Lays the panel out in the current Dear ImGui frame. @return what the user did to it
+interaction::Commands draw_panel(const PanelModel& model, PanelArea& area);
+
+/// `12.5 ms`, `0.0341`, `1.20e+07`: a number with its unit, short enough for a label.
+std::string with_unit(double value, const std::string& unit);
+
+} // namespace isochron::app

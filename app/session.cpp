@@ -1,0 +1,222 @@
+// One session: the data, the worker, the eyes, and the story of one frame.
+#include "app/session.h"
+
+#include "stereo/image_file.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::Pace;
+
+/// Frames over which the panel summarises frame times.
+constexpr std::size_t kShownFrames = 120;
+
+/// Times stages that follow one another.
+class StopWatch {
+  public:
+    /// Time since the last lap, or since the start.
+    Milliseconds lap() {
+        const auto now = Clock::now();
+        return now - std::exchange(last_, now);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point last_ = Clock::now();
+};
+
+ExplorerState start_state(const Config& config, const index::IndexFile& file) {
+    ExplorerState state;
+    state.isovalue = first_isovalue(file.stats());
+    state.room_from_physical = place(file.info(), config.placement);
+    state.quality = config.quality;
+    state.eye_separation = config.installation.eye_separation;
+    state.stereo = config.installation.windows.front().stereo;
+    return state;
+}
+
+} // namespace
+
+Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
+                 stereo::GlContext& context, index::Search search)
+    : config_(std::move(config)), file_(std::move(file)), context_(context), gl_(context.loader()),
+      state_(start_state(config_, *file_)), home_(state_), gate_(config_.stillness),
+      extractor_(search ? std::move(search) : index::search_in(file_)),
+      scene_(gl_, file_->info(), config_),
+      display_(gl_, context_, config_.installation.windows.front(),
+               {.near_plane = config_.installation.near_plane,
+                .far_plane = config_.installation.far_plane,
+                .background = config_.background}),
+      panel_(gl_) {}
+
+Session::~Session() = default;
+
+interaction::ControlContext Session::control_context() const {
+    interaction::ControlContext context;
+    context.isovalue = state_.isovalue;
+    context.low = file_->stats().low;
+    context.high = file_->stats().high;
+    context.step = state_.step;
+    context.times = &file_->info().times;
+    context.playback = state_.playback;
+    context.room_from_physical = state_.room_from_physical;
+    context.home = home_.room_from_physical;
+    context.pivot = physical_centre(file_->info().grid);
+    context.quality = state_.quality;
+    context.eye_separation = state_.eye_separation;
+    context.stereo = stereo::name_of(state_.stereo);
+    context.panel = state_.panel;
+    context.stereo_modes = &stereo_modes_;
+    return context;
+}
+
+Commands Session::commands_from(const interaction::InputState& input) {
+    return controls_.update(input, control_context());
+}
+
+Commands Session::take_panel_commands() {
+    return std::exchange(panel_commands_, {});
+}
+
+std::vector<interaction::WindowEvent>
+Session::panel_events(std::span<const interaction::WindowEvent> events) {
+    return panel_.feed(events, state_.panel);
+}
+
+void Session::request_cells() {
+    index::Request request{state_.query(), std::nullopt};
+    const auto steps = static_cast<std::uint32_t>(file_->info().steps());
+    if (state_.playback.playing && steps > 1)
+        request.next_step = (state_.step + (state_.playback.reverse ? steps - 1 : 1)) % steps;
+    extractor_.request(request);
+}
+
+void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
+    StopWatch watch;
+    if (waiting == Waiting::for_cells) {
+        extractor_.wait();
+        report.wait = watch.lap();
+    }
+    const index::CellSetPtr newest = extractor_.newest();
+    scene_.upload(newest);
+    // A replay shows what was asked for, however many upload budgets that takes.
+    while (waiting == Waiting::for_cells && newest && scene_.shown() != newest)
+        scene_.upload(newest);
+    report.upload = watch.lap();
+    if (const index::CellSetPtr& shown = scene_.shown()) {
+        report.shown = shown->query;
+        report.cells = shown->ids.size();
+        report.candidates = shown->candidates;
+        report.reused = shown->reused;
+        report.search = shown->search_time;
+        report.shading = shown->shading_time;
+    }
+}
+
+void Session::draw_eyes(const interaction::InputState& input, bool with_panel,
+                        FrameReport& report) {
+    const bool settled = report.pace == Pace::settled;
+    report.footprint = settled ? "gaussian" : "quad";
+    const interaction::DeviceState* head = input.find("head");
+    const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
+    const Picture now{.head = head && head->pose ? *head->pose : config_.emulation.head,
+                      .wand = wand ? wand->pose : std::nullopt,
+                      .room_from_physical = state_.room_from_physical,
+                      .eye_separation = state_.eye_separation,
+                      .stereo = state_.stereo,
+                      .footprint = settled ? render::Footprint::gaussian : render::Footprint::quad,
+                      .cells = scene_.shown(),
+                      .window = context_.framebuffer_size()};
+    const auto overlay = [&](glm::ivec2 size) {
+        if (with_panel)
+            draw_panel_overlay(size, report);
+    };
+    report.redrawn = now != drawn_;
+    if (!report.redrawn)
+        return display_.draw_overlay_again(overlay);
+    display_.draw(
+        now.head, now.eye_separation, now.stereo,
+        [&](const render::View& view, stereo::Eye) {
+            scene_.draw(view, now.room_from_physical, now.footprint, now.wand);
+        },
+        overlay);
+    drawn_ = now;
+}
+
+void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
+    if (!state_.panel || !context_.has_window())
+        return;
+    const auto times = log_.stage(&FrameReport::total, kShownFrames);
+    const PanelModel model{.info = file_->info(),
+                           .stats = file_->stats(),
+                           .asked = state_,
+                           .frame = report,
+                           .frame_times = times,
+                           .frames_per_second = log_.frames_per_second(kShownFrames),
+                           .searching = extractor_.busy(),
+                           .recording = recording_,
+                           .failure = failure(),
+                           .message = message_,
+                           .controls = documentation_};
+    interaction::merge(panel_commands_, panel_.draw(size, model));
+}
+
+bool Session::captures(const FrameReport& report) const {
+    // A capture waits for quality, unless the user has asked for none.
+    const bool good =
+        report.pace == Pace::settled || state_.quality == interaction::QualityMode::fast;
+    return screenshots_wanted_ > 0 && good && report.shown == state_.query();
+}
+
+void Session::take_screenshot() {
+    --screenshots_wanted_;
+    const auto name = fmt::format("isochron_{:04}.png", ++screenshots_taken_);
+    write_image(display_.read_window(), screenshot_folder_ / name);
+}
+
+void Session::show_messages(std::vector<std::string> messages) {
+    if (!messages.empty())
+        message_ = std::move(messages.back());
+}
+
+void Session::write_image(render::Image image, const std::filesystem::path& path) {
+    pictures_.post([image = std::move(image), path] {
+        stereo::write_image(image, path);
+        return "saved " + path.string();
+    });
+}
+
+const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
+                                  Waiting waiting) {
+    StopWatch whole;
+    FrameReport report;
+    report.time = input.time;
+    state_.apply(commands, file_->info().steps());
+    if (commands.screenshot)
+        ++screenshots_wanted_;
+    report.asked = state_.query();
+    request_cells();
+    take_newest_cells(waiting, report);
+    report.pace = gate_.update(input, commands, state_.quality);
+
+    StopWatch stages;
+    const bool capture = captures(report);
+    draw_eyes(input, !capture, report);
+    report.draw = stages.lap();
+    display_.present();
+    report.present = stages.lap();
+    if (capture)
+        take_screenshot();
+    show_messages(pictures_.messages());
+    report.total = whole.lap();
+    log_.add(report);
+    return log_.frames().back();
+}
+
+} // namespace isochron::app

@@ -1,0 +1,120 @@
+// One session: the data, the worker, the eyes, and the story of one frame.
+//
+//     app::Session session(config, file, *context);
+//     while (!session.finished()) {
+//         const auto input = emulation.poll(clock.now());
+//         session.frame(input, session.commands_from(input), app::Waiting::never);
+//     }
+#pragma once
+
+#include "app/background_work.h"
+#include "app/config.h"
+#include "app/explorer_state.h"
+#include "app/frame_log.h"
+#include "app/panel_layer.h"
+#include "app/scene.h"
+#include "index/extractor.h"
+#include "interaction/controls.h"
+#include "stereo/display.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace isochron::app {
+
+/// Whether a frame waits for the cells it asked for: only a fixed-step replay does, so that the
+/// same recording gives the same pictures. The live loop never waits.
+enum class Waiting : std::uint8_t { never, for_cells };
+
+class Session {
+  public:
+    /// @param context current on this thread, outlives the session
+    /// @param search replaces the search over `file`, for tests; empty: the search itself
+    Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::GlContext& context,
+            index::Search search = {});
+    ~Session();
+
+    const ExplorerState& state() const { return state_; }
+    void set_state(const ExplorerState& state) { state_ = state; }
+    const ExplorerState& home() const { return home_; }
+
+    /// What the devices lead to in this frame; advances the controls, changes nothing else.
+    interaction::Commands commands_from(const interaction::InputState& input);
+
+    /// What the user did to the panel while the last frame was drawn. Handed out once.
+    interaction::Commands take_panel_commands();
+
+    /// Passes window events to the panel. @return those that it has no use for
+    std::vector<interaction::WindowEvent>
+    panel_events(std::span<const interaction::WindowEvent> events);
+
+    /// One frame, from commands to presented picture.
+    const FrameReport& frame(const interaction::InputState& input,
+                             const interaction::Commands& commands, Waiting waiting);
+
+    /// Where screenshots go and what they are called: `<folder>/<stem>_0001.png`.
+    void set_screenshots(const std::filesystem::path& folder) { screenshot_folder_ = folder; }
+    /// The panel shows the last of these until there is a newer one.
+    void show_messages(std::vector<std::string> messages);
+    void set_recording(bool recording) { recording_ = recording; }
+
+    /// Why the newest query could not be answered; empty when all is well.
+    std::string failure() const { return extractor_.failure().value_or(""); }
+    const stereo::Display& display() const { return display_; }
+    const FrameLog& log() const { return log_; }
+
+    /// Writes a picture under its name, in the background.
+    void write_image(render::Image image, const std::filesystem::path& path);
+    BackgroundWork& pictures() { return pictures_; }
+
+  private:
+    /// Everything that the eyes' pictures depend on.
+    struct Picture {
+        interaction::Pose head;
+        std::optional<interaction::Pose> wand;
+        interaction::Similarity room_from_physical;
+        float eye_separation = 0;
+        stereo::StereoMode stereo{};
+        render::Footprint footprint{};
+        index::CellSetPtr cells;
+        glm::ivec2 window{0};
+        bool operator==(const Picture&) const = default;
+    };
+
+    interaction::ControlContext control_context() const;
+    void request_cells();
+    void take_newest_cells(Waiting waiting, FrameReport& report);
+    bool captures(const FrameReport& report) const;
+    void draw_eyes(const interaction::InputState& input, bool with_panel, FrameReport& report);
+    void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
+    void take_screenshot();
+
+    Config config_;
+    std::shared_ptr<const index::IndexFile> file_;
+    stereo::GlContext& context_;
+    render::Gl gl_;
+    ExplorerState state_;
+    ExplorerState home_;
+    interaction::Controls controls_;
+    interaction::MotionGate gate_;
+    index::Extractor extractor_;
+    Scene scene_;
+    stereo::Display display_;
+    std::optional<Picture> drawn_; ///< what the eyes saw last
+    PanelLayer panel_;
+    const std::vector<std::string> stereo_modes_ = stereo_mode_names();
+    const std::vector<std::string> documentation_ = interaction::Controls::documentation();
+    interaction::Commands panel_commands_;
+    FrameLog log_;
+    BackgroundWork pictures_;
+    std::filesystem::path screenshot_folder_;
+    int screenshots_wanted_ = 0;
+    int screenshots_taken_ = 0;
+    bool recording_ = false;
+    std::string message_;
+};
+
+} // namespace isochron::app

@@ -1,0 +1,41 @@
+// How numbers are printed for people.
+#include "app/text.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace isochron::app {
+
+std::string human_bytes(double bytes) {
+    constexpr std::array kUnits{"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
+    std::size_t unit = 0;
+    for (; bytes >= 999.5 && unit + 1 < kUnits.size(); ++unit)
+        bytes /= 1024;
+    const int decimals = unit == 0 || bytes >= 99.95 ? 0 : bytes >= 9.995 ? 1 : 2;
+    return fmt::format("{:.{}f} {}", bytes, decimals, kUnits[unit]);
+}
+
+std::string human_time(std::chrono::duration<double> time) {
+    const auto seconds = static_cast<std::uint64_t>(time.count() + 0.5);
+    if (seconds >= 3600)
+        return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+    return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+std::string grouped(std::uint64_t number) {
+    const std::string digits = std::to_string(number);
+    std::string text;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0)
+            text += ',';
+        text += digits[i];
+    }
+    return text;
+}
+
+std::string with_space(const std::string& unit) {
+    return unit.empty() ? unit : " " + unit;
+}
+
+} // namespace isochron::app

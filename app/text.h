@@ -1,0 +1,22 @@
+// How numbers are printed for people.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace isochron::app {
+
+/// `812 B`, `4.10 MiB`: three digits and a binary unit.
+std::string human_bytes(double bytes);
+
+/// `0:07`, `12:30`, `3:00:00`.
+std::string human_time(std::chrono::duration<double> time);
+
+/// A whole number in groups of three: `3,932,160`.
+std::string grouped(std::uint64_t number);
+
+/// A unit set off from its number, or nothing.
+std::string with_space(const std::string& unit);
+
+} // namespace isochron::app

@@ -1,0 +1,10 @@
+// The program's name and version as it reports them.
+#pragma once
+
+#include <string_view>
+
+namespace isochron::app {
+
+constexpr std::string_view kProgram = "isochron " ISOCHRON_VERSION;
+
+} // namespace isochron::app

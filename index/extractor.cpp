@@ -1,0 +1,212 @@
+// The one background worker.
+#include "index/extractor.h"
+
+#include <bit>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+namespace isochron::index {
+namespace {
+
+/// Bitwise, so that a NaN equals itself: otherwise asking for one again would be something new.
+bool same(const Query& a, const Query& b) {
+    return a.step == b.step &&
+           std::bit_cast<std::uint64_t>(a.isovalue) == std::bit_cast<std::uint64_t>(b.isovalue);
+}
+
+/// The newest few sets, of answers and of prefetches.
+class RecentSets {
+  public:
+    CellSetPtr find(const Query& query) const {
+        for (const CellSetPtr& set : sets_)
+            if (same(set->query, query))
+                return set;
+        return nullptr;
+    }
+
+    /// @return the set that had to go, for the caller to free where it does not hold anybody up
+    CellSetPtr add(CellSetPtr set) {
+        sets_.push_front(std::move(set));
+        if (sets_.size() <= kKept)
+            return nullptr;
+        CellSetPtr oldest = std::move(sets_.back());
+        sets_.pop_back();
+        return oldest;
+    }
+
+  private:
+    static constexpr std::size_t kKept = 3; ///< shown, prefetched, and one for stepping back
+    std::deque<CellSetPtr> sets_;
+};
+
+} // namespace
+
+struct Extractor::State {
+    struct Job {
+        Query query;
+        bool prefetch;
+        std::stop_source stop;
+    };
+    struct Outcome {
+        CellSetPtr set;      ///< null: stopped or failed
+        std::string failure; ///< empty unless failed
+    };
+
+    explicit State(Search s) : search(std::move(s)) {}
+
+    bool prefetch_wanted() const {
+        return wanted && wanted->next_step && !prefetch_done &&
+               !recent.find({*wanted->next_step, wanted->query.isovalue});
+    }
+    bool has_work() const { return (wanted && !answered) || prefetch_wanted(); }
+
+    void work(const std::stop_token& stop);
+    Outcome run(const Job& job);
+    void finish(const Job& job, Outcome outcome);
+
+    const Search search;
+    mutable std::mutex mutex; ///< of all below; held for a few assignments only
+    mutable std::condition_variable_any changed;
+    std::optional<Request> wanted;
+    bool answered = false;      ///< the wanted query has been shown or has failed
+    bool prefetch_done = false; ///< the wanted prefetch need not be tried again
+    bool abandoned = false;     ///< the last search was given up: the next one is finished
+    std::optional<Job> running;
+    RecentSets recent;
+    CellSetPtr shown;
+    std::optional<std::string> failure;
+    std::jthread worker; ///< last, so that it starts after and ends before everything it uses
+};
+
+void Extractor::State::work(const std::stop_token& stop) {
+    std::unique_lock lock(mutex);
+    while (changed.wait(lock, stop, [this] { return has_work(); })) {
+        if (stop.stop_requested())
+            return;
+        const bool prefetch = answered;
+        const Query query =
+            prefetch ? Query{*wanted->next_step, wanted->query.isovalue} : wanted->query;
+        if (CellSetPtr known = recent.find(query)) { // only an answer: known prefetches are no work
+            answered = true;
+            failure.reset();
+            shown.swap(known);
+            changed.notify_all();
+            lock.unlock(); // what was shown may be freed here
+            known.reset();
+            lock.lock();
+            continue;
+        }
+        running = Job{query, prefetch, {}};
+        const Job job = *running;
+        lock.unlock();
+        Outcome outcome = run(job);
+        finish(job, std::move(outcome));
+        lock.lock();
+    }
+}
+
+Extractor::State::Outcome Extractor::State::run(const Job& job) {
+    try {
+        CellSetPtr set = search(job.query, job.stop.get_token());
+        if (!set && !job.stop.stop_requested())
+            return {nullptr, "the search gave no result"};
+        return {std::move(set), {}};
+    } catch (const std::exception& error) {
+        return {nullptr, error.what()};
+    } catch (...) {
+        return {nullptr, "unknown failure of the search"};
+    }
+}
+
+void Extractor::State::finish(const Job& job, Outcome outcome) {
+    CellSetPtr dropped, replaced = outcome.set; // freed after the lock
+    {
+        const std::scoped_lock lock(mutex);
+        running.reset();
+        const bool stopped = job.stop.stop_requested();
+        const bool is_answer = same(job.query, wanted->query) && !answered;
+        if (outcome.set) {
+            dropped = recent.add(outcome.set);
+            if (is_answer)
+                answered = true;
+            if (is_answer || !job.prefetch) {
+                failure.reset();
+                shown.swap(replaced);
+            }
+        } else if (!outcome.failure.empty() && !stopped) {
+            // A failed prefetch is not reported: nobody has asked to see that step yet.
+            if (is_answer || !job.prefetch)
+                failure = outcome.failure;
+            if (is_answer)
+                answered = true;
+        }
+        if (job.prefetch && !stopped)
+            prefetch_done = wanted->next_step == job.query.step;
+        if (!job.prefetch)
+            abandoned = !outcome.set && stopped;
+    }
+    changed.notify_all();
+}
+
+Extractor::Extractor(Search search) : state_(std::make_unique<State>(std::move(search))) {
+    state_->worker =
+        std::jthread([state = state_.get()](std::stop_token stop) { state->work(stop); });
+}
+
+Extractor::~Extractor() {
+    std::optional<std::stop_source> stop;
+    {
+        const std::scoped_lock lock(state_->mutex);
+        if (state_->running)
+            stop = state_->running->stop;
+    }
+    state_->worker.request_stop();
+    if (stop)
+        stop->request_stop();
+}
+
+void Extractor::request(const Request& request) {
+    std::optional<std::stop_source> stop; // used after the lock: it may run callbacks of the search
+    {
+        const std::scoped_lock lock(state_->mutex);
+        State& s = *state_;
+        const bool same_query = s.wanted && same(s.wanted->query, request.query);
+        if (same_query && s.wanted->next_step == request.next_step)
+            return;
+        s.wanted = request;
+        s.prefetch_done = false;
+        if (!same_query) {
+            s.answered = false;
+            const bool obsolete = s.running && !same(s.running->query, request.query);
+            if (obsolete && (s.running->prefetch || !s.abandoned))
+                stop = s.running->stop;
+        }
+    }
+    if (stop)
+        stop->request_stop();
+    state_->changed.notify_all();
+}
+
+CellSetPtr Extractor::newest() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->shown;
+}
+
+std::optional<std::string> Extractor::failure() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->failure;
+}
+
+bool Extractor::busy() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->wanted && !state_->answered;
+}
+
+void Extractor::wait() const {
+    std::unique_lock lock(state_->mutex);
+    state_->changed.wait(lock, [this] { return !state_->wanted || state_->answered; });
+}
+
+} // namespace isochron::index

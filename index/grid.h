@@ -1,0 +1,46 @@
+// The regular grid that every step of a series shares.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace isochron::index {
+
+using CellId = std::uint32_t; ///< file storage order: x fastest, then y, then z
+
+/// Vertices lie at origin + direction * (spacing * index). A cell is the box between 8 vertices;
+/// there are (nx-1)(ny-1)(nz-1). Physical space is right-handed and in `SeriesInfo::length_unit`;
+/// a direction matrix of determinant -1 says that the storage order itself is left-handed.
+struct Grid {
+    std::array<std::uint32_t, 3> vertices{}; ///< nx, ny, nz, each at least 2
+    glm::dvec3 origin{0.0};
+    glm::dvec3 spacing{1.0};   ///< each > 0
+    glm::dmat3 direction{1.0}; ///< columns: the unit vectors of the three index axes
+
+    std::array<std::uint32_t, 3> cells() const {
+        return {vertices[0] - 1, vertices[1] - 1, vertices[2] - 1};
+    }
+    std::uint64_t vertex_count() const {
+        return std::uint64_t{vertices[0]} * vertices[1] * vertices[2];
+    }
+    std::uint64_t cell_count() const {
+        const auto c = cells();
+        return std::uint64_t{c[0]} * c[1] * c[2];
+    }
+    /// Cell coordinates (x, y, z) of an id.
+    std::array<std::uint32_t, 3> cell_of(CellId id) const {
+        const auto c = cells();
+        return {id % c[0], id / c[0] % c[1], id / c[0] / c[1]};
+    }
+    /// Maps vertex index coordinates (a cell's centre is its lowest vertex + 0.5) to physical
+    /// space.
+    glm::dmat4 physical_from_index() const;
+
+    bool operator==(const Grid&) const = default;
+};
+
+} // namespace isochron::index

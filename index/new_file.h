@@ -1,0 +1,37 @@
+// A file that appears complete under its name, or not at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace isochron::index {
+
+/// Writes to `.NAME.XXXX.tmp` in the folder of NAME; `commit` gives it its name. Destroyed before
+/// that, it removes what it wrote and an older file of that name stays as it was. Every function
+/// throws Error with the final name and what the system said (disk full, folder not writable, ...).
+class NewFile {
+  public:
+    /// @throws Error also when `target` exists and is not a regular file
+    explicit NewFile(std::filesystem::path target);
+    ~NewFile();
+    NewFile(const NewFile&) = delete;
+    NewFile& operator=(const NewFile&) = delete;
+
+    /// Claims disk space from the start of the file, so that a full disk shows before the work.
+    void reserve(std::uint64_t bytes);
+    void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+    /// Flushes to disk, then renames over the final name.
+    void commit();
+
+    const std::filesystem::path& temporary() const { return temporary_; }
+
+  private:
+    [[noreturn]] void fail(int error) const;
+
+    std::filesystem::path target_, temporary_;
+    int file_ = -1;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,22 @@
+// Words, numbers and lines of the text headers of MetaImage and NRRD.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isochron::index {
+
+std::string_view trimmed(std::string_view text);
+std::string lower_case(std::string_view text);
+std::vector<std::string> words_of(std::string_view text);
+
+/// @throws Error: `FILE: KEY: WORD is not a number`
+double number_of(std::string_view word, const std::string& key, const std::string& file);
+std::vector<double> numbers_of(std::string_view text, const std::string& key,
+                               const std::string& file);
+/// As above, for whole numbers that fit 64 bits.
+std::vector<std::int64_t> integers_of(std::string_view text, const std::string& key,
+                                      const std::string& file);
+
+} // namespace isochron::index

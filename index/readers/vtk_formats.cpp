@@ -1,0 +1,38 @@
+// The formats that VTK reads, from a module that is loaded when the first such file is opened.
+#include "index/module.h"
+#include "index/readers/readers.h"
+
+namespace isochron::index {
+namespace {
+
+template <class Function>
+Function from_module(const char* symbol) {
+    return reinterpret_cast<Function>(module_symbol("isochron_readers", symbol));
+}
+
+using OpenInModule = VolumeFile* (*)(const std::filesystem::path&, const ReadOptions&);
+using PvdFiles = std::vector<std::pair<std::filesystem::path, double>>;
+
+} // namespace
+
+std::unique_ptr<VolumeFile> open_vti(const std::filesystem::path& path,
+                                     const ReadOptions& options) {
+    static const auto open = from_module<OpenInModule>("isochron_open_vti");
+    return std::unique_ptr<VolumeFile>(open(path, options));
+}
+
+std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path,
+                                     const ReadOptions& options) {
+    static const auto open = from_module<OpenInModule>("isochron_open_vtk");
+    return std::unique_ptr<VolumeFile>(open(path, options));
+}
+
+PvdFiles read_pvd(const std::filesystem::path& path) {
+    static const auto read =
+        from_module<void (*)(const std::filesystem::path&, PvdFiles&)>("isochron_read_pvd");
+    PvdFiles files;
+    read(path, files);
+    return files;
+}
+
+} // namespace isochron::index

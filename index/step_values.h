@@ -1,0 +1,28 @@
+// Read-only view of a whole series in memory (usually mapped): what search and extraction work on.
+#pragma once
+
+#include "index/grid.h"
+#include "index/value_type.h"
+
+#include <cstddef>
+#include <span>
+
+namespace isochron::index {
+
+/// Stored values of all steps, step after step with a constant stride. Does not own; cheap to copy.
+struct StepValues {
+    Grid grid;
+    ValueType type = ValueType::f32;
+    Scaling scaling;
+    std::size_t steps = 0;
+    const std::byte* first = nullptr; ///< step 0, aligned for the type
+    std::size_t stride = 0;           ///< bytes from one step to the next, a multiple of 8
+
+    /// Stored values of one step, [z][y][x], x fastest.
+    template <class T>
+    std::span<const T> step(std::size_t t) const {
+        return {reinterpret_cast<const T*>(first + t * stride), grid.vertex_count()};
+    }
+};
+
+} // namespace isochron::index

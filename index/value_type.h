@@ -1,0 +1,46 @@
+// The types a stored scalar can have, and how stored values become the values a user sees.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace isochron::index {
+
+enum class ValueType : std::uint8_t { i8, u8, i16, u16, i32, f32, f64 };
+
+/// Bytes of one stored value.
+std::size_t size_of(ValueType type);
+
+/// `i8`, `u8`, ..., as used on the command line and in files.
+std::string_view name_of(ValueType type);
+std::optional<ValueType> value_type_from_name(std::string_view name);
+
+/// Calls `f(std::type_identity<T>{})` with the C++ type of `type`.
+template <class F>
+decltype(auto) visit_value_type(ValueType type, F&& f) {
+    switch (type) {
+    case ValueType::i8: return std::forward<F>(f)(std::type_identity<std::int8_t>{});
+    case ValueType::u8: return std::forward<F>(f)(std::type_identity<std::uint8_t>{});
+    case ValueType::i16: return std::forward<F>(f)(std::type_identity<std::int16_t>{});
+    case ValueType::u16: return std::forward<F>(f)(std::type_identity<std::uint16_t>{});
+    case ValueType::i32: return std::forward<F>(f)(std::type_identity<std::int32_t>{});
+    case ValueType::f32: return std::forward<F>(f)(std::type_identity<float>{});
+    case ValueType::f64: break;
+    }
+    return std::forward<F>(f)(std::type_identity<double>{});
+}
+
+/// value = slope * stored + intercept, in double: stored values keep their type (NIfTI scl_slope).
+/// Isovalues are compared after scaling. The slope is never 0 and may be negative.
+struct Scaling {
+    double slope = 1.0;
+    double intercept = 0.0;
+    double operator()(double stored) const { return slope * stored + intercept; }
+    bool operator==(const Scaling&) const = default;
+};
+
+} // namespace isochron::index

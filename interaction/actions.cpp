@@ -1,0 +1,88 @@
+// The table of keys, and the words that explain every control.
+#include "interaction/actions.h"
+
+#include <array>
+
+namespace isochron::interaction {
+namespace {
+
+constexpr Key letter(char upper_case) {
+    return static_cast<Key>(upper_case);
+}
+
+} // namespace
+
+std::span<const KeyLine> key_lines() {
+    using enum Action;
+    static const std::vector<KeyLine> lines{
+        {"W A S D",
+         "walk forward, left, back, right",
+         {{letter('W'), walk_forward},
+          {letter('A'), walk_left},
+          {letter('S'), walk_back},
+          {letter('D'), walk_right}}},
+        {"E Q", "rise, sink", {{letter('E'), walk_up}, {letter('Q'), walk_down}}},
+        {"G (hold)", "grab: the volume follows the wand", {{letter('G'), grab}}},
+        {"F (hold)", "fly where the wand points", {{letter('F'), fly}}},
+        {"X Z (hold)", "enlarge, shrink the volume", {{letter('X'), grow}, {letter('Z'), shrink}}},
+        {"Up Down",
+         "isovalue by 1 % of the range (Shift: 0.1 %)",
+         {{Key::up, isovalue_up}, {Key::down, isovalue_down}}},
+        {"Page Up, Page Down (hold)",
+         "isovalue continuously (Shift: slowly)",
+         {{Key::page_up, isovalue_rise}, {Key::page_down, isovalue_fall}}},
+        {"Right Left, or . ,",
+         "one step forward, back (pauses)",
+         {{Key::right, step_forward},
+          {Key::period, step_forward},
+          {Key::left, step_back},
+          {Key::comma, step_back}}},
+        {"Space", "play, pause", {{Key::space, play}}},
+        {"R", "reverse the direction of time", {{letter('R'), reverse}}},
+        {"L", "loop on, off", {{letter('L'), loop}}},
+        {"+ -", "play twice, half as fast", {{Key::equal, faster}, {Key::minus, slower}}},
+        {"Home", "reset volume and head", {{Key::home, reset}}},
+        {"1 2 3",
+         "quality: automatic, always fast, always best",
+         {{letter('1'), quality_auto}, {letter('2'), quality_fast}, {letter('3'), quality_best}}},
+        {"] [",
+         "eyes 1 mm further apart, closer together",
+         {{Key::right_bracket, eyes_apart}, {Key::left_bracket, eyes_together}}},
+        {"V", "next stereo mode", {{letter('V'), next_stereo}}},
+        {"P or F12", "screenshot", {{letter('P'), screenshot}, {Key::f12, screenshot}}},
+        {"M", "stamp this moment in the recording", {{letter('M'), stamp}}},
+        {"Tab", "panel on, off", {{Key::tab, panel}}},
+        {"Escape", "quit", {{Key::escape, quit}}},
+        {"Shift, Ctrl",
+         "Shift: walk and fly three times as fast; see also above",
+         {{Key::left_shift, shift},
+          {Key::right_shift, shift},
+          {Key::left_control, control},
+          {Key::right_control, control}}},
+    };
+    return lines;
+}
+
+std::span<const ControlLine> control_lines() {
+    static constexpr std::array<ControlLine, 16> kLines{{
+        {"Left drag", "orbit: turn the volume about its centre"},
+        {"Middle drag, or Shift + left", "move the volume"},
+        {"Right drag", "look around"},
+        {"Wheel", "scale about the centre of the volume"},
+        {"Ctrl + wheel", "isovalue by 0.1 % of the range"},
+        {"Mouse", "aims the wand"},
+        {"Wand button 1 (hold)", "grab: the volume follows the wand"},
+        {"Wand button 2 (hold)", "fly where the wand points"},
+        {"Wand valuator 1", "isovalue, the whole range in 4 s"},
+        {"Wand valuator 2", "scale, twice the size in 1 s"},
+        {"Gamepad left stick", "fly forward, back and sideways"},
+        {"Gamepad right stick", "turn, rise and sink"},
+        {"Gamepad triggers", "lower, raise the isovalue"},
+        {"Gamepad bumpers", "one step back, forward"},
+        {"Gamepad A, B", "play or pause, reverse"},
+        {"Gamepad X, Y", "reset the volume, hold to grab it with the wand"},
+    }};
+    return kLines;
+}
+
+} // namespace isochron::interaction

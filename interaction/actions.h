@@ -1,0 +1,129 @@
+// What keys, mouse, wand and gamepad buttons stand for: the bits and valuators of the devices.
+#pragma once
+
+#include "interaction/window_event.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// Bits of the device `keys`: what is asked for, whichever key asks.
+enum class Action : std::uint8_t {
+    walk_forward,
+    walk_back,
+    walk_left,
+    walk_right,
+    walk_up,
+    walk_down,
+    shift,   ///< modifier: faster walking and flying, finer isovalue, left drag moves
+    control, ///< modifier: the wheel changes the isovalue
+    grab,
+    fly,
+    grow,
+    shrink,
+    isovalue_up,
+    isovalue_down,
+    isovalue_rise, ///< continuous
+    isovalue_fall, ///< continuous
+    step_forward,
+    step_back,
+    play,
+    reverse,
+    loop,
+    faster,
+    slower,
+    reset,
+    quality_auto,
+    quality_fast,
+    quality_best,
+    eyes_apart,
+    eyes_together,
+    next_stereo,
+    screenshot,
+    stamp,
+    panel,
+    quit,
+    count
+};
+
+inline constexpr float kHurry = 3.0f; ///< times as fast while Shift is held
+
+/// Bits of the device `mouse` and, in the same order, the pairs of its valuators: horizontal and
+/// vertical drag with that button since the last poll, in window heights, right and down positive.
+/// The valuator after the pairs is the wheel in notches, away from the user positive.
+enum class MouseBit : std::uint8_t { left, right, middle };
+inline constexpr std::size_t kMouseWheel = 6;
+inline constexpr std::size_t kMouseValuators = 7;
+
+/// Bits of the device `wand`.
+enum class WandButton : std::uint8_t { grab, fly };
+/// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rates of isovalue and scale.
+enum class WandValuator : std::uint8_t { isovalue, scale, count };
+
+/// Bits of the device `gamepad`, in the order in which windowing libraries report them.
+enum class GamepadButton : std::uint8_t {
+    a,
+    b,
+    x,
+    y,
+    left_bumper,
+    right_bumper,
+    back,
+    start,
+    guide,
+    left_thumb,
+    right_thumb,
+    up,
+    right,
+    down,
+    left
+};
+/// Valuators of the device `gamepad`, 0 inside the dead zone: sticks in [-1, 1], +x right, +y down;
+/// triggers in [0, 1].
+enum class GamepadAxis : std::uint8_t {
+    left_x,
+    left_y,
+    right_x,
+    right_y,
+    left_trigger,
+    right_trigger,
+    count
+};
+
+template <typename Button>
+constexpr std::uint64_t bit(Button button) {
+    return std::uint64_t{1} << static_cast<unsigned>(button);
+}
+
+struct KeyBinding {
+    Key key;
+    Action action;
+};
+
+/// One line of documentation together with the bindings that it documents.
+struct KeyLine {
+    std::string_view keys;   ///< as printed on the keyboard
+    std::string_view effect; ///< what they do
+    std::vector<KeyBinding> bindings;
+};
+/// Every key there is. Shift and Ctrl are explained where they matter, so their line comes last.
+std::span<const KeyLine> key_lines();
+
+/// Mouse, wand and gamepad, one line per control: name, effect.
+struct ControlLine {
+    std::string_view control, effect;
+};
+std::span<const ControlLine> control_lines();
+
+/// Actions that leave the picture of the data as it is: they do not disturb stillness.
+constexpr std::uint64_t quiet_actions() {
+    return bit(Action::shift) | bit(Action::control) | bit(Action::quality_auto) |
+           bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::screenshot) |
+           bit(Action::stamp) | bit(Action::panel) | bit(Action::quit);
+}
+
+} // namespace isochron::interaction

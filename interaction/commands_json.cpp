@@ -1,0 +1,128 @@
+// Commands to JSON and back.
+#include "interaction/commands_json.h"
+
+#include "interaction/json_values.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace isochron::interaction {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostStamps = 64;   ///< of one frame
+constexpr std::size_t kLongestName = 256; ///< [byte]
+
+constexpr std::array<std::string_view, 3> kQualityNames{"auto", "fast", "quality"};
+
+json similarity_json(const Similarity& similarity) {
+    const glm::dvec3& t = similarity.translation;
+    const glm::dquat& r = similarity.rotation;
+    return {{"translation", {t.x, t.y, t.z}},
+            {"rotation", {r.x, r.y, r.z, r.w}},
+            {"scale", similarity.scale}};
+}
+
+Similarity similarity_from(const json& value) {
+    Members members(value, "room_from_physical");
+    const json& t = list(members.at("translation"), "translation", 3, 3);
+    const json& r = list(members.at("rotation"), "rotation", 4, 4);
+    Similarity result;
+    for (int i = 0; i < 3; ++i)
+        result.translation[i] = number(t[i], "translation");
+    result.rotation = glm::dquat(number(r[3], "rotation"), number(r[0], "rotation"),
+                                 number(r[1], "rotation"), number(r[2], "rotation"));
+    require_unit(result.rotation, "rotation", r);
+    const json& scale = members.at("scale");
+    result.scale = number(scale, "scale");
+    if (!(result.scale > 0))
+        fail("scale", "a positive number", scale);
+    members.done({"translation", "rotation", "scale"});
+    return result;
+}
+
+PlaybackState playback_from(const json& value) {
+    Members members(value, "playback");
+    const PlaybackState state{boolean(members.at("playing"), "playing"),
+                              boolean(members.at("reverse"), "reverse"),
+                              boolean(members.at("loop"), "loop"),
+                              number(members.at("speed"), "speed", kSlowest, kFastest)};
+    members.done({"playing", "reverse", "loop", "speed"});
+    return state;
+}
+
+QualityMode quality_from(const json& value) {
+    const auto found = std::ranges::find(kQualityNames, text(value, "quality"));
+    if (found == kQualityNames.end())
+        fail("quality", "auto, fast or quality", value);
+    return static_cast<QualityMode>(found - kQualityNames.begin());
+}
+
+} // namespace
+
+json commands_json(const Commands& commands) {
+    json result = json::object();
+    if (commands.isovalue)
+        result["isovalue"] = *commands.isovalue;
+    if (commands.step)
+        result["step"] = *commands.step;
+    if (const auto& playback = commands.playback)
+        result["playback"] = {{"playing", playback->playing},
+                              {"reverse", playback->reverse},
+                              {"loop", playback->loop},
+                              {"speed", playback->speed}};
+    if (commands.room_from_physical)
+        result["room_from_physical"] = similarity_json(*commands.room_from_physical);
+    if (commands.quality)
+        result["quality"] = kQualityNames[static_cast<std::size_t>(*commands.quality)];
+    if (commands.eye_separation)
+        result["eye_separation"] = *commands.eye_separation;
+    if (commands.stereo)
+        result["stereo"] = *commands.stereo;
+    if (commands.panel)
+        result["panel"] = *commands.panel;
+    if (commands.screenshot)
+        result["screenshot"] = true;
+    if (commands.quit)
+        result["quit"] = true;
+    if (!commands.stamps.empty())
+        result["stamps"] = commands.stamps;
+    return result;
+}
+
+Commands commands_from(const json& value, std::string_view where) {
+    Members members(value, where);
+    Commands commands;
+    if (const json* found = members.find("isovalue"))
+        commands.isovalue = number(*found, "isovalue");
+    if (const json* found = members.find("step"))
+        commands.step = static_cast<std::uint32_t>(
+            natural(*found, "step", std::numeric_limits<std::uint32_t>::max()));
+    if (const json* found = members.find("playback"))
+        commands.playback = playback_from(*found);
+    if (const json* found = members.find("room_from_physical"))
+        commands.room_from_physical = similarity_from(*found);
+    if (const json* found = members.find("quality"))
+        commands.quality = quality_from(*found);
+    if (const json* found = members.find("eye_separation"))
+        commands.eye_separation =
+            static_cast<float>(number(*found, "eye_separation", 0.0, kWidestEyes));
+    if (const json* found = members.find("stereo"))
+        commands.stereo = text(*found, "stereo", kLongestName);
+    if (const json* found = members.find("panel"))
+        commands.panel = boolean(*found, "panel");
+    if (const json* found = members.find("screenshot"))
+        commands.screenshot = boolean(*found, "screenshot");
+    if (const json* found = members.find("quit"))
+        commands.quit = boolean(*found, "quit");
+    if (const json* found = members.find("stamps"))
+        for (const json& stamp : list(*found, "stamps", 0, kMostStamps))
+            commands.stamps.push_back(text(stamp, "stamps", kLongestName));
+    members.done({"isovalue", "step", "playback", "room_from_physical", "quality", "eye_separation",
+                  "stereo", "panel", "screenshot", "quit", "stamps"});
+    return commands;
+}
+
+} // namespace isochron::interaction

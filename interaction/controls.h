@@ -1,0 +1,47 @@
+// Turns device states into commands: navigation, isovalue, time, and the program's switches.
+#pragma once
+
+#include "interaction/commands.h"
+#include "interaction/tracked_input.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// What commands are relative to; owned by the session, passed in every frame.
+struct ControlContext {
+    double isovalue = 0;
+    double low = 0, high = 1; ///< value range of the data
+    std::uint32_t step = 0;
+    std::vector<double> const* times = nullptr; ///< physical times of the steps, increasing
+    PlaybackState playback;
+    Similarity room_from_physical;
+    Similarity home;       ///< what reset returns to
+    glm::dvec3 pivot{0.0}; ///< centre of the volume, physical space: what orbit turns about
+    QualityMode quality = QualityMode::automatic;
+    float eye_separation = 0.063f;
+    std::string stereo;
+    bool panel = true;
+    std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
+};
+
+/// Pure function of the device states and contexts it was given: the same sequence, the same
+/// commands.
+class Controls {
+  public:
+    Controls();
+    ~Controls();
+    /// One frame. Includes the step that playback has reached in physical time.
+    Commands update(const InputState& input, const ControlContext& context);
+
+    /// One line per key, button and valuator, for `--help` and the panel.
+    static std::vector<std::string> documentation();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace isochron::interaction

@@ -1,0 +1,39 @@
+// Mouse and keyboard play a tracked head and a wand.
+#pragma once
+
+#include "interaction/tracked_input.h"
+#include "interaction/window_event.h"
+
+#include <memory>
+#include <span>
+
+namespace isochron::interaction {
+
+struct EmulationOptions {
+    Pose head{{0.0f, 1.6f, 0.0f},
+              {1.0f, 0.0f, 0.0f, 0.0f}}; ///< where it starts and Home returns to
+    float walk_speed = 1.0f;             ///< [m/s], three times with Shift
+    float look_speed = 2.0f;             ///< [rad per window height dragged]
+    float wand_reach = 0.45f;            ///< [m] wand ahead of the head
+    float vertical_fov = 0.9f; ///< [rad] of the window, to aim the wand's ray at the cursor
+};
+
+/// Devices of every poll: `head`, `wand`, `mouse`, `keys`, and `gamepad` while there is one; their
+/// buttons and valuators are those of actions.h. A key that is tapped between two polls is down in
+/// one of them, several taps one after the other, so that slow frames lose none. Without focus,
+/// nothing is down.
+class DesktopEmulation final : public TrackedInput {
+  public:
+    explicit DesktopEmulation(const EmulationOptions& options);
+    ~DesktopEmulation() override;
+    /// Events since the last poll, in order. Events that a panel took are not passed on, except
+    /// releases: pass those always, so that nothing stays down.
+    void feed(std::span<const WindowEvent> events);
+    InputState poll(Seconds now) override;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace isochron::interaction

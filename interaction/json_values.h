@@ -1,0 +1,58 @@
+// Values taken from JSON, each checked and named in the error when it is not what it should be.
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace isochron::interaction {
+
+inline constexpr double kUnitTolerance = 1e-3; ///< of a quaternion's length
+
+/// A value as it may appear in an error line: short, ASCII, without line breaks.
+std::string excerpt(const nlohmann::json& value);
+
+/// @throws Error `where: expected .., got ..`, as everything below does
+[[noreturn]] void fail(std::string_view where, std::string_view expected,
+                       const nlohmann::json& got);
+
+/// An object's members, each asked for once; those never asked for are errors.
+class Members {
+  public:
+    Members(const nlohmann::json& object, std::string_view where);
+    /// Null when it is missing.
+    const nlohmann::json* find(const char* key);
+    const nlohmann::json& at(const char* key);
+    /// @param known every key that was asked for
+    void done(std::initializer_list<std::string_view> known) const;
+
+  private:
+    const nlohmann::json& object_;
+    std::string_view where_;
+    std::size_t used_ = 0;
+};
+
+/// Finite numbers only.
+double number(const nlohmann::json& value, std::string_view where);
+double number(const nlohmann::json& value, std::string_view where, double low, double high);
+float small_number(const nlohmann::json& value, std::string_view where);
+std::uint64_t natural(const nlohmann::json& value, std::string_view where, std::uint64_t most);
+bool boolean(const nlohmann::json& value, std::string_view where);
+std::string text(const nlohmann::json& value, std::string_view where,
+                 std::size_t longest = std::string::npos);
+/// @return the value itself
+const nlohmann::json& list(const nlohmann::json& value, std::string_view where, std::size_t least,
+                           std::size_t most);
+
+template <typename Quaternion>
+void require_unit(const Quaternion& q, std::string_view where, const nlohmann::json& got) {
+    if (std::abs(glm::length(q) - 1) > kUnitTolerance)
+        fail(where, "a unit quaternion", got);
+}
+
+} // namespace isochron::interaction

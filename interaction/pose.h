@@ -1,0 +1,35 @@
+// Positions and orientations in the room, and the clock of a session.
+#pragma once
+
+#include <chrono>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace isochron::interaction {
+
+/// Session time, from 0 at the start of a session or recording.
+using Seconds = std::chrono::duration<double>;
+
+/// Rigid pose in the room frame (OpenXR STAGE): right-handed, +Y up, -Z forward, metres.
+struct Pose {
+    glm::vec3 position{0.0f};
+    glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit; files store x y z w
+    bool operator==(const Pose&) const = default;
+};
+
+/// 4x4 matrix that maps the posed thing's own space to the room.
+glm::mat4 room_from(const Pose& pose);
+bool is_finite(const Pose& pose);
+
+/// Where the data stands in the room: room = translation + scale * rotation * physical.
+struct Similarity {
+    glm::dvec3 translation{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    double scale = 1.0; ///< > 0, finite
+    bool operator==(const Similarity&) const = default;
+};
+glm::dmat4 matrix(const Similarity& similarity);
+
+} // namespace isochron::interaction

@@ -1,0 +1,95 @@
+// A session as a text file: JSON Lines, a header and then one record per frame.
+#pragma once
+
+#include "interaction/commands.h"
+#include "interaction/tracked_input.h"
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// Bad input of the interaction floor: `walk.jsonl:17: time goes back from 3.20 to 3.10`.
+class Error : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+struct RecordingHeader {
+    int version = 1;
+    std::string program;         ///< `isochron 0.1.0`
+    std::string configuration;   ///< the whole text of the configuration file
+    std::string data;            ///< path of the index as given
+    std::string data_hash;       ///< hexadecimal content hash
+    std::array<int, 2> window{}; ///< [pixels] at the start; 0: as the configuration says
+    Commands start;              ///< everything that commands can set, set
+    bool operator==(const RecordingHeader&) const = default;
+};
+
+struct RecordedFrame {
+    InputState input;    ///< devices as polled, with the frame's time
+    Commands commands;   ///< what they and the panel led to
+    Commands from_panel; ///< the part of `commands` that no device explains
+    bool operator==(const RecordedFrame&) const = default;
+};
+
+/// The file, line by line:
+///
+///     {"format":"isochron recording","version":1,"program":..,"configuration":..,"data":..,
+///      "data_hash":..,"start":{commands}}
+///     {"t":0.0,"devices":[{"name":"head","pose":[x,y,z,qx,qy,qz,qw]},..]}
+///     {"t":0.016,"changed":[{"name":"keys","buttons":4096}],"commands":{"isovalue":112.5}}
+///
+/// `devices` states all devices, `changed` only those that differ from the frame before, and
+/// neither means that all are as before. A device's `valid` (true), `buttons` (0) and `valuators`
+/// ([]) are left out at these values; so are a frame's empty `commands` and `panel`. Numbers
+/// round-trip.
+struct Recording {
+    RecordingHeader header;
+    std::vector<RecordedFrame> frames;
+    std::string note; ///< empty, or one line on an incomplete last line that was left out
+};
+
+/// Appends frame by frame to the temporary file `path` + `.part`; `finish` puts it in place. What
+/// was written reaches the operating system at least once per second of session time, so that a
+/// crash leaves a readable recording under the temporary name.
+class RecordingWriter {
+  public:
+    /// @throws Error when the temporary file cannot be created
+    RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header);
+    ~RecordingWriter(); ///< finishes what was written if `finish` was not called
+    /// @throws Error when the disk is full, time goes back or a number is not finite
+    void append(const RecordedFrame& frame);
+    /// @throws Error when the file cannot be completed or renamed
+    void finish();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Only a last line without line end that is cut short is forgiven, with a note.
+/// @throws Error naming file and line: not a recording, newer version, bad JSON, time going back,
+/// ...
+Recording read_recording(const std::filesystem::path& path);
+
+/// Plays recorded device states: the newest frame not later than `now`, at first the first one.
+class ReplayInput final : public TrackedInput {
+  public:
+    /// @param recording must outlive this
+    explicit ReplayInput(const Recording& recording);
+    InputState poll(Seconds now) override;
+    /// Frames reached so far. A poll may pass several: the commands of all of them count.
+    std::size_t frames_played() const;
+    bool finished() const;
+
+  private:
+    const Recording& recording_;
+    std::size_t next_ = 0;
+};
+
+} // namespace isochron::interaction

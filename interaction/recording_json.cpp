@@ -1,0 +1,191 @@
+// Recorded frames and headers to JSON and back.
+#include "interaction/recording_json.h"
+
+#include "interaction/commands_json.h"
+#include "interaction/json_values.h"
+#include "interaction/navigation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace isochron::interaction {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kFormat = "isochron recording";
+constexpr std::size_t kMostDevices = 64;
+constexpr std::size_t kMostValuators = 64;
+constexpr std::size_t kLongestName = 256; ///< [byte]
+
+json pose_json(const Pose& pose) {
+    const glm::vec3& p = pose.position;
+    const glm::quat& q = pose.orientation;
+    return {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
+}
+
+Pose pose_from(const json& value) {
+    list(value, "pose", 7, 7);
+    std::array<float, 7> v;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        v[i] = small_number(value[i], "pose");
+    const Pose pose{{v[0], v[1], v[2]}, glm::quat(v[6], v[3], v[4], v[5])};
+    require_unit(pose.orientation, "pose", value);
+    return pose;
+}
+
+json device_json(const DeviceState& device) {
+    json result{{"name", device.name}};
+    if (device.pose)
+        result["pose"] = pose_json(*device.pose);
+    if (!device.pose_valid)
+        result["valid"] = false;
+    if (device.buttons != 0)
+        result["buttons"] = device.buttons;
+    if (!device.valuators.empty())
+        result["valuators"] = device.valuators;
+    return result;
+}
+
+DeviceState device_from(const json& value) {
+    Members members(value, "device");
+    DeviceState device;
+    device.name = text(members.at("name"), "name", kLongestName);
+    if (const json* found = members.find("pose"))
+        device.pose = pose_from(*found);
+    if (const json* found = members.find("valid"))
+        device.pose_valid = boolean(*found, "valid");
+    if (const json* found = members.find("buttons"))
+        device.buttons = natural(*found, "buttons", std::numeric_limits<std::uint64_t>::max());
+    if (const json* found = members.find("valuators"))
+        for (const json& valuator : list(*found, "valuators", 0, kMostValuators))
+            device.valuators.push_back(small_number(valuator, "valuators"));
+    members.done({"name", "pose", "valid", "buttons", "valuators"});
+    return device;
+}
+
+bool same_names(const std::vector<DeviceState>& a, const std::vector<DeviceState>& b) {
+    return std::ranges::equal(a, b, {}, &DeviceState::name, &DeviceState::name);
+}
+
+void change(std::vector<DeviceState>& devices, DeviceState changed) {
+    const auto found = std::ranges::find(devices, changed.name, &DeviceState::name);
+    if (found == devices.end())
+        throw Error(
+            fmt::format("changed: there was no device {} before", excerpt(json(changed.name))));
+    *found = std::move(changed);
+}
+
+void add_commands(json& to, const char* key, const Commands& commands) {
+    if (!commands.empty())
+        to[key] = commands_json(commands);
+}
+
+} // namespace
+
+json to_json(const RecordingHeader& header) {
+    return {{"format", kFormat},         {"version", header.version},
+            {"program", header.program}, {"configuration", header.configuration},
+            {"data", header.data},       {"data_hash", header.data_hash},
+            {"window", header.window},   {"start", commands_json(header.start)}};
+}
+
+RecordingHeader header_from_json(const json& value) {
+    const auto format = value.is_object() ? value.find("format") : value.end();
+    if (!value.is_object() || format == value.end() || *format != kFormat)
+        throw Error(fmt::format("not a recording: expected \"format\":\"{}\"", kFormat));
+    Members members(value, "header");
+    members.at("format");
+    RecordingHeader header;
+    header.version = static_cast<int>(natural(members.at("version"), "version", 1'000'000));
+    if (header.version != kRecordingVersion)
+        throw Error(fmt::format("version: this program reads {}, the recording has {}",
+                                kRecordingVersion, header.version));
+    header.program = text(members.at("program"), "program");
+    header.configuration = text(members.at("configuration"), "configuration");
+    header.data = text(members.at("data"), "data");
+    header.data_hash = text(members.at("data_hash"), "data_hash");
+    if (const json* window = members.find("window")) {
+        constexpr std::uint64_t kWidest = 16384; // pixels
+        const json& size = list(*window, "window", 2, 2);
+        for (std::size_t i = 0; i < 2; ++i)
+            header.window[i] = static_cast<int>(natural(size[i], "window", kWidest));
+    }
+    header.start = commands_from(members.at("start"), "start");
+    members.done(
+        {"format", "version", "program", "configuration", "data", "data_hash", "window", "start"});
+    return header;
+}
+
+json to_json(const RecordedFrame& frame, const RecordedFrame* before) {
+    json result{{"t", frame.input.time.count()}};
+    const std::vector<DeviceState>& devices = frame.input.devices;
+    const bool as_before = before && same_names(devices, before->input.devices);
+    json stated = json::array();
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        if (!as_before || devices[i] != before->input.devices[i])
+            stated.push_back(device_json(devices[i]));
+    if (!as_before)
+        result["devices"] = std::move(stated);
+    else if (!stated.empty())
+        result["changed"] = std::move(stated);
+    add_commands(result, "commands", frame.commands);
+    add_commands(result, "panel", frame.from_panel);
+    return result;
+}
+
+RecordedFrame frame_from_json(const json& value, const RecordedFrame* before) {
+    Members members(value, "frame");
+    RecordedFrame frame;
+    frame.input.time = Seconds(number(members.at("t"), "t"));
+    if (before && frame.input.time < before->input.time)
+        throw Error(fmt::format("time goes back from {} to {}", before->input.time.count(),
+                                frame.input.time.count()));
+    std::vector<DeviceState>& devices = frame.input.devices;
+    if (const json* all = members.find("devices")) {
+        for (const json& device : list(*all, "devices", 0, kMostDevices)) {
+            devices.push_back(device_from(device));
+            if (frame.input.find(devices.back().name) != &devices.back())
+                fail("devices", "every name once", json(devices.back().name));
+        }
+    } else if (before) {
+        devices = before->input.devices;
+    }
+    if (const json* changed = members.find("changed"))
+        for (const json& device : list(*changed, "changed", 0, kMostDevices))
+            change(devices, device_from(device));
+    if (const json* found = members.find("commands"))
+        frame.commands = commands_from(*found, "commands");
+    if (const json* found = members.find("panel"))
+        frame.from_panel = commands_from(*found, "panel");
+    members.done({"t", "devices", "changed", "commands", "panel"});
+    return frame;
+}
+
+void require_finite(const RecordedFrame& frame) {
+    const auto require = [](bool finite, std::string_view what) {
+        if (!finite)
+            throw Error(fmt::format("{}: expected finite numbers", what));
+    };
+    require(std::isfinite(frame.input.time.count()), "t");
+    for (const DeviceState& device : frame.input.devices) {
+        require(!device.pose || is_finite(*device.pose), device.name);
+        for (const float valuator : device.valuators)
+            require(std::isfinite(valuator), device.name);
+    }
+    for (const Commands* commands : {&frame.commands, &frame.from_panel}) {
+        require(!commands->isovalue || std::isfinite(*commands->isovalue), "isovalue");
+        require(!commands->room_from_physical || is_valid(*commands->room_from_physical),
+                "room_from_physical");
+        require(!commands->eye_separation || std::isfinite(*commands->eye_separation),
+                "eye_separation");
+        require(!commands->playback || std::isfinite(commands->playback->speed), "speed");
+    }
+}
+
+} // namespace isochron::interaction

@@ -1,0 +1,41 @@
+// The one interface behind which all input lives: emulation, replay, and later real trackers.
+#pragma once
+
+#include "interaction/pose.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// State of one device at one time. Well-known names: `head`, `wand`, `mouse`, `keys`, `gamepad`.
+struct DeviceState {
+    std::string name;
+    std::optional<Pose> pose;     ///< last good pose in the room; empty for devices without one
+    bool pose_valid = true;       ///< false while `pose` is only held from before
+    std::uint64_t buttons = 0;    ///< bit i: button i is down
+    std::vector<float> valuators; ///< 0 at rest; meaning and range by device (actions.h)
+    bool operator==(const DeviceState&) const = default;
+};
+
+/// All devices as of one moment.
+struct InputState {
+    Seconds time{0};
+    std::vector<DeviceState> devices;
+    const DeviceState* find(std::string_view name) const;
+    bool operator==(const InputState&) const = default;
+};
+
+/// A source of device states. Polling is the one call that advances it; the state it returns is a
+/// value.
+class TrackedInput {
+  public:
+    virtual ~TrackedInput() = default;
+    /// @param now session time of the frame, never decreasing
+    virtual InputState poll(Seconds now) = 0;
+};
+
+} // namespace isochron::interaction

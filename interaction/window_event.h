@@ -1,0 +1,90 @@
+// What a window tells about mouse, keyboard and gamepad, free of any windowing library.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// Letters and digits are their upper-case ASCII code; the rest is named.
+enum class Key : std::uint16_t {
+    unknown = 0,
+    space = 32,
+    minus = '-',
+    equal = '=',
+    comma = ',',
+    period = '.',
+    left_bracket = '[',
+    right_bracket = ']',
+    escape = 256,
+    enter,
+    tab,
+    backspace,
+    insert,
+    del,
+    right,
+    left,
+    down,
+    up,
+    page_up,
+    page_down,
+    home,
+    end,
+    f1 = 290,
+    f2,
+    f3,
+    f4,
+    f5,
+    f6,
+    f7,
+    f8,
+    f9,
+    f10,
+    f11,
+    f12,
+    left_shift = 340,
+    left_control,
+    left_alt,
+    right_shift = 344,
+    right_control,
+    right_alt
+};
+
+struct KeyEvent {
+    Key key;
+    bool down;
+};
+struct TextEvent {
+    char32_t character;
+};
+enum class MouseButton : std::uint8_t { left, right, middle };
+struct MouseButtonEvent {
+    MouseButton button;
+    bool down;
+};
+/// Cursor position as a fraction of the window, (0,0) at the top left, and the window's size in
+/// screen units so that aspect and pixel distances are known.
+struct MouseMoveEvent {
+    float x, y;
+    int width, height;
+};
+struct ScrollEvent {
+    float dx, dy;
+};
+struct FocusEvent {
+    bool focused;
+};
+/// The whole state of the first gamepad, sent when it changes: axes left x, left y, right x, right
+/// y, left trigger, right trigger in [-1, 1], +x right, +y down, triggers -1 at rest; bit i of
+/// `buttons` in the order of `GamepadButton` (GLFW's); `present` false when it was unplugged.
+struct GamepadEvent {
+    bool present;
+    float axes[6];
+    std::uint32_t buttons;
+};
+
+using WindowEvent = std::variant<KeyEvent, TextEvent, MouseButtonEvent, MouseMoveEvent, ScrollEvent,
+                                 FocusEvent, GamepadEvent>;
+
+} // namespace isochron::interaction

@@ -1,0 +1,121 @@
+// The uniforms and GL state of a draw of cells.
+#include "render/cell_pass.h"
+
+#include "render/shader.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace isochron::render {
+
+namespace {
+
+/// The uniform block of cell.vert, in std140 layout.
+struct Frame {
+    glm::mat4 rows;
+    glm::mat4 eye_from_index;
+    glm::mat4 eye_from_physical;
+    glm::vec4 eye_in_index;
+    glm::vec4 clip_per_pixel;
+    glm::vec4 color;
+    glm::vec4 light;
+    glm::vec4 depth_cue;
+    float radius;
+    std::int32_t ordered;
+    std::int32_t soft_near_eye;
+    float padding = 0.0f;
+};
+static_assert(sizeof(Frame) == 3 * 64 + 6 * 16);
+
+glm::vec3 linear_light(const glm::vec3& display) {
+    return {std::pow(display.x, 2.2f), std::pow(display.y, 2.2f), std::pow(display.z, 2.2f)};
+}
+
+/// The depth cue runs from the near to the far end of the volume's bounding sphere.
+glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, float strength) {
+    const glm::vec3 centre(eye_from_index * glm::vec4(0.5f * extent, 1.0f));
+    float radius = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 unit(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::vec3 at(eye_from_index * glm::vec4(extent * unit, 1.0f));
+        radius = std::max(radius, glm::length(at - centre));
+    }
+    const float near = std::max(glm::length(centre) - radius, 0.0f);
+    const float far = glm::length(centre) + radius;
+    return {near, 1.0f / std::max(far - near, 1e-6f), strength, 0.0f};
+}
+
+} // namespace
+
+CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
+    : gl_(&gl), shapes_(shapes),
+      quad_program_(link_program(gl, {shader_file("cell.vert"), shader_file("cell_quad.frag")})),
+      gaussian_program_(
+          link_program(gl, {shader_file("cell.vert"), shader_file("cell_gaussian.frag")})),
+      quads_(gl), orders_(gl), frame_(gl) {
+    const float sigmas = 0.5f * shapes.gaussian_diameter / shapes.gaussian_sigma;
+    gl.ProgramUniform1f(gaussian_program_.name(), 0,
+                        -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>);
+}
+
+void CellPass::draw(const View& view, const Placement& placement, const CellBuffers& cells,
+                    Footprint footprint, const CellAppearance& appearance) {
+    if (!cells.shown() || cells.shown()->points.empty())
+        return;
+    const bool gaussian = footprint == Footprint::gaussian;
+    const glm::mat4 eye_from_index = view.eye_from_room * placement.room_from_index;
+    const bool parallel = view.clip_from_eye[3][3] == 1.0f;
+    const glm::vec4 eye_in_index =
+        glm::inverse(eye_from_index) * (parallel ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1));
+    const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
+    glm::mat4 pixel_from_clip(1.0f);
+    pixel_from_clip[0][0] = half_size.x;
+    pixel_from_clip[1][1] = half_size.y;
+
+    Frame frame{
+        .rows = glm::transpose(pixel_from_clip * view.clip_from_eye * eye_from_index),
+        .eye_from_index = eye_from_index,
+        .eye_from_physical =
+            glm::mat4(glm::mat3(view.eye_from_room) * placement.room_from_physical),
+        .eye_in_index = eye_in_index,
+        .clip_per_pixel = glm::vec4(1.0f / half_size, 0.0f, 0.0f),
+        .color = glm::vec4(linear_light(appearance.color), appearance.opacity),
+        .light = {appearance.ambient, appearance.diffuse, appearance.specular,
+                  appearance.shininess},
+        .depth_cue = depth_cue(eye_from_index, placement.extent, appearance.depth_cue),
+        .radius = 0.5f * (gaussian ? shapes_.gaussian_diameter : shapes_.quad_diameter),
+        .ordered = gaussian,
+        .soft_near_eye = gaussian,
+    };
+    gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
+    gl_->BindTextureUnit(0, cells.texture());
+
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->DepthFunc(GL_LESS);
+    gl_->DepthMask(gaussian ? GL_FALSE : GL_TRUE);
+    gl_->Disable(GL_CULL_FACE); // a mirrored volume turns every quad over
+    if (gaussian) {
+        const glm::ivec3 extent(placement.extent);
+        gl_->BindTextureUnit(1,
+                             orders_.texture(cells, traversal_key(eye_in_index, extent), extent));
+        gl_->Enable(GL_BLEND);
+        gl_->BlendEquation(GL_FUNC_ADD);
+        gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+        gl_->UseProgram(gaussian_program_.name());
+    } else {
+        gl_->BindTextureUnit(1, 0);
+        gl_->Disable(GL_BLEND);
+        gl_->UseProgram(quad_program_.name());
+    }
+    quads_.draw(cells.shown()->points.size());
+    gl_->Disable(GL_BLEND);
+    gl_->DepthMask(GL_TRUE);
+    gl_->UseProgram(0);
+}
+
+} // namespace isochron::render

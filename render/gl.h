@@ -1,0 +1,209 @@
+// The table of GL entry points, loaded from the current context; a counting fake can stand in for
+// it.
+//
+//     const render::Gl gl(context.loader());
+//     gl.Clear(GL_COLOR_BUFFER_BIT);
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+
+#include <GL/glcorearb.h>
+
+namespace isochron::render {
+
+/// The one exception type of the render and stereo floors: what, where, expected, got, in one line
+/// (a shader's log may follow on more lines).
+class Error : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Address of a GL entry point by its full name (`glClear`), null where there is none.
+using GlLoader = std::function<void*(const char*)>;
+
+// clang-format off
+/// Every entry point that the program calls, as ENTRY(type, name without `gl`): GL 4.5 core.
+#define ISOCHRON_GL_ENTRY_POINTS(ENTRY)                                                                      \
+    /* State */                                                                                              \
+    ENTRY(PFNGLENABLEPROC, Enable)                                                                           \
+    ENTRY(PFNGLDISABLEPROC, Disable)                                                                         \
+    ENTRY(PFNGLISENABLEDPROC, IsEnabled)                                                                     \
+    ENTRY(PFNGLBLENDFUNCPROC, BlendFunc)                                                                     \
+    ENTRY(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                     \
+    ENTRY(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                             \
+    ENTRY(PFNGLBLENDEQUATIONSEPARATEPROC, BlendEquationSeparate)                                             \
+    ENTRY(PFNGLDEPTHFUNCPROC, DepthFunc)                                                                     \
+    ENTRY(PFNGLDEPTHMASKPROC, DepthMask)                                                                     \
+    ENTRY(PFNGLDEPTHRANGEPROC, DepthRange)                                                                   \
+    ENTRY(PFNGLCULLFACEPROC, CullFace)                                                                       \
+    ENTRY(PFNGLFRONTFACEPROC, FrontFace)                                                                     \
+    ENTRY(PFNGLCOLORMASKPROC, ColorMask)                                                                     \
+    ENTRY(PFNGLSTENCILFUNCPROC, StencilFunc)                                                                 \
+    ENTRY(PFNGLSTENCILOPPROC, StencilOp)                                                                     \
+    ENTRY(PFNGLSTENCILMASKPROC, StencilMask)                                                                 \
+    ENTRY(PFNGLPOLYGONMODEPROC, PolygonMode)                                                                 \
+    ENTRY(PFNGLSCISSORPROC, Scissor)                                                                         \
+    ENTRY(PFNGLVIEWPORTPROC, Viewport)                                                                       \
+    ENTRY(PFNGLVIEWPORTINDEXEDFPROC, ViewportIndexedf)                                                       \
+    ENTRY(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                 \
+    ENTRY(PFNGLCLEARCOLORPROC, ClearColor)                                                                   \
+    ENTRY(PFNGLCLEARDEPTHPROC, ClearDepth)                                                                   \
+    ENTRY(PFNGLCLEARPROC, Clear)                                                                             \
+    ENTRY(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                 \
+    ENTRY(PFNGLGETINTEGER64VPROC, GetInteger64v)                                                             \
+    ENTRY(PFNGLGETFLOATVPROC, GetFloatv)                                                                     \
+    ENTRY(PFNGLGETBOOLEANVPROC, GetBooleanv)                                                                 \
+    ENTRY(PFNGLGETSTRINGPROC, GetString)                                                                     \
+    ENTRY(PFNGLGETSTRINGIPROC, GetStringi)                                                                   \
+    ENTRY(PFNGLGETERRORPROC, GetError)                                                                       \
+    ENTRY(PFNGLFINISHPROC, Finish)                                                                           \
+    ENTRY(PFNGLFLUSHPROC, Flush)                                                                             \
+    /* Buffers */                                                                                            \
+    ENTRY(PFNGLCREATEBUFFERSPROC, CreateBuffers)                                                             \
+    ENTRY(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                             \
+    ENTRY(PFNGLBINDBUFFERPROC, BindBuffer)                                                                   \
+    ENTRY(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                           \
+    ENTRY(PFNGLBINDBUFFERRANGEPROC, BindBufferRange)                                                         \
+    ENTRY(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage)                                                   \
+    ENTRY(PFNGLNAMEDBUFFERDATAPROC, NamedBufferData)                                                         \
+    ENTRY(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData)                                                   \
+    ENTRY(PFNGLCOPYNAMEDBUFFERSUBDATAPROC, CopyNamedBufferSubData)                                           \
+    ENTRY(PFNGLMAPNAMEDBUFFERRANGEPROC, MapNamedBufferRange)                                                 \
+    ENTRY(PFNGLUNMAPNAMEDBUFFERPROC, UnmapNamedBuffer)                                                       \
+    ENTRY(PFNGLFLUSHMAPPEDNAMEDBUFFERRANGEPROC, FlushMappedNamedBufferRange)                                 \
+    ENTRY(PFNGLGETNAMEDBUFFERSUBDATAPROC, GetNamedBufferSubData)                                             \
+    ENTRY(PFNGLINVALIDATEBUFFERDATAPROC, InvalidateBufferData)                                               \
+    /* Vertex arrays */                                                                                      \
+    ENTRY(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays)                                                   \
+    ENTRY(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                                   \
+    ENTRY(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                         \
+    ENTRY(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                         \
+    ENTRY(PFNGLDISABLEVERTEXARRAYATTRIBPROC, DisableVertexArrayAttrib)                                       \
+    ENTRY(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                         \
+    ENTRY(PFNGLVERTEXARRAYATTRIBIFORMATPROC, VertexArrayAttribIFormat)                                       \
+    ENTRY(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                       \
+    ENTRY(PFNGLVERTEXARRAYVERTEXBUFFERPROC, VertexArrayVertexBuffer)                                         \
+    ENTRY(PFNGLVERTEXARRAYELEMENTBUFFERPROC, VertexArrayElementBuffer)                                       \
+    ENTRY(PFNGLVERTEXARRAYBINDINGDIVISORPROC, VertexArrayBindingDivisor)                                     \
+    ENTRY(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                         \
+    ENTRY(PFNGLDISABLEVERTEXATTRIBARRAYPROC, DisableVertexAttribArray)                                       \
+    ENTRY(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                 \
+    /* Drawing */                                                                                            \
+    ENTRY(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                   \
+    ENTRY(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                 \
+    ENTRY(PFNGLDRAWELEMENTSPROC, DrawElements)                                                               \
+    ENTRY(PFNGLDRAWELEMENTSBASEVERTEXPROC, DrawElementsBaseVertex)                                           \
+    ENTRY(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                             \
+    ENTRY(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC, DrawElementsInstancedBaseVertexBaseInstance) \
+    ENTRY(PFNGLDRAWRANGEELEMENTSBASEVERTEXPROC, DrawRangeElementsBaseVertex)                                 \
+    ENTRY(PFNGLMULTIDRAWELEMENTSBASEVERTEXPROC, MultiDrawElementsBaseVertex)                                 \
+    /* Textures */                                                                                           \
+    ENTRY(PFNGLCREATETEXTURESPROC, CreateTextures)                                                           \
+    ENTRY(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                           \
+    ENTRY(PFNGLBINDTEXTUREPROC, BindTexture)                                                                 \
+    ENTRY(PFNGLBINDTEXTUREUNITPROC, BindTextureUnit)                                                         \
+    ENTRY(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                             \
+    ENTRY(PFNGLTEXTURESTORAGE1DPROC, TextureStorage1D)                                                       \
+    ENTRY(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                       \
+    ENTRY(PFNGLTEXTURESTORAGE3DPROC, TextureStorage3D)                                                       \
+    ENTRY(PFNGLTEXTURESUBIMAGE1DPROC, TextureSubImage1D)                                                     \
+    ENTRY(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)                                                     \
+    ENTRY(PFNGLTEXTURESUBIMAGE3DPROC, TextureSubImage3D)                                                     \
+    ENTRY(PFNGLTEXTUREBUFFERPROC, TextureBuffer)                                                             \
+    ENTRY(PFNGLTEXTUREBUFFERRANGEPROC, TextureBufferRange)                                                   \
+    ENTRY(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                                     \
+    ENTRY(PFNGLTEXTUREPARAMETERFPROC, TextureParameterf)                                                     \
+    ENTRY(PFNGLGETTEXTUREIMAGEPROC, GetTextureImage)                                                         \
+    ENTRY(PFNGLGENERATETEXTUREMIPMAPPROC, GenerateTextureMipmap)                                             \
+    ENTRY(PFNGLCREATESAMPLERSPROC, CreateSamplers)                                                           \
+    ENTRY(PFNGLDELETESAMPLERSPROC, DeleteSamplers)                                                           \
+    ENTRY(PFNGLBINDSAMPLERPROC, BindSampler)                                                                 \
+    ENTRY(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)                                                     \
+    /* Framebuffers */                                                                                       \
+    ENTRY(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers)                                                   \
+    ENTRY(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                   \
+    ENTRY(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                         \
+    ENTRY(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture)                                         \
+    ENTRY(PFNGLNAMEDFRAMEBUFFERRENDERBUFFERPROC, NamedFramebufferRenderbuffer)                               \
+    ENTRY(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERPROC, NamedFramebufferDrawBuffer)                                   \
+    ENTRY(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERSPROC, NamedFramebufferDrawBuffers)                                 \
+    ENTRY(PFNGLNAMEDFRAMEBUFFERREADBUFFERPROC, NamedFramebufferReadBuffer)                                   \
+    ENTRY(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)                                 \
+    ENTRY(PFNGLBLITNAMEDFRAMEBUFFERPROC, BlitNamedFramebuffer)                                               \
+    ENTRY(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)                                         \
+    ENTRY(PFNGLCLEARNAMEDFRAMEBUFFERIVPROC, ClearNamedFramebufferiv)                                         \
+    ENTRY(PFNGLCREATERENDERBUFFERSPROC, CreateRenderbuffers)                                                 \
+    ENTRY(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                 \
+    ENTRY(PFNGLNAMEDRENDERBUFFERSTORAGEPROC, NamedRenderbufferStorage)                                       \
+    ENTRY(PFNGLNAMEDRENDERBUFFERSTORAGEMULTISAMPLEPROC, NamedRenderbufferStorageMultisample)                 \
+    ENTRY(PFNGLDRAWBUFFERPROC, DrawBuffer)                                                                   \
+    ENTRY(PFNGLREADBUFFERPROC, ReadBuffer)                                                                   \
+    ENTRY(PFNGLREADPIXELSPROC, ReadPixels)                                                                   \
+    /* Programs */                                                                                           \
+    ENTRY(PFNGLCREATESHADERPROC, CreateShader)                                                               \
+    ENTRY(PFNGLDELETESHADERPROC, DeleteShader)                                                               \
+    ENTRY(PFNGLSHADERSOURCEPROC, ShaderSource)                                                               \
+    ENTRY(PFNGLCOMPILESHADERPROC, CompileShader)                                                             \
+    ENTRY(PFNGLGETSHADERIVPROC, GetShaderiv)                                                                 \
+    ENTRY(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                       \
+    ENTRY(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                             \
+    ENTRY(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                             \
+    ENTRY(PFNGLATTACHSHADERPROC, AttachShader)                                                               \
+    ENTRY(PFNGLDETACHSHADERPROC, DetachShader)                                                               \
+    ENTRY(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                 \
+    ENTRY(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                               \
+    ENTRY(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                     \
+    ENTRY(PFNGLUSEPROGRAMPROC, UseProgram)                                                                   \
+    ENTRY(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                   \
+    ENTRY(PFNGLGETATTRIBLOCATIONPROC, GetAttribLocation)                                                     \
+    ENTRY(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex)                                               \
+    ENTRY(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)                                                 \
+    ENTRY(PFNGLUNIFORM1IPROC, Uniform1i)                                                                     \
+    ENTRY(PFNGLUNIFORM1FPROC, Uniform1f)                                                                     \
+    ENTRY(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i)                                                       \
+    ENTRY(PFNGLPROGRAMUNIFORM1UIPROC, ProgramUniform1ui)                                                     \
+    ENTRY(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f)                                                       \
+    ENTRY(PFNGLPROGRAMUNIFORM2FPROC, ProgramUniform2f)                                                       \
+    ENTRY(PFNGLPROGRAMUNIFORM2IPROC, ProgramUniform2i)                                                       \
+    ENTRY(PFNGLPROGRAMUNIFORM3FPROC, ProgramUniform3f)                                                       \
+    ENTRY(PFNGLPROGRAMUNIFORM4FPROC, ProgramUniform4f)                                                       \
+    ENTRY(PFNGLPROGRAMUNIFORM1FVPROC, ProgramUniform1fv)                                                     \
+    ENTRY(PFNGLPROGRAMUNIFORM2FVPROC, ProgramUniform2fv)                                                     \
+    ENTRY(PFNGLPROGRAMUNIFORM3FVPROC, ProgramUniform3fv)                                                     \
+    ENTRY(PFNGLPROGRAMUNIFORM4FVPROC, ProgramUniform4fv)                                                     \
+    ENTRY(PFNGLPROGRAMUNIFORMMATRIX2FVPROC, ProgramUniformMatrix2fv)                                         \
+    ENTRY(PFNGLPROGRAMUNIFORMMATRIX3FVPROC, ProgramUniformMatrix3fv)                                         \
+    ENTRY(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                         \
+    /* Queries, fences and debug output */                                                                   \
+    ENTRY(PFNGLCREATEQUERIESPROC, CreateQueries)                                                             \
+    ENTRY(PFNGLDELETEQUERIESPROC, DeleteQueries)                                                             \
+    ENTRY(PFNGLBEGINQUERYPROC, BeginQuery)                                                                   \
+    ENTRY(PFNGLENDQUERYPROC, EndQuery)                                                                       \
+    ENTRY(PFNGLQUERYCOUNTERPROC, QueryCounter)                                                               \
+    ENTRY(PFNGLGETQUERYOBJECTIVPROC, GetQueryObjectiv)                                                       \
+    ENTRY(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv)                                                     \
+    ENTRY(PFNGLGETQUERYOBJECTUI64VPROC, GetQueryObjectui64v)                                                 \
+    ENTRY(PFNGLFENCESYNCPROC, FenceSync)                                                                     \
+    ENTRY(PFNGLDELETESYNCPROC, DeleteSync)                                                                   \
+    ENTRY(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                                                           \
+    ENTRY(PFNGLWAITSYNCPROC, WaitSync)                                                                       \
+    ENTRY(PFNGLDEBUGMESSAGECALLBACKPROC, DebugMessageCallback)                                               \
+    ENTRY(PFNGLDEBUGMESSAGECONTROLPROC, DebugMessageControl)                                                 \
+    ENTRY(PFNGLPUSHDEBUGGROUPPROC, PushDebugGroup)                                                           \
+    ENTRY(PFNGLPOPDEBUGGROUPPROC, PopDebugGroup)                                                             \
+    ENTRY(PFNGLOBJECTLABELPROC, ObjectLabel)
+// clang-format on
+
+/// A plain value: copies call the same context; tests replace entries by fakes that count.
+/// Objects made with a table keep a pointer to it, so it outlives them.
+struct Gl {
+    /// Loads every entry point. @throws Error naming the first one that is missing
+    explicit Gl(const GlLoader& load);
+
+#define ISOCHRON_GL_MEMBER(type, name) type name = nullptr;
+    ISOCHRON_GL_ENTRY_POINTS(ISOCHRON_GL_MEMBER)
+#undef ISOCHRON_GL_MEMBER
+};
+
+} // namespace isochron::render

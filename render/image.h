@@ -1,0 +1,19 @@
+// A picture in memory, as it is read back from the GPU and written to files.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace isochron::render {
+
+struct Image {
+    int width = 0, height = 0;      ///< pixels
+    std::vector<std::uint8_t> rgba; ///< 4 bytes per pixel, top row first
+
+    /// The four bytes of a pixel, (0, 0) at the top left.
+    const std::uint8_t* at(int x, int y) const {
+        return rgba.data() + 4 * (static_cast<std::size_t>(y) * width + x);
+    }
+};
+
+} // namespace isochron::render

@@ -1,0 +1,70 @@
+// The data and GL state of a draw of lines.
+#include "render/line_pass.h"
+
+#include "render/shader.h"
+
+namespace isochron::render {
+
+std::vector<Line> box_lines(const glm::vec3& extent, const glm::vec4& color) {
+    std::vector<Line> lines;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int edge = 0; edge < 4; ++edge) {
+            glm::vec3 from(0.0f);
+            from[(axis + 1) % 3] = edge & 1 ? extent[(axis + 1) % 3] : 0.0f;
+            from[(axis + 2) % 3] = edge & 2 ? extent[(axis + 2) % 3] : 0.0f;
+            glm::vec3 to = from;
+            to[axis] = extent[axis];
+            lines.push_back({from, to, color});
+        }
+    return lines;
+}
+
+LinePass::LinePass(const Gl& gl)
+    : gl_(&gl), program_(link_program(gl, {shader_file("line.vert"), shader_file("line.frag")})),
+      quads_(gl), segments_(gl), frame_(gl), texture_(gl, GL_TEXTURE_BUFFER) {}
+
+void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::span<const Line> lines,
+                    float width) {
+    if (lines.empty())
+        return;
+    struct Frame {
+        glm::mat4 clip_from_model;
+        glm::vec4 size;
+    } frame{view.clip_from_eye * view.eye_from_room * room_from_model,
+            glm::vec4(view.size, 0.5f * width + 0.5f, 0.0f)};
+    std::vector<glm::vec4> segments;
+    segments.reserve(3 * lines.size());
+    for (const Line& line : lines) {
+        segments.emplace_back(line.from, 1.0f);
+        segments.emplace_back(line.to, 1.0f);
+        segments.push_back(line.color);
+    }
+    gl_->NamedBufferData(segments_.name(), segments.size() * sizeof(glm::vec4), segments.data(),
+                         GL_STREAM_DRAW);
+    gl_->TextureBuffer(texture_.name(), GL_RGBA32F, segments_.name());
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
+    gl_->BindTextureUnit(0, texture_.name());
+
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->DepthFunc(GL_LESS);
+    gl_->Disable(GL_CULL_FACE);
+    gl_->Enable(GL_BLEND);
+    gl_->BlendEquation(GL_FUNC_ADD);
+    gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl_->UseProgram(program_.name());
+    // First the colours, then the depth of the core alone: a soft edge that wrote depth would keep
+    // what is drawn later from showing through it.
+    for (const bool depth_only : {false, true}) {
+        frame.size.w = depth_only ? 0.5f : 0.0f;
+        gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
+        gl_->DepthMask(depth_only ? GL_TRUE : GL_FALSE);
+        const GLboolean colors = depth_only ? GL_FALSE : GL_TRUE;
+        gl_->ColorMask(colors, colors, colors, colors);
+        quads_.draw(lines.size());
+    }
+    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl_->Disable(GL_BLEND);
+    gl_->UseProgram(0);
+}
+
+} // namespace isochron::render

@@ -1,0 +1,41 @@
+// Orders on the GPU, kept as long as they hold: a standing viewer sorts nothing.
+#pragma once
+
+#include "render/cell_buffers.h"
+#include "render/traversal_order.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isochron::render {
+
+/// A few orders by set and key, the least recently used one gives way: both eyes on every screen
+/// find theirs again in the next frame, and eyes with the same key share one.
+class OrderCache {
+  public:
+    explicit OrderCache(const Gl& gl);
+
+    /// GL_TEXTURE_BUFFER, one R32UI texel per cell: indices into the shown points, back to front.
+    GLuint texture(const CellBuffers& cells, const TraversalKey& key, const glm::ivec3& extent);
+
+    /// How many orders were made so far.
+    std::uint64_t sorts() const { return sorts_; }
+
+  private:
+    struct Entry {
+        explicit Entry(const Gl& gl) : buffer(gl), texture(gl, GL_TEXTURE_BUFFER) {}
+        Buffer buffer;
+        Texture texture;
+        const CellBuffers* cells = nullptr;
+        std::uint64_t version = 0;
+        TraversalKey key;
+        std::uint64_t last_use = 0;
+    };
+    const Gl* gl_;
+    std::array<Entry, 4> entries_;
+    std::vector<std::uint32_t> order_;
+    std::uint64_t uses_ = 0, sorts_ = 0;
+};
+
+} // namespace isochron::render

@@ -1,0 +1,74 @@
+// Allocation, clearing and reading of an offscreen target.
+#include "render/render_target.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace isochron::render {
+
+RenderTarget::RenderTarget(const Gl& gl, glm::ivec2 size)
+    : gl_(&gl), size_(size), color_(gl, GL_TEXTURE_2D), depth_(gl, GL_TEXTURE_2D),
+      framebuffer_(gl) {
+    allocate();
+}
+
+void RenderTarget::resize(glm::ivec2 size) {
+    if (size == size_)
+        return;
+    size_ = size;
+    // Immutable storage cannot change its size, so the textures are made anew.
+    color_ = Texture(*gl_, GL_TEXTURE_2D);
+    depth_ = Texture(*gl_, GL_TEXTURE_2D);
+    allocate();
+}
+
+void RenderTarget::allocate() {
+    GLint limit = 0;
+    gl_->GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    if (size_.x < 1 || size_.y < 1 || size_.x > limit || size_.y > limit)
+        throw Error(fmt::format("render target: {}x{} pixels, each side must be 1 to {}", size_.x,
+                                size_.y, limit));
+    gl_->TextureStorage2D(color_.name(), 1, GL_RGBA8, size_.x, size_.y);
+    gl_->TextureParameteri(color_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_->TextureParameteri(color_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl_->TextureParameteri(color_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    gl_->TextureStorage2D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, size_.x, size_.y);
+    gl_->NamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, color_.name(), 0);
+    gl_->NamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+    const GLenum status = gl_->CheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        throw Error(fmt::format("render target: {}x{} pixels, framebuffer status {:#x}, expected "
+                                "complete",
+                                size_.x, size_.y, status));
+}
+
+void RenderTarget::bind() const {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    gl_->Viewport(0, 0, size_.x, size_.y);
+}
+
+void RenderTarget::clear(glm::vec4 color) const {
+    const GLfloat far = 1.0f;
+    gl_->Disable(GL_SCISSOR_TEST);
+    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl_->DepthMask(GL_TRUE);
+    gl_->ClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, &color.x);
+    gl_->ClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &far);
+}
+
+Image RenderTarget::read() const {
+    Image image{size_.x, size_.y, std::vector<std::uint8_t>(std::size_t{4} * size_.x * size_.y)};
+    gl_->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl_->GetTextureImage(color_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                         static_cast<GLsizei>(image.rgba.size()), image.rgba.data());
+    // GL's first row is the bottom one.
+    const std::size_t row = std::size_t{4} * size_.x;
+    for (int y = 0; y < size_.y / 2; ++y)
+        std::swap_ranges(image.rgba.begin() + y * row, image.rgba.begin() + (y + 1) * row,
+                         image.rgba.begin() + (size_.y - 1 - y) * row);
+    return image;
+}
+
+} // namespace isochron::render

@@ -1,0 +1,25 @@
+// Programs from the shader files in render/shaders, whose text is part of the library.
+#pragma once
+
+#include "render/gl_objects.h"
+
+#include <string_view>
+#include <vector>
+
+namespace isochron::render {
+
+struct ShaderSource {
+    std::string_view name; ///< file name; the extension (.vert, .frag) says the stage
+    std::string_view text; ///< GLSL 4.50 core
+};
+
+/// Every shader file, in the order of their names.
+const std::vector<ShaderSource>& shader_files();
+
+/// The file of that name. @throws Error when there is none
+ShaderSource shader_file(std::string_view name);
+
+/// Compiles and links. @throws Error with the file's name and the driver's log
+Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources);
+
+} // namespace isochron::render

@@ -1,0 +1,16 @@
+#version 450 core
+// A splat: its opacity falls off as a Gaussian that is cut at the outline, colour pre-multiplied.
+// Computed per fragment rather than looked up in a table: exact at any size, and on software GL the
+// look-up costs more than all the rest of a splat.
+
+layout(location = 0) uniform float falloff; // log2 of the opacity on the outline, negative
+
+in vec2 disc;
+flat in vec4 shaded;
+out vec4 result;
+
+void main() {
+    float outwards = dot(disc, disc);
+    float alpha = outwards < 1.0 ? shaded.a * exp2(falloff * outwards) : 0.0;
+    result = vec4(shaded.rgb * alpha, alpha);
+}

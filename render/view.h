@@ -1,0 +1,18 @@
+// One eye's camera: everything a pass needs to know about where it draws from and to.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace isochron::render {
+
+struct View {
+    glm::mat4 clip_from_eye{1.0f}; ///< off-axis perspective (or orthographic), GL clip space
+    glm::mat4 eye_from_room{1.0f}; ///< rigid
+    glm::ivec2 size{0};            ///< pixels of the target
+
+    glm::vec3 eye_in_room() const { return glm::vec3(glm::inverse(eye_from_room)[3]); }
+};
+
+} // namespace isochron::render

@@ -1,0 +1,152 @@
+// Targets of the eyes, their place in the window, and the composition.
+#include "stereo/display.h"
+
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
+
+#include <utility>
+
+namespace isochron::stereo {
+namespace {
+
+glm::ivec2 at_least_one(glm::ivec2 size) {
+    return glm::max(size, glm::ivec2(1));
+}
+
+std::string_view name_of(Eye eye) {
+    return eye == Eye::left ? "left" : eye == Eye::right ? "right" : "centre";
+}
+
+} // namespace
+
+Display::Display(const render::Gl& gl, GlContext& context, Window window,
+                 const DisplayOptions& options)
+    : gl_(&gl), context_(&context), window_(std::move(window)), options_(options), anaglyph_(gl),
+      composed_(gl, at_least_one(context.framebuffer_size())), targets_(window_.viewports.size()) {
+    composed_.clear({0.0f, 0.0f, 0.0f, 1.0f});
+}
+
+void Display::draw(const interaction::Pose& head, float eye_separation, StereoMode mode,
+                   const Scene& scene, const Overlay& overlay) {
+    const glm::ivec2 size = context_->framebuffer_size();
+    if (size.x < 1 || size.y < 1)
+        return;
+    mode_ = mode;
+    composed_.resize(size);
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        const Viewport& viewport = window_.viewports[i];
+        EyeTargets drawn;
+        for (const Eye eye : eyes_of(mode)) {
+            const glm::ivec2 pixels = region_of(viewport, eye).size;
+            const auto slot = static_cast<std::size_t>(eye);
+            std::optional<render::RenderTarget>& target = drawn[slot];
+            target = std::exchange(targets_[i][slot], std::nullopt);
+            if (target)
+                target->resize(pixels);
+            else
+                target.emplace(*gl_, pixels);
+            target->clear(glm::vec4(options_.background, 1.0f));
+            target->bind();
+            scene(view_of(viewport.screen, head, eye, eye_separation, options_.near_plane,
+                          options_.far_plane, pixels),
+                  eye);
+        }
+        targets_[i] = std::move(drawn); // eyes no longer shown give their memory back
+    }
+    compose(overlay);
+}
+
+void Display::draw_overlay_again(const Overlay& overlay) {
+    const glm::ivec2 size = context_->framebuffer_size();
+    if (size == composed_.size())
+        compose(overlay);
+}
+
+Display::Region Display::region_of(const Viewport& viewport, Eye eye) const {
+    glm::ivec2 corner(0), size = composed_.size();
+    if (mode_ == StereoMode::side_by_side) {
+        const int half = size.x / 2;
+        corner.x = eye == Eye::left ? 0 : size.x - half;
+        size.x = half;
+    } else if (mode_ == StereoMode::top_bottom) {
+        const int half = size.y / 2;
+        corner.y = eye == Eye::left ? size.y - half : 0;
+        size.y = half;
+    }
+    // Both edges are rounded, so that neighbouring viewports neither overlap nor gape.
+    const glm::ivec2 low(glm::round(viewport.position * glm::vec2(size)));
+    const glm::ivec2 high(glm::round((viewport.position + viewport.size) * glm::vec2(size)));
+    return {corner + low, at_least_one(high - low)};
+}
+
+bool Display::fills_window() const {
+    if (targets_.size() != 1)
+        return false;
+    int area = 0;
+    for (const Eye eye : eyes_of(mode_)) {
+        const glm::ivec2 covered = region_of(window_.viewports.front(), eye).size;
+        area += covered.x * covered.y;
+    }
+    if (mode_ == StereoMode::anaglyph_red_cyan)
+        area /= 2; // both eyes share one region
+    return area == composed_.size().x * composed_.size().y;
+}
+
+void Display::compose(const Overlay& overlay) {
+    // A clear costs as much as a copy in software GL, so it is left out where it would not be seen.
+    if (!fills_window())
+        composed_.clear({0.0f, 0.0f, 0.0f, 1.0f});
+    gl_->Disable(GL_SCISSOR_TEST);
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        const Viewport& viewport = window_.viewports[i];
+        if (mode_ == StereoMode::anaglyph_red_cyan) {
+            const Region region = region_of(viewport, Eye::left);
+            composed_.bind();
+            gl_->Viewport(region.corner.x, region.corner.y, region.size.x, region.size.y);
+            anaglyph_.draw(eye_target(Eye::left, i), eye_target(Eye::right, i), region.corner);
+            continue;
+        }
+        for (const Eye eye : eyes_of(mode_)) {
+            const Region region = region_of(viewport, eye);
+            const glm::ivec2 end = region.corner + region.size;
+            gl_->BlitNamedFramebuffer(eye_target(eye, i).framebuffer(), composed_.framebuffer(), 0,
+                                      0, region.size.x, region.size.y, region.corner.x,
+                                      region.corner.y, end.x, end.y, GL_COLOR_BUFFER_BIT,
+                                      GL_NEAREST);
+        }
+    }
+    if (overlay) {
+        composed_.bind();
+        overlay(composed_.size());
+    }
+}
+
+void Display::present() {
+    if (!context_->has_window())
+        return;
+    const glm::ivec2 size = composed_.size();
+    gl_->Disable(GL_SCISSOR_TEST);
+    gl_->BlitNamedFramebuffer(composed_.framebuffer(), 0, 0, 0, size.x, size.y, 0, 0, size.x,
+                              size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    context_->present();
+}
+
+const render::RenderTarget& Display::eye_target(Eye eye, std::size_t viewport) const {
+    if (viewport >= targets_.size())
+        throw render::Error(fmt::format("window {}: viewport {} asked for, there are {}",
+                                        window_.name, viewport, targets_.size()));
+    const auto& target = targets_[viewport][static_cast<std::size_t>(eye)];
+    if (!target)
+        throw render::Error(fmt::format("window {}: the {} eye's picture asked for, mode {} does "
+                                        "not draw it",
+                                        window_.name, name_of(eye), stereo::name_of(mode_)));
+    return *target;
+}
+
+render::Image Display::read_eye(Eye eye, std::size_t viewport) const {
+    return eye_target(eye, viewport).read();
+}
+
+} // namespace isochron::stereo

@@ -1,0 +1,89 @@
+// Draws a window: every eye of every viewport, composed as the stereo mode wants it, and presented.
+//
+//     Display display(gl, *context, installation.windows.front(), {});
+//     display.draw(head, 0.063f, StereoMode::side_by_side,
+//                  [&](const render::View& view, Eye) { pass.draw(view); }, draw_panel);
+//     display.present();
+#pragma once
+
+#include "render/image.h"
+#include "render/render_target.h"
+#include "stereo/anaglyph.h"
+#include "stereo/gl_context.h"
+#include "stereo/installation.h"
+#include "stereo/screen.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace isochron::stereo {
+
+struct DisplayOptions {
+    float near_plane = 0.05f, far_plane = 50.0f; ///< [m] along a screen's normal
+    glm::vec3 background{0.0f};                  ///< sRGB, 0 to 1
+};
+
+/// One window; an installation with several windows has one display, and one context, for each.
+///
+/// `side_by_side` and `top_bottom` give each eye half the window, left eye left or on top. A screen
+/// that is a wall is squeezed into its half, as projectors and televisions expect that stretch each
+/// half over the whole wall again; a `fit_aspect` screen takes the aspect of the half, so that
+/// shapes stay round on a monitor.
+class Display {
+  public:
+    /// Draws one eye: the target is bound, cleared to the background, and its viewport set.
+    using Scene = std::function<void(const render::View&, Eye)>;
+    /// Draws over the composed window (a panel), which is bound; gets its size in pixels.
+    using Overlay = std::function<void(glm::ivec2)>;
+
+    /// @param gl, context current, and outlive the display
+    Display(const render::Gl& gl, GlContext& context, Window window, const DisplayOptions& options);
+
+    /// Draws one frame at the present size of the framebuffer: each eye that the mode shows, of
+    /// each viewport, exactly once; then the overlay. A minimised window draws nothing.
+    void draw(const interaction::Pose& head, float eye_separation, StereoMode mode,
+              const Scene& scene, const Overlay& overlay = {});
+
+    /// Composes the eyes drawn last once more, with a new overlay: for frames in which nothing that
+    /// the eyes see has changed.
+    void draw_overlay_again(const Overlay& overlay);
+
+    /// Shows the frame drawn last; without a window there is nothing to do.
+    void present();
+
+    glm::ivec2 size() const { return composed_.size(); } ///< of the frame drawn last, pixels
+
+    /// The whole window as drawn last, with the overlay.
+    render::Image read_window() const { return composed_.read(); }
+    /// One eye's picture of a viewport at its own resolution, without the overlay.
+    /// @throws render::Error when the frame drawn last did not show that eye
+    render::Image read_eye(Eye eye, std::size_t viewport = 0) const;
+
+  private:
+    /// Part of the composed window, pixels from the lower left.
+    struct Region {
+        glm::ivec2 corner, size;
+    };
+    using EyeTargets = std::array<std::optional<render::RenderTarget>, 3>; ///< by Eye
+
+    Region region_of(const Viewport& viewport, Eye eye) const;
+    const render::RenderTarget& eye_target(Eye eye, std::size_t viewport) const;
+    bool fills_window() const; ///< the eyes' regions leave no pixel of the window free
+    void compose(const Overlay& overlay);
+
+    const render::Gl* gl_;
+    GlContext* context_;
+    Window window_;
+    DisplayOptions options_;
+    Anaglyph anaglyph_;
+    StereoMode mode_ = StereoMode::mono; ///< of the frame drawn last
+    render::RenderTarget composed_;
+    std::vector<EyeTargets> targets_; ///< by viewport
+};
+
+} // namespace isochron::stereo

@@ -1,0 +1,118 @@
+// Frusta from screen corners and eye positions.
+#include "stereo/screen.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::stereo {
+namespace {
+
+/// A screen as its middle, unit axes (right, up, towards the viewer) and half sizes. Doubles, so
+/// that corners stay sharp where screens are large and eyes near.
+struct Plane {
+    glm::dvec3 middle, right, up, normal;
+    double half_width, half_height;
+};
+
+Plane plane_of(const Screen& screen) {
+    const glm::dvec3 across = glm::dvec3(screen.upper_right) - glm::dvec3(screen.upper_left);
+    const glm::dvec3 upwards = glm::dvec3(screen.upper_left) - glm::dvec3(screen.lower_left);
+    const glm::dvec3 right = glm::normalize(across);
+    const glm::dvec3 up = glm::normalize(upwards);
+    return {0.5 * (glm::dvec3(screen.lower_left) + glm::dvec3(screen.upper_right)),
+            right,
+            up,
+            glm::normalize(glm::cross(right, up)),
+            0.5 * glm::length(across),
+            0.5 * glm::length(upwards)};
+}
+
+Screen in_room(Screen screen, const interaction::Pose& head) {
+    if (screen.carried_by_head)
+        for (glm::vec3* corner : {&screen.lower_left, &screen.upper_left, &screen.upper_right})
+            *corner = head.position + head.orientation * *corner;
+    return screen;
+}
+
+bool finite(glm::vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+} // namespace
+
+glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separation) {
+    const float side = eye == Eye::left ? -0.5f : eye == Eye::right ? 0.5f : 0.0f;
+    return head.position + head.orientation * glm::vec3(side * eye_separation, 0.0f, 0.0f);
+}
+
+render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
+                     float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels) {
+    Plane plane = plane_of(in_room(screen, head));
+    if (screen.fit_aspect) {
+        const double aspect = static_cast<double>(pixels.x) / std::max(pixels.y, 1);
+        if (plane.half_width < plane.half_height * aspect)
+            plane.half_width = plane.half_height * aspect;
+        else
+            plane.half_height = plane.half_width / aspect;
+    }
+
+    glm::dvec3 position(eye_position(head, eye, eye_separation));
+    double distance = glm::dot(position - plane.middle, plane.normal);
+    if (distance < kNearestEye) {
+        position += (kNearestEye - distance) * plane.normal;
+        distance = kNearestEye;
+    }
+    const glm::dvec3 to_middle = plane.middle - position;
+    const double x = glm::dot(to_middle, plane.right), y = glm::dot(to_middle, plane.up);
+    const double scale = near_plane / distance;
+    const glm::dmat4 clip_from_eye =
+        glm::frustum(scale * (x - plane.half_width), scale * (x + plane.half_width),
+                     scale * (y - plane.half_height), scale * (y + plane.half_height),
+                     static_cast<double>(near_plane), static_cast<double>(far_plane));
+    const glm::dmat4 room_from_axes(glm::dvec4(plane.right, 0.0), glm::dvec4(plane.up, 0.0),
+                                    glm::dvec4(plane.normal, 0.0), glm::dvec4(0, 0, 0, 1));
+    const glm::dmat4 eye_from_room = glm::translate(glm::transpose(room_from_axes), -position);
+    return {glm::mat4(clip_from_eye), glm::mat4(eye_from_room), pixels};
+}
+
+glm::vec2 size_of(const Screen& screen) {
+    return {glm::distance(screen.upper_left, screen.upper_right),
+            glm::distance(screen.lower_left, screen.upper_left)};
+}
+
+std::vector<std::string> problems(const Screen& screen, glm::vec3 viewer) {
+    for (const glm::vec3& corner : {screen.lower_left, screen.upper_left, screen.upper_right})
+        if (!finite(corner))
+            return {"a corner is not a number"};
+    const glm::vec2 size = size_of(screen);
+    if (!(size.x > 1e-4f) || !(size.y > 1e-4f))
+        return {fmt::format("it is {:.3g} x {:.3g} m in size: two of its corners are the same",
+                            size.x, size.y)};
+
+    std::vector<std::string> found;
+    const Plane plane = plane_of(screen);
+    const double cosine = std::clamp(glm::dot(plane.right, plane.up), -1.0, 1.0);
+    const double angle = glm::degrees(std::acos(-cosine));
+    if (std::abs(angle - 90.0) > 1.0)
+        found.push_back(
+            fmt::format("the corner at upper_left has {:.1f} degrees, expected 90", angle));
+    if (std::abs(cosine) > 0.999)
+        return found; // flat as a line: it faces nowhere
+    if (screen.carried_by_head)
+        viewer = glm::vec3(0.0f);
+    if (glm::dot(glm::dvec3(viewer) - plane.middle, plane.normal) <= 0.0)
+        found.push_back(fmt::format("it is mirrored: {} ({:g} {:g} {:g}) sees it from behind, "
+                                    "with left and right exchanged",
+                                    screen.carried_by_head ? "the head" : "a viewer at", viewer.x,
+                                    viewer.y, viewer.z));
+    if (plane.up.y < -0.5)
+        found.push_back("it is upside down: upper_left is below lower_left");
+    return found;
+}
+
+} // namespace isochron::stereo

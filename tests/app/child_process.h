@@ -1,0 +1,31 @@
+// Runs a program in a folder of its own, for tests of the command line.
+#pragma once
+
+#include "tests/support/test_folder.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isochron::app {
+
+using test_support::TestFolder;
+
+struct ChildOptions {
+    std::string out{};              ///< file for its stdout instead of the result
+    std::uint64_t largest_file = 0; ///< [bytes] no file can grow beyond, as on a full disk; 0: any
+    std::string interrupt_after{};  ///< SIGINT once this stands on its stderr
+};
+
+struct ChildResult {
+    int status = -1; ///< exit status; 1000 + signal when one killed it
+    std::string out, err;
+};
+
+/// Waits for its end. @throws std::runtime_error when it cannot be started
+ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments,
+                      const std::filesystem::path& folder, const ChildOptions& options = {});
+
+} // namespace isochron::app

@@ -1,0 +1,120 @@
+// Configuration files: what is shipped is valid, and what is wrong is named with its place.
+#include "app/config.h"
+#include "app/toml_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace isochron::app {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(const std::string& text) {
+    try {
+        parse_config(text, "lab.toml");
+    } catch (const ConfigError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Config, EveryShippedFileIsValid) {
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(SOURCE_ROOT "/configs"))
+        if (entry.path().extension() == ".toml") {
+            EXPECT_NO_THROW(read_config(entry.path())) << entry.path();
+            ++files;
+        }
+    EXPECT_GE(files, 3);
+}
+
+TEST(Config, ValuesArrive) {
+    const Config config = parse_config(R"(
+[viewer]
+eye_separation = 0.05
+position = [1, 2.5, -3]
+[[windows]]
+size = [640, 480]
+stereo = "top_bottom"
+[[windows.viewports]]
+[windows.viewports.projection]
+carried_by = "head"
+upper_left = [-2, 1, -1]
+[quality]
+settle_ms = 300
+mode = "fast"
+)",
+                                       "lab.toml");
+    EXPECT_FLOAT_EQ(config.installation.eye_separation, 0.05f);
+    EXPECT_EQ(config.emulation.head.position, glm::vec3(1.0f, 2.5f, -3.0f));
+    ASSERT_EQ(config.installation.windows.size(), 1u);
+    const stereo::Window& window = config.installation.windows[0];
+    EXPECT_EQ(window.size, glm::ivec2(640, 480));
+    EXPECT_EQ(window.stereo, stereo::StereoMode::top_bottom);
+    EXPECT_TRUE(window.viewports[0].screen.carried_by_head);
+    EXPECT_EQ(window.viewports[0].screen.upper_left, glm::vec3(-2.0f, 1.0f, -1.0f));
+    EXPECT_DOUBLE_EQ(config.stillness.settle.count(), 0.3);
+    EXPECT_EQ(config.quality, interaction::QualityMode::fast);
+}
+
+TEST(Config, UnknownKeyNamesLineAndNearestKey) {
+    EXPECT_EQ(
+        error_of("version = 1\n[viewer]\neye_seperation = 0.06\n"),
+        "lab.toml:3: unknown key 'eye_seperation' in [viewer]; did you mean 'eye_separation'?");
+}
+
+TEST(Config, UnknownWordNamesTheWordsAndTheNearest) {
+    const std::string error = error_of("[[windows]]\nstereo = \"side_by_sid\"\n");
+    EXPECT_THAT(error, HasSubstr("lab.toml:2: windows.stereo: unknown value 'side_by_sid'"));
+    EXPECT_THAT(error, HasSubstr("did you mean 'side_by_side'?"));
+}
+
+TEST(Config, ValueOutOfRangeSaysWhatIsExpected) {
+    EXPECT_EQ(error_of("[viewer]\neye_separation = 0.5\n"),
+              "lab.toml:2: viewer.eye_separation: expected a number from 0 to 0.1, got 0.5");
+    EXPECT_THAT(error_of("[viewer]\neye_separation = nan\n"), HasSubstr("lab.toml:2"));
+}
+
+TEST(Config, WrongTypeSaysBoth) {
+    EXPECT_EQ(error_of("[viewer]\neye_separation = \"wide\"\n"),
+              "lab.toml:2: viewer.eye_separation: expected a number, got a string");
+    EXPECT_THAT(error_of("[viewer]\nposition = [0, 1]\n"),
+                HasSubstr("expected an array of 3 numbers"));
+    EXPECT_THAT(error_of("viewer = 3\n"), HasSubstr("lab.toml:1: viewer: expected a table"));
+    EXPECT_THAT(error_of("[[windows]]\nfullscreen = 1\n"), HasSubstr("expected true or false"));
+}
+
+TEST(Config, SyntaxErrorNamesTheLine) {
+    EXPECT_THAT(error_of("version = 1\n[viewer\n"), HasSubstr("lab.toml:2"));
+}
+
+TEST(Config, NewerVersionIsRefused) {
+    EXPECT_THAT(error_of("version = 2\n"), HasSubstr("lab.toml:1: version"));
+}
+
+TEST(Config, FlatScreenIsRefused) {
+    EXPECT_THAT(error_of("[[windows]]\n[[windows.viewports]]\n[windows.viewports.projection]\n"
+                         "lower_left = [0,0,0]\nupper_left = [0,0,0]\nupper_right = [1,0,0]\n"),
+                HasSubstr("0 m high"));
+}
+
+TEST(Config, AScreenThatIsNoRectangleIsWarnedOf) {
+    const Config skewed = parse_config("[[windows]]\nname = \"west\"\n[[windows.viewports]]\n"
+                                       "[windows.viewports.projection]\nlower_left = [-1, 1, -1]\n"
+                                       "upper_left = [-0.5, 2, -1]\nupper_right = [1, 2, -1]\n",
+                                       "lab.toml");
+    ASSERT_EQ(screen_warnings(skewed).size(), 1u);
+    EXPECT_THAT(screen_warnings(skewed).front(), HasSubstr("lab.toml: window west: "));
+    EXPECT_TRUE(screen_warnings(read_config(SOURCE_ROOT "/configs/powerwall.toml")).empty());
+}
+
+TEST(Config, NearestWordIsSilentAboutStrangers) {
+    EXPECT_EQ(nearest_word("settle", {"settle_ms", "mode"}), "settle_ms");
+    EXPECT_EQ(nearest_word("xyzzy", {"settle_ms", "mode"}), "");
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,190 @@
+// Devices move the volume: orbit, move, scale, fly, grab, reset.
+#include "tests/interaction/control_desk.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace isochron::interaction {
+namespace {
+
+TEST(Controls, RestChangesNothing) {
+    Desk desk;
+    for (int frame = 0; frame < 10; ++frame)
+        EXPECT_TRUE(desk.frame({head_at(kStanding), wand_at(kStanding), keys_down(0),
+                                mouse_dragged(std::vector<float>(kMouseValuators, 0.0f))})
+                        .empty());
+    EXPECT_TRUE(desk.frame({}).empty());
+}
+
+TEST(Controls, OrbitKeepsTheCentreAndTheSize) {
+    for (unsigned seed = 0; seed < 50; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        Desk desk;
+        const glm::dvec3 centre = desk.centre();
+        const Pose head{{float(uniform(random, -1, 1)), 1.5f, 0.3f}, random_rotation(random)};
+        for (int frame = 0; frame < 100; ++frame)
+            desk.frame({head_at(head), mouse_dragged({float(uniform(random, -0.2, 0.2)),
+                                                      float(uniform(random, -0.2, 0.2))})});
+        expect_near(desk.centre(), centre);
+        EXPECT_NEAR(desk.volume().scale, 0.01, 1e-12);
+        EXPECT_NEAR(glm::length(desk.volume().rotation), 1.0, 1e-12);
+    }
+}
+
+TEST(Controls, OrbitTurnsTheFrontWithTheCursor) {
+    Desk desk;
+    const glm::dvec3 front = physical(desk.volume(), desk.centre() + glm::dvec3(0, 0, 0.3));
+    desk.frame({head_at(kStanding), mouse_dragged({0.1f, 0.0f})});
+    EXPECT_GT(transform(desk.volume(), front).x, desk.centre().x + 0.05);
+    desk.frame({head_at(kStanding), mouse_dragged({-0.1f, 0.1f})});
+    EXPECT_LT(transform(desk.volume(), front).y, desk.centre().y - 0.05);
+}
+
+TEST(Controls, MovingKeepsTheCentreUnderTheCursor) {
+    for (const bool by_shift : {false, true}) {
+        Desk desk;
+        const glm::dvec3 before = desk.centre();
+        const double distance = glm::length(before - glm::dvec3(kStanding.position));
+        if (by_shift)
+            desk.frame(
+                {head_at(kStanding), keys_down(bit(Action::shift)), mouse_dragged({0.1f, 0.2f})});
+        else
+            desk.frame({head_at(kStanding), mouse_dragged({0, 0, 0, 0, 0.1f, 0.2f})});
+        const double height = 2 * distance * std::tan(0.45);
+        expect_near(desk.centre() - before, {0.1 * height, -0.2 * height, 0}, 1e-3);
+        EXPECT_EQ(desk.volume().rotation, desk.context.home.rotation);
+    }
+}
+
+TEST(Controls, WheelScalesAboutTheCentreWithinBounds) {
+    Desk desk;
+    const glm::dvec3 centre = desk.centre();
+    std::vector<float> wheel(kMouseValuators, 0.0f);
+    wheel[kMouseWheel] = 1;
+    desk.frame({mouse_dragged(wheel)});
+    EXPECT_NEAR(desk.volume().scale, 0.011, 1e-12);
+    for (const float notches : {50.0f, -50.0f, 1e30f, -1e30f}) {
+        wheel[kMouseWheel] = notches;
+        for (int i = 0; i < 20; ++i)
+            desk.frame({mouse_dragged(wheel)});
+        EXPECT_GE(desk.volume().scale, 0.01e-3 * (1 - 1e-12));
+        EXPECT_LE(desk.volume().scale, 0.01e3 * (1 + 1e-12));
+        expect_near(desk.centre(), centre, 1e-6);
+    }
+}
+
+TEST(Controls, TheScaleValuatorDoublesInASecond) {
+    for (const int rate : {20, 60, 144}) {
+        Desk desk;
+        desk.frame({});
+        for (int frame = 0; frame < rate; ++frame)
+            desk.frame({wand_at(kStanding, 0, 0, 1)}, 1.0 / rate);
+        EXPECT_NEAR(desk.volume().scale, 0.02, 1e-6);
+    }
+}
+
+TEST(Controls, FlyingMovesTheVolumeAgainstTheWand) {
+    Desk desk;
+    desk.frame({});
+    const Pose wand{{0.3f, 1.2f, 0}, glm::angleAxis(1.0f, glm::vec3(0, 1, 0))};
+    const glm::dvec3 before = desk.volume().translation;
+    for (int frame = 0; frame < 30; ++frame)
+        desk.frame({wand_at(wand, bit(WandButton::fly))});
+    const glm::dvec3 direction = glm::dquat(wand.orientation) * glm::dvec3(0, 0, -1);
+    expect_near(desk.volume().translation - before, -0.5 * direction, 1e-6);
+}
+
+TEST(Controls, AGrabbedVolumeKeepsItsPlaceInTheHand) {
+    for (unsigned seed = 0; seed < 50; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        Desk desk;
+        Pose wand{{0.2f, 1.3f, -0.4f}, random_rotation(random)};
+        desk.frame({wand_at(wand, bit(WandButton::grab))});
+        const glm::dmat4 in_hand =
+            glm::inverse(glm::dmat4(room_from(wand))) * matrix(desk.volume());
+        for (int frame = 0; frame < 200; ++frame) {
+            wand = {{float(uniform(random, -1, 1)), float(uniform(random, 0, 2)), 0},
+                    random_rotation(random)};
+            desk.frame({wand_at(wand, bit(WandButton::grab))});
+        }
+        const glm::dmat4 now = glm::inverse(glm::dmat4(room_from(wand))) * matrix(desk.volume());
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j)
+                EXPECT_NEAR(now[i][j], in_hand[i][j], 1e-5);
+        EXPECT_EQ(desk.volume().scale, 0.01);
+        const Similarity let_go = desk.volume();
+        wand.position.x += 1;
+        desk.frame({wand_at(wand)});
+        EXPECT_EQ(desk.volume(), let_go);
+    }
+}
+
+TEST(Controls, AWandThatIsLostWhileGrabbingDoesNotThrowTheVolume) {
+    Desk desk;
+    DeviceState wand = wand_at(kStanding, bit(WandButton::grab));
+    desk.frame({wand});
+    wand.pose_valid = false;
+    wand.pose->position.x = 2;
+    EXPECT_TRUE(desk.frame({wand}).empty());
+    wand.pose_valid = true;
+    EXPECT_TRUE(desk.frame({wand}).empty());
+    wand.pose->position.x = 2.1f;
+    desk.frame({wand});
+    expect_near(desk.volume().translation - desk.context.home.translation, {0.1, 0, 0}, 1e-6);
+}
+
+TEST(Controls, ScalingWhileGrabbingKeepsBoth) {
+    Desk desk;
+    Pose hand = kStanding;
+    desk.frame({wand_at(hand, bit(WandButton::grab))});
+    for (int frame = 0; frame < 60; ++frame)
+        desk.frame({wand_at(hand, bit(WandButton::grab), 0, 1)});
+    EXPECT_NEAR(desk.volume().scale, 0.02, 1e-6);
+    const glm::dvec3 before = desk.volume().translation;
+    hand.position.y += 0.5f;
+    desk.frame({wand_at(hand, bit(WandButton::grab))});
+    expect_near(desk.volume().translation - before, {0, 0.5, 0}, 1e-6);
+}
+
+TEST(Controls, ResetReturnsHome) {
+    Desk desk;
+    desk.frame({head_at(kStanding), mouse_dragged({0.3f, 0.2f, 0.1f, 0.1f, 0, 0, 3})});
+    ASSERT_NE(desk.volume(), desk.context.home);
+    desk.tap(bit(Action::reset));
+    EXPECT_EQ(desk.volume(), desk.context.home);
+    EXPECT_FALSE(desk.tap(bit(Action::reset)).room_from_physical);
+}
+
+TEST(Controls, NothingEverMakesTheVolumeInvalid) {
+    const float inf = std::numeric_limits<float>::infinity();
+    const float odd[] = {std::nanf(""), inf, -inf, 1e38f, -1e38f, 0.0f, 1e-45f, 0.5f};
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        const auto any = [&] { return odd[random() % std::size(odd)]; };
+        Desk desk;
+        for (int frame = 0; frame < 100; ++frame) {
+            const Pose wild{{any(), any(), any()}, glm::quat(any(), any(), any(), any())};
+            std::vector<float> mouse(kMouseValuators);
+            for (float& value : mouse)
+                value = any();
+            desk.frame({head_at(random() % 2 ? wild : kStanding),
+                        wand_at(random() % 2 ? wild : kStanding, random(), any(), any()),
+                        mouse_dragged(mouse),
+                        keys_down(random()),
+                        {"gamepad", std::nullopt, true, random(), {any(), any(), any(), any()}}},
+                       uniform(random, 0, 1));
+            ASSERT_TRUE(is_valid(desk.volume()));
+            ASSERT_NEAR(glm::length(desk.volume().rotation), 1.0, 1e-9);
+            ASSERT_GE(desk.context.isovalue, 0);
+            ASSERT_LE(desk.context.isovalue, 100);
+            ASSERT_LT(desk.context.step, 5u);
+        }
+    }
+}
+
+} // namespace
+} // namespace isochron::interaction

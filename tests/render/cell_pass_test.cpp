@@ -1,0 +1,182 @@
+// The two renderers: depth, order, light, large sets, and how often they sort.
+#include "render/cell_pass.h"
+#include "render/render_target.h"
+#include "tests/render/gl_test.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+
+namespace isochron::render {
+namespace {
+
+constexpr int kSize = 101;
+
+class CellPasses : public GlTest {
+  protected:
+    /// The volume's z axis goes away from the eye at (0.5, 0.5) of x and y; one voxel is a metre.
+    CellPasses() {
+        view_.size = {kSize, kSize};
+        view_.clip_from_eye = glm::perspective(0.5f, 1.0f, 0.1f, 200.0f);
+        placement_.room_from_index = glm::scale(
+            glm::translate(glm::mat4(1.0f), glm::vec3(-0.5f, -0.5f, -20.0f)), glm::vec3(1, 1, -1));
+        placement_.room_from_physical = glm::mat3(glm::scale(glm::mat4(1.0f), glm::vec3(1, 1, -1)));
+        placement_.extent = glm::vec3(40.0f);
+        appearance_.depth_cue = 0.0f;
+        appearance_.specular = 0.0f;
+        target_.bind();
+        target_.clear({0, 0, 0, 0});
+    }
+    void draw(const CellBuffers& cells, Footprint footprint) {
+        pass_.draw(view_, placement_, cells, footprint, appearance_);
+    }
+    int red(int x, int y) { return target_.read().at(x, y)[0]; }
+    int red_in_the_middle() { return red(kSize / 2, kSize / 2); }
+    float depth_in_the_middle() {
+        float depth = 0.0f;
+        target_.bind();
+        gl_.ReadPixels(kSize / 2, kSize / 2, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+        return depth;
+    }
+    float depth_of_cell(int z) {
+        const glm::vec4 p = view_.clip_from_eye * view_.eye_from_room * placement_.room_from_index *
+                            glm::vec4(0.5f, 0.5f, static_cast<float>(z) + 0.5f, 1.0f);
+        return 0.5f + 0.5f * p.z / p.w;
+    }
+    /// The mark that tells two cells apart: how they face the light.
+    static constexpr glm::vec3 kFacing{0, 0, 1}, kEdgeOn{1, 0, 0};
+    index::CellSetPtr marked(int facing_z, int edge_on_z) {
+        auto set = std::make_shared<index::CellSet>();
+        for (const int z : {std::min(facing_z, edge_on_z), std::max(facing_z, edge_on_z)})
+            set->points.push_back(
+                {0, 0, std::uint16_t(z), 0, packed_normal(z == facing_z ? kFacing : kEdgeOn)});
+        return set;
+    }
+
+    View view_;
+    Placement placement_;
+    CellAppearance appearance_;
+    RenderTarget target_{gl_, {kSize, kSize}};
+    CellPass pass_{gl_};
+};
+
+TEST_P(CellPasses, QuadsWriteTheDepthOfTheirCellsCentre) {
+    draw(showing(gl_, cell_set({{0, 0, 7}})), Footprint::quad);
+    EXPECT_NEAR(depth_in_the_middle(), depth_of_cell(7), 1e-6f);
+}
+
+TEST_P(CellPasses, TheNearerQuadIsSeenWhicheverComesFirst) {
+    for (const auto& [facing, edge_on] : {std::pair{3, 6}, std::pair{6, 3}}) {
+        target_.clear({0, 0, 0, 0});
+        draw(showing(gl_, marked(facing, edge_on)), Footprint::quad);
+        EXPECT_NEAR(depth_in_the_middle(), depth_of_cell(3), 1e-6f);
+        EXPECT_EQ(red_in_the_middle() > 150, facing < edge_on);
+    }
+}
+
+TEST_P(CellPasses, TheNearerSplatLiesOverTheOtherFromEitherSide) {
+    for (const bool from_behind : {false, true})
+        for (const auto& [facing, edge_on] : {std::pair{3, 6}, std::pair{6, 3}}) {
+            view_.eye_from_room = from_behind ? glm::lookAt(glm::vec3(0, 0, -60),
+                                                            glm::vec3(0, 0, 0), glm::vec3(0, 1, 0))
+                                              : glm::mat4(1.0f);
+            target_.clear({0, 0, 0, 0});
+            draw(showing(gl_, marked(facing, edge_on)), Footprint::gaussian);
+            EXPECT_EQ(red_in_the_middle() > 150, (facing < edge_on) != from_behind);
+        }
+}
+
+TEST_P(CellPasses, SplatsAreHiddenBehindQuadsAndLeaveTheirDepth) {
+    draw(showing(gl_, cell_set({{0, 0, 3}}, packed_normal(kFacing))), Footprint::quad);
+    const int before = red_in_the_middle();
+    const float depth = depth_in_the_middle();
+    draw(showing(gl_, cell_set({{0, 0, 9}}, packed_normal(kEdgeOn))), Footprint::gaussian);
+    EXPECT_EQ(red_in_the_middle(), before);
+    draw(showing(gl_, cell_set({{0, 0, 1}}, packed_normal(kEdgeOn))), Footprint::gaussian);
+    EXPECT_LT(red_in_the_middle(), before);
+    EXPECT_EQ(depth_in_the_middle(), depth);
+}
+
+TEST_P(CellPasses, BothSidesOfACellAreLitAlikeAndOneWithoutNormalFacesTheViewer) {
+    std::vector<int> reds;
+    for (const std::uint32_t normal : {packed_normal(kFacing), packed_normal(-kFacing), 0u}) {
+        target_.clear({0, 0, 0, 0});
+        draw(showing(gl_, cell_set({{0, 0, 3}}, normal)), Footprint::quad);
+        reds.push_back(red_in_the_middle());
+    }
+    EXPECT_NEAR(reds[0], reds[1], 1);
+    EXPECT_NEAR(reds[0], reds[2], 1);
+    EXPECT_NEAR(reds[0], 255 * appearance_.color.x, 3); // full light gives the colour itself
+}
+
+TEST_P(CellPasses, LightFallsOffWithTheAngleOfTheNormal) {
+    appearance_.ambient = 0.0f;
+    appearance_.diffuse = 1.0f;
+    appearance_.color = glm::vec3(1.0f);
+    // A zero normal would face the viewer, so the angles stay below a right one.
+    for (const float angle : {0.0f, 0.5f, 1.0f, 1.4f}) {
+        target_.clear({0, 0, 0, 0});
+        const glm::vec3 normal(std::sin(angle), 0.0f, std::cos(angle));
+        draw(showing(gl_, cell_set({{0, 0, 3}}, packed_normal(normal))), Footprint::quad);
+        EXPECT_NEAR(red_in_the_middle(), 255 * std::pow(std::cos(angle), 1.0f / 2.2f), 2) << angle;
+    }
+}
+
+TEST_P(CellPasses, NormalsTurnWithTheVolume) {
+    const glm::mat4 quarter = glm::rotate(glm::mat4(1.0f), glm::radians(90.0f), glm::vec3(0, 1, 0));
+    placement_.room_from_physical = glm::mat3(quarter) * placement_.room_from_physical;
+    draw(showing(gl_, cell_set({{0, 0, 3}}, packed_normal(kEdgeOn))), Footprint::quad);
+    EXPECT_NEAR(red_in_the_middle(), 255 * appearance_.color.x, 3);
+}
+
+TEST_P(CellPasses, EveryCellOfALargeSetIsDrawn) {
+    // More than one batch of quads: the last cells alone are in view.
+    std::vector<glm::ivec3> cells(40000, glm::ivec3(0, 30000, 1));
+    cells.back() = {0, 0, 5};
+    for (const Footprint footprint : {Footprint::quad, Footprint::gaussian}) {
+        target_.clear({0, 0, 0, 0});
+        placement_.extent = glm::vec3(1, 30001, 40);
+        draw(showing(gl_, cell_set(cells, packed_normal(kFacing))), footprint);
+        EXPECT_GT(red_in_the_middle(), 150);
+    }
+}
+
+TEST_P(CellPasses, AStandingPairOfEyesSortsNothingAndEyesInOneCellShare) {
+    const CellBuffers cells = showing(gl_, cell_set({{0, 0, 3}, {1, 2, 3}, {1, 2, 7}}));
+    const View left = view_;
+    View right = view_;
+    right.eye_from_room = glm::translate(glm::mat4(1.0f), glm::vec3(-1.2f, 0, 0));
+    for (int frame = 0; frame < 5; ++frame) {
+        pass_.draw(left, placement_, cells, Footprint::gaussian);
+        pass_.draw(right, placement_, cells, Footprint::gaussian);
+    }
+    EXPECT_EQ(pass_.orders().sorts(), 2u);
+    right.eye_from_room = glm::translate(glm::mat4(1.0f), glm::vec3(-0.06f, 0, 0));
+    pass_.draw(right, placement_, cells, Footprint::gaussian);
+    EXPECT_EQ(pass_.orders().sorts(), 2u);
+}
+
+TEST_P(CellPasses, ANewSetIsSortedAnew) {
+    CellBuffers cells = showing(gl_, marked(3, 6));
+    draw(cells, Footprint::gaussian);
+    cells.upload(marked(6, 3), 1 << 20);
+    target_.clear({0, 0, 0, 0});
+    draw(cells, Footprint::gaussian);
+    EXPECT_EQ(pass_.orders().sorts(), 2u);
+    EXPECT_LT(red_in_the_middle(), 150);
+}
+
+TEST_P(CellPasses, NothingIsDrawnWithoutASetOrFromAnEmptyOne) {
+    CellBuffers cells(gl_);
+    draw(cells, Footprint::gaussian);
+    cells.upload(cell_set({}), 1 << 20);
+    draw(cells, Footprint::gaussian);
+    draw(cells, Footprint::quad);
+    for (const std::uint8_t value : target_.read().rgba)
+        ASSERT_EQ(value, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(, CellPasses, both_contexts(), context_name);
+
+} // namespace
+} // namespace isochron::render

@@ -1,0 +1,80 @@
+// Lines: where they are, how wide, and what they hide.
+#include "render/line_pass.h"
+#include "render/render_target.h"
+#include "tests/render/gl_test.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace isochron::render {
+namespace {
+
+class Lines : public GlTest {
+  protected:
+    Lines() {
+        view_.size = {100, 100};
+        view_.clip_from_eye = glm::perspective(glm::radians(90.0f), 1.0f, 0.1f, 10.0f);
+        target_.bind();
+        target_.clear({0, 0, 0, 0});
+    }
+    Image draw(const std::vector<Line>& lines, float width = 3.0f) {
+        pass_.draw(view_, glm::mat4(1.0f), lines, width);
+        return target_.read();
+    }
+    View view_;
+    RenderTarget target_{gl_, {100, 100}};
+    LinePass pass_{gl_};
+};
+
+TEST_P(Lines, CoverTheirProjectionAtTheirWidth) {
+    const Image image = draw({{{-0.5f, 0.2f, -1.0f}, {0.5f, 0.2f, -1.0f}, {1, 0, 0, 1}}});
+    double covered = 0.0;
+    for (int y = 0; y < 100; ++y) {
+        covered += image.at(50, y)[3] / 255.0;
+        if (image.at(50, y)[3] > 0) {
+            EXPECT_NEAR(y + 0.5, 40.0, 2.5);
+        }
+    }
+    EXPECT_NEAR(covered, 3.0, 0.3);
+    EXPECT_EQ(image.at(50, 40)[0], 255);
+    EXPECT_EQ(image.at(20, 40)[3], 0);
+    EXPECT_EQ(image.at(80, 40)[3], 0);
+}
+
+TEST_P(Lines, ThatPassTheEyeAreCutInFrontOfIt) {
+    const Image image = draw({{{0.0f, -0.3f, 1.0f}, {0.0f, -0.3f, -3.0f}, {0, 1, 0, 1}}});
+    EXPECT_EQ(image.at(50, 90)[1] > 100 || image.at(49, 90)[1] > 100, true);
+    for (int y = 0; y < 50; ++y)
+        for (int x = 0; x < 100; ++x)
+            ASSERT_EQ(image.at(x, y)[3], 0) << x << ' ' << y;
+    target_.clear({0, 0, 0, 0});
+    for (const std::uint8_t value : draw({{{0, 0, 1}, {1, 1, 2}, glm::vec4(1)}}).rgba)
+        ASSERT_EQ(value, 0);
+}
+
+TEST_P(Lines, HideWhatLiesBehindThemAndNothingBesides) {
+    draw({{{-0.5f, 0.0f, -1.0f}, {0.5f, 0.0f, -1.0f}, {1, 0, 0, 1}}}, 4.0f);
+    const Image image = draw({{{0.0f, -1.0f, -2.0f}, {0.0f, 1.0f, -2.0f}, {0, 1, 0, 1}}}, 4.0f);
+    EXPECT_EQ(image.at(50, 50)[1], 0);
+    EXPECT_EQ(image.at(50, 50)[0], 255);
+    EXPECT_EQ(image.at(50, 40)[1], 255);
+    // No dark rim: next to the nearer line's core the farther one shows at full strength.
+    for (int y = 30; y < 70; ++y)
+        EXPECT_EQ(image.at(50, y)[3], 255) << y;
+}
+
+TEST_P(Lines, OfABoxAreItsTwelveEdges) {
+    const auto lines = box_lines({1, 2, 3}, glm::vec4(1));
+    ASSERT_EQ(lines.size(), 12u);
+    glm::vec3 total(0.0f);
+    for (const Line& line : lines) {
+        const glm::vec3 along = glm::abs(line.to - line.from);
+        EXPECT_EQ((along.x > 0) + (along.y > 0) + (along.z > 0), 1);
+        total += along;
+    }
+    EXPECT_EQ(total, glm::vec3(4, 8, 12));
+}
+
+INSTANTIATE_TEST_SUITE_P(, Lines, both_contexts(), context_name);
+
+} // namespace
+} // namespace isochron::render

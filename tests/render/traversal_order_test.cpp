@@ -1,0 +1,137 @@
+// Back-to-front order against an exact test of which box can hide which.
+#include "render/traversal_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+namespace isochron::render {
+namespace {
+
+/// True when from the eye some point of unit box `front` lies before some point of unit box
+/// `back`: there is t in (0, 1) with eye + t (back - eye) meeting front. Boxes are products of
+/// intervals, so every axis bounds t on its own. For a direction the boxes are compared along it.
+bool can_hide(const glm::ivec3& front, const glm::ivec3& back, const glm::dvec4& eye) {
+    double low = 0.0, high = eye.w == 0.0 ? 1e9 : 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        // Position along the axis of back's ends on their way to the eye, as c + t * k.
+        const double ends[2] = {double(back[axis]), back[axis] + 1.0};
+        for (int end = 0; end < 2; ++end) {
+            const double c = eye.w == 0.0 ? ends[end] : eye[axis];
+            const double k = eye.w == 0.0 ? eye[axis] : ends[end] - eye[axis];
+            // The low end must stay under front's high end, the high end above front's low end.
+            const double bound = end == 0 ? front[axis] + 1.0 : front[axis];
+            const double sign = end == 0 ? 1.0 : -1.0;
+            const double slope = sign * k, room = sign * (bound - c); // slope * t < room
+            if (slope > 0.0)
+                high = std::min(high, room / slope);
+            else if (slope < 0.0)
+                low = std::max(low, room / slope);
+            else if (room <= 0.0)
+                return false;
+        }
+    }
+    return high - low > 1e-9;
+}
+
+std::vector<index::CellPoint> random_cells(std::mt19937& random, const glm::ivec3& size,
+                                           int count) {
+    std::set<std::array<int, 3>> cells;
+    for (int i = 0; i < count; ++i)
+        cells.insert({int(random() % size.z), int(random() % size.y), int(random() % size.x)});
+    std::vector<index::CellPoint> points;
+    for (const auto& [z, y, x] : cells)
+        points.push_back({std::uint16_t(x), std::uint16_t(y), std::uint16_t(z), 0, 0});
+    return points;
+}
+
+void expect_back_to_front(const std::vector<index::CellPoint>& points, const glm::vec4& eye,
+                          const glm::ivec3& size) {
+    std::vector<std::uint32_t> order;
+    order_back_to_front(points, traversal_key(eye, size), size, order);
+    std::vector<bool> seen(points.size(), false);
+    for (const std::uint32_t cell : order) {
+        ASSERT_LT(cell, points.size());
+        ASSERT_FALSE(seen[cell]) << "cell " << cell << " twice";
+        seen[cell] = true;
+    }
+    ASSERT_EQ(order.size(), points.size());
+    auto box = [&](std::uint32_t cell) {
+        return glm::ivec3(points[cell].x, points[cell].y, points[cell].z);
+    };
+    for (std::size_t early = 0; early < order.size(); ++early)
+        for (std::size_t late = early + 1; late < order.size(); ++late) {
+            const glm::ivec3 a = box(order[early]), b = box(order[late]);
+            ASSERT_FALSE(can_hide(a, b, eye))
+                << "eye " << eye.x << ' ' << eye.y << ' ' << eye.z << ' ' << eye.w << ": cell "
+                << a.x << ' ' << a.y << ' ' << a.z << " is drawn before " << b.x << ' ' << b.y
+                << ' ' << b.z << " and is in front of it";
+        }
+}
+
+class TraversalOrder : public testing::Test {
+  protected:
+    const unsigned seed_ = std::random_device{}();
+    testing::ScopedTrace trace_{__FILE__, __LINE__, seed_};
+    std::mt19937 random_{seed_};
+    double uniform(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random_);
+    }
+};
+
+TEST_F(TraversalOrder, NoCellIsInFrontOfALaterOneForEyesInsideAndOutside) {
+    for (int round = 0; round < 300; ++round) {
+        const glm::ivec3 size(1 + random_() % 12, 1 + random_() % 12, 1 + random_() % 12);
+        const auto points = random_cells(random_, size, 120);
+        const double reach = round % 3 == 0 ? 0.0 : round % 3 == 1 ? 3.0 : 100.0;
+        const glm::vec4 eye(uniform(-reach, size.x + reach), uniform(-reach, size.y + reach),
+                            uniform(-reach, size.z + reach), 1.0);
+        expect_back_to_front(points, eye, size);
+    }
+}
+
+TEST_F(TraversalOrder, NoCellIsInFrontOfALaterOneForEyesOnVoxelPlanesEdgesAndCorners) {
+    for (int round = 0; round < 300; ++round) {
+        const glm::ivec3 size(1 + random_() % 8, 1 + random_() % 8, 1 + random_() % 8);
+        const auto points = random_cells(random_, size, 100);
+        glm::vec4 eye(uniform(-2, size.x + 2), uniform(-2, size.y + 2), uniform(-2, size.z + 2), 1);
+        for (int axis = 0; axis < 3; ++axis)
+            if (axis == round % 3 || random_() % 2)
+                eye[axis] = std::round(eye[axis]);
+        expect_back_to_front(points, eye, size);
+    }
+}
+
+TEST_F(TraversalOrder, NoCellIsInFrontOfALaterOneForParallelViews) {
+    for (int round = 0; round < 200; ++round) {
+        const glm::ivec3 size(1 + random_() % 8, 1 + random_() % 8, 1 + random_() % 8);
+        const auto points = random_cells(random_, size, 100);
+        glm::vec4 towards(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), 0);
+        if (round % 2)
+            towards[round % 3] = 0.0f;
+        expect_back_to_front(points, towards, size);
+    }
+}
+
+TEST_F(TraversalOrder, EyesInTheSameCellShareOneKey) {
+    const glm::ivec3 size(60, 50, 40);
+    const auto a = traversal_key({10.1, 20.2, 30.3, 1}, size);
+    EXPECT_EQ(a, traversal_key({10.9, 20.8, 30.4, 1}, size));
+    EXPECT_FALSE(a == traversal_key({11.1, 20.2, 30.3, 1}, size));
+}
+
+TEST_F(TraversalOrder, EyesBeyondTheVolumeShareTheKeyOfItsRim) {
+    const glm::ivec3 size(60, 50, 40);
+    EXPECT_EQ(traversal_key({-5, 20.2, 100, 1}, size), traversal_key({-7, 20.3, 180, 1}, size));
+}
+
+TEST_F(TraversalOrder, AnEmptySetHasAnEmptyOrder) {
+    std::vector<std::uint32_t> order{1, 2, 3};
+    order_back_to_front({}, traversal_key({0, 0, 0, 1}, {4, 4, 4}), {4, 4, 4}, order);
+    EXPECT_TRUE(order.empty());
+}
+
+} // namespace
+} // namespace isochron::render

@@ -1,0 +1,35 @@
+// An X server without a screen, and a user who presses keys and handles windows on it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace isochron::test_support {
+
+/// Starts Xvfb (1280x1024, no window manager) on a free display and points DISPLAY at it, until it
+/// goes. Windows are found by their title. Everything throws std::runtime_error on failure.
+class VirtualDisplay {
+  public:
+    VirtualDisplay();
+    ~VirtualDisplay();
+    VirtualDisplay(const VirtualDisplay&) = delete;
+    VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+
+    /// Input as from a real keyboard and mouse: `{"key", "a"}`, `{"mousemove", "10", "20"}`, ...
+    void xdotool(std::vector<std::string> arguments) const;
+    void resize_window(const std::string& title, int width, int height) const;
+    /// Asks the window to close, as its close button does.
+    void close_window(const std::string& title) const;
+    /// Red, green and blue of what is shown, (0, 0) at the top left.
+    std::array<int, 3> pixel(int x, int y) const;
+
+  private:
+    struct Connection;
+    pid_t server_ = -1;
+    std::unique_ptr<Connection> connection_;
+};
+
+} // namespace isochron::test_support

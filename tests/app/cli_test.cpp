@@ -1,5 +1,6 @@
 // The commands as a user runs them: what they print, how they end, and what they leave behind.
 #include "child_process.h"
+#include "tests/support/test_seed.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,11 +26,7 @@ constexpr std::size_t kX = 14, kY = 11, kZ = 9, kSteps = 5;
 class CommandLine : public testing::Test {
   protected:
     CommandLine() {
-        const char* given = std::getenv("ISOCHRON_SEED");
-        const auto seed = given ? static_cast<std::uint32_t>(std::strtoul(given, nullptr, 10))
-                                : std::random_device{}();
-        std::printf("ISOCHRON_SEED=%u\n", seed);
-        std::mt19937 random(seed);
+        std::mt19937 random(test_seed());
         std::uniform_real_distribution<double> phase(0, 6.28);
         const double a = phase(random), b = phase(random), c = phase(random);
         for (std::size_t t = 0; t < kSteps; ++t) {

@@ -3,20 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 
 namespace isochron::index {
-
-std::uint32_t test_seed() {
-    const char* given = std::getenv("ISOCHRON_SEED");
-    const std::uint32_t seed = given ? static_cast<std::uint32_t>(std::strtoul(given, nullptr, 10))
-                                     : std::random_device{}();
-    std::printf("ISOCHRON_SEED=%u\n", seed);
-    return seed;
-}
 
 TestField::TestField(std::array<std::uint32_t, 3> vertices, std::size_t steps, ValueType type,
                      const Function& function, Scaling scaling)

@@ -3,6 +3,8 @@
 
 #include "index/step_values.h"
 
+#include "tests/support/test_seed.h"
+
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -10,10 +12,6 @@
 #include <vector>
 
 namespace isochron::index {
-
-/// A seed that differs from run to run, printed so that a failure can be repeated with
-/// ISOCHRON_SEED=n.
-std::uint32_t test_seed();
 
 /// A series that owns its values.
 class TestField {

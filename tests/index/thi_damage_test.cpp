@@ -87,7 +87,8 @@ TEST(ThiTree, RefusesHeadersWhoseSizesOverflow) {
                                           (std::uint64_t{1} << 62) + 1, ~std::uint64_t{0}}) {
             std::vector<std::byte> damaged = bytes;
             std::memcpy(damaged.data() + offset, &value, sizeof value);
-            EXPECT_FALSE(survives(damaged, random)) << offset << ' ' << value;
+            // A tree may well have no interval nodes: then 0 is no damage.
+            EXPECT_EQ(survives(damaged, random), damaged == bytes) << offset << ' ' << value;
         }
 }
 

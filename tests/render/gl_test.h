@@ -5,6 +5,8 @@
 #include "render/gl.h"
 #include "stereo/gl_context.h"
 
+#include "tests/support/test_seed.h"
+
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -33,7 +35,7 @@ class GlTest : public testing::TestWithParam<stereo::ContextKind> {
 
     std::unique_ptr<stereo::GlContext> context_;
     Gl gl_;
-    const unsigned seed_ = std::random_device{}();
+    const unsigned seed_ = test_seed();
     testing::ScopedTrace trace_{__FILE__, __LINE__, "seed " + std::to_string(seed_)};
     std::mt19937 random_{seed_};
 };

@@ -1,6 +1,7 @@
 // The oracle itself: its ellipse is where the points of the sphere end.
 #include "tests/render/outline_oracle.h"
 #include "tests/render/random_views.h"
+#include "tests/support/test_seed.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +12,7 @@ namespace isochron::render {
 namespace {
 
 TEST(OutlineOracle, PointsOfTheSphereFillTheEllipseAndNoMore) {
-    const unsigned seed = std::random_device{}();
-    SCOPED_TRACE(seed);
-    std::mt19937 random(seed);
+    std::mt19937 random(test_seed());
     std::normal_distribution<double> normal;
     for (int round = 0; round < 60; ++round) {
         const Scene scene = random_scene(random);

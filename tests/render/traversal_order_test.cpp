@@ -1,6 +1,8 @@
 // Back-to-front order against an exact test of which box can hide which.
 #include "render/traversal_order.h"
 
+#include "tests/support/test_seed.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,7 +75,7 @@ void expect_back_to_front(const std::vector<index::CellPoint>& points, const glm
 
 class TraversalOrder : public testing::Test {
   protected:
-    const unsigned seed_ = std::random_device{}();
+    const unsigned seed_ = test_seed();
     testing::ScopedTrace trace_{__FILE__, __LINE__, seed_};
     std::mt19937 random_{seed_};
     double uniform(double low, double high) {

@@ -2,11 +2,11 @@
 #include "index/scan.h"
 
 #include "index/ordinal.h"
+#include "index/stored_cut.h"
 
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cmath>
 #include <cstring>
 #include <optional>
 
@@ -15,22 +15,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Smallest stored value with `scaled >= isovalue` for a rising scaling, without it for a falling
-/// one; none when the answer is the same for all values. It cuts the vertices into the two sides of
-/// the isosurface, and a cell is active exactly when it has vertices on both: which side is the
-/// upper one does not matter.
+/// `stored_cut` as a value of the type.
 template <class T>
-std::optional<T> cut_at(const Scaling& scaling, double isovalue) {
-    if (!std::isfinite(isovalue))
+std::optional<T> cut_at(ValueType type, const Scaling& scaling, double isovalue) {
+    const auto cut = stored_cut(type, scaling, isovalue);
+    if (!cut)
         return std::nullopt;
-    const std::uint64_t end = std::uint64_t{highest_ordinal<T>()} + 1;
-    const std::uint64_t first = first_that(lowest_ordinal<T>(), end, [&](std::uint64_t number) {
-        const auto stored = static_cast<double>(from_ordinal<T>(static_cast<Ordinal<T>>(number)));
-        return (scaling(stored) >= isovalue) == (scaling.slope > 0);
-    });
-    if (first == end)
-        return std::nullopt;
-    return from_ordinal<T>(static_cast<Ordinal<T>>(first));
+    return from_ordinal<T>(static_cast<Ordinal<T>>(*cut));
 }
 
 /// The vertex rows of one z plane as bit masks. Every row ends with a word of zeros, so that a word
@@ -188,7 +179,7 @@ void keep_active_in_step(const StepValues& values, std::size_t step, T cut,
 void scan(const StepValues& values, const Query& query, std::vector<CellId>& out) {
     assert(query.step < values.steps);
     visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
-        if (const auto cut = cut_at<T>(values.scaling, query.isovalue))
+        if (const auto cut = cut_at<T>(values.type, values.scaling, query.isovalue))
             scan_step<T>(values, query.step, *cut, out);
     });
 }
@@ -196,7 +187,7 @@ void scan(const StepValues& values, const Query& query, std::vector<CellId>& out
 void keep_active(const StepValues& values, const Query& query, std::vector<CellId>& ids) {
     assert(query.step < values.steps);
     visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
-        if (const auto cut = cut_at<T>(values.scaling, query.isovalue))
+        if (const auto cut = cut_at<T>(values.type, values.scaling, query.isovalue))
             keep_active_in_step<T>(values, query.step, *cut, ids);
         else
             ids.clear();

@@ -200,23 +200,34 @@ std::uint64_t file_bytes(const fs::path& path) {
 }
 
 std::string head_of(const fs::path& path, std::size_t most) {
-    std::string head(std::min<std::uint64_t>(file_bytes(path), most), '\0');
+    const std::uint64_t size = file_bytes(path);
+    const bool packed = is_gzip(path);
+    std::string head(packed ? most : std::min<std::uint64_t>(size, most), '\0');
     std::ifstream in = open_file(path);
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(in.gcount()));
-    if (!is_gzip(path))
+    if (!packed) {
+        in.read(head.data(), static_cast<std::streamsize>(head.size()));
+        head.resize(static_cast<std::size_t>(in.gcount()));
         return head;
-    std::string packed(most, '\0');
-    Deflate decoder;
-    std::span<char> input(head);
-    std::span<std::byte> output = std::as_writable_bytes(std::span(packed));
-    for (std::size_t before = input.size() + 1; !output.empty() && input.size() < before;) {
-        before = input.size();
-        if (!decoder.step(input, output))
-            throw Error(fmt::format("{}: damaged deflate data", path.string()));
     }
-    packed.resize(packed.size() - output.size());
-    return packed;
+    // As much input as it takes: a name in the gzip header may be long, and what does not compress
+    // grows.
+    std::vector<char> chunk(4096);
+    std::span<char> pending;
+    Deflate decoder;
+    std::span<std::byte> output = std::as_writable_bytes(std::span(head));
+    while (!output.empty()) {
+        if (pending.empty()) {
+            in.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+            pending = std::span(chunk).first(static_cast<std::size_t>(in.gcount()));
+        }
+        const std::size_t had = pending.size(), wanted = output.size();
+        if (!decoder.step(pending, output))
+            throw Error(fmt::format("{}: damaged deflate data", path.string()));
+        if (had == 0 && wanted == output.size())
+            break;
+    }
+    head.resize(head.size() - output.size());
+    return head;
 }
 
 bool is_gzip(const fs::path& path) {

@@ -8,6 +8,8 @@
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -35,7 +37,7 @@ void read_collection(const fs::path& path, std::vector<std::pair<fs::path, doubl
         const char* text = set->GetAttribute("timestep");
         if (!text)
             throw Error(fmt::format("{}: {} has no timestep", name, file));
-        if (!set->GetScalarAttribute("timestep", time))
+        if (!set->GetScalarAttribute("timestep", time) || !std::isfinite(time))
             throw Error(
                 fmt::format("{}: {}: timestep \"{}\", expected a number", name, file, text));
         const char* part = set->GetAttribute("part");
@@ -49,6 +51,9 @@ void read_collection(const fs::path& path, std::vector<std::pair<fs::path, doubl
     }
     if (files.empty())
         throw Error(fmt::format("{}: an empty collection", name));
+    // Programs that write in parallel, or that were started again, list them in any order.
+    std::stable_sort(files.begin(), files.end(),
+                     [](const auto& a, const auto& b) { return a.second < b.second; });
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include <glm/vec4.hpp>
 #include <gmock/gmock.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -205,6 +206,31 @@ TEST(LyingHeaders, DoNotPassForValues) {
         EXPECT_THAT(error_of([&] { open_series({Nifti().put(108, offset).write(folder)}); }),
                     HasSubstr("landmark.nii: the data's offset is"))
             << offset;
+}
+
+/// A gzip file of one stored block behind a header that holds a file name.
+std::string gzip_of(const std::string& content, const std::string& name) {
+    const auto little = [](std::uint32_t number, int bytes) {
+        std::string text;
+        for (; bytes > 0; --bytes, number >>= 8)
+            text += static_cast<char>(number);
+        return text;
+    };
+    const auto size = static_cast<std::uint32_t>(content.size());
+    const auto sum =
+        static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(content.data()), size));
+    return std::string("\x1f\x8b\x08\x08\0\0\0\0\0\x03", 10) + name + '\0' + '\1' +
+           little(size, 2) + little(~size, 2) + content + little(sum, 4) + little(size, 4);
+}
+
+TEST(CompressedNifti, MayHaveALongGzipHeader) {
+    TestFolder folder;
+    const std::string plain = read_file(Nifti().write(folder));
+    for (const std::size_t length : {std::size_t{0}, std::size_t{230}, std::size_t{10'000}}) {
+        const auto series =
+            open_series({folder.write("named.nii.gz", gzip_of(plain, std::string(length, 'n')))});
+        EXPECT_EQ(values_of<std::int16_t>(*series, 0), landmark()) << length;
+    }
 }
 
 TEST(Disagreement, OfNiftiScalingNamesBothFiles) {

@@ -175,7 +175,7 @@ void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file) {
                                     "number",
                                     file, axis, length));
         grid.spacing[axis] = length;
-        grid.direction[axis] = steps[axis] / length;
+        grid.direction[axis] = steps[axis] / length + 0.0; // no -0, which reads badly
     }
     if (std::abs(glm::determinant(grid.direction)) < 1e-6)
         throw Error(fmt::format("{}: the three axes lie in a plane", file));

@@ -31,6 +31,17 @@ std::string_view markup_of(const MappedFile& file) {
     return all.substr(0, std::min(all.find("<AppendedData"), all.size()));
 }
 
+// Of appended values that end too early VTK leaves the rest as they were in memory. Whatever was
+// cut off, the end of the markup is gone as well.
+void expect_end(const MappedFile& file, const std::string& name) {
+    constexpr std::size_t kTail = 4096; // some writers leave blanks or a comment after it
+    const std::span<const std::byte> bytes = file.bytes();
+    const std::span<const std::byte> tail = bytes.last(std::min(bytes.size(), kTail));
+    if (std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size())
+            .find("</VTKFile") == std::string_view::npos)
+        throw Error(fmt::format("{}: truncated: it does not end with </VTKFile>", name));
+}
+
 // Every piece gives its part of the vertices; where one is missing VTK would leave zeros. Pieces
 // may overlap.
 void expect_whole(std::string_view markup, const Grid& grid, const std::string& file) {
@@ -88,6 +99,7 @@ class VtiFile final : public VolumeFile {
         const std::string_view markup = markup_of(file);
         if (markup.find("<VTKFile") == markup.npos || markup.find("ImageData") == markup.npos)
             throw Error(fmt::format("{}: not VTK XML image data", name));
+        expect_end(file, name);
         with_vtk(path_, [&] {
             reader_->SetFileName(path_.c_str());
             reader_->UpdateInformation();

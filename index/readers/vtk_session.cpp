@@ -71,8 +71,11 @@ vtkStandardNewMacro(MessageCollector)
     vtkLogger::Verbosity verbosity_;
 };
 
-// `ERROR: In vtkX.cxx, line 9\nvtkX (0x55): what happened\n\n` -> `what happened`
+// `ERROR: In vtkX.cxx, line 9\nvtkX (0x55): what happened\n\n` -> `what happened`, and the same of
+// `Generic Warning: In vtkX.cxx, line 9\nwhat happened\n\n`.
 std::string one_line(std::string text) {
+    if (text.find(": In ") != std::string::npos && text.find('\n') != std::string::npos)
+        text.erase(0, text.find('\n') + 1);
     if (const std::size_t at = text.find("): "); at != std::string::npos)
         text.erase(0, at + 3);
     std::string line;

@@ -141,6 +141,34 @@ TEST(DamagedVti, IsRefusedInOneLine) {
     EXPECT_EQ(cases, 35);
 }
 
+TEST(DamagedVti, LackingItsLastValuesIsRefused) {
+    TestFolder folder;
+    for (const char* name : {"raw_plain64.vti", "raw_zlib64.vti", "raw_lz432.vti",
+                             "base64_plain64.vti", "base64_zlib32.vti", "inline_plain32.vti"}) {
+        const std::string whole = read_file(kFolder / name);
+        const std::size_t appended = whole.find("</AppendedData>");
+        const std::size_t end = std::min(appended, whole.find("</DataArray>"));
+        for (const std::size_t missing : {8, 16, 24})
+            EXPECT_THAT(error_of([&] {
+                            const auto series =
+                                open_series({folder.write(name, whole.substr(0, end - missing))});
+                            std::vector<std::byte> values(series->info().step_bytes());
+                            series->read(0, values);
+                        }),
+                        HasSubstr("truncated"))
+                << name << " without its last " << missing << " bytes";
+    }
+}
+
+TEST(DamagedVtk, IsRefusedInTheWordsThatMatter) {
+    TestFolder folder;
+    const std::string whole = read_file(kFolder / "binary.vtk");
+    EXPECT_THAT(error_of([&] {
+                    open_series({folder.write("cut.vtk", whole.substr(0, whole.size() - 40))});
+                }),
+                testing::EndsWith("cut.vtk: cannot be read: Error reading binary data!"));
+}
+
 TEST(DamagedVti, WithHugeExtentsCostsNoMemory) {
     TestFolder folder;
     std::string text = read_file(kFolder / "raw_plain64.vti");

@@ -60,10 +60,10 @@ double first_isovalue(const index::IndexStats& stats) {
     for (std::size_t bin = 0; bin < bins.size(); ++bin) {
         below += bins[bin];
         if (static_cast<double>(below) >= 0.95 * static_cast<double>(total))
-            return stats.low + (stats.high - stats.low) * (static_cast<double>(bin) + 0.5) /
-                                   static_cast<double>(bins.size());
+            return std::lerp(stats.low, stats.high,
+                             (static_cast<double>(bin) + 0.5) / static_cast<double>(bins.size()));
     }
-    return (stats.low + stats.high) / 2;
+    return std::midpoint(stats.low, stats.high);
 }
 
 } // namespace isochron::app

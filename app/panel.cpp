@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace isochron::app {
 namespace {
@@ -53,34 +54,43 @@ void histogram(const PanelModel& model, Commands& commands) {
         list->AddRectFilled({x, corner.y + size.y * static_cast<float>(1.0 - height)},
                             {x + width, corner.y + size.y}, kBarColour);
     }
-    const double span = model.stats.high - model.stats.low;
+    // Halves keep the span finite for any two doubles.
+    const double low = model.stats.low, high = model.stats.high, half_span = high / 2 - low / 2;
     const auto mark = [&](double value, ImU32 colour) {
-        const double at = span > 0 ? std::clamp((value - model.stats.low) / span, 0.0, 1.0) : 0.5;
+        const double at =
+            half_span > 0 ? std::clamp((value / 2 - low / 2) / half_span, 0.0, 1.0) : 0.5;
         const float x = corner.x + size.x * static_cast<float>(at);
         list->AddLine({x, corner.y}, {x, corner.y + size.y}, colour, 2.0f);
     };
     if (model.frame.shown)
         mark(model.frame.shown->isovalue, kShownColour);
     mark(model.asked.isovalue, kAskedColour);
-    if (ImGui::IsItemActive() && span > 0) {
-        const float at = (ImGui::GetIO().MousePos.x - corner.x) / size.x;
-        commands.isovalue = model.stats.low + span * std::clamp(at, 0.0f, 1.0f);
-    }
-    if (ImGui::IsItemHovered() && span > 0) {
-        const float at = (ImGui::GetIO().MousePos.x - corner.x) / size.x;
-        ImGui::SetTooltip("%s",
-                          with_unit(model.stats.low + span * at, model.info.value_unit).c_str());
-    }
+    const double pointed = std::lerp(
+        low, high, std::clamp((ImGui::GetIO().MousePos.x - corner.x) / size.x, 0.0f, 1.0f));
+    if (ImGui::IsItemActive() && half_span > 0)
+        commands.isovalue = pointed;
+    if (ImGui::IsItemHovered() && half_span > 0)
+        ImGui::SetTooltip("%s", with_unit(pointed, model.info.value_unit).c_str());
+}
+
+/// A number with its unit as ImGui's sliders want it: a format, in which the unit is only text.
+std::string slider_format(const std::string& unit) {
+    std::string format = unit.empty() ? "%.6g" : "%.6g ";
+    for (char c : unit)
+        format += c == '%' ? "%%" : std::string(1, c);
+    return format;
 }
 
 void isovalue_section(const PanelModel& model, Commands& commands) {
     histogram(model, commands);
     ImGui::SetNextItemWidth(-1.0f);
     double value = model.asked.isovalue;
-    const std::string format =
-        "%.6g" + (model.info.value_unit.empty() ? "" : " " + model.info.value_unit);
-    if (ImGui::SliderScalar("##isovalue", ImGuiDataType_Double, &value, &model.stats.low,
-                            &model.stats.high, format.c_str()))
+    // Beyond half of the doubles' range ImGui gives up.
+    constexpr double kMost = std::numeric_limits<double>::max() / 2;
+    const double low = std::clamp(model.stats.low, -kMost, kMost);
+    const double high = std::clamp(model.stats.high, -kMost, kMost);
+    if (ImGui::SliderScalar("##isovalue", ImGuiDataType_Double, &value, &low, &high,
+                            slider_format(model.info.value_unit).c_str()))
         commands.isovalue = value;
     const auto& shown = model.frame.shown;
     note(fmt::format("isovalue: asked {}   shown {}",
@@ -184,8 +194,8 @@ void measurements(const PanelModel& model) {
              : fmt::format("of {} candidates, {} reused", frame.candidates, frame.reused),
          kDim);
     const glm::dvec3 size = physical_size(model.info.grid);
-    note(fmt::format("volume {:.4g} x {:.4g} x {}   shown at {:.3g} m", size.x, size.y,
-                     with_unit(size.z, model.info.length_unit),
+    note(fmt::format("volume {:.4g} x {:.4g} x {:.4g}{}{}   shown at {:.3g} m", size.x, size.y,
+                     size.z, model.info.length_unit.empty() ? "" : " ", model.info.length_unit,
                      std::max({size.x, size.y, size.z}) * model.asked.room_from_physical.scale),
          kDim);
     note(fmt::format("search {:.2f} ms   shading {:.2f} ms", frame.search.count(),

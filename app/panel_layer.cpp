@@ -143,9 +143,12 @@ PanelLayer::~PanelLayer() {
 
 void PanelLayer::make_font_texture() {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    // Latin, Greek, punctuation and superscripts, letter-like signs, mathematics: what units need.
+    static constexpr ImWchar kGlyphs[]{0x20,   0xff,   0x370,  0x3ff,  0x2010, 0x209f,
+                                       0x2100, 0x214f, 0x2190, 0x22ff, 0};
     // The built-in bitmap font is readable but small; a desktop nearly always has this one.
     if (std::filesystem::exists(kFontFile))
-        fonts.AddFontFromFileTTF(kFontFile, kFontPixels);
+        fonts.AddFontFromFileTTF(kFontFile, kFontPixels, nullptr, kGlyphs);
     else
         fonts.AddFontDefault();
     unsigned char* pixels = nullptr;

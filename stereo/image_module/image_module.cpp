@@ -39,6 +39,8 @@ void encode(const render::Image& image, const std::string& format, std::vector<s
     OIIO::ImageSpec spec(image.width, image.height, 3,
                          linear ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
+    spec.attribute("DateTime",
+                   ""); // else EXR gets the time of day: no two replays would be the same
     std::vector<unsigned char> file;
     OIIO::Filesystem::IOVecOutput memory(file);
     output->set_ioproxy(&memory);

@@ -106,8 +106,8 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
     std::string text = fmt::format("isovalue {}{} at step {} (time {}{})\n"
                                    "active cells     {}\n",
                                    arguments.isovalue, with_space(info.value_unit), arguments.step,
-                                   info.times[result.set->query.step], with_space(info.time_unit),
-                                   grouped(active));
+                                   human_number(info.times[result.set->query.step]),
+                                   with_space(info.time_unit), grouped(active));
     if (scanned)
         text += "found by         scan of the volume\n";
     else

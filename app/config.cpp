@@ -10,9 +10,10 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <utility>
 
 namespace isochron::app {
@@ -32,6 +33,13 @@ void read_screen(TomlReader& reader, stereo::Screen& screen) {
     reader.word("carried_by", {"room", "head"},
                 [&](const std::string& word) { screen.carried_by_head = word == "head"; });
     reader.flag("fit_aspect", screen.fit_aspect);
+    // The corners of another screen are no substitute for one that was forgotten.
+    const std::array kCorners{"lower_left", "upper_left", "upper_right"};
+    const auto given = std::count_if(kCorners.begin(), kCorners.end(),
+                                     [&](const char* corner) { return reader.has(corner); });
+    for (const char* corner : kCorners)
+        if (given > 0 && !reader.has(corner))
+            reader.fail(corner, "missing, a screen is given by three corners");
     const float width = glm::length(screen.upper_right - screen.upper_left);
     const float height = glm::length(screen.upper_left - screen.lower_left);
     if (width < 1e-3f || height < 1e-3f)
@@ -208,12 +216,11 @@ Config read_config(const std::filesystem::path& path) {
         shipped && !std::filesystem::exists(path))
         return parse_config(*shipped, path.string());
     std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (!file || !(text << file.rdbuf()))
+    if (!file || std::filesystem::is_directory(path))
         throw ConfigError(fmt::format("{}: cannot be read, expected a TOML file or the name of a "
                                       "shipped configuration (desktop, headless)",
                                       path.string()));
-    return parse_config(text.str(), path.string());
+    return parse_config({std::istreambuf_iterator<char>(file), {}}, path.string());
 }
 
 } // namespace isochron::app

@@ -60,9 +60,10 @@ double coherence(const index::IndexFile& file) {
 
 std::string times_text(const SeriesInfo& info) {
     if (info.steps() == 1)
-        return fmt::format("1 at time {}{}", info.times.front(), with_space(info.time_unit));
-    return fmt::format("{}, times {} to {}{}, {}", info.steps(), info.times.front(),
-                       info.times.back(), with_space(info.time_unit),
+        return fmt::format("1 at time {}{}", human_number(info.times.front()),
+                           with_space(info.time_unit));
+    return fmt::format("{}, times {} to {}{}, {}", info.steps(), human_number(info.times.front()),
+                       human_number(info.times.back()), with_space(info.time_unit),
                        uniform(info.times) ? "uniform" : "not uniform");
 }
 
@@ -105,12 +106,13 @@ std::string as_text(const IndexReport& report) {
     line("vertices", fmt::format("{}", fmt::join(grid.vertices, " x ")));
     line("cells",
          fmt::format("{} = {}", fmt::join(grid.cells(), " x "), grouped(grid.cell_count())));
-    line("spacing", fmt::format("{}{}", fmt::join(numbers(grid.spacing), " x "), length));
-    line("size", fmt::format("{}{}", fmt::join(numbers(physical_size(grid)), " x "), length));
-    line("origin", fmt::format("{}{}", fmt::join(numbers(grid.origin), " "), length));
+    line("spacing", fmt::format("{:.10g}{}", fmt::join(numbers(grid.spacing), " x "), length));
+    line("size", fmt::format("{:.10g}{}", fmt::join(numbers(physical_size(grid)), " x "), length));
+    line("origin", fmt::format("{:.10g}{}", fmt::join(numbers(grid.origin), " "), length));
     for (int axis = 0; axis < 3; ++axis)
-        line(axis == 0 ? "direction" : "",
-             fmt::format("{}: {}", "xyz"[axis], fmt::join(numbers(grid.direction[axis]), " ")));
+        line(
+            axis == 0 ? "direction" : "",
+            fmt::format("{}: {:.10g}", "xyz"[axis], fmt::join(numbers(grid.direction[axis]), " ")));
     line("handedness", right_handed(grid) ? "right" : "left");
     if (info.anatomy != index::Anatomy::none)
         line("anatomy", info.anatomy == index::Anatomy::ras ? "RAS" : "LPS");

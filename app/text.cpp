@@ -34,6 +34,10 @@ std::string grouped(std::uint64_t number) {
     return text;
 }
 
+std::string human_number(double number) {
+    return fmt::format("{:.10g}", number);
+}
+
 std::string with_space(const std::string& unit) {
     return unit.empty() ? unit : " " + unit;
 }

@@ -16,6 +16,9 @@ std::string human_time(std::chrono::duration<double> time);
 /// A whole number in groups of three: `3,932,160`.
 std::string grouped(std::uint64_t number);
 
+/// A number without the digits that rounding left behind: `0.3`, not `0.30000000000000004`.
+std::string human_number(double number);
+
 /// A unit set off from its number, or nothing.
 std::string with_space(const std::string& unit);
 

@@ -41,6 +41,8 @@ class TomlReader {
     void word(std::string_view key, const std::vector<std::string>& words,
               const std::function<void(const std::string&)>& take);
 
+    bool has(std::string_view key) const { return table_.contains(key); }
+
     /// A sub-table, or an array of tables, each read by `read` and finished after it.
     /// @return false when absent
     bool table(std::string_view key, const std::function<void(TomlReader&)>& read);

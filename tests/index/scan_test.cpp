@@ -1,10 +1,12 @@
 // The scan and the exact test agree with brute force on every kind of data.
 #include "index/scan.h"
 
+#include "simd_targets.h"
 #include "test_field.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -15,7 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Both functions against brute force, at every step and isovalue.
+/// Both functions against brute force, at every step and isovalue, in every kind of code.
 void expect_exact(const StepValues& values, const std::vector<double>& isovalues) {
     std::vector<CellId> all(values.grid.cell_count());
     std::iota(all.begin(), all.end(), CellId{0});
@@ -23,12 +25,14 @@ void expect_exact(const StepValues& values, const std::vector<double>& isovalues
         const BruteForce oracle(values, step);
         for (const double isovalue : isovalues) {
             const std::vector<CellId> expected = oracle.active(isovalue);
-            std::vector<CellId> found, kept = all;
-            scan(values, {step, isovalue}, found);
-            keep_active(values, {step, isovalue}, kept);
-            ASSERT_EQ(found, expected) << "scan at step " << step << ", isovalue " << isovalue;
-            ASSERT_EQ(kept, expected)
-                << "keep_active at step " << step << ", isovalue " << isovalue;
+            on_every_simd_target([&] {
+                std::vector<CellId> found, kept = all;
+                scan(values, {step, isovalue}, found);
+                keep_active(values, {step, isovalue}, kept);
+                ASSERT_EQ(found, expected) << "scan at step " << step << ", isovalue " << isovalue;
+                ASSERT_EQ(kept, expected)
+                    << "keep_active at step " << step << ", isovalue " << isovalue;
+            });
         }
     }
 }
@@ -131,6 +135,20 @@ TEST(Scan, AppendsToWhatIsThere) {
     scan(field.view(), {0, 0}, found);
     EXPECT_EQ(found.front(), 99u);
     EXPECT_GT(found.size(), 1u);
+}
+
+TEST(KeepActive, KeepsIdsOfAnyOrderAndNumber) {
+    std::mt19937 random(test_seed());
+    const TestField field({150, 5, 4}, 1, ValueType::f32, white_noise(random));
+    const std::vector<CellId> active = BruteForce(field.view(), 0).active(0.9);
+    std::vector<CellId> ids(5000), expected;
+    for (CellId& id : ids)
+        id = static_cast<CellId>(random() % field.view().grid.cell_count());
+    for (const CellId id : ids)
+        if (std::binary_search(active.begin(), active.end(), id))
+            expected.push_back(id);
+    keep_active(field.view(), {0, 0.9}, ids);
+    EXPECT_EQ(ids, expected);
 }
 
 TEST(KeepActive, DropsIdsThatAreNoCellsAndKeepsTheOrder) {

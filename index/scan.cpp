@@ -78,7 +78,7 @@ class PlaneBits {
         const Words d;
         const auto flip = hn::Set(d, kFlip);
         for (std::size_t i = 0; i < out.size(); i += hn::Lanes(d)) {
-            const auto two = [&](const std::uint64_t* at) {
+            const auto two = [&](const std::uint64_t* at) HWY_ATTR {
                 return hn::Or(hn::Xor(hn::LoadU(d, at), flip),
                               hn::Xor(hn::LoadU(d, at + words_), flip));
             };
@@ -126,9 +126,10 @@ HWY_INLINE void write_active(const ActiveWords& active, const CellId* first, Cel
     CellId* at = out.room();
     for (; filled; filled &= filled - 1) {
         const std::size_t quarter = hwy::Num0BitsBelowLS1Bit_Nonzero64(filled);
-        at = write_cells(at,
-                         static_cast<CellId>(layer_first + first[quarter / 4] + quarter % 4 * 16),
-                         quarters[quarter]);
+        const auto cell = static_cast<CellId>(layer_first + first[quarter / 4] + quarter % 4 * 16);
+        at = write_cells(at, quarters[quarter], [&](std::size_t i) HWY_ATTR {
+            return hn::Iota(hn::CappedTag<CellId, 16>(), static_cast<CellId>(cell + i));
+        });
     }
     out.written(at);
 }
@@ -137,9 +138,8 @@ HWY_INLINE void write_active(const ActiveWords& active, const CellId* first, Cel
 HWY_INLINE void write_layer(const PlaneBits& near, const PlaneBits& far, const LayerWords& layer,
                             CellId layer_first, CellBuffer& out) {
     const Words d;
-    const auto either = [&](const std::uint64_t* a, const std::uint64_t* b) {
-        return hn::Or(hn::LoadU(d, a), hn::LoadU(d, b));
-    };
+    const auto either = [&](const std::uint64_t* a, const std::uint64_t* b)
+                            HWY_ATTR { return hn::Or(hn::LoadU(d, a), hn::LoadU(d, b)); };
     ActiveWords active;
     for (std::size_t block = 0; block < near.size(); block += kBlock) {
         for (std::size_t i = block; i < block + kBlock; i += hn::Lanes(d)) {

@@ -42,8 +42,9 @@ struct VertexBits {
     bool nan;            ///< perhaps: a vertex behind the ones asked for counts too
 };
 
-/// Compares stored values of one step with a cut. Reads whole vectors, but never outside the step.
-template <class T>
+/// Compares stored values of one step with a cut. Reads whole vectors of at most kLanes values, but
+/// never outside the step.
+template <class T, std::size_t kLanes = kWordBits>
 class VertexComparer {
   public:
     /// @param end of the step's values @param cut `upper` means not below it
@@ -53,29 +54,23 @@ class VertexComparer {
     HWY_INLINE VertexBits compare(const T* s, std::size_t count) const {
         if (HWY_LIKELY(readable(s, count)))
             return compare_whole(s, count);
-        const Padded padded = copy(s, count);
-        return compare_whole(padded.data(), count);
+        return compare_whole(copy(s, count).data(), count);
     }
 
     /// Which of these vertices are NaN; those behind them are of no meaning.
     std::uint64_t nan(const T* s, std::size_t count) const {
-        if (!std::is_floating_point_v<T>)
-            return 0;
-        const Padded padded = copy(s, count);
-        std::uint64_t bits = 0;
-        for (std::size_t i = 0; i < count; ++i)
-            bits |= std::uint64_t{padded[i] != padded[i]} << i;
-        return bits;
+        if (readable(s, count))
+            return nan_whole(s, count);
+        return nan_whole(copy(s, count).data(), count);
     }
 
   private:
-    using D = hn::CappedTag<T, kWordBits>;
+    using D = hn::CappedTag<T, kLanes>;
     using Padded = std::array<T, kWordBits>;
 
-    static std::size_t lanes() { return hn::Lanes(D{}); }
-
     bool readable(const T* s, std::size_t count) const {
-        return static_cast<std::size_t>(end_ - s) >= (count + lanes() - 1) / lanes() * lanes();
+        const std::size_t lanes = hn::Lanes(D{});
+        return static_cast<std::size_t>(end_ - s) >= (count + lanes - 1) / lanes * lanes;
     }
 
     static Padded copy(const T* s, std::size_t count) {
@@ -88,7 +83,7 @@ class VertexComparer {
         const D d;
         std::uint64_t lower = 0;
         auto nan = hn::FirstN(d, 0);
-        for (std::size_t i = 0; i < count; i += lanes()) {
+        for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
             const auto values = hn::LoadU(d, s + i);
             lower |= bits_of(d, hn::Lt(values, cut_)) << i;
             if constexpr (std::is_floating_point_v<T>)
@@ -97,20 +92,31 @@ class VertexComparer {
         return {~lower, std::is_floating_point_v<T> && !hn::AllFalse(d, nan)};
     }
 
+    static std::uint64_t nan_whole(const T* s, std::size_t count) {
+        std::uint64_t bits = 0;
+        if constexpr (std::is_floating_point_v<T>) {
+            const D d;
+            for (std::size_t i = 0; i < count; i += hn::Lanes(d))
+                bits |= bits_of(d, hn::IsNaN(hn::LoadU(d, s + i))) << i;
+        }
+        return bits;
+    }
+
     const T* end_;
     hn::Vec<D> cut_;
 };
 
-/// Writes the cells `first + i` for every set bit i behind `at`, where there is room for 32.
+/// Writes those of 16 cells whose bits are set, behind `at`, where there is room for 32.
+/// @param cells gives the vector of cells from the i-th on
 /// @return the end of what was written
-HWY_INLINE CellId* write_cells(CellId* at, CellId first, std::uint16_t bits) {
+template <class Cells>
+HWY_INLINE CellId* write_cells(CellId* at, std::uint16_t bits, Cells&& cells) {
     const hn::CappedTag<CellId, 16> d;
     for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
         // LoadMaskBits reads eight bytes.
         const std::uint64_t part = bits >> i & ((1u << hn::Lanes(d)) - 1);
         const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&part));
-        const auto cells = hn::Iota(d, static_cast<CellId>(first + i));
-        hn::StoreU(hn::Compress(cells, mask), d, at);
+        hn::StoreU(hn::Compress(cells(i), mask), d, at);
         at += hwy::PopCount(part);
     }
     return at;

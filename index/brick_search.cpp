@@ -1,0 +1,274 @@
+// Search with bricks: candidates by their extremes, then the exact test of all their cells at once.
+#include "index/bricks.h"
+#include "index/ordinal.h"
+#include "index/scan.h"
+#include "index/stored_cut.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "index/brick_search.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+
+#include "index/vertex_bits_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace isochron::index::HWY_NAMESPACE {
+namespace {
+
+/// With more candidates than this share of all bricks a scan is faster.
+constexpr std::size_t kScanPercent = 40;
+
+/// Which bricks may hold active cells.
+class Candidates {
+  public:
+    Candidates(std::span<const std::uint8_t> bricks, const LevelMap::Cut& cut)
+        : count_(bricks.size() / 2), low_(bricks.data()), high_(low_ + count_), level_(cut.level),
+          highest_low_(static_cast<std::uint8_t>(cut.level - (cut.exact ? 1 : 0))) {}
+
+    /// All bricks, candidates or not.
+    std::size_t bricks() const { return count_; }
+
+    /// Bits of the 64 bricks from `first` on.
+    HWY_INLINE std::uint64_t word(std::size_t first) const {
+        const std::size_t left = count_ - first;
+        if (HWY_LIKELY(left >= kWordBits))
+            return whole_word(low_ + first, high_ + first);
+        std::array<std::uint8_t, kWordBits> low, high;
+        low.fill(255); // no candidates
+        high.fill(0);
+        std::copy_n(low_ + first, left, low.begin());
+        std::copy_n(high_ + first, left, high.begin());
+        return whole_word(low.data(), high.data()) & ((std::uint64_t{1} << left) - 1);
+    }
+
+    std::size_t count() const {
+        std::size_t sum = 0;
+        for (std::size_t first = 0; first < count_; first += kWordBits)
+            sum += hwy::PopCount(word(first));
+        return sum;
+    }
+
+  private:
+    HWY_INLINE std::uint64_t whole_word(const std::uint8_t* low, const std::uint8_t* high) const {
+        const hn::CappedTag<std::uint8_t, kWordBits> d;
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < kWordBits; i += hn::Lanes(d)) {
+            const auto above = hn::Gt(hn::LoadU(d, low + i), hn::Set(d, highest_low_));
+            const auto below = hn::Lt(hn::LoadU(d, high + i), hn::Set(d, level_));
+            bits |= bits_of(d, hn::Not(hn::Or(above, below))) << i;
+        }
+        return bits;
+    }
+
+    std::size_t count_;
+    const std::uint8_t* low_;
+    const std::uint8_t* high_;
+    std::uint8_t level_, highest_low_;
+};
+
+constexpr auto kCells = BrickGrid::kCells;
+constexpr std::size_t kRows = kCells[1] * kCells[2];                   ///< of cells
+constexpr std::size_t kVertexRows = (kCells[1] + 1) * (kCells[2] + 1); ///< of vertices
+constexpr std::size_t kPairs = kRows / 2; ///< two rows of eight cells make 16 bits
+constexpr std::size_t kBatch = 32;        ///< bricks that are tested together
+
+static_assert(kCells[0] == 8 && kCells[1] % 2 == 0);
+
+using Pairs = std::array<std::uint16_t, kPairs>;
+
+/// The vertices of some bricks as bits, and then their cells, brick after brick in every row.
+struct Batch {
+    std::array<std::array<std::uint16_t, kBatch>, kVertexRows> vertices{};
+    std::array<std::array<std::uint16_t, kBatch>, kPairs> active;
+    std::array<CellId, kBatch> first;  ///< cells
+    std::array<Pairs, kBatch> allowed; ///< cells of the grid without NaN
+    std::size_t size = 0;
+};
+
+/// Finds the active cells of all bricks of a batch: any & ~all of eight vertices, as in the scan.
+void find_active(Batch& batch) {
+    const hn::CappedTag<std::uint16_t, kBatch> d;
+    constexpr std::size_t kAcross = kCells[1] + 1;
+    const auto cells = hn::Set(d, 0xff);
+    for (std::size_t i = 0; i < batch.size; i += hn::Lanes(d))
+        for (std::size_t z = 0; z < kCells[2]; ++z) {
+            const auto row = [&](std::size_t y) HWY_ATTR {
+                const auto near = hn::LoadU(d, batch.vertices[z * kAcross + y].data() + i);
+                const auto far = hn::LoadU(d, batch.vertices[(z + 1) * kAcross + y].data() + i);
+                return std::pair(hn::Or(near, far), hn::And(near, far));
+            };
+            auto [any_below, all_below] = row(0);
+            auto even = hn::Zero(d);
+            for (std::size_t y = 0; y < kCells[1]; ++y) {
+                const auto [any_above, all_above] = row(y + 1);
+                const auto any = hn::Or(any_below, any_above), all = hn::And(all_below, all_above);
+                const auto active = hn::And(hn::AndNot(hn::And(all, hn::ShiftRight<1>(all)),
+                                                       hn::Or(any, hn::ShiftRight<1>(any))),
+                                            cells);
+                if (y % 2 == 0)
+                    even = active;
+                else
+                    hn::StoreU(hn::Or(even, hn::ShiftLeft<8>(active)), d,
+                               batch.active[(z * kCells[1] + y) / 2].data() + i);
+                any_below = any_above;
+                all_below = all_above;
+            }
+        }
+}
+
+template <class T>
+class BrickSearch {
+  public:
+    BrickSearch(const StepValues& values, std::size_t step, T cut, std::vector<CellId>& out)
+        : bricks_(BrickGrid(values.grid).bricks()), vertices_(values.grid.vertices),
+          cells_(values.grid.cells()), stored_(values.step<T>(step)),
+          comparer_(stored_.data() + stored_.size(), cut), out_(out) {
+        for (std::uint32_t i = 0; i < id_.size(); ++i)
+            id_[i] = ((i / 32) * cells_[1] + i / 8 % 4) * cells_[0] + i % 8;
+    }
+
+    void test(std::uint32_t brick) {
+        add(brick);
+        if (batch_.size == kBatch)
+            finish();
+    }
+
+    /// Tests what has been added.
+    void finish() {
+        find_active(batch_);
+        for (std::size_t i = 0; i < batch_.size; ++i)
+            write(i);
+        batch_.size = 0;
+    }
+
+  private:
+    /// Cells of a brick along an axis, fewer than usual at the border.
+    std::uint32_t clipped(std::size_t axis, std::uint32_t first) const {
+        return std::min(kCells[axis], cells_[axis] - first);
+    }
+
+    void add(std::uint32_t brick) {
+        const std::size_t slot = batch_.size++;
+        const std::uint32_t row = brick / bricks_[0];
+        const std::uint32_t x = brick % bricks_[0] * kCells[0];
+        const std::uint32_t y = row % bricks_[1] * kCells[1];
+        const std::uint32_t z = row / bricks_[1] * kCells[2];
+        const std::array<std::uint32_t, 3> size{clipped(0, x), clipped(1, y), clipped(2, z)};
+        const std::size_t plane = std::size_t{vertices_[0]} * vertices_[1];
+        const T* s = stored_.data() + z * plane + std::size_t{y} * vertices_[0] + x;
+        bool nan = false;
+        for (std::size_t vz = 0, i = 0; vz <= kCells[2]; ++vz)
+            for (std::size_t vy = 0; vy <= kCells[1]; ++vy, ++i) {
+                // Behind the border the last row again: cells that are not allowed.
+                const T* at = s + std::min<std::size_t>(vz, size[2]) * plane +
+                              std::min<std::size_t>(vy, size[1]) * vertices_[0];
+                const VertexBits bits = comparer_.compare(at, size[0] + 1);
+                batch_.vertices[i][slot] = static_cast<std::uint16_t>(bits.upper);
+                nan |= bits.nan;
+            }
+        batch_.first[slot] = static_cast<CellId>((z * cells_[1] + y) * cells_[0] + x);
+        batch_.allowed[slot] = inside(size);
+        if (HWY_UNLIKELY(nan))
+            forbid_nan(s, plane, size, batch_.allowed[slot]);
+    }
+
+    /// The cells of a brick that are cells of the grid.
+    static Pairs inside(const std::array<std::uint32_t, 3>& size) {
+        Pairs allowed;
+        if (HWY_LIKELY(size == kCells)) {
+            allowed.fill(0xffff);
+            return allowed;
+        }
+        allowed.fill(0);
+        for (std::uint32_t z = 0; z < size[2]; ++z)
+            for (std::uint32_t y = 0; y < size[1]; ++y)
+                allowed[(z * kCells[1] + y) / 2] |= row_of_pair((1u << size[0]) - 1, y);
+        return allowed;
+    }
+
+    /// Takes the cells with a NaN vertex out of a brick's allowed ones.
+    void forbid_nan(const T* s, std::size_t plane, const std::array<std::uint32_t, 3>& size,
+                    Pairs& allowed) const {
+        for (std::uint32_t z = 0; z < size[2]; ++z)
+            for (std::uint32_t y = 0; y < size[1]; ++y) {
+                std::uint64_t nan = 0;
+                const T* at = s + z * plane + std::size_t{y} * vertices_[0];
+                for (const T* row : {at, at + vertices_[0], at + plane, at + plane + vertices_[0]})
+                    nan |= comparer_.nan(row, size[0] + 1);
+                std::uint16_t& pair = allowed[(z * kCells[1] + y) / 2];
+                pair = pair & ~row_of_pair(nan | nan >> 1, y);
+            }
+    }
+
+    /// A row of eight cells in its place.
+    static std::uint16_t row_of_pair(std::uint64_t cells, std::uint32_t y) {
+        return static_cast<std::uint16_t>((cells & 0xff) << y % 2 * 8);
+    }
+
+    HWY_INLINE void write(std::size_t slot) {
+        const hn::CappedTag<CellId, 16> d;
+        const auto first = hn::Set(d, batch_.first[slot]);
+        CellId* at = buffer_.room();
+        for (std::size_t pair = 0; pair < kPairs; ++pair) {
+            const std::uint16_t bits = batch_.active[pair][slot] & batch_.allowed[slot][pair];
+            at = write_cells(at, bits, [&](std::size_t i) HWY_ATTR {
+                return hn::Add(first, hn::LoadU(d, id_.data() + pair * 16 + i));
+            });
+        }
+        buffer_.written(at);
+    }
+
+    std::array<std::uint32_t, 3> bricks_, vertices_, cells_;
+    std::span<const T> stored_;
+    VertexComparer<T, 16> comparer_;
+    std::array<CellId, kRows * kCells[0]> id_; ///< of all cells of a brick, from its first
+    std::vector<CellId>& out_;
+    CellBuffer buffer_{out_};
+    Batch batch_;
+};
+
+/// @return false, and finds nothing, where a scan is faster
+bool search_step(const StepValues& values, std::span<const std::uint8_t> bricks,
+                 const LevelMap::Cut& level, std::uint64_t cut, std::size_t step,
+                 std::vector<CellId>& out) {
+    const Candidates candidates(bricks, level);
+    if (candidates.count() * 100 > candidates.bricks() * kScanPercent)
+        return false;
+    visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
+        BrickSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), out);
+        for (std::size_t first = 0; first < candidates.bricks(); first += kWordBits)
+            for (std::uint64_t word = candidates.word(first); word; word &= word - 1)
+                search.test(
+                    static_cast<std::uint32_t>(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(word)));
+        search.finish();
+    });
+    return true;
+}
+
+} // namespace
+} // namespace isochron::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace isochron::index {
+
+HWY_EXPORT(search_step);
+
+void search_bricks(const StepValues& values, const LevelMap& levels,
+                   std::span<const std::uint8_t> bricks, const Query& query,
+                   std::vector<CellId>& out) {
+    assert(query.step < values.steps && levels.type() == values.type);
+    assert(bricks.size() == BrickGrid(values.grid).bytes_per_step());
+    const auto level = levels.cut(values.scaling, query.isovalue);
+    const auto cut = stored_cut(values.type, values.scaling, query.isovalue);
+    if (!level || !cut)
+        return;
+    if (!HWY_DYNAMIC_DISPATCH(search_step)(values, bricks, *level, *cut, query.step, out))
+        scan(values, query, out);
+}
+
+} // namespace isochron::index
+#endif

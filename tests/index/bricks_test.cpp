@@ -1,0 +1,206 @@
+// Bricks hold their cells' extremes, and the search with them finds what the definition says.
+#include "index/bricks.h"
+
+#include "index/ordinal.h"
+#include "index/scan.h"
+#include "simd_targets.h"
+#include "test_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace isochron::index {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16, ValueType::u16,
+                               ValueType::i32, ValueType::f32, ValueType::f64};
+
+/// Ordinals of all values of a series that are numbers, ascending.
+std::vector<std::uint64_t> distinct_ordinals(const StepValues& values) {
+    std::set<std::uint64_t> all;
+    visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
+        for (std::size_t t = 0; t < values.steps; ++t)
+            for (const T value : values.step<T>(t))
+                if (value == value)
+                    all.insert(ordinal(value));
+    });
+    return {all.begin(), all.end()};
+}
+
+/// Lossy levels at some of the values, so that ties with thresholds happen.
+LevelMap some_levels(const StepValues& values, std::size_t count) {
+    const std::vector<std::uint64_t> all = distinct_ordinals(values);
+    std::set<std::uint64_t> some;
+    for (std::size_t i = 0; i < count && !all.empty(); ++i)
+        some.insert(all[(i + 1) * (all.size() - 1) / (count + 1)]);
+    return LevelMap::of_thresholds(values.type,
+                                   std::vector<std::uint64_t>(some.begin(), some.end()));
+}
+
+std::vector<LevelMap> levels_for(const StepValues& values) {
+    std::vector<LevelMap> levels;
+    for (const std::size_t count : {0u, 1u, 5u, 255u})
+        levels.push_back(some_levels(values, count));
+    const std::vector<std::uint64_t> all = distinct_ordinals(values);
+    if (all.size() <= LevelMap::kMaxLevels)
+        levels.push_back(LevelMap::of_values(values.type, all));
+    if (size_of(values.type) == 1)
+        levels.push_back(LevelMap::of_type(values.type));
+    return levels;
+}
+
+std::vector<double> some_isovalues(const StepValues& values) {
+    std::vector<double> isovalues{-1e300, -0.0, 0.3, 1e300, kNaN, kInfinity, -kInfinity};
+    const std::vector<double> sorted = sorted_values(values);
+    for (const double value : quantiles(sorted, 9))
+        isovalues.insert(isovalues.end(), {std::nextafter(value, -kInfinity), value,
+                                           std::nextafter(value, kInfinity)});
+    if (!sorted.empty())
+        isovalues.insert(isovalues.end(), {sorted.front(), sorted.back()});
+    return isovalues;
+}
+
+/// The ranks of one brick's extremes, vertex by vertex.
+std::pair<int, int> slow_extremes(const StepValues& values, const LevelMap& levels,
+                                  std::size_t step, const std::array<std::uint32_t, 3>& brick) {
+    const auto [nx, ny, nz] = values.grid.vertices;
+    int low = 255, high = 0;
+    visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
+        std::vector<std::uint8_t> ranks(values.grid.vertex_count());
+        levels.ranks(std::as_bytes(values.step<T>(step)), ranks);
+        for (std::uint32_t z = brick[2] * 4; z <= std::min(brick[2] * 4 + 4, nz - 1); ++z)
+            for (std::uint32_t y = brick[1] * 4; y <= std::min(brick[1] * 4 + 4, ny - 1); ++y)
+                for (std::uint32_t x = brick[0] * 8; x <= std::min(brick[0] * 8 + 8, nx - 1); ++x) {
+                    const std::size_t vertex = (std::size_t{z} * ny + y) * nx + x;
+                    const T value = values.step<T>(step)[vertex];
+                    if (value != value)
+                        continue;
+                    low = std::min<int>(low, ranks[vertex]);
+                    high = std::max<int>(high, ranks[vertex]);
+                }
+    });
+    return {low, high};
+}
+
+/// Extremes and search against brute force, at every step, in every kind of code.
+void expect_exact(const StepValues& values) {
+    const BrickGrid grid(values.grid);
+    const std::vector<double> isovalues = some_isovalues(values);
+    for (const LevelMap& levels : levels_for(values))
+        for (std::uint32_t step = 0; step < values.steps; ++step) {
+            const BruteForce oracle(values, step);
+            on_every_simd_target([&] {
+                // Exactly as many bytes as there are, so that a sanitizer sees a read behind them.
+                std::vector<std::uint8_t> bricks(grid.bytes_per_step());
+                build_bricks(values, levels, step, bricks);
+                std::size_t i = 0;
+                for (std::uint32_t z = 0; z < grid.bricks()[2]; ++z)
+                    for (std::uint32_t y = 0; y < grid.bricks()[1]; ++y)
+                        for (std::uint32_t x = 0; x < grid.bricks()[0]; ++x, ++i)
+                            ASSERT_EQ((std::pair<int, int>(bricks[i], bricks[grid.count() + i])),
+                                      slow_extremes(values, levels, step, {x, y, z}));
+                ASSERT_EQ(i, grid.count());
+                for (const double isovalue : isovalues) {
+                    std::vector<CellId> found;
+                    search_bricks(values, levels, bricks, {step, isovalue}, found);
+                    std::sort(found.begin(), found.end());
+                    ASSERT_EQ(found, std::isfinite(isovalue) ? oracle.active(isovalue)
+                                                             : std::vector<CellId>())
+                        << "step " << step << ", isovalue " << isovalue << ", " << levels.levels()
+                        << " levels";
+                }
+            });
+        }
+}
+
+/// Mostly flat, so that few bricks are candidates and the scan is not used instead.
+TestField::Function spots(std::mt19937& random) {
+    return [&random, noise = white_noise(random)](double x, double y, double z, double t) {
+        const bool spot = std::fmod(x + 3 * y + 5 * z, 23) < 3 && x > 10;
+        return spot && random() % 4 == 0 ? 60 * noise(x, y, z, t) : 50.0;
+    };
+}
+
+TEST(Bricks, FindTheActiveCellsOfEveryTypeAndScaling) {
+    std::mt19937 random(test_seed());
+    for (const ValueType type : kAllTypes)
+        for (const Scaling& scaling : {Scaling{}, Scaling{-0.1, 1e3}}) {
+            SCOPED_TRACE(testing::Message() << name_of(type) << ' ' << scaling.slope);
+            expect_exact(TestField({43, 14, 11}, 2, type, spots(random), scaling).view());
+            expect_exact(
+                TestField({19, 9, 6}, 1, type, scaled(turbulence(random), 90, 10), scaling).view());
+        }
+}
+
+TEST(Bricks, FindTheActiveCellsOfEveryGridSize) {
+    std::mt19937 random(test_seed());
+    for (const std::uint32_t nx : {2u, 8u, 9u, 10u, 16u, 17u, 64u, 65u, 66u})
+        for (const std::uint32_t ny : {2u, 4u, 5u, 6u})
+            for (const std::uint32_t nz : {2u, 5u, 9u}) {
+                SCOPED_TRACE(testing::Message() << nx << ' ' << ny << ' ' << nz);
+                const ValueType type = kAllTypes[(nx + ny + nz) % kAllTypes.size()];
+                expect_exact(
+                    TestField({nx, ny, nz}, 1, type, scaled(turbulence(random), 90, 0)).view());
+            }
+}
+
+TEST(Bricks, NeverReportACellWithANanVertexAndKeepTheRest) {
+    std::mt19937 random(test_seed());
+    for (const ValueType type : {ValueType::f32, ValueType::f64})
+        for (const double special : {kNaN, -kNaN, kInfinity, -kInfinity}) {
+            const TestField::Function field = turbulence(random);
+            const auto planted = [&](double x, double y, double z, double t) {
+                // A corner of nothing else, some more here and there.
+                return (x < 10 && y < 6) || random() % 60 == 0 ? special : field(x, y, z, t);
+            };
+            expect_exact(TestField({40, 12, 9}, 2, type, planted).view());
+        }
+}
+
+TEST(Bricks, ABrickOfNanOnlyIsNoCandidate) {
+    const TestField field({9, 5, 5}, 1, ValueType::f32,
+                          [](double, double, double, double) { return kNaN; });
+    const LevelMap levels = LevelMap::of_thresholds(ValueType::f32, {});
+    std::vector<std::uint8_t> bricks(2);
+    build_bricks(field.view(), levels, 0, bricks);
+    EXPECT_EQ(bricks, (std::vector<std::uint8_t>{255, 0}));
+}
+
+TEST(Bricks, AppendBrickByBrickAndAscendingWithinEach) {
+    std::mt19937 random(test_seed());
+    const TestField field({80, 40, 30}, 1, ValueType::f32, moving_sphere);
+    const StepValues values = field.view();
+    const LevelMap levels = some_levels(values, 255);
+    const BrickGrid grid(values.grid);
+    std::vector<std::uint8_t> bricks(grid.bytes_per_step());
+    build_bricks(values, levels, 0, bricks);
+    std::vector<CellId> found{7};
+    search_bricks(values, levels, bricks, {0, 112.5}, found);
+    ASSERT_GT(found.size(), 1000u);
+    EXPECT_EQ(found.front(), 7u);
+    const auto place = [&](CellId id) {
+        const auto [x, y, z] = values.grid.cell_of(id);
+        return std::tuple(z / 4, y / 4, x / 8, id);
+    };
+    for (std::size_t i = 2; i < found.size(); ++i)
+        ASSERT_LT(place(found[i - 1]), place(found[i]));
+}
+
+TEST(Bricks, TakeLessThanAThousandthOfTheRawSize) {
+    Grid grid;
+    grid.vertices = {256, 256, 256};
+    const double raw = 24.0 * double(grid.cell_count());
+    EXPECT_LT(double(BrickGrid(grid).bytes_per_step()) / raw, 0.0007);
+    grid.vertices = {61, 50, 60};
+    EXPECT_LT(double(BrickGrid(grid).bytes_per_step()) / (24.0 * double(grid.cell_count())), 0.001);
+}
+
+} // namespace
+} // namespace isochron::index

@@ -40,16 +40,19 @@ template <class T>
 constexpr T kLowest = std::is_floating_point_v<T> ? -std::numeric_limits<T>::infinity()
                                                   : std::numeric_limits<T>::lowest();
 
-/// Extremes of `rows` x `planes` vertices for every x below `length`, which is at least D's lanes.
+/// Extremes of `rows` x `planes` vertices for every x below `length`.
 template <class D, class T = hn::TFromD<D>>
-void reduce_columns(D d, const T* first, std::size_t row, std::size_t plane, std::uint32_t rows,
-                    std::uint32_t planes, std::size_t length, T* low, T* high) {
+void reduce_rows(D d, const T* first, std::size_t length, std::size_t plane, std::uint32_t rows,
+                 std::uint32_t planes, T* low, T* high) {
+    if constexpr (hn::MaxLanes(D()) > 1)
+        if (length < hn::Lanes(d))
+            return reduce_rows(hn::Half<D>(), first, length, plane, rows, planes, low, high);
     for (std::size_t at = 0; at < length; at += hn::Lanes(d)) {
         const std::size_t x = std::min(at, length - hn::Lanes(d)); // the last vector may overlap
         auto lowest = hn::Set(d, kHighest<T>), highest = hn::Set(d, kLowest<T>);
         for (std::uint32_t z = 0; z < planes; ++z)
             for (std::uint32_t y = 0; y < rows; ++y) {
-                const auto values = hn::LoadU(d, first + z * plane + y * row + x);
+                const auto values = hn::LoadU(d, first + z * plane + y * length + x);
                 lowest = lower_of(lowest, values);
                 highest = higher_of(highest, values);
             }
@@ -78,12 +81,8 @@ void build_values(const StepValues& values, const LevelMap& levels, std::size_t 
             const std::uint32_t rows = std::min(kCells[1] + 1, ny - y);
             const std::uint32_t planes = std::min(kCells[2] + 1, nz - z);
             const T* first = s + z * plane + std::size_t{y} * nx;
-            const hn::ScalableTag<T> whole;
-            if (nx >= hn::Lanes(whole))
-                reduce_columns(whole, first, nx, plane, rows, planes, nx, low.data(), high.data());
-            else
-                reduce_columns(hn::CappedTag<T, 1>(), first, nx, plane, rows, planes, nx,
-                               low.data(), high.data());
+            reduce_rows(hn::ScalableTag<T>(), first, nx, plane, rows, planes, low.data(),
+                        high.data());
             std::fill(low.begin() + nx, low.end(), low[nx - 1]);
             std::fill(high.begin() + nx, high.end(), high[nx - 1]);
             for (std::uint32_t bx = 0; bx < bricks_x; ++bx) {

@@ -79,7 +79,8 @@ static_assert(kCells[0] == 8 && kCells[1] % 2 == 0);
 
 using Pairs = std::array<std::uint16_t, kPairs>;
 
-/// The vertices of some bricks as bits, and then their cells, brick after brick in every row.
+/// The vertices of some bricks as bits (set where below the cut), and then their cells, brick after
+/// brick in every row.
 struct Batch {
     std::array<std::array<std::uint16_t, kBatch>, kVertexRows> vertices{};
     std::array<std::array<std::uint16_t, kBatch>, kPairs> active;
@@ -119,15 +120,46 @@ void find_active(Batch& batch) {
         }
 }
 
+/// What bricks at the same borders have in common.
+struct BrickShape {
+    std::array<std::uint32_t, 3> size;         ///< cells; fewer than usual at an upper border
+    std::array<std::size_t, kVertexRows> rows; ///< from the first vertex; the border's row repeats
+    Pairs cells{};                             ///< those of the grid
+};
+
+/// A row of eight cells in its place.
+std::uint16_t row_of_pair(std::uint64_t cells, std::uint32_t y) {
+    return static_cast<std::uint16_t>((cells & 0xff) << y % 2 * 8);
+}
+
+BrickShape shape_of(const Grid& grid, const std::array<std::uint32_t, 3>& size) {
+    const std::size_t row = grid.vertices[0], plane = row * grid.vertices[1];
+    BrickShape shape{.size = size, .rows = {}};
+    for (std::uint32_t z = 0, i = 0; z <= kCells[2]; ++z)
+        for (std::uint32_t y = 0; y <= kCells[1]; ++y, ++i)
+            shape.rows[i] = std::min(z, size[2]) * plane + std::min(y, size[1]) * row;
+    for (std::uint32_t z = 0; z < size[2]; ++z)
+        for (std::uint32_t y = 0; y < size[1]; ++y)
+            shape.cells[(z * kCells[1] + y) / 2] |= row_of_pair((1u << size[0]) - 1, y);
+    return shape;
+}
+
 template <class T>
 class BrickSearch {
   public:
     BrickSearch(const StepValues& values, std::size_t step, T cut, std::vector<CellId>& out)
         : bricks_(BrickGrid(values.grid).bricks()), vertices_(values.grid.vertices),
-          cells_(values.grid.cells()), stored_(values.step<T>(step)),
-          comparer_(stored_.data() + stored_.size(), cut), out_(out) {
+          cells_(values.grid.cells()), stored_(values.step<T>(step)), cut_(hn::Set(D(), cut)),
+          out_(out) {
         for (std::uint32_t i = 0; i < id_.size(); ++i)
             id_[i] = ((i / 32) * cells_[1] + i / 8 % 4) * cells_[0] + i % 8;
+        for (std::uint32_t borders = 0; borders < shapes_.size(); ++borders) {
+            auto size = kCells;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                if (borders >> axis & 1)
+                    size[axis] = cells_[axis] - (bricks_[axis] - 1) * kCells[axis];
+            shapes_[borders] = shape_of(values.grid, size);
+        }
     }
 
     void test(std::uint32_t brick) {
@@ -145,67 +177,80 @@ class BrickSearch {
     }
 
   private:
-    /// Cells of a brick along an axis, fewer than usual at the border.
-    std::uint32_t clipped(std::size_t axis, std::uint32_t first) const {
-        return std::min(kCells[axis], cells_[axis] - first);
-    }
+    using D = hn::CappedTag<T, 16>;
+    static constexpr std::size_t kRowValues = 16; ///< read of a row, of which a brick needs 9
+
+    std::size_t plane() const { return std::size_t{vertices_[0]} * vertices_[1]; }
 
     void add(std::uint32_t brick) {
         const std::size_t slot = batch_.size++;
         const std::uint32_t row = brick / bricks_[0];
-        const std::uint32_t x = brick % bricks_[0] * kCells[0];
-        const std::uint32_t y = row % bricks_[1] * kCells[1];
-        const std::uint32_t z = row / bricks_[1] * kCells[2];
-        const std::array<std::uint32_t, 3> size{clipped(0, x), clipped(1, y), clipped(2, z)};
-        const std::size_t plane = std::size_t{vertices_[0]} * vertices_[1];
-        const T* s = stored_.data() + z * plane + std::size_t{y} * vertices_[0] + x;
-        bool nan = false;
-        for (std::size_t vz = 0, i = 0; vz <= kCells[2]; ++vz)
-            for (std::size_t vy = 0; vy <= kCells[1]; ++vy, ++i) {
-                // Behind the border the last row again: cells that are not allowed.
-                const T* at = s + std::min<std::size_t>(vz, size[2]) * plane +
-                              std::min<std::size_t>(vy, size[1]) * vertices_[0];
-                const VertexBits bits = comparer_.compare(at, size[0] + 1);
-                batch_.vertices[i][slot] = static_cast<std::uint16_t>(bits.upper);
-                nan |= bits.nan;
-            }
+        const std::uint32_t bx = brick % bricks_[0], by = row % bricks_[1], bz = row / bricks_[1];
+        const std::uint32_t x = bx * kCells[0], y = by * kCells[1], z = bz * kCells[2];
+        const T* s = stored_.data() + z * plane() + std::size_t{y} * vertices_[0] + x;
+        const BrickShape& shape =
+            shapes_[(bx + 1 == bricks_[0] ? 1u : 0u) | (by + 1 == bricks_[1] ? 2u : 0u) |
+                    (bz + 1 == bricks_[2] ? 4u : 0u)];
         batch_.first[slot] = static_cast<CellId>((z * cells_[1] + y) * cells_[0] + x);
-        batch_.allowed[slot] = inside(size);
+        batch_.allowed[slot] = shape.cells;
+        const auto left = static_cast<std::size_t>(stored_.data() + stored_.size() - s);
+        const bool nan = HWY_LIKELY(left >= shape.rows.back() + kRowValues)
+                             ? compare(s, shape.rows, slot)
+                             : compare_last(s, shape, slot);
         if (HWY_UNLIKELY(nan))
-            forbid_nan(s, plane, size, batch_.allowed[slot]);
+            forbid_nan(s, shape.size, batch_.allowed[slot]);
     }
 
-    /// The cells of a brick that are cells of the grid.
-    static Pairs inside(const std::array<std::uint32_t, 3>& size) {
-        Pairs allowed;
-        if (HWY_LIKELY(size == kCells)) {
-            allowed.fill(0xffff);
-            return allowed;
+    /// Fills the batch's bits of a brick. @return whether a vertex may be NaN
+    HWY_INLINE bool compare(const T* s, const std::array<std::size_t, kVertexRows>& rows,
+                            std::size_t slot) {
+        const D d;
+        auto sum = hn::Zero(d);
+        for (std::size_t row = 0; row < kVertexRows; ++row) {
+            std::uint64_t lower = 0;
+            for (std::size_t i = 0; i <= kCells[0]; i += hn::Lanes(d)) {
+                const auto values = hn::LoadU(d, s + rows[row] + i);
+                lower |= bits_of(d, hn::Lt(values, cut_)) << i;
+                if constexpr (std::is_floating_point_v<T>)
+                    sum = hn::Add(sum, values);
+            }
+            batch_.vertices[row][slot] = static_cast<std::uint16_t>(lower);
         }
-        allowed.fill(0);
-        for (std::uint32_t z = 0; z < size[2]; ++z)
-            for (std::uint32_t y = 0; y < size[1]; ++y)
-                allowed[(z * kCells[1] + y) / 2] |= row_of_pair((1u << size[0]) - 1, y);
-        return allowed;
+        // A NaN stays in a sum; infinities may make one where there is none, which does no harm.
+        if constexpr (std::is_floating_point_v<T>)
+            return !hn::AllFalse(d, hn::IsNaN(sum));
+        return false;
+    }
+
+    /// The same at the end of the step, where whole vectors would reach beyond it.
+    bool compare_last(const T* s, const BrickShape& shape, std::size_t slot) {
+        std::array<T, kVertexRows * kRowValues> copy{};
+        std::array<std::size_t, kVertexRows> rows;
+        for (std::size_t i = 0; i < kVertexRows; ++i) {
+            rows[i] = i * kRowValues;
+            std::copy_n(s + shape.rows[i], shape.size[0] + 1, copy.data() + rows[i]);
+        }
+        return compare(copy.data(), rows, slot);
     }
 
     /// Takes the cells with a NaN vertex out of a brick's allowed ones.
-    void forbid_nan(const T* s, std::size_t plane, const std::array<std::uint32_t, 3>& size,
-                    Pairs& allowed) const {
-        for (std::uint32_t z = 0; z < size[2]; ++z)
-            for (std::uint32_t y = 0; y < size[1]; ++y) {
-                std::uint64_t nan = 0;
-                const T* at = s + z * plane + std::size_t{y} * vertices_[0];
-                for (const T* row : {at, at + vertices_[0], at + plane, at + plane + vertices_[0]})
-                    nan |= comparer_.nan(row, size[0] + 1);
-                std::uint16_t& pair = allowed[(z * kCells[1] + y) / 2];
-                pair = pair & ~row_of_pair(nan | nan >> 1, y);
-            }
-    }
-
-    /// A row of eight cells in its place.
-    static std::uint16_t row_of_pair(std::uint64_t cells, std::uint32_t y) {
-        return static_cast<std::uint16_t>((cells & 0xff) << y % 2 * 8);
+    void forbid_nan(const T* s, const std::array<std::uint32_t, 3>& size, Pairs& allowed) const {
+        for (std::uint32_t z = 0; z <= size[2]; ++z)
+            for (std::uint32_t y = 0; y <= size[1]; ++y)
+                for (std::uint32_t x = 0; x <= size[0]; ++x) {
+                    const T value = s[z * plane() + std::size_t{y} * vertices_[0] + x];
+                    if (value == value)
+                        continue;
+                    // Up to eight cells around the vertex; bit x of 2 * cells is the cell at x.
+                    const std::uint64_t cells = (std::uint64_t{3} << x) >> 1;
+                    for (std::uint32_t cz = z - std::min(z, 1u); cz <= std::min(z, kCells[2] - 1);
+                         ++cz)
+                        for (std::uint32_t cy = y - std::min(y, 1u);
+                             cy <= std::min(y, kCells[1] - 1); ++cy) {
+                            std::uint16_t& pair = allowed[(cz * kCells[1] + cy) / 2];
+                            pair = pair & ~row_of_pair(cells, cy);
+                        }
+                }
     }
 
     HWY_INLINE void write(std::size_t slot) {
@@ -223,7 +268,8 @@ class BrickSearch {
 
     std::array<std::uint32_t, 3> bricks_, vertices_, cells_;
     std::span<const T> stored_;
-    VertexComparer<T, 16> comparer_;
+    hn::Vec<D> cut_;
+    std::array<BrickShape, 8> shapes_; ///< at the upper borders of x (1), y (2) and z (4), or not
     std::array<CellId, kRows * kCells[0]> id_; ///< of all cells of a brick, from its first
     std::vector<CellId>& out_;
     CellBuffer buffer_{out_};

@@ -128,7 +128,8 @@ HWY_INLINE void write_active(const ActiveWords& active, const CellId* first, Cel
         const std::size_t quarter = hwy::Num0BitsBelowLS1Bit_Nonzero64(filled);
         const auto cell = static_cast<CellId>(layer_first + first[quarter / 4] + quarter % 4 * 16);
         at = write_cells(at, quarters[quarter], [&](std::size_t i) HWY_ATTR {
-            return hn::Iota(hn::CappedTag<CellId, 16>(), static_cast<CellId>(cell + i));
+            const hn::CappedTag<CellId, 16> ids; // a constant Iota: with `cell` in it, it is slow
+            return hn::Add(hn::Set(ids, cell), hn::Iota(ids, static_cast<CellId>(i)));
         });
     }
     out.written(at);

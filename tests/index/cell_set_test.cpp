@@ -2,6 +2,7 @@
 #include "index/cell_set.h"
 #include "index/id_sort.h"
 #include "index/scan.h"
+#include "simd_targets.h"
 #include "test_field.h"
 
 #include <glm/ext/matrix_transform.hpp>
@@ -16,6 +17,9 @@
 
 namespace isochron::index {
 namespace {
+
+constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16, ValueType::u16,
+                               ValueType::i32, ValueType::f32, ValueType::f64};
 
 /// Three unit axes, turned out of the coordinate axes, mirrored if asked.
 glm::dmat3 turned(bool mirrored) {
@@ -84,8 +88,7 @@ CellSet all_cells(const StepValues& values, std::uint32_t step) {
 TEST(CellSet, NormalsAreTheMeanOfEightCentralDifferencesForEveryTypeAndPlacement) {
     const std::uint32_t seed = test_seed();
     std::mt19937 random(seed);
-    for (const ValueType type : {ValueType::i8, ValueType::u8, ValueType::i16, ValueType::u16,
-                                 ValueType::i32, ValueType::f32, ValueType::f64})
+    for (const ValueType type : kAllTypes)
         for (const double slope : {1.0, -0.25}) {
             const TestField field({5, 4, 6}, 2, type, scaled(white_noise(random), 50, 60),
                                   {slope, 3.0});
@@ -98,6 +101,71 @@ TEST(CellSet, NormalsAreTheMeanOfEightCentralDifferencesForEveryTypeAndPlacement
                 EXPECT_LT(glm::distance(unpacked(set.points[id].normal), expected), 0.002);
             }
         }
+}
+
+/// Every packed component is the exact one rounded: off by more than half a unit only as far as
+/// rounding before the rounding may take it across a tie.
+void expect_packed_exactly(const StepValues& values, std::uint32_t step) {
+    on_every_simd_target([&] {
+        const CellSet set = all_cells(values, step);
+        for (const CellId id : set.ids) {
+            const glm::dvec3 exact = cell_normal(values, step, id) * 511.0;
+            const glm::dvec3 packed = unpacked(set.points[id].normal) * 511.0;
+            for (int axis = 0; axis < 3; ++axis)
+                ASSERT_NEAR(packed[axis], exact[axis], 0.501) << "cell " << id;
+        }
+    });
+}
+
+TEST(CellSet, PackedNormalsAreTheExactOnesRoundedForEveryTypeAndItsExtremes) {
+    std::mt19937 random(test_seed());
+    for (const ValueType type : kAllTypes)
+        for (const double range : {1.0, 100.0, 4e9}) { // clamped: mostly the type's extremes
+            SCOPED_TRACE(testing::Message() << name_of(type) << ' ' << range);
+            const TestField field({23, 9, 8}, 2, type, scaled(white_noise(random), range, 0));
+            expect_packed_exactly(field.view(), 1);
+            expect_packed_exactly(placed(field.view(), {0.5, 2.0, 1.25}, turned(true)), 0);
+        }
+}
+
+TEST(CellSet, PackedNormalsAreExactWhereSpacingsDifferByFarMoreThanFloatHasDigits) {
+    std::mt19937 random(test_seed());
+    for (const double small : {1e-3, 1e-5, 1e-30, 1e-150}) {
+        SCOPED_TRACE(small);
+        const TestField field({12, 7, 7}, 1, ValueType::u8,
+                              [&](double x, double, double z, double) {
+                                  return std::floor(x / 3) + (random() % 2 ? z : 0);
+                              });
+        expect_packed_exactly(placed(field.view(), {1.0, small, 1.0}, turned(false)), 0);
+        expect_packed_exactly(placed(field.view(), {1.0, 1.0, 1.0 / small}, turned(false)), 0);
+    }
+}
+
+TEST(CellSet, PackedNormalsAreExactAtTheLimitsOfFloatingPoint) {
+    std::mt19937 random(test_seed());
+    for (const double factor : {1e-310, 1e-45, 1e38, 1e300})
+        for (const ValueType type : {ValueType::f32, ValueType::f64}) {
+            SCOPED_TRACE(testing::Message() << name_of(type) << ' ' << factor);
+            const TestField field({9, 8, 7}, 1, type, scaled(white_noise(random), factor * 3, 0));
+            expect_packed_exactly(field.view(), 0);
+        }
+}
+
+TEST(CellSet, PackedNormalsAreZeroExactlyWhereThereIsNoNormal) {
+    std::mt19937 random(test_seed());
+    const TestField::Function noise = white_noise(random);
+    const TestField field(
+        {30, 9, 8}, 1, ValueType::f32, [&](double x, double y, double z, double t) {
+            constexpr std::array kSpecial{double(NAN), double(INFINITY), -double(INFINITY), 0.0};
+            return random() % 100 < 8 ? kSpecial[random() % 4] : x < 12 ? 1.0 : noise(x, y, z, t);
+        });
+    on_every_simd_target([&] {
+        const CellSet set = all_cells(field.view(), 0);
+        for (const CellId id : set.ids)
+            ASSERT_EQ(set.points[id].normal == 0,
+                      cell_normal(field.view(), 0, id) == glm::dvec3(0.0))
+                << "cell " << id;
+    });
 }
 
 TEST(CellSet, ALinearRampHasTheSameNormalEverywhereAlsoWhenTurnedAndStretched) {

@@ -18,8 +18,11 @@ HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 namespace {
 
-/// With more candidates than this share of all bricks a scan is faster.
-constexpr std::size_t kScanPercent = 40;
+/// With more candidates in a hundred bricks than these a scan is faster: it reads every vertex
+/// once, the bricks those around them twice, which costs less where comparing is most of the work.
+std::size_t scan_percent(ValueType type) {
+    return size_of(type) == 1 ? 25 : 40;
+}
 
 /// Which bricks may hold active cells.
 class Candidates {
@@ -206,15 +209,19 @@ class BrickSearch {
                             std::size_t slot) {
         const D d;
         auto sum = hn::Zero(d);
-        for (std::size_t row = 0; row < kVertexRows; ++row) {
-            std::uint64_t lower = 0;
-            for (std::size_t i = 0; i <= kCells[0]; i += hn::Lanes(d)) {
-                const auto values = hn::LoadU(d, s + rows[row] + i);
-                lower |= bits_of(d, hn::Lt(values, cut_)) << i;
-                if constexpr (std::is_floating_point_v<T>)
-                    sum = hn::Add(sum, values);
+        for (std::size_t row = 0; row < kVertexRows;) {
+            auto plane_sum = hn::Zero(d); // of their own, so that they need not wait for each other
+            for (std::size_t y = 0; y <= kCells[1]; ++y, ++row) {
+                std::uint64_t lower = 0;
+                for (std::size_t i = 0; i <= kCells[0]; i += hn::Lanes(d)) {
+                    const auto values = hn::LoadU(d, s + rows[row] + i);
+                    lower |= bits_of(d, hn::Lt(values, cut_)) << i;
+                    if constexpr (std::is_floating_point_v<T>)
+                        plane_sum = hn::Add(plane_sum, values);
+                }
+                batch_.vertices[row][slot] = static_cast<std::uint16_t>(lower);
             }
-            batch_.vertices[row][slot] = static_cast<std::uint16_t>(lower);
+            sum = hn::Add(sum, plane_sum);
         }
         // A NaN stays in a sum; infinities may make one where there is none, which does no harm.
         if constexpr (std::is_floating_point_v<T>)
@@ -281,7 +288,7 @@ bool search_step(const StepValues& values, std::span<const std::uint8_t> bricks,
                  const LevelMap::Cut& level, std::uint64_t cut, std::size_t step,
                  std::vector<CellId>& out) {
     const Candidates candidates(bricks, level);
-    if (candidates.count() * 100 > candidates.bricks() * kScanPercent)
+    if (candidates.count() * 100 > candidates.bricks() * scan_percent(values.type))
         return false;
     visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         BrickSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), out);

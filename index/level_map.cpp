@@ -69,11 +69,23 @@ void LevelMap::ranks(std::span<const std::byte> stored, std::span<std::uint8_t> 
     visit_value_type(type_, [&]<class T>(std::type_identity<T>) {
         assert(stored.size() == out.size() * sizeof(T));
         const T* values = reinterpret_cast<const T*>(stored.data());
-        for (std::size_t i = 0; i < out.size(); ++i)
-            if constexpr (sizeof(T) <= 2)
+        if constexpr (sizeof(T) <= 2) {
+            for (std::size_t i = 0; i < out.size(); ++i)
                 out[i] = table_[ordinal(values[i])];
-            else
-                out[i] = rank_of(thresholds_, ordinal(values[i]));
+        } else {
+            // Halving without branches, which could not be predicted, among 255 thresholds of which
+            // the last ones lie above all values.
+            std::array<std::uint64_t, kMaxLevels - 1> padded;
+            padded.fill(~std::uint64_t{0});
+            std::copy(thresholds_.begin(), thresholds_.end(), padded.begin());
+            for (std::size_t i = 0; i < out.size(); ++i) {
+                const std::uint64_t number = ordinal(values[i]);
+                std::size_t rank = 0;
+                for (std::size_t half = kMaxLevels / 2; half > 0; half /= 2)
+                    rank += half * (padded[rank + half - 1] <= number);
+                out[i] = static_cast<std::uint8_t>(rank);
+            }
+        }
     });
 }
 

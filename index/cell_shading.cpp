@@ -260,7 +260,7 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     Shader<DifferenceBatch> exact({}, matrix);
     using Batch = ValueBatch<std::conditional_t<kSmall, T, std::uint8_t>>;
     Shader<Batch> fast(Batch(values.grid), matrix);
-    const std::uint32_t width = values.grid.cells()[0];
+    const std::uint32_t width = values.grid.cells()[0], height = values.grid.cells()[1];
     std::uint64_t row_end = 0; // id behind the current row
     CellDifferences<T> row(values, set.query.step, 0, 0);
     bool inner = false;
@@ -270,12 +270,18 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
         if (i % 4096 == 0 && stop.stop_requested())
             return false;
         if (id >= row_end) {
-            const auto [x, y, z] = values.grid.cell_of(id);
-            point.y = static_cast<std::uint16_t>(y);
-            point.z = static_cast<std::uint16_t>(z);
-            row_end = std::uint64_t{id} - x + width;
+            // Most often the next row, which saves two divisions.
+            if (row_end > 0 && id - row_end < width && point.y + 1u < height) {
+                ++point.y;
+                row_end += width;
+            } else {
+                const auto [x, y, z] = values.grid.cell_of(id);
+                point.y = static_cast<std::uint16_t>(y);
+                point.z = static_cast<std::uint16_t>(z);
+                row_end = std::uint64_t{id} - x + width;
+            }
             set.rows.push_back({point.y, point.z, static_cast<std::uint32_t>(i)});
-            row = CellDifferences<T>(values, set.query.step, y, z);
+            row = CellDifferences<T>(values, set.query.step, point.y, point.z);
             inner = kSmall && smallest >= kFloatIsEnough && !row.border();
         }
         point.x = static_cast<std::uint16_t>(id - (row_end - width));

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace isochron::index {
@@ -24,9 +25,9 @@ glm::dvec3 unit(const glm::dvec3& v) {
 } // namespace
 
 glm::dvec3 cell_normal(const StepValues& values, std::uint32_t step, CellId cell) {
-    const auto [x, y, z] = values.grid.cell_of(cell);
+    const std::array<std::uint32_t, 3> at = values.grid.cell_of(cell);
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
-        const glm::dvec3 difference = CellDifferences<T>(values, step, y, z)(x);
+        const glm::dvec3 difference = CellDifferences<T>(values, step, at[1], at[2])(at[0]);
         return unit(normal_from_difference(values) * unit(difference));
     });
 }

@@ -149,7 +149,7 @@ void LevelChooser::add_values(std::size_t step, std::span<const T> values) {
         DistinctSet distinct;
         bool few = true;
         for (std::size_t i = 0; i < values.size() && few; ++i)
-            if (values[i] == values[i] && (i == 0 || values[i] != values[i - 1]))
+            if (!is_nan(values[i]) && (i == 0 || values[i] != values[i - 1]))
                 few = distinct.add(ordinal(values[i]));
         take_distinct(distinct.take());
     }
@@ -160,7 +160,7 @@ void LevelChooser::add_values(std::size_t step, std::span<const T> values) {
         const std::size_t end = (i + 1) * values.size() / count;
         const std::uint64_t hash = hash_of(step * kSamplesPerStep + i);
         const T value = values[first + hash_of(hash) % (end - first)];
-        if (value == value)
+        if (!is_nan(value))
             samples_.push_back({hash, ordinal(value)});
     }
     if (samples_.size() > 2 * kSamples)
@@ -200,6 +200,7 @@ LevelMap LevelChooser::choose() const {
     std::vector<Sample> samples = samples_;
     keep_lowest_hashes(samples);
     std::vector<std::uint64_t> ordinals;
+    ordinals.reserve(samples.size());
     for (const Sample& sample : samples)
         ordinals.push_back(sample.ordinal);
     std::sort(ordinals.begin(), ordinals.end());

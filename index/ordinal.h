@@ -13,6 +13,14 @@ namespace isochron::index {
 template <class T>
 using Ordinal = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
 
+/// False for every whole number.
+template <class T>
+constexpr bool is_nan(T stored) {
+    if constexpr (std::is_floating_point_v<T>)
+        return std::isnan(stored);
+    return false;
+}
+
 /// `a < b` if and only if `ordinal(a) < ordinal(b)`, infinities included; -0 and +0 are one value.
 /// A NaN has no place in the order.
 template <class T>

@@ -3,6 +3,7 @@
 
 #include "index/grid.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +18,13 @@ struct IdRun {
     std::uint32_t count;
     CellId first;
 };
+
+/// Number of cells of the runs.
+std::size_t count_ids(std::span<const IdRun> runs);
+
+/// Writes the cells of the runs, in their order; what lies up to kSlack ids behind them may be
+/// overwritten too. @param out holds kSlack ids more than the runs @return number of ids written
+std::size_t copy_ids(std::span<const IdRun> runs, std::span<CellId> out);
 
 /// Appends the cells of the runs, in their order.
 void append_ids(std::span<const IdRun> runs, std::vector<CellId>& out);

@@ -1,0 +1,175 @@
+// Counting sort of a cell table's entries, and its directory.
+#include "index/cell_table_builder.h"
+
+#include "index/cell_table_layout.h"
+#include "index/chunking.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+namespace isochron::index {
+
+/// What part of span space the entries take up.
+struct CellTableBuilder::Band {
+    CellTableHead head{};
+    std::uint32_t span = 0; ///< most that a row exceeds its column
+    std::array<std::uint32_t, CellTable::kRows> row_count{};
+    /// One behind the last row that has an entry of this column or one below.
+    std::array<std::uint32_t, CellTable::kRows> rows_end{};
+
+    std::uint32_t first_column(std::uint32_t row) const { return row - std::min(row, span); }
+    /// Pairs of rows that the line of a column covers.
+    std::uint32_t line_pairs(std::uint32_t column) const {
+        const std::uint32_t first = CellTableLayout::first_pair(head, column);
+        return std::max(first, (rows_end[column] + 1) / 2) - first;
+    }
+};
+
+CellTableBuilder::CellTableBuilder()
+    : keys_(kEntriesPerCell * Chunking::kMaxCells), ids_(keys_.size()),
+      counts_(std::size_t{CellTable::kRows} * CellTable::kRows) {}
+
+/// Counts the entries of each element and chooses the directory.
+CellTableBuilder::Band CellTableBuilder::count() {
+    std::uint16_t first_column = 0xff, first_row = 0xff, last_row = 0, span = 0;
+    for (std::uint32_t i = 0; i < entries_; ++i) {
+        const auto row = static_cast<std::uint16_t>(keys_[i] >> 8);
+        const auto column = static_cast<std::uint16_t>(keys_[i] & 0xff);
+        first_column = std::min(first_column, column);
+        first_row = std::min(first_row, row);
+        last_row = std::max(last_row, row);
+        span = std::max(span, static_cast<std::uint16_t>(row - column));
+    }
+    for (std::uint32_t i = 0; i < entries_; ++i)
+        ++counts_[keys_[i]];
+
+    Band band;
+    band.span = span;
+    band.head.entries = entries_;
+    band.head.first_column = static_cast<std::uint8_t>(first_column);
+    band.head.first_row = static_cast<std::uint8_t>(first_row);
+    band.head.last_row = static_cast<std::uint8_t>(last_row);
+    std::uint32_t elements = 0;
+    for (std::uint32_t row = first_row; row <= last_row; ++row)
+        for (std::uint32_t column = band.first_column(row); column <= row; ++column)
+            if (const std::uint32_t count = element(row, column)) {
+                band.row_count[row] += count;
+                band.rows_end[column] = row + 1;
+                ++elements;
+            }
+    std::uint32_t pairs = 0;
+    for (std::uint32_t column = first_column, end = 0; column <= last_row; ++column) {
+        band.rows_end[column] = end = std::max(end, band.rows_end[column]);
+        pairs += band.line_pairs(column);
+    }
+    const bool fits = *std::max_element(band.row_count.begin(), band.row_count.end()) <= 0xff;
+    band.head.form = fits ? CellTableHead::narrow : CellTableHead::wide;
+    band.head.size = pairs;
+    CellTableHead sparse = band.head;
+    sparse.form = CellTableHead::sparse;
+    sparse.size = elements;
+    if (elements <= CellTable::kMaxElements && entries_ <= 0xffff &&
+        CellTableLayout(sparse).end <= CellTableLayout(band.head).end)
+        band.head = sparse;
+    return band;
+}
+
+/// Writes everything, to bytes that are 0.
+void CellTableBuilder::write(const Band& band, std::byte* table) {
+    std::memcpy(table, &band.head, sizeof band.head);
+    const CellTableLayout layout(band.head);
+    switch (band.head.form) {
+    case CellTableHead::sparse: write_elements(band, layout, table); break;
+    case CellTableHead::narrow: write_lines<std::uint8_t>(band, layout, table); break;
+    case CellTableHead::wide: write_lines<std::uint16_t>(band, layout, table); break;
+    }
+    auto* ids = reinterpret_cast<std::uint16_t*>(table + layout.ids);
+    for (std::uint32_t i = 0; i < entries_; ++i)
+        ids[counts_[keys_[i]]++] = ids_[i];
+    for (std::uint32_t row = band.head.first_row; row <= band.head.last_row; ++row)
+        std::fill(&element(row, band.first_column(row)), &element(row, row) + 1, 0);
+}
+
+/// Turns the counts of a row into the places of its elements' first entries.
+/// @param at that of the row, then that of the next
+template <class F>
+void CellTableBuilder::place_row(const Band& band, std::uint32_t row, std::uint32_t& at,
+                                 F&& placed) {
+    if (band.row_count[row] == 0)
+        return;
+    const std::uint32_t first = band.first_column(row);
+    for (std::uint32_t i = 0; i <= row - first; ++i) {
+        const std::uint32_t column = row % 2 == 0 ? row - i : first + i;
+        const std::uint32_t count = std::exchange(element(row, column), at);
+        if (count)
+            placed(row, column, at);
+        at += count;
+    }
+}
+
+void CellTableBuilder::write_elements(const Band& band, const CellTableLayout& layout,
+                                      std::byte* table) {
+    auto* columns = reinterpret_cast<std::uint8_t*>(table + layout.columns);
+    auto* rows = reinterpret_cast<std::uint8_t*>(table + layout.rows);
+    auto* begins = reinterpret_cast<std::uint16_t*>(table + layout.begins);
+    std::uint32_t at = 0;
+    for (std::uint32_t row = band.head.first_row; row <= band.head.last_row; ++row)
+        place_row(band, row, at, [&](std::uint32_t r, std::uint32_t c, std::uint32_t begin) {
+            *columns++ = static_cast<std::uint8_t>(c);
+            *rows++ = static_cast<std::uint8_t>(r);
+            *begins++ = static_cast<std::uint16_t>(begin);
+        });
+    *begins = static_cast<std::uint16_t>(at);
+}
+
+template <class Length>
+void CellTableBuilder::write_lines(const Band& band, const CellTableLayout& layout,
+                                   std::byte* table) {
+    const CellTableHead& head = band.head;
+    auto* anchors = reinterpret_cast<std::uint32_t*>(table + layout.anchors);
+    auto* starts = reinterpret_cast<std::uint16_t*>(table + layout.starts);
+    auto* lengths = reinterpret_cast<Length*>(table + layout.lengths);
+    for (std::uint32_t column = head.first_column; column <= head.last_row; ++column)
+        starts[column + 1 - head.first_column] = static_cast<std::uint16_t>(
+            starts[column - head.first_column] + band.line_pairs(column));
+    // A line covers every pair in which it has a length that is not 0.
+    const auto set = [&](std::uint32_t row, std::uint32_t column, std::uint32_t length) {
+        if (length == 0)
+            return;
+        const std::uint32_t pair = starts[column - head.first_column] + row / 2 -
+                                   CellTableLayout::first_pair(head, column);
+        lengths[2 * pair + row % 2] = static_cast<Length>(length);
+    };
+    std::uint32_t at = 0;
+    for (std::uint32_t even = head.first_row & ~1u; even <= head.last_row; even += 2) {
+        const std::uint32_t odd = even + 1;
+        place_row(band, even, at, [](auto...) {});
+        const std::uint32_t anchor = at;
+        *anchors++ = anchor;
+        place_row(band, odd, at, [](auto...) {});
+        if (band.row_count[even]) {
+            for (std::uint32_t column = band.first_column(even); column <= even; ++column)
+                set(even, column, anchor - element(even, column));
+            if (odd <= head.last_row) // so that a length is nowhere below that of the line before
+                set(even, odd, band.row_count[even]);
+        }
+        if (band.row_count[odd]) {
+            for (std::uint32_t column = band.first_column(odd); column < odd; ++column)
+                set(odd, column, element(odd, column + 1) - anchor);
+            set(odd, odd, band.row_count[odd]);
+        }
+    }
+}
+
+void CellTableBuilder::append_to(std::vector<std::byte>& bytes) {
+    assert(entries_ > 0 && bytes.size() % CellTable::kAlignment == 0);
+    const Band band = count();
+    const std::size_t begin = bytes.size();
+    bytes.resize(begin + CellTableLayout(band.head).end);
+    write(band, bytes.data() + begin);
+    entries_ = 0;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,60 @@
+// Where the parts of a cell table lie: shared by its search and its builder.
+#pragma once
+
+#include "index/cell_table.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace isochron::index {
+
+/// Offsets in bytes from the table's head.
+struct CellTableLayout {
+    // sparse: for every element, in the order of the ids
+    std::size_t columns = 0, rows = 0; ///< u8
+    std::size_t begins = 0;            ///< u16: of its first entry; one more than elements
+    // narrow and wide
+    std::size_t anchors = 0; ///< u32, of every pair of rows from `first_pair` on
+    std::size_t starts = 0;  ///< u16: first pair of lengths of a line; one more than lines
+    std::size_t lengths = 0; ///< u8 or u16, even row before odd row
+    // all
+    std::size_t ids = 0; ///< u16
+    std::size_t end = 0;
+
+    static std::uint32_t first_pair(const CellTableHead& head) { return head.first_row / 2u; }
+    static std::uint32_t pairs(const CellTableHead& head) {
+        return head.last_row / 2u + 1 - first_pair(head);
+    }
+    /// There is a line for each column from the first that is in use to that of the last row.
+    static std::uint32_t lines(const CellTableHead& head) {
+        return head.last_row + 1u - head.first_column;
+    }
+    /// The first pair of rows that a column's line covers.
+    static std::uint32_t first_pair(const CellTableHead& head, std::uint32_t column) {
+        return std::max(first_pair(head), column / 2);
+    }
+
+    /// @param head with first_row <= last_row and first_column <= last_row
+    explicit CellTableLayout(const CellTableHead& head) {
+        std::size_t at = sizeof head;
+        const auto part = [&](std::size_t& offset, std::size_t bytes) {
+            offset = at;
+            at += bytes;
+        };
+        const std::size_t size = head.size;
+        if (head.form == CellTableHead::sparse) {
+            part(columns, size);
+            part(rows, size);
+            part(begins, (size + 1) * sizeof(std::uint16_t));
+        } else {
+            part(anchors, pairs(head) * sizeof(std::uint32_t));
+            part(starts, (lines(head) + 1) * sizeof(std::uint16_t));
+            part(lengths, 2 * size * (head.form == CellTableHead::narrow ? 1 : 2));
+        }
+        part(ids, head.entries * sizeof(std::uint16_t));
+        end = (at + CellTable::kAlignment - 1) / CellTable::kAlignment * CellTable::kAlignment;
+    }
+};
+
+} // namespace isochron::index

@@ -1,0 +1,132 @@
+// Damaged bytes of cells and deltas are refused, or searched without leaving them.
+#include "cell_series.h"
+
+#include "index/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::uint32_t kSteps = 5;
+
+/// Tables of every form: sparse, narrow and wide.
+CellSeries sound_series(const TestField& field) {
+    return {field.view(), LevelMap::of_type(ValueType::u8)};
+}
+
+TestField test_field(std::mt19937& random) {
+    return TestField({40, 36, 33}, kSteps, ValueType::u8, scaled(turbulence(random, 3), 120, 60));
+}
+
+/// Searches a copy in a block of its own, whose borders the address sanitizer guards.
+/// @return whether it was taken for sound
+template <class Unit>
+bool survives(const std::vector<std::byte>& bytes, std::uint32_t cells, std::mt19937& random) {
+    const std::vector<std::byte> copy(bytes);
+    const Unit unit(copy, 0);
+    if (!unit.check(kSteps, cells))
+        return false;
+    (void)unit.entries();
+    std::vector<CellId> ids;
+    for (int search = 0; search < 10; ++search) {
+        const std::uint32_t step = below(random, kSteps);
+        const LevelMap::Cut cut{static_cast<std::uint8_t>(1 + below(random, 255)), true};
+        const LevelMap::Cut other{static_cast<std::uint8_t>(1 + below(random, 255)), true};
+        std::vector<IdRun> a, b;
+        if constexpr (std::is_same_v<Unit, CellUnit>) {
+            const TimePath path(TimeNode::root(kSteps), step);
+            unit.search(path, cut, a, b);
+            unit.level_difference(path, cut, other, a, b);
+        } else {
+            unit.change(step, cut, a, b);
+        }
+        append_ids(a, ids);
+        append_ids(b, ids);
+    }
+    for (const CellId id : ids)
+        EXPECT_LT(id, cells);
+    return true;
+}
+
+template <class Unit>
+void refuses_every_truncation(const std::vector<std::byte>& bytes, std::uint32_t cells) {
+    std::mt19937 random(test_seed());
+    ASSERT_TRUE(survives<Unit>(bytes, cells, random));
+    for (std::size_t size = 0; size < bytes.size(); size += size < 600 ? 1 : 997)
+        EXPECT_FALSE(survives<Unit>({bytes.begin(), bytes.begin() + size}, cells, random)) << size;
+    std::vector<std::byte> longer = bytes;
+    longer.resize(bytes.size() + 8);
+    EXPECT_FALSE(survives<Unit>(longer, cells, random));
+    EXPECT_FALSE(survives<Unit>(bytes, cells + 1, random));
+}
+
+template <class Unit>
+void never_leaves(const std::vector<std::byte>& bytes, std::uint32_t cells) {
+    std::mt19937 random(test_seed());
+    // Where tables begin: heads and directories are what a search goes by.
+    std::vector<std::size_t> tables{0};
+    CellUnitHead head;
+    std::memcpy(&head, bytes.data(), sizeof head);
+    for (std::uint32_t i = 0; i < head.tables; ++i) {
+        TableRef ref;
+        std::memcpy(&ref, bytes.data() + sizeof head + i * sizeof ref, sizeof ref);
+        tables.push_back(std::size_t{ref.offset} * CellTable::kAlignment);
+    }
+    int refused = 0;
+    constexpr int kTrials = 4000;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        std::vector<std::byte> damaged = bytes;
+        for (std::uint32_t flips = 1 + random() % 4; flips-- > 0;) {
+            const std::size_t begin = tables[random() % tables.size()];
+            const std::size_t range = trial % 3 == 0 ? 16 : trial % 3 == 1 ? 3000 : bytes.size();
+            const std::size_t at = begin + random() % std::min(range, bytes.size() - begin);
+            damaged[at] ^= static_cast<std::byte>(1 << random() % 8);
+        }
+        refused += !survives<Unit>(damaged, cells, random);
+    }
+    EXPECT_GT(refused, kTrials / 4);
+    EXPECT_LT(refused, kTrials);
+}
+
+TEST(CellDamage, IsRefusedWhereverTheBytesEnd) {
+    std::mt19937 random(test_seed());
+    const TestField field = test_field(random);
+    const CellSeries series = sound_series(field);
+    const std::uint32_t cells = Chunking(field.view().grid).cells(0);
+    refuses_every_truncation<CellUnit>(series.cells.front(), cells);
+    refuses_every_truncation<DeltaUnit>(series.deltas.front(), cells);
+}
+
+TEST(CellDamage, NeverLeadsOutOfTheBytes) {
+    std::mt19937 random(test_seed());
+    const TestField field = test_field(random);
+    const CellSeries series = sound_series(field);
+    const std::uint32_t cells = Chunking(field.view().grid).cells(0);
+    never_leaves<CellUnit>(series.cells.front(), cells);
+    never_leaves<DeltaUnit>(series.deltas.front(), cells);
+}
+
+TEST(CellDamage, IsReportedAtTheFirstUse) {
+    std::mt19937 random(test_seed());
+    const TestField field = test_field(random);
+    CellSeries series = sound_series(field);
+    const CellTier sound = series.tier();
+    std::vector<IdRun> runs, none;
+    EXPECT_NO_THROW(sound.search(0, {50, true}, runs, none));
+    series.cells.front()[0] ^= std::byte{1};
+    const CellTier damaged = series.tier();
+    try {
+        damaged.search(0, {50, true}, runs, none);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "cells of chunk 0 in epoch 0: damaged");
+    }
+    series.cells.pop_back();
+    EXPECT_THROW(series.tier(), Error);
+}
+
+} // namespace
+} // namespace isochron::index

@@ -1,0 +1,109 @@
+// What cells store: an entry at the highest time node over which a cell is constant, in few bytes.
+#include "cell_series.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace isochron::index {
+namespace {
+
+/// Entries of every time node, by the definition: cell by cell, node by node.
+std::vector<std::uint32_t> expected_entries(const ChunkRanks& ranks) {
+    std::vector<std::uint32_t> counts(TimeNode::count(ranks.steps()));
+    const auto constant = [&](const TimeNode& node, std::uint32_t cell) {
+        for (std::uint32_t t = node.first; t <= node.last; ++t)
+            if (ranks.at(t).low[cell] != ranks.at(node.first).low[cell] ||
+                ranks.at(t).high[cell] != ranks.at(node.first).high[cell])
+                return false;
+        return true;
+    };
+    const auto visit = [&](auto&& self, const TimeNode& node, std::uint32_t cell) -> void {
+        if (constant(node, cell))
+            counts[node.number] += ranks.at(node.first).low[cell] < ranks.at(node.first).high[cell];
+        else {
+            self(self, node.left(), cell);
+            self(self, node.right(), cell);
+        }
+    };
+    for (std::uint32_t cell = 0; cell < ranks.cells(); ++cell)
+        visit(visit, TimeNode::root(ranks.steps()), cell);
+    return counts;
+}
+
+TEST(CellUnit, StoresACellAtTheHighestNodesOverWhichItIsConstant) {
+    for (const std::size_t steps : {1, 6, 19}) {
+        const TestField field({45, 40, 41}, steps, ValueType::u8, moving_sphere);
+        const LevelMap levels = LevelMap::of_type(ValueType::u8);
+        const CellSeries series(field.view(), levels);
+        ChunkRanks ranks(field.view(), levels);
+        for (std::uint32_t chunk = 0; chunk < Chunking(field.view().grid).count(); ++chunk) {
+            ranks.compute(chunk, 0, static_cast<std::uint32_t>(steps));
+            EXPECT_EQ(CellUnit(series.cells[chunk], 0).entries(), expected_entries(ranks));
+        }
+    }
+}
+
+TEST(ChunkRanks, AreTheRanksOfTheExtremes) {
+    std::mt19937 random(test_seed());
+    const TestField field({130, 60, 19}, 3, ValueType::i16, scaled(turbulence(random), 90, 0));
+    const StepValues values = field.view();
+    std::vector<std::uint64_t> thresholds;
+    for (std::uint64_t k = 0; k < 180; k += 3)
+        thresholds.push_back(32768 - 90 + k);
+    const LevelMap levels = LevelMap::of_thresholds(ValueType::i16, thresholds);
+    const Chunking chunking(values.grid);
+    ASSERT_GE(chunking.count(), 3u);
+    ChunkRanks ranks(values, levels);
+    for (std::uint32_t chunk = 0; chunk < chunking.count(); ++chunk) {
+        ranks.compute(chunk, 1, 2);
+        ASSERT_EQ(ranks.cells(), chunking.cells(chunk));
+        for (std::uint32_t step = 0; step < 2; ++step) {
+            std::vector<std::uint8_t> of_vertices(values.grid.vertex_count());
+            levels.ranks(std::as_bytes(values.step<std::int16_t>(step + 1)), of_vertices);
+            for (std::uint32_t cell = 0; cell < ranks.cells(); ++cell) {
+                const auto [x, y, z] = values.grid.cell_of(chunking.first_cell(chunk) + cell);
+                std::uint8_t low = 255, high = 0;
+                for (std::size_t corner = 0; corner < 8; ++corner) {
+                    const std::uint8_t rank =
+                        of_vertices[x + corner % 2 +
+                                    130 * (y + corner / 2 % 2 + 60 * (z + corner / 4))];
+                    low = std::min(low, rank);
+                    high = std::max(high, rank);
+                }
+                ASSERT_EQ(ranks.at(step).low[cell], low);
+                ASSERT_EQ(ranks.at(step).high[cell], high);
+            }
+        }
+    }
+}
+
+TEST(CellUnit, HasTheSameBytesEveryTime) {
+    const TestField field({45, 40, 41}, 12, ValueType::u8, moving_sphere);
+    const LevelMap levels = LevelMap::of_type(ValueType::u8);
+    const CellSeries series(field.view(), levels), again(field.view(), levels);
+    EXPECT_EQ(series.cells, again.cells);
+    EXPECT_EQ(series.deltas, again.deltas);
+    // Nor does it matter what was built before with the same work space.
+    ChunkRanks ranks(field.view(), levels);
+    CellUnitBuilder builder;
+    std::vector<std::byte> bytes(100, std::byte{1});
+    for (std::uint32_t chunk = Chunking(field.view().grid).count(); chunk-- > 0;) {
+        ranks.compute(chunk, 0, 12);
+        builder.build_deltas(ranks, 0, bytes);
+        EXPECT_EQ(bytes, series.deltas[chunk]);
+        builder.build_cells(ranks, 0, true, bytes);
+        EXPECT_EQ(bytes, series.cells[chunk]);
+    }
+}
+
+TEST(CellUnit, TakesFewBytesForACoherentSeries) {
+    const TestField field({61, 50, 60}, 25, ValueType::u8, moving_sphere);
+    const CellSeries series(field.view(), LevelMap::of_type(ValueType::u8));
+    const double raw = 25.0 * static_cast<double>(field.view().grid.cell_count()) * 24;
+    EXPECT_LT(100 * static_cast<double>(series.cell_bytes()) / raw, 7);
+    EXPECT_LT(100 * static_cast<double>(series.cell_bytes() + series.delta_bytes()) / raw, 14);
+}
+
+} // namespace
+} // namespace isochron::index

@@ -11,6 +11,27 @@
 
 namespace isochron::index {
 
+namespace {
+
+std::uint32_t key(std::uint32_t row, std::uint32_t column) {
+    return row << 8 | column;
+}
+
+/// Calls `f(list, i)` for all entries of two lists, in turns.
+template <class F>
+void in_turns(const std::array<CellEntries::List, 2>& lists, F&& f) {
+    const std::uint32_t both = std::min(lists[0].count, lists[1].count);
+    for (std::uint32_t i = 0; i < both; ++i) {
+        f(0, i);
+        f(1, i);
+    }
+    for (std::size_t list : {0, 1})
+        for (std::uint32_t i = both; i < lists[list].count; ++i)
+            f(list, i);
+}
+
+} // namespace
+
 /// What part of span space the entries take up.
 struct CellTableBuilder::Band {
     CellTableHead head{};
@@ -27,38 +48,35 @@ struct CellTableBuilder::Band {
     }
 };
 
-CellTableBuilder::CellTableBuilder()
-    : keys_(kEntriesPerCell * Chunking::kMaxCells), ids_(keys_.size()),
-      counts_(std::size_t{CellTable::kRows} * CellTable::kRows) {}
+CellTableBuilder::CellTableBuilder() {
+    for (auto& counts : counts_)
+        counts.resize(std::size_t{CellTable::kRows} * CellTable::kRows);
+}
 
 /// Counts the entries of each element and chooses the directory.
 CellTableBuilder::Band CellTableBuilder::count() {
-    std::uint16_t first_column = 0xff, first_row = 0xff, last_row = 0, span = 0;
-    for (std::uint32_t i = 0; i < entries_; ++i) {
-        const auto row = static_cast<std::uint16_t>(keys_[i] >> 8);
-        const auto column = static_cast<std::uint16_t>(keys_[i] & 0xff);
-        first_column = std::min(first_column, column);
-        first_row = std::min(first_row, row);
-        last_row = std::max(last_row, row);
-        span = std::max(span, static_cast<std::uint16_t>(row - column));
-    }
-    for (std::uint32_t i = 0; i < entries_; ++i)
-        ++counts_[keys_[i]];
+    const std::array keys{entries_.lists[0].keys.data(), entries_.lists[1].keys.data()};
+    const std::array counts{counts_[0].data(), counts_[1].data()};
+    in_turns(entries_.lists,
+             [&](std::size_t list, std::uint32_t i) { ++counts[list][keys[list][i]]; });
 
     Band band;
+    const auto& [first_column, first_row, last_row, span] = entries_.bounds;
     band.span = span;
-    band.head.entries = entries_;
-    band.head.first_column = static_cast<std::uint8_t>(first_column);
-    band.head.first_row = static_cast<std::uint8_t>(first_row);
-    band.head.last_row = static_cast<std::uint8_t>(last_row);
+    band.head.entries = entries_.count();
+    band.head.first_column = first_column;
+    band.head.first_row = first_row;
+    band.head.last_row = last_row;
     std::uint32_t elements = 0;
     for (std::uint32_t row = first_row; row <= last_row; ++row)
-        for (std::uint32_t column = band.first_column(row); column <= row; ++column)
-            if (const std::uint32_t count = element(row, column)) {
+        for (std::uint32_t column = band.first_column(row); column <= row; ++column) {
+            const std::uint32_t k = key(row, column), count = counts[0][k] + counts[1][k];
+            if (count) {
                 band.row_count[row] += count;
                 band.rows_end[column] = row + 1;
                 ++elements;
             }
+        }
     std::uint32_t pairs = 0;
     for (std::uint32_t column = first_column, end = 0; column <= last_row; ++column) {
         band.rows_end[column] = end = std::max(end, band.rows_end[column]);
@@ -70,7 +88,7 @@ CellTableBuilder::Band CellTableBuilder::count() {
     CellTableHead sparse = band.head;
     sparse.form = CellTableHead::sparse;
     sparse.size = elements;
-    if (elements <= CellTable::kMaxElements && entries_ <= 0xffff &&
+    if (elements <= CellTable::kMaxElements && band.head.entries <= 0xffff &&
         CellTableLayout(sparse).end <= CellTableLayout(band.head).end)
         band.head = sparse;
     return band;
@@ -86,10 +104,15 @@ void CellTableBuilder::write(const Band& band, std::byte* table) {
     case CellTableHead::wide: write_lines<std::uint16_t>(band, layout, table); break;
     }
     auto* ids = reinterpret_cast<std::uint16_t*>(table + layout.ids);
-    for (std::uint32_t i = 0; i < entries_; ++i)
-        ids[counts_[keys_[i]]++] = ids_[i];
-    for (std::uint32_t row = band.head.first_row; row <= band.head.last_row; ++row)
-        std::fill(&element(row, band.first_column(row)), &element(row, row) + 1, 0);
+    const std::array keys{entries_.lists[0].keys.data(), entries_.lists[1].keys.data()};
+    const std::array sources{entries_.lists[0].ids.data(), entries_.lists[1].ids.data()};
+    const std::array places{counts_[0].data(), counts_[1].data()};
+    in_turns(entries_.lists, [&](std::size_t list, std::uint32_t i) {
+        ids[places[list][keys[list][i]]++] = sources[list][i];
+    });
+    for (auto& counts : counts_)
+        for (std::uint32_t row = band.head.first_row; row <= band.head.last_row; ++row)
+            std::fill(&counts[key(row, band.first_column(row))], &counts[key(row, row)] + 1, 0);
 }
 
 /// Turns the counts of a row into the places of its elements' first entries.
@@ -102,10 +125,11 @@ void CellTableBuilder::place_row(const Band& band, std::uint32_t row, std::uint3
     const std::uint32_t first = band.first_column(row);
     for (std::uint32_t i = 0; i <= row - first; ++i) {
         const std::uint32_t column = row % 2 == 0 ? row - i : first + i;
-        const std::uint32_t count = std::exchange(element(row, column), at);
-        if (count)
-            placed(row, column, at);
-        at += count;
+        const std::uint32_t k = key(row, column), begin = at;
+        for (auto& counts : counts_)
+            at += std::exchange(counts[k], at);
+        if (at != begin)
+            placed(row, column, begin);
     }
 }
 
@@ -151,25 +175,28 @@ void CellTableBuilder::write_lines(const Band& band, const CellTableLayout& layo
         place_row(band, odd, at, [](auto...) {});
         if (band.row_count[even]) {
             for (std::uint32_t column = band.first_column(even); column <= even; ++column)
-                set(even, column, anchor - element(even, column));
+                set(even, column, anchor - counts_[0][key(even, column)]);
             if (odd <= head.last_row) // so that a length is nowhere below that of the line before
                 set(even, odd, band.row_count[even]);
         }
         if (band.row_count[odd]) {
             for (std::uint32_t column = band.first_column(odd); column < odd; ++column)
-                set(odd, column, element(odd, column + 1) - anchor);
+                set(odd, column, counts_[0][key(odd, column + 1)] - anchor);
             set(odd, odd, band.row_count[odd]);
         }
     }
 }
 
-void CellTableBuilder::append_to(std::vector<std::byte>& bytes) {
-    assert(entries_ > 0 && bytes.size() % CellTable::kAlignment == 0);
+CellTableHead CellTableBuilder::append_to(std::vector<std::byte>& bytes) {
+    assert(entries_.count() > 0 && bytes.size() % CellTable::kAlignment == 0);
     const Band band = count();
     const std::size_t begin = bytes.size();
     bytes.resize(begin + CellTableLayout(band.head).end);
     write(band, bytes.data() + begin);
-    entries_ = 0;
+    for (CellEntries::List& list : entries_.lists)
+        list.count = 0;
+    entries_.bounds = {};
+    return band.head;
 }
 
 } // namespace isochron::index

@@ -1,8 +1,10 @@
 // Sorts the entries of a cell table and writes its directory.
 #pragma once
 
+#include "index/cell_entries.h"
 #include "index/cell_table.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,25 +13,20 @@ namespace isochron::index {
 
 struct CellTableLayout;
 
-/// Collects the entries of one table after another. Keeps its work space: one for each thread.
+/// Keeps its work space: one for each thread.
 class CellTableBuilder {
   public:
     CellTableBuilder();
 
-    /// Ids come in ascending order, each with at most kEntriesPerCell entries of different rows.
-    void add(std::uint16_t id, std::uint8_t column, std::uint8_t row) {
-        keys_[entries_] = static_cast<std::uint16_t>(row << 8 | column);
-        ids_[entries_++] = id;
-    }
-    std::uint32_t entries() const { return entries_; }
+    /// The entries of the next table, to be filled.
+    CellEntries& entries() { return entries_; }
 
-    /// Appends the table, which has entries, and forgets them. The bytes' size stays a multiple of
-    /// CellTable::kAlignment.
-    void append_to(std::vector<std::byte>& bytes);
+    /// Appends the table and forgets its entries, of which there are some. The bytes' size stays a
+    /// multiple of CellTable::kAlignment.
+    /// @return the table's head
+    CellTableHead append_to(std::vector<std::byte>& bytes);
 
   private:
-    static constexpr std::size_t kEntriesPerCell = 2; ///< of a difference of two intervals
-
     struct Band;
     Band count();
     void write(const Band& band, std::byte* table);
@@ -38,13 +35,11 @@ class CellTableBuilder {
     void write_lines(const Band& band, const CellTableLayout& layout, std::byte* table);
     template <class F>
     void place_row(const Band& band, std::uint32_t row, std::uint32_t& at, F&& placed);
-    std::uint32_t& element(std::uint32_t row, std::uint32_t column) {
-        return counts_[row << 8 | column];
-    }
 
-    std::uint32_t entries_ = 0;
-    std::vector<std::uint16_t> keys_, ids_; ///< key: row, column
-    std::vector<std::uint32_t> counts_;     ///< by key; 0 between tables
+    CellEntries entries_;
+    /// By key: how many entries of either list an element has, then where the next one goes. 0
+    /// between tables.
+    std::array<std::vector<std::uint32_t>, 2> counts_;
 };
 
 } // namespace isochron::index

@@ -25,10 +25,9 @@ class CellUnitBuilder {
 
   private:
     struct Cells;
-    void add_difference(const ChunkRanks::Extremes& from, const ChunkRanks::Extremes& to);
 
     CellTableBuilder table_;
-    std::vector<std::uint8_t> flags_;
+    std::vector<std::array<CellBits, 2>> bits_;
 };
 
 } // namespace isochron::index

@@ -41,7 +41,7 @@ ChunkRanks::ChunkRanks(const StepValues& values, const LevelMap& levels)
 void ChunkRanks::compute(std::uint32_t chunk, std::uint32_t first, std::uint32_t count) {
     steps_ = count;
     cells_ = chunking_.cells(chunk);
-    low_.resize(std::size_t{count} * cells_);
+    low_.resize(std::size_t{count} * cells_ + kSlack);
     high_.resize(low_.size());
     const Stretch stretch(values_.grid, chunking_, chunk);
     square_low_.resize(stretch.count);

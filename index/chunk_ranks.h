@@ -18,6 +18,9 @@ class ChunkRanks {
   public:
     ChunkRanks(const StepValues& values, const LevelMap& levels);
 
+    /// That many ranks behind the last may be read too, and are of no meaning.
+    static constexpr std::size_t kSlack = 63;
+
     /// Of each cell of a chunk at one step, in id order; low 1 and high 0 where a vertex is NaN.
     struct Extremes {
         std::span<const std::uint8_t> low, high;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 namespace isochron::index {
@@ -36,7 +37,7 @@ void in_turns(const std::array<CellEntries::List, 2>& lists, F&& f) {
 struct CellTableBuilder::Band {
     CellTableHead head{};
     std::uint32_t span = 0; ///< most that a row exceeds its column
-    std::array<std::uint32_t, CellTable::kRows> row_count{};
+    std::array<std::uint32_t, CellTable::kRows> row_count{}, row_begin{}; ///< entries
     /// One behind the last row that has an entry of this column or one below.
     std::array<std::uint32_t, CellTable::kRows> rows_end{};
 
@@ -70,13 +71,15 @@ CellTableBuilder::Band CellTableBuilder::count() {
     std::uint32_t elements = 0;
     for (std::uint32_t row = first_row; row <= last_row; ++row)
         for (std::uint32_t column = band.first_column(row); column <= row; ++column) {
-            const std::uint32_t k = key(row, column), count = counts[0][k] + counts[1][k];
+            const std::uint32_t k = key(row, column);
+            const std::uint32_t count = std::uint32_t{counts[0][k]} + counts[1][k];
             if (count) {
                 band.row_count[row] += count;
                 band.rows_end[column] = row + 1;
                 ++elements;
             }
         }
+    std::exclusive_scan(band.row_count.begin(), band.row_count.end(), band.row_begin.begin(), 0u);
     std::uint32_t pairs = 0;
     for (std::uint32_t column = first_column, end = 0; column <= last_row; ++column) {
         band.rows_end[column] = end = std::max(end, band.rows_end[column]);
@@ -108,28 +111,28 @@ void CellTableBuilder::write(const Band& band, std::byte* table) {
     const std::array sources{entries_.lists[0].ids.data(), entries_.lists[1].ids.data()};
     const std::array places{counts_[0].data(), counts_[1].data()};
     in_turns(entries_.lists, [&](std::size_t list, std::uint32_t i) {
-        ids[places[list][keys[list][i]]++] = sources[list][i];
+        const std::uint16_t k = keys[list][i];
+        ids[band.row_begin[k >> 8] + places[list][k]++] = sources[list][i];
     });
     for (auto& counts : counts_)
         for (std::uint32_t row = band.head.first_row; row <= band.head.last_row; ++row)
             std::fill(&counts[key(row, band.first_column(row))], &counts[key(row, row)] + 1, 0);
 }
 
-/// Turns the counts of a row into the places of its elements' first entries.
-/// @param at that of the row, then that of the next
+/// Turns the counts of a row into the places of its elements' first entries within the row.
 template <class F>
-void CellTableBuilder::place_row(const Band& band, std::uint32_t row, std::uint32_t& at,
-                                 F&& placed) {
+void CellTableBuilder::place_row(const Band& band, std::uint32_t row, F&& placed) {
     if (band.row_count[row] == 0)
         return;
     const std::uint32_t first = band.first_column(row);
+    std::uint32_t at = 0;
     for (std::uint32_t i = 0; i <= row - first; ++i) {
         const std::uint32_t column = row % 2 == 0 ? row - i : first + i;
         const std::uint32_t k = key(row, column), begin = at;
         for (auto& counts : counts_)
-            at += std::exchange(counts[k], at);
+            at += std::exchange(counts[k], static_cast<std::uint16_t>(at));
         if (at != begin)
-            placed(row, column, begin);
+            placed(column, begin);
     }
 }
 
@@ -138,14 +141,13 @@ void CellTableBuilder::write_elements(const Band& band, const CellTableLayout& l
     auto* columns = reinterpret_cast<std::uint8_t*>(table + layout.columns);
     auto* rows = reinterpret_cast<std::uint8_t*>(table + layout.rows);
     auto* begins = reinterpret_cast<std::uint16_t*>(table + layout.begins);
-    std::uint32_t at = 0;
     for (std::uint32_t row = band.head.first_row; row <= band.head.last_row; ++row)
-        place_row(band, row, at, [&](std::uint32_t r, std::uint32_t c, std::uint32_t begin) {
-            *columns++ = static_cast<std::uint8_t>(c);
-            *rows++ = static_cast<std::uint8_t>(r);
-            *begins++ = static_cast<std::uint16_t>(begin);
+        place_row(band, row, [&](std::uint32_t column, std::uint32_t begin) {
+            *columns++ = static_cast<std::uint8_t>(column);
+            *rows++ = static_cast<std::uint8_t>(row);
+            *begins++ = static_cast<std::uint16_t>(band.row_begin[row] + begin);
         });
-    *begins = static_cast<std::uint16_t>(at);
+    *begins = static_cast<std::uint16_t>(band.head.entries);
 }
 
 template <class Length>
@@ -166,24 +168,24 @@ void CellTableBuilder::write_lines(const Band& band, const CellTableLayout& layo
                                    CellTableLayout::first_pair(head, column);
         lengths[2 * pair + row % 2] = static_cast<Length>(length);
     };
-    std::uint32_t at = 0;
-    for (std::uint32_t even = head.first_row & ~1u; even <= head.last_row; even += 2) {
-        const std::uint32_t odd = even + 1;
-        place_row(band, even, at, [](auto...) {});
-        const std::uint32_t anchor = at;
-        *anchors++ = anchor;
-        place_row(band, odd, at, [](auto...) {});
-        if (band.row_count[even]) {
-            for (std::uint32_t column = band.first_column(even); column <= even; ++column)
-                set(even, column, anchor - counts_[0][key(even, column)]);
-            if (odd <= head.last_row) // so that a length is nowhere below that of the line before
-                set(even, odd, band.row_count[even]);
-        }
-        if (band.row_count[odd]) {
-            for (std::uint32_t column = band.first_column(odd); column < odd; ++column)
-                set(odd, column, counts_[0][key(odd, column + 1)] - anchor);
-            set(odd, odd, band.row_count[odd]);
-        }
+    for (std::uint32_t even = head.first_row & ~1u; even <= head.last_row; even += 2)
+        *anchors++ = band.row_begin[even] + band.row_count[even];
+    for (std::uint32_t row = head.first_row; row <= head.last_row; ++row) {
+        if (band.row_count[row] == 0)
+            continue;
+        place_row(band, row, [](auto...) {});
+        // In either order the last column's length is the whole row's.
+        const std::uint32_t first = band.first_column(row);
+        if (row % 2 == 0)
+            for (std::uint32_t column = first; column < row; ++column)
+                set(row, column, band.row_count[row] - counts_[0][key(row, column)]);
+        else
+            for (std::uint32_t column = first; column < row; ++column)
+                set(row, column, counts_[0][key(row, column + 1)]);
+        set(row, row, band.row_count[row]);
+        // A length is nowhere below that of the line before.
+        if (row % 2 == 0 && row < head.last_row)
+            set(row, row + 1, band.row_count[row]);
     }
 }
 

@@ -34,12 +34,12 @@ class CellTableBuilder {
     template <class Length>
     void write_lines(const Band& band, const CellTableLayout& layout, std::byte* table);
     template <class F>
-    void place_row(const Band& band, std::uint32_t row, std::uint32_t& at, F&& placed);
+    void place_row(const Band& band, std::uint32_t row, F&& placed);
 
     CellEntries entries_;
-    /// By key: how many entries of either list an element has, then where the next one goes. 0
-    /// between tables.
-    std::array<std::vector<std::uint32_t>, 2> counts_;
+    /// By key: how many entries of either list an element has, then where in its row the next one
+    /// goes. 0 between tables. A row has at most one entry of each cell.
+    std::array<std::vector<std::uint16_t>, 2> counts_;
 };
 
 } // namespace isochron::index

@@ -12,12 +12,14 @@ namespace isochron::index {
 
 /// Begins a table; the directory and the ids follow it. Everything is little-endian.
 struct CellTableHead {
-    enum Form : std::uint8_t { sparse, narrow, wide };
+    static constexpr std::uint8_t kSparse = 0; ///< the directory lists elements
 
     std::uint32_t entries;
-    std::uint32_t size; ///< elements of a sparse directory, else pairs of lengths
+    std::uint16_t size;      ///< elements, or half-words of all lines
+    std::uint16_t base_size; ///< pairs of lengths in all base lines
     std::uint8_t first_column, first_row, last_row;
-    Form form;
+    /// From 1 to 8: the directory has lines, and a base line for every 2^form columns.
+    std::uint8_t form;
 };
 static_assert(sizeof(CellTableHead) == 12);
 
@@ -29,7 +31,10 @@ static_assert(sizeof(CellTableHead) == 12);
 ///
 /// The directory of a large table has a *line* for each column c: for each pair of rows from c on,
 /// how many entries of either row have a column <= c, up to the last row that has any. A query
-/// reads one line. A small table lists its elements instead.
+/// reads one line. Lengths take a byte each: a line counts from the last multiple of 2^form columns
+/// on, and a *base line* has what lies before that, in 16 bits. Where a byte is too little even so,
+/// the line is *wide*: 16 bits for each length, without a base.
+/// A small table lists its elements instead.
 ///
 /// Only `check` trusts nothing: all else is for tables that passed it.
 class CellTable {
@@ -61,10 +66,6 @@ class CellTable {
                  std::vector<IdRun>& out) const;
 
   private:
-    struct Sparse;
-    template <class Length>
-    struct Dense;
-
     template <class F>
     decltype(auto) visit(F&& f) const;
 

@@ -5,6 +5,7 @@
 #include "index/chunking.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cassert>
 #include <cstring>
 #include <numeric>
@@ -42,10 +43,31 @@ struct CellTableBuilder::Band {
     std::array<std::uint32_t, CellTable::kRows> rows_end{};
 
     std::uint32_t first_column(std::uint32_t row) const { return row - std::min(row, span); }
-    /// Pairs of rows that the line of a column covers.
-    std::uint32_t line_pairs(std::uint32_t column) const {
+    std::bitset<CellTable::kRows> wide; ///< columns of wide lines
+
+    /// Pairs of rows, from that of a column on, which have entries of columns up to `last`.
+    std::uint32_t line_pairs(std::uint32_t column, std::uint32_t last) const {
         const std::uint32_t first = CellTableLayout::first_pair(head, column);
-        return std::max(first, (rows_end[column] + 1) / 2) - first;
+        return std::max(first, (rows_end[last] + 1) / 2) - first;
+    }
+    /// Size of a line in u16.
+    std::uint32_t line_size(std::uint32_t column) const {
+        return line_pairs(column, column) << int{wide[column]};
+    }
+    /// Calls `f` with the number and the pairs of every base line; one that only wide lines could
+    /// have as theirs is empty.
+    template <class F>
+    void for_each_base(F&& f) const {
+        const std::uint32_t first = CellTableLayout::first_base(head);
+        for (std::uint32_t i = 0; i < CellTableLayout::base_lines(head); ++i) {
+            const std::uint32_t begin = (first + i) << head.form;
+            const std::uint32_t end = std::min(begin + (1u << head.form), head.last_row + 1u);
+            bool used = false;
+            for (std::uint32_t column = std::max<std::uint32_t>(begin, head.first_column);
+                 column < end; ++column)
+                used |= !wide[column];
+            f(i, used && begin > head.first_column ? line_pairs(begin, begin - 1) : 0);
+        }
     }
 };
 
@@ -80,32 +102,69 @@ CellTableBuilder::Band CellTableBuilder::count() {
             }
         }
     std::exclusive_scan(band.row_count.begin(), band.row_count.end(), band.row_begin.begin(), 0u);
-    std::uint32_t pairs = 0;
-    for (std::uint32_t column = first_column, end = 0; column <= last_row; ++column) {
+    for (std::uint32_t column = first_column, end = 0; column <= last_row; ++column)
         band.rows_end[column] = end = std::max(end, band.rows_end[column]);
-        pairs += band.line_pairs(column);
-    }
-    const bool fits = *std::max_element(band.row_count.begin(), band.row_count.end()) <= 0xff;
-    band.head.form = fits ? CellTableHead::narrow : CellTableHead::wide;
-    band.head.size = pairs;
+    choose_lines(band);
     CellTableHead sparse = band.head;
-    sparse.form = CellTableHead::sparse;
-    sparse.size = elements;
+    sparse.form = CellTableHead::kSparse;
+    sparse.size = static_cast<std::uint16_t>(elements);
+    sparse.base_size = 0;
     if (elements <= CellTable::kMaxElements && band.head.entries <= 0xffff &&
         CellTableLayout(sparse).end <= CellTableLayout(band.head).end)
         band.head = sparse;
     return band;
 }
 
+/// Chooses the distance of base lines, and the lines to be wide, that make for the fewest bytes.
+void CellTableBuilder::choose_lines(Band& band) const {
+    constexpr std::array<std::uint8_t, 4> kForms{8, 4, 3, 2};
+    std::array<std::bitset<CellTable::kRows>, kForms.size()> wide;
+    for (std::uint32_t row = band.head.first_row; row <= band.head.last_row; ++row) {
+        if (band.row_count[row] <= 0xff)
+            continue;
+        std::array<std::uint32_t, kForms.size()> base{};
+        std::uint32_t length = 0;
+        // A line's first pair may have an even row that lies before the column.
+        const std::uint32_t last = std::min<std::uint32_t>(row | 1, band.head.last_row);
+        for (std::uint32_t column = band.first_column(row); column <= last; ++column) {
+            const std::uint32_t before = length, k = key(row, column);
+            if (column <= row)
+                length += std::uint32_t{counts_[0][k]} + counts_[1][k];
+            for (std::size_t i = 0; i < kForms.size(); ++i) {
+                if (column % (1u << kForms[i]) == 0)
+                    base[i] = before;
+                if (length - base[i] > 0xff)
+                    wide[i].set(column);
+            }
+        }
+    }
+    std::uint32_t least = 0xffffffff;
+    Band best = band;
+    for (std::size_t i = 0; i < kForms.size(); ++i) {
+        band.head.form = kForms[i];
+        band.wide = wide[i];
+        std::uint32_t size = 0, base_size = 0;
+        for (std::uint32_t column = band.head.first_column; column <= band.head.last_row; ++column)
+            size += band.line_size(column);
+        band.for_each_base([&](std::uint32_t, std::uint32_t pairs) { base_size += pairs; });
+        if (size + 2 * base_size < least) {
+            least = size + 2 * base_size;
+            band.head.size = static_cast<std::uint16_t>(size);
+            band.head.base_size = static_cast<std::uint16_t>(base_size);
+            best = band;
+        }
+    }
+    band = best;
+}
+
 /// Writes everything, to bytes that are 0.
 void CellTableBuilder::write(const Band& band, std::byte* table) {
     std::memcpy(table, &band.head, sizeof band.head);
     const CellTableLayout layout(band.head);
-    switch (band.head.form) {
-    case CellTableHead::sparse: write_elements(band, layout, table); break;
-    case CellTableHead::narrow: write_lines<std::uint8_t>(band, layout, table); break;
-    case CellTableHead::wide: write_lines<std::uint16_t>(band, layout, table); break;
-    }
+    if (band.head.form == CellTableHead::kSparse)
+        write_elements(band, layout, table);
+    else
+        write_lines(band, layout, table);
     auto* ids = reinterpret_cast<std::uint16_t*>(table + layout.ids);
     const std::array keys{entries_.lists[0].keys.data(), entries_.lists[1].keys.data()};
     const std::array sources{entries_.lists[0].ids.data(), entries_.lists[1].ids.data()};
@@ -150,42 +209,54 @@ void CellTableBuilder::write_elements(const Band& band, const CellTableLayout& l
     *begins = static_cast<std::uint16_t>(band.head.entries);
 }
 
-template <class Length>
 void CellTableBuilder::write_lines(const Band& band, const CellTableLayout& layout,
                                    std::byte* table) {
     const CellTableHead& head = band.head;
     auto* anchors = reinterpret_cast<std::uint32_t*>(table + layout.anchors);
     auto* starts = reinterpret_cast<std::uint16_t*>(table + layout.starts);
-    auto* lengths = reinterpret_cast<Length*>(table + layout.lengths);
-    for (std::uint32_t column = head.first_column; column <= head.last_row; ++column)
-        starts[column + 1 - head.first_column] = static_cast<std::uint16_t>(
-            starts[column - head.first_column] + band.line_pairs(column));
-    // A line covers every pair in which it has a length that is not 0.
-    const auto set = [&](std::uint32_t row, std::uint32_t column, std::uint32_t length) {
-        if (length == 0)
-            return;
-        const std::uint32_t pair = starts[column - head.first_column] + row / 2 -
-                                   CellTableLayout::first_pair(head, column);
-        lengths[2 * pair + row % 2] = static_cast<Length>(length);
-    };
+    auto* wide = reinterpret_cast<std::uint8_t*>(table + layout.wide);
+    auto* base_starts = reinterpret_cast<std::uint16_t*>(table + layout.base_starts);
+    auto* bases = reinterpret_cast<std::uint16_t*>(table + layout.bases);
+    auto* lengths = reinterpret_cast<std::uint16_t*>(table + layout.lengths);
     for (std::uint32_t even = head.first_row & ~1u; even <= head.last_row; even += 2)
         *anchors++ = band.row_begin[even] + band.row_count[even];
+    for (std::uint32_t i = 0; i < CellTableLayout::lines(head); ++i) {
+        const std::uint32_t column = head.first_column + i;
+        starts[i + 1] = static_cast<std::uint16_t>(starts[i] + band.line_size(column));
+        wide[i / 8] = static_cast<std::uint8_t>(wide[i / 8] | int{band.wide[column]} << i % 8);
+    }
+    band.for_each_base([&](std::uint32_t i, std::uint32_t pairs) {
+        base_starts[i + 1] = static_cast<std::uint16_t>(base_starts[i] + pairs);
+    });
+
+    const std::uint32_t block = 1u << head.form;
     for (std::uint32_t row = head.first_row; row <= head.last_row; ++row) {
         if (band.row_count[row] == 0)
             continue;
+        std::uint32_t length = 0, base = 0;
+        // A line's first pair may have an even row that lies before the column.
+        const std::uint32_t last = std::min<std::uint32_t>(row | 1, head.last_row);
+        for (std::uint32_t column = band.first_column(row); column <= last; ++column) {
+            const std::uint32_t pair = row / 2 - CellTableLayout::first_pair(head, column);
+            if (column % block == 0 && length > 0) {
+                base = length;
+                const std::uint32_t i = column / block - CellTableLayout::first_base(head);
+                if (base_starts[i] != base_starts[i + 1])
+                    bases[2 * (base_starts[i] + pair) + row % 2] = static_cast<std::uint16_t>(base);
+            }
+            const std::uint32_t k = key(row, column);
+            if (column <= row)
+                length += std::uint32_t{counts_[0][k]} + counts_[1][k];
+            if (length == 0)
+                continue;
+            std::uint16_t* line = lengths + starts[column - head.first_column];
+            if (band.wide[column])
+                line[2 * pair + row % 2] = static_cast<std::uint16_t>(length);
+            else
+                reinterpret_cast<std::uint8_t*>(line)[2 * pair + row % 2] =
+                    static_cast<std::uint8_t>(length - base);
+        }
         place_row(band, row, [](auto...) {});
-        // In either order the last column's length is the whole row's.
-        const std::uint32_t first = band.first_column(row);
-        if (row % 2 == 0)
-            for (std::uint32_t column = first; column < row; ++column)
-                set(row, column, band.row_count[row] - counts_[0][key(row, column)]);
-        else
-            for (std::uint32_t column = first; column < row; ++column)
-                set(row, column, counts_[0][key(row, column + 1)]);
-        set(row, row, band.row_count[row]);
-        // A length is nowhere below that of the line before.
-        if (row % 2 == 0 && row < head.last_row)
-            set(row, row + 1, band.row_count[row]);
     }
 }
 

@@ -29,9 +29,9 @@ class CellTableBuilder {
   private:
     struct Band;
     Band count();
+    void choose_lines(Band& band) const;
     void write(const Band& band, std::byte* table);
     void write_elements(const Band& band, const CellTableLayout& layout, std::byte* table);
-    template <class Length>
     void write_lines(const Band& band, const CellTableLayout& layout, std::byte* table);
     template <class F>
     void place_row(const Band& band, std::uint32_t row, F&& placed);

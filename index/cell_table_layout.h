@@ -14,10 +14,13 @@ struct CellTableLayout {
     // sparse: for every element, in the order of the ids
     std::size_t columns = 0, rows = 0; ///< u8
     std::size_t begins = 0;            ///< u16: of its first entry; one more than elements
-    // narrow and wide
-    std::size_t anchors = 0; ///< u32, of every pair of rows from `first_pair` on
-    std::size_t starts = 0;  ///< u16: first pair of lengths of a line; one more than lines
-    std::size_t lengths = 0; ///< u8 or u16, even row before odd row
+    // with lines
+    std::size_t anchors = 0;     ///< u32, of every pair of rows from `first_pair` on
+    std::size_t starts = 0;      ///< u16: where a line begins, in u16; one more than lines
+    std::size_t wide = 0;        ///< a bit for each line
+    std::size_t base_starts = 0; ///< u16: where a base line begins, in pairs; with one more
+    std::size_t bases = 0;       ///< u16, even row before odd row
+    std::size_t lengths = 0;     ///< u8, of wide lines u16, even row before odd row
     // all
     std::size_t ids = 0; ///< u16
     std::size_t end = 0;
@@ -29,6 +32,13 @@ struct CellTableLayout {
     /// There is a line for each column from the first that is in use to that of the last row.
     static std::uint32_t lines(const CellTableHead& head) {
         return head.last_row + 1u - head.first_column;
+    }
+    /// Base lines are numbered by their column's multiple of 2^form.
+    static std::uint32_t first_base(const CellTableHead& head) {
+        return head.first_column >> head.form;
+    }
+    static std::uint32_t base_lines(const CellTableHead& head) {
+        return (head.last_row >> head.form) + 1 - first_base(head);
     }
     /// The first pair of rows that a column's line covers.
     static std::uint32_t first_pair(const CellTableHead& head, std::uint32_t column) {
@@ -43,14 +53,17 @@ struct CellTableLayout {
             at += bytes;
         };
         const std::size_t size = head.size;
-        if (head.form == CellTableHead::sparse) {
+        if (head.form == CellTableHead::kSparse) {
             part(columns, size);
             part(rows, size);
             part(begins, (size + 1) * sizeof(std::uint16_t));
         } else {
             part(anchors, pairs(head) * sizeof(std::uint32_t));
             part(starts, (lines(head) + 1) * sizeof(std::uint16_t));
-            part(lengths, 2 * size * (head.form == CellTableHead::narrow ? 1 : 2));
+            part(wide, (lines(head) + 15) / 16 * sizeof(std::uint16_t));
+            part(base_starts, (base_lines(head) + 1) * sizeof(std::uint16_t));
+            part(bases, 2 * head.base_size * sizeof(std::uint16_t));
+            part(lengths, size * sizeof(std::uint16_t));
         }
         part(ids, head.entries * sizeof(std::uint16_t));
         end = (at + CellTable::kAlignment - 1) / CellTable::kAlignment * CellTable::kAlignment;

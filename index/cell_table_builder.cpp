@@ -212,14 +212,18 @@ void CellTableBuilder::write_elements(const Band& band, const CellTableLayout& l
 void CellTableBuilder::write_lines(const Band& band, const CellTableLayout& layout,
                                    std::byte* table) {
     const CellTableHead& head = band.head;
-    auto* anchors = reinterpret_cast<std::uint32_t*>(table + layout.anchors);
+    std::byte* anchor = table + layout.anchors;
     auto* starts = reinterpret_cast<std::uint16_t*>(table + layout.starts);
     auto* wide = reinterpret_cast<std::uint8_t*>(table + layout.wide);
     auto* base_starts = reinterpret_cast<std::uint16_t*>(table + layout.base_starts);
     auto* bases = reinterpret_cast<std::uint16_t*>(table + layout.bases);
     auto* lengths = reinterpret_cast<std::uint16_t*>(table + layout.lengths);
-    for (std::uint32_t even = head.first_row & ~1u; even <= head.last_row; even += 2)
-        *anchors++ = band.row_begin[even] + band.row_count[even];
+    for (std::uint32_t even = head.first_row & ~1u; even <= head.last_row; even += 2) {
+        const std::uint32_t place = band.row_begin[even] + band.row_count[even];
+        const std::size_t size = CellTableLayout::short_anchors(head) ? 2 : 4;
+        std::memcpy(anchor, &place, size); // little-endian
+        anchor += size;
+    }
     for (std::uint32_t i = 0; i < CellTableLayout::lines(head); ++i) {
         const std::uint32_t column = head.first_column + i;
         starts[i + 1] = static_cast<std::uint16_t>(starts[i] + band.line_size(column));

@@ -94,7 +94,7 @@ class LengthLines {
   public:
     LengthLines(const std::byte* table, const CellTableHead& head, const CellTableLayout& layout)
         : head_(head), first_pair_(CellTableLayout::first_pair(head)),
-          anchors_(part_at<std::uint32_t>(table, layout.anchors)),
+          short_anchors_(CellTableLayout::short_anchors(head)), anchors_(table + layout.anchors),
           starts_(part_at<std::uint16_t>(table, layout.starts)),
           base_starts_(part_at<std::uint16_t>(table, layout.base_starts)),
           bases_(part_at<std::uint16_t>(table, layout.bases)),
@@ -197,7 +197,11 @@ class LengthLines {
         line.bases = bases_ + (2 * (std::size_t{base_start[0]} + line.first - first));
         return line;
     }
-    std::uint32_t anchor(std::uint32_t pair) const { return anchors_[pair - first_pair_]; }
+    std::uint32_t anchor(std::uint32_t pair) const {
+        const std::size_t i = pair - first_pair_;
+        return short_anchors_ ? part_at<std::uint16_t>(anchors_, 0)[i]
+                              : part_at<std::uint32_t>(anchors_, 0)[i];
+    }
 
     static bool wanted(CellTable::Rows rows, std::uint32_t row) {
         return rows.begin <= row && row < rows.end;
@@ -231,7 +235,8 @@ class LengthLines {
 
     const CellTableHead& head_;
     std::uint32_t first_pair_;
-    const std::uint32_t* anchors_;
+    bool short_anchors_;
+    const std::byte* anchors_;
     const std::uint16_t *starts_, *base_starts_, *bases_, *lengths_;
     const std::uint8_t* wide_;
 };

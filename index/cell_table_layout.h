@@ -15,7 +15,7 @@ struct CellTableLayout {
     std::size_t columns = 0, rows = 0; ///< u8
     std::size_t begins = 0;            ///< u16: of its first entry; one more than elements
     // with lines
-    std::size_t anchors = 0;     ///< u32, of every pair of rows from `first_pair` on
+    std::size_t anchors = 0;     ///< u16 or u32, of every pair of rows from `first_pair` on
     std::size_t starts = 0;      ///< u16: where a line begins, in u16; one more than lines
     std::size_t wide = 0;        ///< a bit for each line
     std::size_t base_starts = 0; ///< u16: where a base line begins, in pairs; with one more
@@ -29,6 +29,8 @@ struct CellTableLayout {
     static std::uint32_t pairs(const CellTableHead& head) {
         return head.last_row / 2u + 1 - first_pair(head);
     }
+    /// Whether the entries are so few that an anchor takes 16 bits.
+    static bool short_anchors(const CellTableHead& head) { return head.entries <= 0xffff; }
     /// There is a line for each column from the first that is in use to that of the last row.
     static std::uint32_t lines(const CellTableHead& head) {
         return head.last_row + 1u - head.first_column;
@@ -58,7 +60,7 @@ struct CellTableLayout {
             part(rows, size);
             part(begins, (size + 1) * sizeof(std::uint16_t));
         } else {
-            part(anchors, pairs(head) * sizeof(std::uint32_t));
+            part(anchors, pairs(head) * (short_anchors(head) ? 2 : 4));
             part(starts, (lines(head) + 1) * sizeof(std::uint16_t));
             part(wide, (lines(head) + 15) / 16 * sizeof(std::uint16_t));
             part(base_starts, (base_lines(head) + 1) * sizeof(std::uint16_t));

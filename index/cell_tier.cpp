@@ -1,4 +1,4 @@
-// Search over the chunks of an epoch, with a check of every unit at its first use.
+// Search over the chunks of an epoch, with a check of every table at its first use.
 #include "index/cell_tier.h"
 
 #include "index/error.h"
@@ -7,77 +7,96 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string_view>
 #include <utility>
 
 namespace isochron::index {
+namespace {
 
 constexpr std::uint32_t kEpoch = TimePath::kMaxSteps;
 
-CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
-                   const Units& deltas, FirstTouch first_touch)
-    : chunking_(chunking), steps_(steps), first_touch_(std::move(first_touch)),
-      cells_(unchecked<CellUnit>("cells", cells)), deltas_(unchecked<DeltaUnit>("deltas", deltas)) {
-    const std::size_t expected = std::size_t{chunking.count()} * ((steps + kEpoch - 1) / kEpoch);
-    if (cells.size() != expected)
-        throw Error(fmt::format("cells: {} units, {} expected", cells.size(), expected));
-    if (!deltas.empty() && deltas.size() != expected)
-        throw Error(fmt::format("deltas: {} units, {} expected", deltas.size(), expected));
-}
-
 template <class Unit>
-CellTier::Checked<Unit> CellTier::unchecked(const char* kind, const Units& bytes) const {
-    Checked<Unit> all{kind, bytes, {}, std::make_unique<std::atomic<bool>[]>(bytes.size())};
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-        all.units.emplace_back(
-            bytes[i], chunking_.first_cell(static_cast<std::uint32_t>(i % chunking_.count())));
+std::vector<Unit> views(std::string_view kind, const CellTier::Units& units,
+                        const Chunking& chunking, std::size_t expected) {
+    if (units.size() != expected)
+        throw Error(fmt::format("{}: {} units, {} expected", kind, units.size(), expected));
+    std::vector<Unit> all;
+    for (std::size_t i = 0; i < units.size(); ++i)
+        all.emplace_back(units[i],
+                         chunking.first_cell(static_cast<std::uint32_t>(i % chunking.count())));
     return all;
 }
 
-/// The unit, which its first use checks; several threads may do so at once.
-template <class Unit>
-const Unit& CellTier::unit(const Checked<Unit>& all, std::uint32_t epoch,
-                           std::uint32_t chunk) const {
-    const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
-    if (!all.sound[i].load(std::memory_order_acquire)) {
-        if (first_touch_)
-            first_touch_(all.bytes[i]);
-        if (!all.units[i].check(epoch_steps(epoch), chunking_.cells(chunk)))
-            throw Error(fmt::format("{} of chunk {} in epoch {}: damaged", all.kind, chunk, epoch));
-        all.sound[i].store(true, std::memory_order_release);
-    }
-    return all.units[i];
+[[noreturn]] void refuse(std::string_view kind, std::uint32_t epoch, std::uint32_t chunk) {
+    throw Error(fmt::format("{} of chunk {} in epoch {}: damaged", kind, chunk, epoch));
 }
+
+} // namespace
+
+CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
+                   const Units& deltas)
+    : chunking_(chunking), steps_(steps),
+      cells_(views<CellUnit>("cells", cells, chunking,
+                             std::size_t{chunking.count()} * ((steps + kEpoch - 1) / kEpoch))),
+      deltas_(views<DeltaUnit>("deltas", deltas, chunking, deltas.empty() ? 0 : cells.size())),
+      sound_steps_(cells.size() * kEpoch), sound_tables_(cells.size() * 2 * kEpoch),
+      sound_transitions_(deltas.size() * kEpoch) {}
 
 std::uint32_t CellTier::epoch_steps(std::uint32_t epoch) const {
     return std::min(kEpoch, steps_ - epoch * kEpoch);
 }
 
-/// Calls `f` with the unit of every chunk in an epoch, while the next one's first bytes are on
-/// their way.
-template <class Unit, class Prefetch, class F>
-void CellTier::for_each_chunk(const Checked<Unit>& all, std::uint32_t epoch, Prefetch&& prefetch,
-                              F&& f) const {
-    const Unit* units = all.units.data() + std::size_t{epoch} * chunking_.count();
-    for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk) {
-        if (chunk + 1 < chunking_.count())
-            prefetch(units[chunk + 1]);
-        f(unit(all, epoch, chunk));
-    }
+TimePath CellTier::path_to(std::uint32_t step) const {
+    return {TimeNode::root(epoch_steps(step / kEpoch)), step % kEpoch};
 }
 
+/// Checks what a search at a step needs of a unit and no other step has needed before.
+void CellTier::check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
+    const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
+    const CellUnit& unit = cells_[i];
+    if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
+        refuse("cells", epoch, chunk);
+    for (const std::uint32_t node : path_to(step)) {
+        const std::size_t mark = i * 2 * kEpoch + node;
+        if (sound_tables_[mark])
+            continue;
+        if (!unit.check_table(node))
+            refuse("cells", epoch, chunk);
+        sound_tables_.set(mark);
+    }
+    sound_steps_.set(i * kEpoch + step % kEpoch);
+}
+
+void CellTier::check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
+    const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
+    const DeltaUnit& unit = deltas_[i];
+    if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)) ||
+        !unit.check_transition(step % kEpoch))
+        refuse("deltas", epoch, chunk);
+    sound_transitions_.set(i * kEpoch + step % kEpoch);
+}
+
+/// Calls `f` with the cells of every chunk, sound as far as the step needs them, while the next
+/// chunk's first bytes are on their way.
 template <class F>
-void CellTier::for_each_chunk(const TimePath& path, std::uint32_t epoch, F&& f) const {
-    for_each_chunk(
-        cells_, epoch, [&](const CellUnit& next) { next.prefetch(path); }, f);
+void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
+    assert(step < steps_);
+    const std::uint32_t epoch = step / kEpoch, chunks = chunking_.count();
+    const TimePath path = path_to(step);
+    const std::size_t begin = std::size_t{epoch} * chunks;
+    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+        if (chunk + 1 < chunks)
+            cells_[begin + chunk + 1].prefetch(path);
+        if (!sound_steps_[(begin + chunk) * kEpoch + step % kEpoch])
+            check_cells(epoch, chunk, step);
+        f(cells_[begin + chunk]);
+    }
 }
 
 void CellTier::search(std::uint32_t step, LevelMap::Cut cut, std::vector<IdRun>& certain,
                       std::vector<IdRun>& ambiguous) const {
-    assert(step < steps_);
-    const std::uint32_t epoch = step / kEpoch;
-    const TimePath path(TimeNode::root(epoch_steps(epoch)), step % kEpoch);
-    for_each_chunk(path, epoch,
-                   [&](const CellUnit& unit) { unit.search(path, cut, certain, ambiguous); });
+    const TimePath path = path_to(step);
+    for_each_cells(step, [&](const CellUnit& unit) { unit.search(path, cut, certain, ambiguous); });
 }
 
 void CellTier::change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut,
@@ -86,10 +105,15 @@ void CellTier::change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut,
     if (from > to)
         return change(to, from, cut, removed, added);
     assert(to < steps_);
-    const std::uint32_t into = to % kEpoch;
-    for_each_chunk(
-        deltas_, to / kEpoch, [&](const DeltaUnit& next) { next.prefetch(into); },
-        [&](const DeltaUnit& unit) { unit.change(into, cut, added, removed); });
+    const std::uint32_t epoch = to / kEpoch, chunks = chunking_.count(), into = to % kEpoch;
+    const std::size_t begin = std::size_t{epoch} * chunks;
+    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+        if (chunk + 1 < chunks)
+            deltas_[begin + chunk + 1].prefetch(into);
+        if (!sound_transitions_[(begin + chunk) * kEpoch + into])
+            check_deltas(epoch, chunk, to);
+        deltas_[begin + chunk].change(into, cut, added, removed);
+    }
 }
 
 void CellTier::difference(std::uint32_t step_a, std::uint32_t step_b, LevelMap::Cut cut,
@@ -97,30 +121,36 @@ void CellTier::difference(std::uint32_t step_a, std::uint32_t step_b, LevelMap::
     assert(step_a < steps_ && step_b < steps_ && cut.exact);
     if (step_a == step_b)
         return;
-    const std::uint32_t epoch = step_a / kEpoch;
     std::vector<IdRun> none; // stays empty
+    const std::uint32_t epoch = step_a / kEpoch;
     if (epoch != step_b / kEpoch) {
         search(step_a, cut, only_a, none);
         search(step_b, cut, only_b, none);
         return;
     }
-    const std::uint32_t a = step_a % kEpoch, b = step_b % kEpoch;
-    const TimeNode common = TimePath::common(epoch_steps(epoch), a, b);
-    for (const auto& [step, out] : {std::pair(a, &only_a), std::pair(b, &only_b)}) {
-        const TimePath path(common.towards(step), step);
-        for_each_chunk(path, epoch,
-                       [&](const CellUnit& unit) { unit.search(path, cut, *out, none); });
+    const TimeNode common = TimePath::common(epoch_steps(epoch), step_a % kEpoch, step_b % kEpoch);
+    for (const auto& [step, out] : {std::pair(step_a, &only_a), std::pair(step_b, &only_b)}) {
+        const TimePath path(common.towards(step % kEpoch), step % kEpoch);
+        for_each_cells(step, [&](const CellUnit& unit) { unit.search(path, cut, *out, none); });
     }
 }
 
 void CellTier::level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
                                 std::vector<IdRun>& added, std::vector<IdRun>& removed) const {
-    assert(step < steps_);
-    const std::uint32_t epoch = step / kEpoch;
-    const TimePath path(TimeNode::root(epoch_steps(epoch)), step % kEpoch);
-    for_each_chunk(path, epoch, [&](const CellUnit& unit) {
-        unit.level_difference(path, from, to, added, removed);
-    });
+    const TimePath path = path_to(step);
+    for_each_cells(
+        step, [&](const CellUnit& unit) { unit.level_difference(path, from, to, added, removed); });
+}
+
+void CellTier::verify() const {
+    for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+        const std::uint32_t epoch = i / chunking_.count(), chunk = i % chunking_.count();
+        const std::uint32_t steps = epoch_steps(epoch), cells = chunking_.cells(chunk);
+        if (!cells_[i].check(steps, cells))
+            refuse("cells", epoch, chunk);
+        if (has_deltas() && !deltas_[i].check(steps, cells))
+            refuse("deltas", epoch, chunk);
+    }
 }
 
 } // namespace isochron::index

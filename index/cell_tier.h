@@ -7,16 +7,15 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace isochron::index {
 
-/// The units stay where they are, usually in a mapped file. One is checked when it is first needed,
-/// which throws Error where its bytes are damaged. Any number of threads may search at once; a
-/// search allocates nothing but what the results need.
+/// The units stay where they are, usually in a mapped file. A table is checked when it is first
+/// needed, which throws Error where its bytes are damaged; none is looked at before. Any number of
+/// threads may search at once; a search allocates nothing but what the results need.
 ///
 ///     index::CellTier cells(Chunking(grid), steps, cell_bytes, delta_bytes);
 ///     cells.search(t, cut, certain, ambiguous);
@@ -26,14 +25,11 @@ class CellTier {
     /// One for each chunk of each epoch: [epoch][chunk], epochs of TimePath::kMaxSteps steps.
     using Units = std::vector<std::span<const std::byte>>;
 
-    /// Called before a unit is first looked at, as to compare its checksum; throws to refuse it.
-    using FirstTouch = std::function<void(std::span<const std::byte> unit)>;
-
     /// @param deltas may be empty
-    CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells, const Units& deltas,
-             FirstTouch first_touch = {});
+    CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
+             const Units& deltas);
 
-    bool has_deltas() const { return !deltas_.units.empty(); }
+    bool has_deltas() const { return !deltas_.empty(); }
 
     /// Appends the active cells, and apart from them those that only the volume decides.
     void search(std::uint32_t step, LevelMap::Cut cut, std::vector<IdRun>& certain,
@@ -49,31 +45,40 @@ class CellTier {
     void level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
                           std::vector<IdRun>& added, std::vector<IdRun>& removed) const;
 
+    /// Checks everything, also what no search has needed yet; throws Error.
+    void verify() const;
+
   private:
-    template <class Unit>
-    struct Checked {
-        const char* kind;
-        Units bytes;
-        std::vector<Unit> units;
-        std::unique_ptr<std::atomic<bool>[]> sound; ///< of every unit: found so by a first use
+    /// A bit for each of many things, set by any thread.
+    class Marks {
+      public:
+        explicit Marks(std::size_t count)
+            : words_(std::make_unique<std::atomic<std::uint64_t>[]>((count + 63) / 64)) {}
+        bool operator[](std::size_t i) const {
+            return words_[i / 64].load(std::memory_order_acquire) >> i % 64 & 1;
+        }
+        void set(std::size_t i) {
+            words_[i / 64].fetch_or(std::uint64_t{1} << i % 64, std::memory_order_release);
+        }
+
+      private:
+        std::unique_ptr<std::atomic<std::uint64_t>[]> words_;
     };
-    template <class Unit>
-    Checked<Unit> unchecked(const char* kind, const Units& bytes) const;
-    template <class Unit>
-    const Unit& unit(const Checked<Unit>& all, std::uint32_t epoch, std::uint32_t chunk) const;
-    template <class Unit, class Prefetch, class F>
-    void for_each_chunk(const Checked<Unit>& all, std::uint32_t epoch, Prefetch&& prefetch,
-                        F&& f) const;
+
     template <class F>
-    void for_each_chunk(const TimePath& path, std::uint32_t epoch, F&& f) const;
+    void for_each_cells(std::uint32_t step, F&& f) const;
+    void check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
+    void check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
 
     std::uint32_t epoch_steps(std::uint32_t epoch) const;
+    TimePath path_to(std::uint32_t step) const;
 
     Chunking chunking_;
     std::uint32_t steps_;
-    FirstTouch first_touch_;
-    Checked<CellUnit> cells_;
-    Checked<DeltaUnit> deltas_;
+    std::vector<CellUnit> cells_;
+    std::vector<DeltaUnit> deltas_;
+    /// Found sound: all that is needed at a step of a unit; a unit's head and its tables.
+    mutable Marks sound_steps_, sound_tables_, sound_transitions_;
 };
 
 } // namespace isochron::index

@@ -1,12 +1,21 @@
 // Search in the cells and the deltas of one chunk in one epoch.
 #include "index/cell_unit.h"
 
+#include <xxhash.h>
+
 #include <cassert>
+#include <cstddef>
+#include <cstring>
 
 namespace isochron::index {
 
-bool CellTables::check(const Expected& expected) const {
-    constexpr std::size_t kSlackBytes = IdRun::kSlack * sizeof(std::uint16_t);
+constexpr std::size_t kSlackBytes = IdRun::kSlack * sizeof(std::uint16_t);
+
+std::uint32_t cell_checksum(std::span<const std::byte> bytes) {
+    return static_cast<std::uint32_t>(XXH3_64bits(bytes.data(), bytes.size()));
+}
+
+bool CellTables::check_head(const Expected& expected) const {
     const std::uint64_t begin =
         sizeof(CellUnitHead) + std::uint64_t{expected.tables} * sizeof(TableRef);
     if (reinterpret_cast<std::uintptr_t>(bytes_) % 8 != 0 || size_ < begin + kSlackBytes)
@@ -15,14 +24,27 @@ bool CellTables::check(const Expected& expected) const {
         head().steps != expected.steps || head().cells != expected.cells || head().lossless > 1 ||
         head().bytes != size_)
         return false;
-    for (std::uint32_t i = 0; i < head().tables; ++i) {
-        const std::uint64_t offset = std::uint64_t{refs()[i].offset} * CellTable::kAlignment;
-        if (offset == 0)
-            continue;
-        if (offset < begin || offset > size_ - kSlackBytes ||
-            !CellTable::check({bytes_ + offset, size_ - kSlackBytes - offset}, head().cells))
+    std::vector<std::byte> unsealed(bytes_, bytes_ + begin);
+    std::memset(unsealed.data() + offsetof(CellUnitHead, checksum), 0, sizeof head().checksum);
+    return cell_checksum(unsealed) == head().checksum;
+}
+
+bool CellTables::check_table(std::uint32_t table) const {
+    const TableRef& ref = refs()[table];
+    if (ref.offset == 0)
+        return true;
+    const std::uint64_t offset = std::uint64_t{ref.offset} * CellTable::kAlignment,
+                        size = std::uint64_t{ref.size} * CellTable::kAlignment;
+    if (offset + size > size_ - kSlackBytes)
+        return false;
+    const std::span bytes(bytes_ + offset, size);
+    return cell_checksum(bytes) == ref.checksum && CellTable::check(bytes, head().cells);
+}
+
+bool CellTables::check_tables() const {
+    for (std::uint32_t table = 0; table < head().tables; ++table)
+        if (!check_table(table))
             return false;
-    }
     return true;
 }
 
@@ -33,8 +55,8 @@ std::vector<std::uint32_t> CellTables::entries() const {
     return counts;
 }
 
-bool CellUnit::check(std::uint32_t steps, std::uint32_t cells) const {
-    return tables_.check({kMagic, TimeNode::count(steps), steps, cells});
+bool CellUnit::check_head(std::uint32_t steps, std::uint32_t cells) const {
+    return tables_.check_head({kMagic, TimeNode::count(steps), steps, cells});
 }
 
 void CellUnit::search(const TimePath& path, LevelMap::Cut cut, std::vector<IdRun>& certain,
@@ -75,8 +97,8 @@ void CellUnit::level_difference(const TimePath& path, LevelMap::Cut from, LevelM
         }
 }
 
-bool DeltaUnit::check(std::uint32_t steps, std::uint32_t cells) const {
-    return tables_.check({kMagic, 2 * steps, steps, cells});
+bool DeltaUnit::check_head(std::uint32_t steps, std::uint32_t cells) const {
+    return tables_.check_head({kMagic, 2 * steps, steps, cells});
 }
 
 void DeltaUnit::change(std::uint32_t into_step, LevelMap::Cut cut, std::vector<IdRun>& added,

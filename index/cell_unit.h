@@ -22,19 +22,23 @@ struct CellUnitHead {
     std::uint32_t steps; ///< of the epoch
     std::uint32_t cells; ///< of the chunk
     std::uint32_t lossless;
-    std::uint32_t reserved;
-    std::uint64_t bytes; ///< of the unit, a multiple of 8
+    std::uint32_t checksum; ///< of the rest of the head and the references
+    std::uint64_t bytes;    ///< of the unit, a multiple of 8
 };
 static_assert(sizeof(CellUnitHead) == 32);
 
 /// Where a table lies and at which levels it has entries, so that most tables without need not be
 /// looked at.
 struct TableRef {
-    std::uint32_t offset = 0; ///< in CellTable::kAlignment; 0: no entries
+    std::uint32_t offset = 0, size = 0; ///< in CellTable::kAlignment; offset 0: no entries
+    std::uint32_t checksum = 0;         ///< of the table
     std::uint8_t first_column = 0, last_row = 0;
     std::uint16_t reserved = 0;
 };
-static_assert(sizeof(TableRef) == 8);
+static_assert(sizeof(TableRef) == 16);
+
+/// Of a table's bytes, and of a head and references with the head's own as 0.
+std::uint32_t cell_checksum(std::span<const std::byte> bytes);
 
 /// Tables in one block of bytes. A view; cheap to copy, and made without a look at the bytes.
 class CellTables {
@@ -47,8 +51,11 @@ class CellTables {
     struct Expected {
         std::uint32_t magic, tables, steps, cells;
     };
-    /// Whether every number that a search goes by is sound. Nothing else may be asked before.
-    bool check(const Expected& expected) const;
+    /// Whether the head and the references are sound. Nothing else may be asked before.
+    bool check_head(const Expected& expected) const;
+    /// Whether a table is, so that a search in it stays inside.
+    bool check_table(std::uint32_t table) const;
+    bool check_tables() const;
 
     /// Asks for the bytes that say where a table lies, ahead of need.
     void prefetch(std::uint32_t table) const { __builtin_prefetch(refs() + table); }
@@ -121,8 +128,14 @@ class CellUnit {
     /// @param bytes aligned to 8, not looked at @param first the chunk's first cell
     CellUnit(std::span<const std::byte> bytes, CellId first) : tables_(bytes), first_(first) {}
 
-    /// Whether the bytes are sound and of so many steps and cells: only then may they be searched.
-    bool check(std::uint32_t steps, std::uint32_t cells) const;
+    /// Whether the head is sound and says so many steps and cells.
+    bool check_head(std::uint32_t steps, std::uint32_t cells) const;
+    /// Whether a time node's table is sound, when the head is: only then may it be searched.
+    bool check_table(std::uint32_t node) const { return tables_.check_table(node); }
+    /// Whether everything is sound.
+    bool check(std::uint32_t steps, std::uint32_t cells) const {
+        return check_head(steps, cells) && tables_.check_tables();
+    }
 
     void prefetch(const TimePath& path) const {
         for (const std::uint32_t node : path)
@@ -154,8 +167,16 @@ class DeltaUnit {
     /// @param bytes aligned to 8, not looked at @param first the chunk's first cell
     DeltaUnit(std::span<const std::byte> bytes, CellId first) : tables_(bytes), first_(first) {}
 
-    /// Whether the bytes are sound and of so many steps and cells: only then may they be searched.
-    bool check(std::uint32_t steps, std::uint32_t cells) const;
+    /// Whether the head is sound and says so many steps and cells.
+    bool check_head(std::uint32_t steps, std::uint32_t cells) const;
+    /// Whether a transition's tables are sound, when the head is: only then may it be searched.
+    bool check_transition(std::uint32_t into_step) const {
+        return tables_.check_table(2 * into_step) && tables_.check_table(2 * into_step + 1);
+    }
+    /// Whether everything is sound.
+    bool check(std::uint32_t steps, std::uint32_t cells) const {
+        return check_head(steps, cells) && tables_.check_tables();
+    }
 
     void prefetch(std::uint32_t into_step) const { tables_.prefetch(2 * into_step); }
     /// Appends the cells that become active from the step before to this one, and those that cease

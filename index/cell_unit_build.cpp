@@ -29,15 +29,20 @@ class UnitBytes {
             return;
         const std::size_t offset = out_.size();
         const CellTableHead head = builder.append_to(out_);
+        const auto bytes = std::span<const std::byte>(out_).subspan(offset);
         refs_[table] = {static_cast<std::uint32_t>(offset / CellTable::kAlignment),
-                        head.first_column, head.last_row};
+                        static_cast<std::uint32_t>(bytes.size() / CellTable::kAlignment),
+                        cell_checksum(bytes), head.first_column, head.last_row};
     }
 
     void finish() {
         out_.resize((out_.size() + IdRun::kSlack * sizeof(std::uint16_t) + 7) / 8 * 8);
         head_.bytes = out_.size();
+        const std::size_t refs_bytes = refs_.size() * sizeof(TableRef);
         std::memcpy(out_.data(), &head_, sizeof head_);
-        std::memcpy(out_.data() + sizeof head_, refs_.data(), refs_.size() * sizeof(TableRef));
+        std::memcpy(out_.data() + sizeof head_, refs_.data(), refs_bytes);
+        head_.checksum = cell_checksum(std::span(out_).first(sizeof head_ + refs_bytes));
+        std::memcpy(out_.data(), &head_, sizeof head_);
     }
 
   private:

@@ -205,7 +205,7 @@ TEST(CellTier, FindsNothingInAConstantField) {
                           [](double, double, double, double) { return 77; });
     expect_exact(field);
     const CellSeries series(field.view(), LevelMap::of_type(ValueType::u8));
-    EXPECT_EQ(series.cells.front().size(), 32u + 9 * 8 + 64); // no tables
+    EXPECT_EQ(series.cells.front().size(), 32u + 9 * 16 + 64); // no tables
 }
 
 TEST(CellTier, WorksAcrossEpochs) {

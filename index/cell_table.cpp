@@ -40,25 +40,22 @@ std::size_t CellTable::size() const {
     return CellTableLayout(head()).end;
 }
 
-void CellTable::up_to(std::uint32_t column, Rows rows, CellId first,
-                      std::vector<IdRun>& out) const {
+void CellTable::up_to(std::uint32_t column, Rows rows, CellId first, RunBuffer& out) const {
     if (rows.begin >= rows.end)
         return;
     visit([&](const auto& directory, const CellTableLayout& layout) {
-        TableRuns runs(part_at<std::uint16_t>(bytes_, layout.ids), first);
+        TableRuns runs(part_at<std::uint16_t>(bytes_, layout.ids), first, out);
         directory.up_to(column, rows, runs);
-        runs.append_to(out);
     });
 }
 
 void CellTable::between(std::int32_t below, std::uint32_t column, Rows rows, CellId first,
-                        std::vector<IdRun>& out) const {
+                        RunBuffer& out) const {
     if (rows.begin >= rows.end)
         return;
     visit([&](const auto& directory, const CellTableLayout& layout) {
-        TableRuns runs(part_at<std::uint16_t>(bytes_, layout.ids), first);
+        TableRuns runs(part_at<std::uint16_t>(bytes_, layout.ids), first, out);
         directory.between(below, column, rows, runs);
-        runs.append_to(out);
     });
 }
 

@@ -40,7 +40,7 @@ static_assert(sizeof(CellTableHead) == 12);
 class CellTable {
   public:
     static constexpr std::uint32_t kRows = 256;
-    static constexpr std::uint32_t kMaxElements = 256; ///< of a sparse directory
+    static constexpr std::uint32_t kMaxElements = 64; ///< of a sparse directory
     static constexpr std::size_t kAlignment = 4;
 
     /// @param head of a table, with kSlack ids behind the table's last
@@ -59,11 +59,11 @@ class CellTable {
         std::uint32_t begin, end = kRows;
     };
     /// Appends the entries of columns up to `column`. @param rows not below the column
-    void up_to(std::uint32_t column, Rows rows, CellId first, std::vector<IdRun>& out) const;
+    void up_to(std::uint32_t column, Rows rows, CellId first, RunBuffer& out) const;
     /// Appends the entries of the columns above `below`, which may be -1, up to `column`.
     /// @param rows not below the column
     void between(std::int32_t below, std::uint32_t column, Rows rows, CellId first,
-                 std::vector<IdRun>& out) const;
+                 RunBuffer& out) const;
 
   private:
     template <class F>

@@ -16,24 +16,25 @@ const T* part_at(const std::byte* table, std::size_t offset) {
     return reinterpret_cast<const T*>(table + offset);
 }
 
-/// Collects the runs of one table, since growing a vector by one costs more than a run.
+/// Takes the runs of one table.
 class TableRuns {
   public:
-    TableRuns(const std::uint16_t* ids, CellId first) : ids_(ids), first_(first) {}
+    TableRuns(const std::uint16_t* ids, CellId first, RunBuffer& out)
+        : ids_(ids), first_(first), out_(out), next_(out.room(CellTable::kRows + 1)) {}
+    ~TableRuns() { out_.took(next_); }
+    TableRuns(const TableRuns&) = delete;
+    TableRuns& operator=(const TableRuns&) = delete;
 
     void add(std::uint32_t begin, std::uint32_t count) {
-        runs_[count_] = {ids_ + begin, count, first_};
-        count_ += count != 0; // without a branch: an empty run is overwritten
-    }
-    void append_to(std::vector<IdRun>& out) const {
-        out.insert(out.end(), runs_.begin(), runs_.begin() + count_);
+        *next_ = {ids_ + begin, count, first_};
+        next_ += count != 0; // without a branch: an empty run is overwritten
     }
 
   private:
-    std::array<IdRun, CellTable::kRows + 1> runs_;
-    std::size_t count_ = 0;
     const std::uint16_t* ids_;
     CellId first_;
+    RunBuffer& out_;
+    IdRun* next_;
 };
 
 /// A list of elements.

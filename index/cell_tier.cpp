@@ -96,7 +96,9 @@ void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
 void CellTier::search(std::uint32_t step, LevelMap::Cut cut, std::vector<IdRun>& certain,
                       std::vector<IdRun>& ambiguous) const {
     const TimePath path = path_to(step);
-    for_each_cells(step, [&](const CellUnit& unit) { unit.search(path, cut, certain, ambiguous); });
+    RunBuffer certain_runs(certain), ambiguous_runs(ambiguous);
+    for_each_cells(
+        step, [&](const CellUnit& unit) { unit.search(path, cut, certain_runs, ambiguous_runs); });
 }
 
 void CellTier::change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut,
@@ -107,12 +109,13 @@ void CellTier::change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut,
     assert(to < steps_);
     const std::uint32_t epoch = to / kEpoch, chunks = chunking_.count(), into = to % kEpoch;
     const std::size_t begin = std::size_t{epoch} * chunks;
+    RunBuffer added_runs(added), removed_runs(removed);
     for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
         if (chunk + 1 < chunks)
             deltas_[begin + chunk + 1].prefetch(into);
         if (!sound_transitions_[(begin + chunk) * kEpoch + into])
             check_deltas(epoch, chunk, to);
-        deltas_[begin + chunk].change(into, cut, added, removed);
+        deltas_[begin + chunk].change(into, cut, added_runs, removed_runs);
     }
 }
 
@@ -131,15 +134,19 @@ void CellTier::difference(std::uint32_t step_a, std::uint32_t step_b, LevelMap::
     const TimeNode common = TimePath::common(epoch_steps(epoch), step_a % kEpoch, step_b % kEpoch);
     for (const auto& [step, out] : {std::pair(step_a, &only_a), std::pair(step_b, &only_b)}) {
         const TimePath path(common.towards(step % kEpoch), step % kEpoch);
-        for_each_cells(step, [&](const CellUnit& unit) { unit.search(path, cut, *out, none); });
+        RunBuffer runs(*out), none_runs(none);
+        for_each_cells(step,
+                       [&](const CellUnit& unit) { unit.search(path, cut, runs, none_runs); });
     }
 }
 
 void CellTier::level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
                                 std::vector<IdRun>& added, std::vector<IdRun>& removed) const {
     const TimePath path = path_to(step);
-    for_each_cells(
-        step, [&](const CellUnit& unit) { unit.level_difference(path, from, to, added, removed); });
+    RunBuffer added_runs(added), removed_runs(removed);
+    for_each_cells(step, [&](const CellUnit& unit) {
+        unit.level_difference(path, from, to, added_runs, removed_runs);
+    });
 }
 
 void CellTier::verify() const {

@@ -59,8 +59,8 @@ bool CellUnit::check_head(std::uint32_t steps, std::uint32_t cells) const {
     return tables_.check_head({kMagic, TimeNode::count(steps), steps, cells});
 }
 
-void CellUnit::search(const TimePath& path, LevelMap::Cut cut, std::vector<IdRun>& certain,
-                      std::vector<IdRun>& ambiguous) const {
+void CellUnit::search(const TimePath& path, LevelMap::Cut cut, RunBuffer& certain,
+                      RunBuffer& ambiguous) const {
     const std::uint32_t level = cut.level;
     if (tables_.head().lossless) {
         for (const std::uint32_t node : path)
@@ -81,7 +81,7 @@ void CellUnit::search(const TimePath& path, LevelMap::Cut cut, std::vector<IdRun
 }
 
 void CellUnit::level_difference(const TimePath& path, LevelMap::Cut from, LevelMap::Cut to,
-                                std::vector<IdRun>& added, std::vector<IdRun>& removed) const {
+                                RunBuffer& added, RunBuffer& removed) const {
     assert(from.exact && to.exact);
     if (from.level > to.level)
         return level_difference(path, to, from, removed, added);
@@ -101,8 +101,8 @@ bool DeltaUnit::check_head(std::uint32_t steps, std::uint32_t cells) const {
     return tables_.check_head({kMagic, 2 * steps, steps, cells});
 }
 
-void DeltaUnit::change(std::uint32_t into_step, LevelMap::Cut cut, std::vector<IdRun>& added,
-                       std::vector<IdRun>& removed) const {
+void DeltaUnit::change(std::uint32_t into_step, LevelMap::Cut cut, RunBuffer& added,
+                       RunBuffer& removed) const {
     assert(cut.exact);
     const std::uint32_t level = cut.level - 1u;
     if (const auto table = tables_.at_level(2 * into_step, level))

@@ -143,11 +143,11 @@ class CellUnit {
     }
     /// Appends the active cells of the time nodes on a path (of all cells, when it begins at the
     /// root), and apart from them those that only the volume decides.
-    void search(const TimePath& path, LevelMap::Cut cut, std::vector<IdRun>& certain,
-                std::vector<IdRun>& ambiguous) const;
+    void search(const TimePath& path, LevelMap::Cut cut, RunBuffer& certain,
+                RunBuffer& ambiguous) const;
     /// Appends what is active at one of two isovalues only. Both cuts are exact.
     void level_difference(const TimePath& path, LevelMap::Cut from, LevelMap::Cut to,
-                          std::vector<IdRun>& added, std::vector<IdRun>& removed) const;
+                          RunBuffer& added, RunBuffer& removed) const;
 
     /// Number of entries of every time node, by its number (time_tree.h).
     std::vector<std::uint32_t> entries() const { return tables_.entries(); }
@@ -181,8 +181,8 @@ class DeltaUnit {
     void prefetch(std::uint32_t into_step) const { tables_.prefetch(2 * into_step); }
     /// Appends the cells that become active from the step before to this one, and those that cease
     /// to be; for the way back swap them. The cut is exact.
-    void change(std::uint32_t into_step, LevelMap::Cut cut, std::vector<IdRun>& added,
-                std::vector<IdRun>& removed) const;
+    void change(std::uint32_t into_step, LevelMap::Cut cut, RunBuffer& added,
+                RunBuffer& removed) const;
 
     /// Number of entries of every transition, added before removed.
     std::vector<std::uint32_t> entries() const { return tables_.entries(); }

@@ -3,6 +3,7 @@
 
 #include "index/grid.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,33 @@ struct IdRun {
     const std::uint16_t* ids;
     std::uint32_t count;
     CellId first;
+};
+
+/// Gathers runs for a vector, which takes more time to grow by one than it takes to find one.
+class RunBuffer {
+  public:
+    explicit RunBuffer(std::vector<IdRun>& out) : out_(out) {}
+    ~RunBuffer() { flush(); }
+    RunBuffer(const RunBuffer&) = delete;
+    RunBuffer& operator=(const RunBuffer&) = delete;
+
+    /// Room for `count` runs, of which `took` says where those that were written end.
+    IdRun* room(std::size_t count) {
+        if (runs_.size() - size_ < count)
+            flush();
+        return runs_.data() + size_;
+    }
+    void took(const IdRun* end) { size_ = static_cast<std::size_t>(end - runs_.data()); }
+
+  private:
+    void flush() {
+        out_.insert(out_.end(), runs_.data(), runs_.data() + size_);
+        size_ = 0;
+    }
+
+    std::vector<IdRun>& out_;
+    std::size_t size_ = 0;
+    std::array<IdRun, 512> runs_;
 };
 
 /// Number of cells of the runs.

@@ -36,12 +36,15 @@ bool survives(const std::vector<std::byte>& bytes, std::uint32_t cells, std::mt1
         const LevelMap::Cut cut{static_cast<std::uint8_t>(1 + below(random, 255)), true};
         const LevelMap::Cut other{static_cast<std::uint8_t>(1 + below(random, 255)), true};
         std::vector<IdRun> a, b;
-        if constexpr (std::is_same_v<Unit, CellUnit>) {
-            const TimePath path(TimeNode::root(kSteps), step);
-            unit.search(path, cut, a, b);
-            unit.level_difference(path, cut, other, a, b);
-        } else {
-            unit.change(step, cut, a, b);
+        {
+            RunBuffer to_a(a), to_b(b);
+            if constexpr (std::is_same_v<Unit, CellUnit>) {
+                const TimePath path(TimeNode::root(kSteps), step);
+                unit.search(path, cut, to_a, to_b);
+                unit.level_difference(path, cut, other, to_a, to_b);
+            } else {
+                unit.change(step, cut, to_a, to_b);
+            }
         }
         append_ids(a, ids);
         append_ids(b, ids);

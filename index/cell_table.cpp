@@ -9,10 +9,9 @@ namespace isochron::index {
 
 template <class F>
 decltype(auto) CellTable::visit(F&& f) const {
-    const CellTableLayout layout(head());
     if (head().form == CellTableHead::kSparse)
-        return f(ElementList(bytes_, head(), layout), layout);
-    return f(LengthLines(bytes_, head(), layout), layout);
+        return f(ElementList(bytes_, head()));
+    return f(LengthLines(bytes_, head()));
 }
 
 bool CellTable::check(std::span<const std::byte> bytes, std::uint32_t cells) {
@@ -25,15 +24,13 @@ bool CellTable::check(std::span<const std::byte> bytes, std::uint32_t cells) {
     if (head.form == CellTableHead::kSparse && head.size > kMaxElements)
         return false;
     const CellTableLayout layout(head);
-    if (layout.end > bytes.size())
+    if (head != with_offsets(head) || layout.end > bytes.size())
         return false;
     const std::uint16_t* ids = part_at<std::uint16_t>(bytes.data(), layout.ids);
     std::uint16_t highest = 0;
     for (std::uint32_t i = 0; i < head.entries; ++i)
         highest = std::max(highest, ids[i]);
-    return highest < cells && table.visit([](const auto& directory, const CellTableLayout&) {
-        return directory.check();
-    });
+    return highest < cells && table.visit([](const auto& directory) { return directory.check(); });
 }
 
 std::size_t CellTable::size() const {
@@ -43,8 +40,8 @@ std::size_t CellTable::size() const {
 void CellTable::up_to(std::uint32_t column, Rows rows, CellId first, RunBuffer& out) const {
     if (rows.begin >= rows.end)
         return;
-    visit([&](const auto& directory, const CellTableLayout& layout) {
-        TableRuns runs(part_at<std::uint16_t>(bytes_, layout.ids), first, out);
+    visit([&](const auto& directory) {
+        TableRuns runs(part_at<std::uint16_t>(bytes_, head().ids), first, out);
         directory.up_to(column, rows, runs);
     });
 }
@@ -53,8 +50,8 @@ void CellTable::between(std::int32_t below, std::uint32_t column, Rows rows, Cel
                         RunBuffer& out) const {
     if (rows.begin >= rows.end)
         return;
-    visit([&](const auto& directory, const CellTableLayout& layout) {
-        TableRuns runs(part_at<std::uint16_t>(bytes_, layout.ids), first, out);
+    visit([&](const auto& directory) {
+        TableRuns runs(part_at<std::uint16_t>(bytes_, head().ids), first, out);
         directory.between(below, column, rows, runs);
     });
 }

@@ -20,8 +20,13 @@ struct CellTableHead {
     std::uint8_t first_column, first_row, last_row;
     /// From 1 to 8: the directory has lines, and a base line for every 2^form columns.
     std::uint8_t form;
+    /// Where the parts begin that a search reads, in bytes from here; see CellTableLayout.
+    std::uint16_t starts, wide, base_starts, bases;
+    std::uint32_t lengths, ids;
+
+    bool operator==(const CellTableHead&) const = default;
 };
-static_assert(sizeof(CellTableHead) == 12);
+static_assert(sizeof(CellTableHead) == 28);
 
 /// Every entry is a cell with a column and a row of span space, column <= row < 256: it counts at
 /// the levels from its column to its row. Entries are sorted by row, within it by column, within

@@ -112,6 +112,7 @@ CellTableBuilder::Band CellTableBuilder::count() {
     if (elements <= CellTable::kMaxElements && band.head.entries <= 0xffff &&
         CellTableLayout(sparse).end <= CellTableLayout(band.head).end)
         band.head = sparse;
+    band.head = with_offsets(band.head);
     return band;
 }
 

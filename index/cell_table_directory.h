@@ -40,10 +40,10 @@ class TableRuns {
 /// A list of elements.
 class ElementList {
   public:
-    ElementList(const std::byte* bytes, const CellTableHead& head, const CellTableLayout& layout)
-        : head_(head), columns_(part_at<std::uint8_t>(bytes, layout.columns)),
-          rows_(part_at<std::uint8_t>(bytes, layout.rows)),
-          begins_(part_at<std::uint16_t>(bytes, layout.begins)) {}
+    ElementList(const std::byte* table, const CellTableHead& head)
+        : head_(head), columns_(part_at<std::uint8_t>(table, sizeof head)),
+          rows_(columns_ + head.size),
+          begins_(part_at<std::uint16_t>(table, sizeof head + 2 * std::size_t{head.size})) {}
 
     bool check() const {
         if (head_.size == 0 || begins_[0] != 0 || begins_[head_.size] != head_.entries)
@@ -93,14 +93,14 @@ class ElementList {
 /// A line of lengths for each column.
 class LengthLines {
   public:
-    LengthLines(const std::byte* table, const CellTableHead& head, const CellTableLayout& layout)
+    LengthLines(const std::byte* table, const CellTableHead& head)
         : head_(head), first_pair_(CellTableLayout::first_pair(head)),
-          short_anchors_(CellTableLayout::short_anchors(head)), anchors_(table + layout.anchors),
-          starts_(part_at<std::uint16_t>(table, layout.starts)),
-          base_starts_(part_at<std::uint16_t>(table, layout.base_starts)),
-          bases_(part_at<std::uint16_t>(table, layout.bases)),
-          lengths_(part_at<std::uint16_t>(table, layout.lengths)),
-          wide_(part_at<std::uint8_t>(table, layout.wide)) {}
+          short_anchors_(CellTableLayout::short_anchors(head)), anchors_(table + sizeof head),
+          starts_(part_at<std::uint16_t>(table, head.starts)),
+          base_starts_(part_at<std::uint16_t>(table, head.base_starts)),
+          bases_(part_at<std::uint16_t>(table, head.bases)),
+          lengths_(part_at<std::uint16_t>(table, head.lengths)),
+          wide_(part_at<std::uint8_t>(table, head.wide)) {}
 
     bool check() const {
         if (!ascends(starts_, CellTableLayout::lines(head_), head_.size) ||

@@ -72,4 +72,16 @@ struct CellTableLayout {
     }
 };
 
+/// The head with the offsets that follow from its other numbers.
+inline CellTableHead with_offsets(CellTableHead head) {
+    const CellTableLayout layout(head);
+    head.starts = static_cast<std::uint16_t>(layout.starts);
+    head.wide = static_cast<std::uint16_t>(layout.wide);
+    head.base_starts = static_cast<std::uint16_t>(layout.base_starts);
+    head.bases = static_cast<std::uint16_t>(layout.bases);
+    head.lengths = static_cast<std::uint32_t>(layout.lengths);
+    head.ids = static_cast<std::uint32_t>(layout.ids);
+    return head;
+}
+
 } // namespace isochron::index

@@ -108,7 +108,7 @@ void never_leaves(const std::vector<std::byte>& bytes, std::uint32_t cells) {
         std::vector<std::byte> damaged = bytes;
         for (std::uint32_t flips = 1 + random() % 4; flips-- > 0;) {
             const std::size_t begin = tables[random() % tables.size()];
-            const std::size_t range = trial % 3 == 0 ? 16 : trial % 3 == 1 ? 3000 : bytes.size();
+            const std::size_t range = trial % 3 == 0 ? 28 : trial % 3 == 1 ? 3000 : bytes.size();
             const std::size_t at = begin + random() % std::min(range, bytes.size() - slack - begin);
             damaged[at] ^= static_cast<std::byte>(1 << random() % 8);
         }

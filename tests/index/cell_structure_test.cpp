@@ -2,8 +2,9 @@
 #include "cell_series.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
-#include <map>
+#include <numeric>
 
 namespace isochron::index {
 namespace {
@@ -94,6 +95,25 @@ TEST(CellUnit, HasTheSameBytesEveryTime) {
         EXPECT_EQ(bytes, series.deltas[chunk]);
         builder.build_cells(ranks, 0, true, bytes);
         EXPECT_EQ(bytes, series.cells[chunk]);
+    }
+}
+
+TEST(CellUnit, HasTheSameBytesOnEveryTarget) {
+    std::mt19937 random(test_seed());
+    // The last word of cells is a part of one.
+    const TestField field({45, 40, 41}, 5, ValueType::u8, scaled(turbulence(random), 250, 127));
+    std::vector<std::uint64_t> thresholds(200);
+    std::iota(thresholds.begin(), thresholds.end(), 20);
+    for (const LevelMap& levels :
+         {LevelMap::of_type(ValueType::u8), LevelMap::of_thresholds(ValueType::u8, thresholds)}) {
+        const CellSeries series(field.view(), levels);
+        for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+            hwy::SetSupportedTargetsForTest(target);
+            const CellSeries again(field.view(), levels);
+            EXPECT_EQ(series.cells, again.cells) << hwy::TargetName(target);
+            EXPECT_EQ(series.deltas, again.deltas) << hwy::TargetName(target);
+        }
+        hwy::SetSupportedTargetsForTest(0);
     }
 }
 

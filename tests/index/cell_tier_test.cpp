@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <thread>
 
 namespace isochron::index {
 namespace {
@@ -214,6 +215,21 @@ TEST(CellTier, WorksAcrossEpochs) {
                               return 127 + 120 * std::sin(0.3 * x + 0.2 * y + 0.1 * z + 0.02 * t);
                           });
     expect_exact(field, 6);
+}
+
+TEST(CellTier, MayBeSearchedByManyThreadsAtOnce) {
+    const TestField field({45, 40, 41}, 12, ValueType::u8, moving_sphere);
+    const CellSeries series(field.view(), LevelMap::of_type(ValueType::u8));
+    const CellTier tier = series.tier(); // nothing of it is checked yet
+    std::vector<std::thread> threads;
+    for (int thread = 0; thread < 4; ++thread)
+        threads.emplace_back([&] {
+            for (std::uint32_t step = 0; step < 12; ++step)
+                EXPECT_EQ(search(tier, series, step, 112.5),
+                          BruteForce(field.view(), step).active(112.5));
+        });
+    for (std::thread& thread : threads)
+        thread.join();
 }
 
 } // namespace

@@ -45,7 +45,7 @@ static_assert(sizeof(CellTableHead) == 28);
 class CellTable {
   public:
     static constexpr std::uint32_t kRows = 256;
-    static constexpr std::uint32_t kMaxElements = 64; ///< of a sparse directory
+    static constexpr std::uint32_t kMaxElements = 256; ///< of a sparse directory
     static constexpr std::size_t kAlignment = 4;
 
     /// @param head of a table, with kSlack ids behind the table's last

@@ -1,7 +1,7 @@
 // Searches in a THI tree.
 #include "index/thi_tree.h"
 
-#include "index/lattice.h"
+#include "index/span_space.h"
 #include "index/time_tree.h"
 
 #include <cassert>
@@ -29,26 +29,14 @@ std::vector<ThiTree::Node> ThiTree::nodes() const {
 
 void ThiTree::search_node(std::uint32_t number, OrderKey threshold,
                           std::vector<CellId>& out) const {
-    const std::uint32_t elements = header_.elements;
-    const std::uint32_t row = element_of(parts_.lines, threshold);
-    if (row == elements)
-        return; // above every extreme
+    const std::size_t elements = header_.elements;
     const ThiNodeStart start = parts_.node_starts[number], end = parts_.node_starts[number + 1];
-    const Lists<Readable> lists = parts_.lists.part(start.entry, end.entry - start.entry);
-    const auto row_starts =
-        parts_.row_starts.subspan(std::size_t{number} * (elements + 1), elements + 1);
-    const auto cells_of = [&](std::uint32_t r) {
-        return lists.part(row_starts[r], row_starts[r + 1] - row_starts[r]);
-    };
-    // 1. Rows above: every maximum is.
-    for (std::uint32_t above = row + 1; above < elements; ++above)
-        collect_low(cells_of(above), threshold, out);
-    // 2. The row of the isovalue: every minimum is below, for its column is.
-    collect_high(cells_of(row), threshold, out);
-    // 3. The element on the diagonal.
-    search_interval_tree(
+    search_span_space(
+        {parts_.lines, parts_.row_starts.subspan(number * (elements + 1), elements + 1),
+         parts_.roots.subspan(number * elements, elements),
+         parts_.lists.part(start.entry, end.entry - start.entry)},
         parts_.interval_nodes.subspan(start.interval_node, end.interval_node - start.interval_node),
-        parts_.roots[std::size_t{number} * elements + row], lists, threshold, out);
+        threshold, out);
 }
 
 void ThiTree::search(std::uint32_t step, std::uint64_t threshold, std::vector<CellId>& out) const {

@@ -15,6 +15,7 @@
 #include "index/progress.h"
 #include "index/query.h"
 #include "index/step_values.h"
+#include "index/thi_entries.h"
 #include "index/thi_layout.h"
 
 #include <cstddef>
@@ -23,18 +24,9 @@
 
 namespace isochron::index {
 
-struct ThiOptions {
-    std::uint32_t lattice = 64; ///< SpanSpaceSize L: the lattice has L x L elements; 1 to 4096
-    std::uint32_t max_variation =
-        2; ///< most distinct lattice elements of a "constant" cell; 1 to 64
-    bool operator==(const ThiOptions&) const = default;
-};
-
 /// Builds the tree; the bytes are position-independent, little-endian, a multiple of 8 long, and
-/// the same for every thread count. Every cell is stored at the highest time nodes over whose span
-/// its points occupy at most `max_variation` elements, by its temporal extremes; steps where it has
-/// a NaN vertex give no point. It is left out where it cannot be active: at no step of the span
-/// does it have two values. An entry takes 16 bytes, and 12 more while the tree is built.
+/// the same for every thread count. Holds the cells where ThiEntries puts them. An entry takes 16
+/// bytes, and 12 more while the tree is built.
 /// @param progress called from the calling thread only
 /// @param threads 0 for as many as there are processors
 /// @throws Error when an option is out of its range, or there is no step

@@ -23,8 +23,9 @@ struct Request {
 /// Adds `generate NAME` with the options that every series has.
 /// @return its subcommand and request, for the options of its own
 template <class Series>
-std::pair<CLI::App*, std::shared_ptr<Request<Series>>>
-add_series(CLI::App& generate_command, const std::string& name, const std::string& description) {
+std::pair<CLI::App*, std::shared_ptr<Request<Series>>> add_series(CLI::App& generate_command,
+                                                                  const std::string& description) {
+    const std::string name = Series::kName;
     CLI::App* command = generate_command.add_subcommand(name, description);
     auto request = std::make_shared<Request<Series>>();
     command->add_option("--out", request->dir, "Folder to write into; made where it is missing")
@@ -57,20 +58,30 @@ add_series(CLI::App& generate_command, const std::string& name, const std::strin
     return {command, request};
 }
 
+template <class Series>
+void add_cube_options(CLI::App& command, const std::shared_ptr<Request<Series>>& request,
+                      std::size_t largest) {
+    command.add_option("--seed", request->series.seed, "Start of the random numbers")
+        ->capture_default_str();
+    command.add_option("--size", request->series.size, "Vertices along each axis")
+        ->check(CLI::Range(std::size_t{16}, largest))
+        ->capture_default_str();
+}
+
 } // namespace
 
 void add_generate(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("generate", "Make a demo series as .pvd and .vti files.");
     command->require_subcommand(1);
-    add_series<SphereSeries>(*command, "sphere", "A moving sphere, 61 x 50 x 60 vertices");
-    const auto [vorticity, request] = add_series<VorticitySeries>(
-        *command, "vorticity", "Vorticity magnitude of decaying turbulence");
-    vorticity->add_option("--seed", request->series.seed, "Start of the random numbers")
-        ->capture_default_str();
-    vorticity->add_option("--size", request->series.size, "Vertices along each axis")
-        ->check(CLI::Range(16, 256))
-        ->capture_default_str();
+    add_series<SphereSeries>(*command, "A moving sphere, 61 x 50 x 60 vertices");
+    const auto [vorticity, flow] =
+        add_series<VorticitySeries>(*command, "Vorticity magnitude of decaying turbulence");
+    add_cube_options(*vorticity, flow, 256);
+    const auto [fourier, modes] = add_series<FourierSeries>(
+        *command, "Vorticity magnitude of 96 random Fourier modes: turbulence of any size, soon "
+                  "made");
+    add_cube_options(*fourier, modes, 1024);
 }
 
 } // namespace isochron::app

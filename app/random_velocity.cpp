@@ -1,28 +1,22 @@
 // A random velocity whose energy spectrum is given.
 #include "app/random_velocity.h"
 
+#include "app/random_numbers.h"
+
 #include <cmath>
-#include <numbers>
 #include <numeric>
-#include <random>
 
 namespace isochron::app {
 
 namespace {
 
-/// Independent normal deviates (Box and Muller, Ann. Math. Stat. 29, 1958). The standard library's
-/// normal distribution may differ between its implementations; this is the same everywhere.
 Field white_noise(std::size_t size, std::mt19937_64& bits) {
-    const auto uniform = [&bits] { // in (0, 1), so that its logarithm exists
-        return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53;
-    };
     Field noise(size);
     for (std::size_t i = 0; i < size; i += 2) {
-        const double radius = std::sqrt(-2.0 * std::log(uniform()));
-        const double angle = 2.0 * std::numbers::pi * uniform();
-        noise[i] = radius * std::cos(angle);
+        const auto [first, second] = normal_pair(bits);
+        noise[i] = first;
         if (i + 1 < size)
-            noise[i + 1] = radius * std::sin(angle);
+            noise[i + 1] = second;
     }
     return noise;
 }

@@ -17,5 +17,6 @@ void add_query(CLI::App& program);
 void add_info(CLI::App& program);
 void add_explore(CLI::App& program);
 void add_replay(CLI::App& program);
+void add_bench(CLI::App& program);
 
 } // namespace isochron::app

@@ -95,18 +95,13 @@ std::uint32_t build_interval_tree(std::span<Interval> intervals, std::vector<Int
 void search_interval_tree(std::span<const IntervalNode> nodes, std::uint32_t root,
                           const Lists<Readable>& lists, OrderKey threshold,
                           std::vector<CellId>& out) {
-    for (std::uint32_t number = root; number != kNone;) {
-        const IntervalNode& node = nodes[number];
-        const Lists<Readable> here = lists.part(node.begin, node.end - node.begin);
-        if (threshold > node.split) {
-            collect_high(here, threshold, out);
-            number = node.right;
-        } else {
-            // At the split itself these are all there are: the others end below or begin there.
-            collect_low(here, threshold, out);
-            number = threshold < node.split ? node.left : kNone;
-        }
-    }
+    const auto lists_of = [&](const IntervalNode& node) {
+        return lists.part(node.begin, node.end - node.begin);
+    };
+    visit_interval_tree(
+        nodes, root, threshold,
+        [&](const IntervalNode& node) { collect_low(lists_of(node), threshold, out); },
+        [&](const IntervalNode& node) { collect_high(lists_of(node), threshold, out); });
 }
 
 } // namespace isochron::index

@@ -60,6 +60,24 @@ static_assert(sizeof(IntervalNode) == 20);
 std::uint32_t build_interval_tree(std::span<Interval> intervals, std::vector<IntervalNode>& nodes,
                                   const Lists<Writable>& lists, std::uint32_t begin);
 
+/// Walks to the threshold: of every node on the way, `low(node)` is to take the intervals that
+/// begin below the threshold, or `high(node)` those that do not end below it.
+template <class Low, class High>
+void visit_interval_tree(std::span<const IntervalNode> nodes, std::uint32_t root,
+                         OrderKey threshold, Low&& low, High&& high) {
+    for (std::uint32_t number = root; number != IntervalNode::kNone;) {
+        const IntervalNode& node = nodes[number];
+        if (threshold > node.split) {
+            high(node);
+            number = node.right;
+        } else {
+            // At the split itself these are all there are: the others end below or begin there.
+            low(node);
+            number = threshold < node.split ? node.left : IntervalNode::kNone;
+        }
+    }
+}
+
 /// Appends the cells whose interval holds the threshold.
 void search_interval_tree(std::span<const IntervalNode> nodes, std::uint32_t root,
                           const Lists<Readable>& lists, OrderKey threshold,

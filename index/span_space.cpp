@@ -1,8 +1,6 @@
 // One span space: rows of the lattice as sorted lists, interval trees on its diagonal.
 #include "index/span_space.h"
 
-#include "index/lattice.h"
-
 #include <cstddef>
 
 namespace isochron::index {
@@ -42,20 +40,17 @@ void build_span_space(std::vector<Interval> entries, const SpanSpace<Writable>& 
 
 void search_span_space(const SpanSpace<Readable>& space, std::span<const IntervalNode> nodes,
                        OrderKey threshold, std::vector<CellId>& out) {
-    const std::size_t elements = space.lines.size();
-    const std::uint32_t row = element_of(space.lines, threshold);
-    if (row == elements)
-        return; // above every extreme
-    const auto cells_of = [&](std::size_t r) {
-        return space.lists.part(space.row_starts[r], space.row_starts[r + 1] - space.row_starts[r]);
+    const auto cells_of = [&](std::size_t row) {
+        return space.lists.part(space.row_starts[row],
+                                space.row_starts[row + 1] - space.row_starts[row]);
     };
-    // 1. Rows above: every maximum is.
-    for (std::size_t above = row + 1; above < elements; ++above)
-        collect_low(cells_of(above), threshold, out);
-    // 2. The row of the isovalue: every minimum is below, for its column is.
-    collect_high(cells_of(row), threshold, out);
-    // 3. The element on the diagonal.
-    search_interval_tree(nodes, space.roots[row], space.lists, threshold, out);
+    visit_span_space(
+        space.lines, threshold,
+        [&](std::size_t row) { collect_low(cells_of(row), threshold, out); },
+        [&](std::size_t row) { collect_high(cells_of(row), threshold, out); },
+        [&](std::size_t row) {
+            search_interval_tree(nodes, space.roots[row], space.lists, threshold, out);
+        });
 }
 
 } // namespace isochron::index

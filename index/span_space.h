@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/interval_tree.h"
+#include "index/lattice.h"
 #include "index/order_key.h"
 
 #include <cstdint>
@@ -24,6 +25,24 @@ struct SpanSpace {
 /// @param nodes where the nodes of its interval trees are appended
 void build_span_space(std::vector<Interval> entries, const SpanSpace<Writable>& space,
                       std::vector<IntervalNode>& nodes);
+
+/// The three cases of a search (section 3.2): `low(row)` is to take the cells of a row whose
+/// minimum is below the threshold, `high(row)` those whose maximum is not below it, `diagonal(row)`
+/// to search the interval tree.
+template <class Low, class High, class Diagonal>
+void visit_span_space(std::span<const OrderKey> lines, OrderKey threshold, Low&& low, High&& high,
+                      Diagonal&& diagonal) {
+    const std::size_t row = element_of(lines, threshold);
+    if (row == lines.size())
+        return; // above every extreme
+    // 1. Rows above: every maximum is.
+    for (std::size_t above = row + 1; above < lines.size(); ++above)
+        low(above);
+    // 2. The row of the isovalue: every minimum is below, for its column is.
+    high(row);
+    // 3. The element on the diagonal.
+    diagonal(row);
+}
 
 /// Appends the cells whose interval holds the threshold.
 void search_span_space(const SpanSpace<Readable>& space, std::span<const IntervalNode> nodes,

@@ -1,0 +1,7 @@
+# Writes the commit that is being built into the header OUT, touched only when it has changed.
+execute_process(COMMAND git describe --always --dirty --abbrev=12 --exclude=*
+  WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(NOT commit)
+  set(commit unknown)
+endif()
+file(CONFIGURE OUTPUT ${OUT} CONTENT "// The commit that was built.\n#pragma once\n\nconstexpr const char* kCommit = \"${commit}\";\n")

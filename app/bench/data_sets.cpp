@@ -1,0 +1,87 @@
+// The series that the benchmark makes for itself.
+#include "app/bench/data_sets.h"
+
+#include <cassert>
+#include <cstring>
+
+namespace isochron::app::bench {
+
+namespace {
+
+/// A made series as the builder reads series.
+class MadeSeries : public index::VolumeSeries {
+  public:
+    template <class Series>
+    MadeSeries(const Series& series, const index::Progress& progress) : info_(describe(series)) {
+        make_steps(
+            series,
+            [this](std::span<const std::byte> values, double time) {
+                steps_.emplace_back(values.begin(), values.end());
+                info_.times.push_back(time);
+                info_.sources.emplace_back(info_.array);
+            },
+            progress);
+    }
+    const index::SeriesInfo& info() const override { return info_; }
+    void read(std::size_t step, std::span<std::byte> out) override {
+        std::memcpy(out.data(), steps_[step].data(), out.size());
+    }
+
+  private:
+    index::SeriesInfo info_;
+    std::vector<std::vector<std::byte>> steps_;
+};
+
+template <class Series>
+DataSet made(std::string name, Series series) {
+    return {.name = std::move(name),
+            .type = series.type,
+            .steps = series.steps,
+            .series = series,
+            .isovalue = {}};
+}
+
+} // namespace
+
+const std::vector<std::string>& data_names() {
+    static const std::vector<std::string> names{"sphere-25", "sphere-55", "vorticity",
+                                                "fourier-128", "fourier-256"};
+    return names;
+}
+
+DataSet data_set(const std::string& name, index::ValueType type, std::optional<std::size_t> steps) {
+    if (name.starts_with("sphere")) {
+        DataSet data =
+            made("sphere", SphereSeries{type, steps.value_or(name == "sphere-25" ? 25 : 55)});
+        data.isovalue = 112.5;
+        return data;
+    }
+    if (name == "vorticity") {
+        DataSet data =
+            made("vorticity64", VorticitySeries{.type = type, .steps = steps.value_or(64)});
+        data.active_cells = 3940; // the paper's average
+        return data;
+    }
+    const bool large = name == "fourier-256";
+    assert(large || name == "fourier-128");
+    const FourierSeries series{
+        .type = type, .size = large ? 256u : 128u, .steps = steps.value_or(large ? 16 : 64)};
+    DataSet data = made(large ? "fourier256" : "fourier128", series);
+    data.active_cells = 0.005 * static_cast<double>(describe(series).grid.cell_count());
+    data.thi = !large;
+    return data;
+}
+
+std::shared_ptr<const index::IndexFile> build_file(const DataSet& data,
+                                                   const std::filesystem::path& file,
+                                                   const index::Progress& progress) {
+    const auto series = std::visit(
+        [&](const auto& of_kind) { return std::make_unique<MadeSeries>(of_kind, progress); },
+        data.series);
+    index::BuildOptions options;
+    options.exact_only = true; // trees are measured with many settings, each built on its own
+    index::build_index(*series, file, options, progress);
+    return index::IndexFile::open(file);
+}
+
+} // namespace isochron::app::bench

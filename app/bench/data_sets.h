@@ -1,0 +1,38 @@
+// The series that the benchmark makes for itself.
+#pragma once
+
+#include "app/demo_fields.h"
+#include "index/index_file.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace isochron::app::bench {
+
+struct DataSet {
+    std::string name; ///< as in the rows: `sphere`, `vorticity64`, `fourier128`, `fourier256`
+    index::ValueType type;
+    std::size_t steps;
+    std::variant<SphereSeries, VorticitySeries, FourierSeries> series;
+    std::optional<double> isovalue; ///< to measure at; else the one with so many active cells:
+    double active_cells = 0;        ///< on average, approximately
+    bool thi = true; ///< measure the paper's structure too; it takes some 30 bytes per cell-step
+};
+
+/// The choices of `--data`, in the order they are measured.
+const std::vector<std::string>& data_names();
+
+/// @param name one of `data_names()`
+/// @param steps instead of those of the name, where given
+DataSet data_set(const std::string& name, index::ValueType type, std::optional<std::size_t> steps);
+
+/// Makes the series and builds its index as `isochron build` does.
+std::shared_ptr<const index::IndexFile>
+build_file(const DataSet& data, const std::filesystem::path& file, const index::Progress& progress);
+
+} // namespace isochron::app::bench

@@ -1,0 +1,25 @@
+// What there is today: VTK's flying edges, computed anew for every step and isovalue.
+#pragma once
+
+#include "index/query.h"
+#include "index/step_values.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace isochron::app::bench {
+
+/// `vtkFlyingEdges3D` (Schroeder, Maynard and Geveci, LDAV 2015, doi 10.1109/LDAV.2015.7348069) on
+/// one thread, over the volume where it lies.
+class FlyingEdges {
+  public:
+    virtual ~FlyingEdges() = default;
+    /// Contours a step from the start. @return the number of triangles
+    virtual std::uint64_t contour(const index::Query& query, bool normals) = 0;
+};
+
+/// @param values must outlive it
+/// @throws index::Error when the module with VTK cannot be loaded
+std::unique_ptr<FlyingEdges> flying_edges(const index::StepValues& values);
+
+} // namespace isochron::app::bench

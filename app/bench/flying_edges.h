@@ -14,8 +14,11 @@ namespace isochron::app::bench {
 class FlyingEdges {
   public:
     virtual ~FlyingEdges() = default;
-    /// Contours a step from the start. @return the number of triangles
-    virtual std::uint64_t contour(const index::Query& query, bool normals) = 0;
+    struct Surface {
+        std::uint64_t triangles, vertices, normals;
+    };
+    /// Contours a step from the start.
+    virtual Surface contour(const index::Query& query, bool normals) = 0;
 };
 
 /// @param values must outlive it

@@ -58,13 +58,17 @@ class VtkFlyingEdges : public FlyingEdges {
         }
     }
 
-    std::uint64_t contour(const index::Query& query, bool normals) override {
+    Surface contour(const index::Query& query, bool normals) override {
         vtkFlyingEdges3D& edges = filter(normals);
         edges.SetInputData(steps_[query.step]);
         edges.SetValue(0, (query.isovalue - scaling_.intercept) / scaling_.slope);
         edges.Modified(); // the same query again is computed again
         edges.Update();
-        return static_cast<std::uint64_t>(edges.GetOutput()->GetNumberOfPolys());
+        vtkPolyData& surface = *edges.GetOutput();
+        const vtkDataArray* given = surface.GetPointData()->GetNormals();
+        return {static_cast<std::uint64_t>(surface.GetNumberOfPolys()),
+                static_cast<std::uint64_t>(surface.GetNumberOfPoints()),
+                given ? static_cast<std::uint64_t>(given->GetNumberOfTuples()) : 0};
     }
 
   private:

@@ -3,6 +3,8 @@
 #include "app/bench/isovalues.h"
 #include "app/bench/machine.h"
 #include "app/bench/measure.h"
+#include "app/bench/results_page.h"
+#include "app/bench/work_folder.h"
 #include "app/cancel.h"
 #include "app/commands.h"
 #include "app/progress_bar.h"
@@ -13,8 +15,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <stdlib.h>
-
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 namespace isochron::app {
@@ -32,26 +34,11 @@ struct BenchArguments {
     bool quick = false;
 };
 
-/// A folder for the files of a benchmark, which goes with it.
-class WorkFolder {
-  public:
-    explicit WorkFolder(const fs::path& parent) {
-        std::string pattern = (parent / "isochron_bench_XXXXXX").string();
-        if (!mkdtemp(pattern.data()))
-            throw index::Error(fmt::format("{}: no folder can be made in it", parent.string()));
-        path_ = pattern;
-    }
-    ~WorkFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
+void write_text(const fs::path& path, const std::string& text) {
+    index::NewFile file(path);
+    file.write_at(0, std::as_bytes(std::span(text)));
+    file.commit();
+}
 
 void append(bench::Results& all, bench::Results more) {
     std::move(more.rows.begin(), more.rows.end(), std::back_inserter(all.rows));
@@ -60,7 +47,7 @@ void append(bench::Results& all, bench::Results more) {
 
 bench::Results measure_data(const BenchArguments& arguments, const bench::DataSet& data,
                             const index::Progress& progress) {
-    const WorkFolder folder(arguments.work);
+    const bench::WorkFolder folder(arguments.work);
     const auto file = bench::build_file(data, folder.path() / "series.isochron", progress);
     bench::MeasureOptions options = arguments.measure;
     options.data = data.name;
@@ -114,12 +101,8 @@ void run_bench_index(BenchArguments arguments) {
                                                         arguments.steps),
                                         progress));
     }
-    if (!arguments.json.empty()) {
-        const std::string text = bench::to_json(results).dump(1) + "\n";
-        index::NewFile file(arguments.json);
-        file.write_at(0, std::as_bytes(std::span(text)));
-        file.commit();
-    }
+    if (!arguments.json.empty())
+        write_text(arguments.json, bench::to_json_text(results));
     fmt::print("commit {}, {}, {} threads, {}, {}\n{}", results.header.commit,
                results.header.processor, results.header.threads, results.header.compiler,
                results.header.date, bench::table_of(results));
@@ -192,6 +175,32 @@ void add_bench_index(CLI::App& bench_command) {
     command->callback([arguments] { run_bench_index(*arguments); });
 }
 
+void run_bench_results(const fs::path& json, const fs::path& out) {
+    std::ifstream file(json, std::ios::binary);
+    if (!file)
+        throw index::Error(fmt::format("{}: cannot be read", json.string()));
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string page =
+        bench::results_page(bench::results_from_json(text, json.string()), json.string());
+    if (out.empty())
+        fmt::print("{}", page);
+    else
+        write_text(out, page);
+}
+
+void add_bench_results(CLI::App& bench_command) {
+    struct Paths {
+        fs::path json, out;
+    };
+    auto paths = std::make_shared<Paths>();
+    CLI::App* command = bench_command.add_subcommand(
+        "results", "Render what `bench index --json` wrote as a page next to the paper's tables.");
+    command->add_option("json", paths->json, "Results")->required()->type_name("FILE.json");
+    command->add_option("-o,--out", paths->out, "Markdown to write (default: print it)")
+        ->type_name("FILE.md");
+    command->callback([paths] { run_bench_results(paths->json, paths->out); });
+}
+
 } // namespace
 
 void add_bench(CLI::App& program) {
@@ -199,6 +208,7 @@ void add_bench(CLI::App& program) {
         program.add_subcommand("bench", "Measure the program's own parts against their rivals.");
     command->require_subcommand(1);
     add_bench_index(*command);
+    add_bench_results(*command);
 }
 
 } // namespace isochron::app

@@ -147,6 +147,23 @@ ordered_json to_json(const Results& results) {
     return j;
 }
 
+std::string to_json_text(const Results& results) {
+    const ordered_json j = to_json(results);
+    std::string text = "{";
+    for (const auto& [part, value] : j.items()) {
+        text += fmt::format("{}\n\"{}\": ", text.size() > 1 ? "," : "", part);
+        if (!value.is_array()) {
+            text += value.dump();
+            continue;
+        }
+        text += "[";
+        for (std::size_t i = 0; i < value.size(); ++i)
+            text += (i ? ",\n" : "\n") + value[i].dump();
+        text += "\n]";
+    }
+    return text + "\n}\n";
+}
+
 Results results_from_json(const std::string& text, const std::string& name) {
     try {
         const json j = json::parse(text);

@@ -55,6 +55,8 @@ struct Results {
 };
 
 nlohmann::ordered_json to_json(const Results& results);
+/// The same as text, a row to a line.
+std::string to_json_text(const Results& results);
 
 /// @param name of the file, for errors
 /// @throws index::Error when something is missing, or of another kind

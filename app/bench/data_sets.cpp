@@ -32,15 +32,6 @@ class MadeSeries : public index::VolumeSeries {
     std::vector<std::vector<std::byte>> steps_;
 };
 
-template <class Series>
-DataSet made(std::string name, Series series) {
-    return {.name = std::move(name),
-            .type = series.type,
-            .steps = series.steps,
-            .series = series,
-            .isovalue = {}};
-}
-
 } // namespace
 
 const std::vector<std::string>& data_names() {
@@ -50,27 +41,24 @@ const std::vector<std::string>& data_names() {
 }
 
 DataSet data_set(const std::string& name, index::ValueType type, std::optional<std::size_t> steps) {
-    if (name.starts_with("sphere")) {
-        DataSet data =
-            made("sphere", SphereSeries{type, steps.value_or(name == "sphere-25" ? 25 : 55)});
-        data.isovalue = 112.5;
-        return data;
-    }
-    if (name == "vorticity") {
-        DataSet data =
-            made("vorticity64", VorticitySeries{.type = type, .steps = steps.value_or(64)});
-        data.active_cells = 3940; // the paper's average
-        return data;
-    }
+    if (name.starts_with("sphere"))
+        return {.name = "sphere",
+                .series = SphereSeries{type, steps.value_or(name == "sphere-25" ? 25 : 55)},
+                .isovalue = 112.5};
+    if (name == "vorticity")
+        return {.name = "vorticity64",
+                .series = VorticitySeries{.type = type, .steps = steps.value_or(64)},
+                .isovalue = {},
+                .active_cells = 3940}; // the paper's average
+    // Some 0.5 % of all cells; of the large one just so many that copying them takes its time.
     const bool large = name == "fourier-256";
     assert(large || name == "fourier-128");
-    const FourierSeries series{
-        .type = type, .size = large ? 256u : 128u, .steps = steps.value_or(large ? 16 : 64)};
-    DataSet data = made(large ? "fourier256" : "fourier128", series);
-    // Some 0.5 % of all cells; of the large one just so many that copying them takes its time.
-    data.active_cells = large ? 92'000 : 10'240;
-    data.thi = !large;
-    return data;
+    return {.name = large ? "fourier256" : "fourier128",
+            .series = FourierSeries{.type = type,
+                                    .size = large ? 256u : 128u,
+                                    .steps = steps.value_or(large ? 16 : 64)},
+            .isovalue = {},
+            .active_cells = large ? 92'000.0 : 10'240.0};
 }
 
 std::shared_ptr<const index::IndexFile> build_file(const DataSet& data,

@@ -16,12 +16,9 @@ namespace isochron::app::bench {
 
 struct DataSet {
     std::string name; ///< as in the rows: `sphere`, `vorticity64`, `fourier128`, `fourier256`
-    index::ValueType type;
-    std::size_t steps;
     std::variant<SphereSeries, VorticitySeries, FourierSeries> series;
     std::optional<double> isovalue; ///< to measure at; else the one with so many active cells:
     double active_cells = 0;        ///< on average, approximately
-    bool thi = true; ///< measure the paper's structure too; it takes some 30 bytes per cell-step
 };
 
 /// The choices of `--data`, in the order they are measured.

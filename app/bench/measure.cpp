@@ -25,6 +25,9 @@ using index::CellSet;
 using index::Query;
 using index::StepValues;
 
+/// The paper's structure takes some 30 bytes for each while it is built.
+constexpr double kMostThiCellSteps = 150e6;
+
 /// The truth at the isovalue of the times.
 struct Surface {
     std::vector<Ids> active; ///< of each step, ascending
@@ -94,6 +97,10 @@ void time_searches(const StepValues& values, const Structure& structure,
                    const std::vector<Operation>& compared, unsigned rounds, Row& row) {
     const double isovalue = row.isovalue;
     const auto steps = static_cast<std::uint32_t>(values.steps);
+    // Backwards from the last step, forwards from all others.
+    const auto neighbour = [steps](std::uint32_t step) {
+        return step + 1 < steps ? step + 1 : step - 1;
+    };
     std::vector<Operation> operations = compared;
     operations.push_back([&, out = Ids()](std::uint32_t step) mutable {
         out.clear();
@@ -107,7 +114,7 @@ void time_searches(const StepValues& values, const Structure& structure,
         else
             make_set(values, structure, set.query, set);
     });
-    std::optional<std::size_t> runs, change;
+    std::optional<std::size_t> runs, change, follow;
     if (structure.runs) {
         runs = operations.size();
         operations.push_back([&](std::uint32_t step) { structure.runs({step, isovalue}); });
@@ -117,9 +124,14 @@ void time_searches(const StepValues& values, const Structure& structure,
         operations.push_back([&, added = Ids(), removed = Ids()](std::uint32_t step) mutable {
             added.clear();
             removed.clear();
-            // From the last step backwards, from all others forwards.
-            const std::uint32_t next = step + 1 < steps ? step + 1 : step - 1;
-            structure.change({step, isovalue}, {next, isovalue}, added, removed);
+            structure.change({step, isovalue}, {neighbour(step), isovalue}, added, removed);
+        });
+    }
+    if (structure.follow && steps > 1) {
+        follow = operations.size();
+        operations.push_back([&](std::uint32_t step) { // there and back, so that it can be repeated
+            structure.follow({neighbour(step), isovalue});
+            structure.follow({step, isovalue});
         });
     }
 
@@ -134,12 +146,13 @@ void time_searches(const StepValues& values, const Structure& structure,
         row.search_runs_us = microseconds(*runs);
     if (change)
         row.incremental_us = microseconds(*change);
+    if (follow)
+        row.incremental_full_us = microseconds(*follow) / 2;
 }
 
-void time_playback(const StepValues& values, const Structure& structure, unsigned rounds,
-                   Row& row) {
-    const double isovalue = row.isovalue;
-    const Sweep sweep = time_sweep(
+double sweep_seconds(const StepValues& values, const Structure& structure, double isovalue,
+                     unsigned rounds) {
+    return time_sweep(
         [&, out = Ids()](std::uint32_t step) mutable {
             if (structure.follow) {
                 structure.follow({step, isovalue});
@@ -149,9 +162,6 @@ void time_playback(const StepValues& values, const Structure& structure, unsigne
             structure.ids({step, isovalue}, out);
         },
         static_cast<std::uint32_t>(values.steps), rounds);
-    row.sweep_ms = 1e3 * sweep.seconds;
-    if (structure.follow)
-        row.incremental_full_us = 1e6 * sweep.step_seconds;
 }
 
 double percent(double part, double whole) {
@@ -176,8 +186,11 @@ Results measure(const std::shared_ptr<const index::IndexFile>& file, const Measu
     const std::vector<Operation> compared =
         comparisons(values, options.isovalue, tbon, *peer, surface);
 
+    StructureOptions wanted = options.structures;
+    if (cell_steps > kMostThiCellSteps)
+        wanted.lattices.clear();
     Results results;
-    for (const Recipe& recipe : structures_of(file, tbon, options.structures)) {
+    for (const Recipe& recipe : structures_of(file, tbon, wanted)) {
         const auto phase = [&](const char* what) -> std::function<void(double)> {
             return [&, what](double fraction) {
                 progress(fmt::format("{} {} x {}, {}: {}", options.data,
@@ -217,7 +230,7 @@ Results measure(const std::shared_ptr<const index::IndexFile>& file, const Measu
         const ErrorCount here = count_errors(values, structure, isovalue, [](double) {});
         phase("timing")(0);
         time_searches(values, structure, compared, options.rounds, row);
-        time_playback(values, structure, options.rounds, row);
+        row.sweep_ms = 1e3 * sweep_seconds(values, structure, row.isovalue, options.rounds);
         results.rows.push_back(row);
         results.details.push_back(
             {.queries = values.steps * isovalues.size(),

@@ -34,59 +34,50 @@ double median(std::vector<double> numbers) {
 
 std::vector<double> time_in_turn(const std::vector<Operation>& operations, std::uint32_t steps,
                                  unsigned rounds) {
-    struct Timed {
-        std::vector<unsigned> repeats;            ///< [step]
-        std::vector<std::vector<double>> of_step; ///< [step][round]
-    };
-    std::vector<Timed> all(operations.size());
-    for (Timed& timed : all) {
-        timed.repeats.resize(steps);
-        timed.of_step.resize(steps);
-    }
+    // [operation][step][round]
+    std::vector<std::vector<std::vector<double>>> times(operations.size(),
+                                                        std::vector<std::vector<double>>(steps));
     for (unsigned round = 0; round < std::max(rounds, 1u); ++round)
         for (std::uint32_t step = 0; step < steps; ++step)
             for (std::size_t i = 0; i < operations.size(); ++i) {
-                Timed& timed = all[i];
-                if (round == 0) {
-                    // The first run of a step fetches what it reads into the cache.
-                    const double first = seconds_of(operations[i], step, 1);
-                    if (first > kSlow) {
-                        timed.of_step[step].push_back(first);
-                        continue; // and no repeats in the rounds that follow
-                    }
-                    timed.repeats[step] = static_cast<unsigned>(
-                        std::clamp(std::ceil(kMeasurable / first), 1.0, kMostRepeats));
+                std::vector<double>& of_rounds = times[i][step];
+                if (!of_rounds.empty() && of_rounds.front() > kSlow)
+                    continue;
+                const double first = seconds_of(operations[i], step, 1);
+                if (first > kSlow && round == 0) {
+                    of_rounds.push_back(first);
+                    continue;
                 }
-                if (timed.repeats[step])
-                    timed.of_step[step].push_back(
-                        seconds_of(operations[i], step, timed.repeats[step]));
+                const double warm = seconds_of(operations[i], step, 1);
+                of_rounds.push_back(
+                    seconds_of(operations[i], step,
+                               static_cast<unsigned>(
+                                   std::clamp(std::ceil(kMeasurable / warm), 1.0, kMostRepeats))));
             }
     std::vector<double> medians;
-    for (const Timed& timed : all) {
+    for (const auto& of_operation : times) {
         std::vector<double> of_steps;
-        for (const auto& of_rounds : timed.of_step)
+        for (const auto& of_rounds : of_operation)
             of_steps.push_back(median(of_rounds));
         medians.push_back(median(std::move(of_steps)));
     }
     return medians;
 }
 
-Sweep time_sweep(const Operation& go, std::uint32_t steps, unsigned rounds) {
-    std::vector<double> sweeps, single;
-    const auto there_and_back = [&](const Operation& visit) {
-        for (std::uint32_t step = 0; step < steps; ++step)
-            visit(step);
-        for (std::uint32_t step = steps; step-- > 0;)
-            visit(step);
-    };
-    there_and_back(go); // warms up
-    for (unsigned round = 0; round < std::max(rounds, 1u); ++round) {
+double time_sweep(const Operation& go, std::uint32_t steps, unsigned rounds) {
+    const auto there_and_back = [&] {
         const Stopwatch watch;
-        there_and_back(go);
-        sweeps.push_back(watch.seconds() / 2);
-        there_and_back([&](std::uint32_t step) { single.push_back(seconds_of(go, step, 1)); });
-    }
-    return {median(std::move(sweeps)), median(std::move(single))};
+        for (std::uint32_t step = 0; step < steps; ++step)
+            go(step);
+        for (std::uint32_t step = steps; step-- > 0;)
+            go(step);
+        return watch.seconds() / 2;
+    };
+    there_and_back(); // fetches what it reads
+    std::vector<double> sweeps;
+    for (unsigned round = 0; round < std::max(rounds, 1u); ++round)
+        sweeps.push_back(there_and_back());
+    return median(std::move(sweeps));
 }
 
 } // namespace isochron::app::bench

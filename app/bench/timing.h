@@ -14,20 +14,16 @@ namespace isochron::app::bench {
 using Operation = std::function<void(std::uint32_t step)>;
 
 /// Runs all operations one after the other at each step, over all steps, several times: what
-/// disturbs the machine for a while disturbs all of them. Quick operations are repeated until the
-/// clock can measure them; slow ones (above 5 ms) run once at each step.
+/// disturbs the machine for a while disturbs all of them. Each runs once to fetch what it reads,
+/// then as often as the clock needs; slow ones (above 5 ms) run only once at each step.
 /// @return for each operation the median over the steps of the medians over the rounds, in seconds
 std::vector<double> time_in_turn(const std::vector<Operation>& operations, std::uint32_t steps,
                                  unsigned rounds);
 
-/// Times of playback through all steps.
-struct Sweep {
-    double seconds = 0;      ///< for all steps once: the mean of forwards and backwards
-    double step_seconds = 0; ///< the median over the steps, each timed on its own
-};
-
-/// @param go moves on to a step from the one before; not repeated
-Sweep time_sweep(const Operation& go, std::uint32_t steps, unsigned rounds);
+/// Time of playback through all steps once, in seconds: the mean of forwards and backwards, the
+/// median over the rounds.
+/// @param go moves on to a step from the one before
+double time_sweep(const Operation& go, std::uint32_t steps, unsigned rounds);
 
 /// The middle of the numbers, which are not empty; of an even number the mean of the middle two.
 double median(std::vector<double> numbers);

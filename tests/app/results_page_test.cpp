@@ -48,7 +48,7 @@ TEST(ResultsPage, PutsThePublishedFiguresNextToOurs) {
     row.max_variation = 2;
     row.percent_of_raw = 12.34;
     row.search_ids_us = 8;
-    row.incremental_full_us = 3.2;
+    row.sweep_ms = 0.08;
     Results results = results_of({row});
     results.details[0].percent_at_isovalue = 10.6;
     const std::string page = results_page(results, "a.json");

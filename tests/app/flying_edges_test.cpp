@@ -22,7 +22,10 @@ std::size_t active_cells(const index::StepValues& values, const index::Query& qu
 
 TEST(FlyingEdges, ContoursTheActiveCellsOfEveryStepAndType) {
     for (const ValueType type : {ValueType::u8, ValueType::i16, ValueType::f32, ValueType::f64}) {
-        const TestField field({40, 38, 41}, 3, type, index::moving_sphere);
+        // Shrinks so much that no step could be taken for another.
+        const TestField field({40, 38, 41}, 3, type, [](double x, double y, double z, double t) {
+            return (1 - 0.25 * t) * index::moving_sphere(x, y, z, t);
+        });
         const auto edges = flying_edges(field.view());
         for (const double isovalue : {100.0, 112.5, 180.0, 300.0})
             for (const std::uint32_t step : {2u, 0u, 1u}) {
@@ -31,7 +34,7 @@ TEST(FlyingEdges, ContoursTheActiveCellsOfEveryStepAndType) {
                 // A surface in a cell has one to five triangles; a closed one has V - F / 2 = 2.
                 EXPECT_GE(surface.triangles, cells);
                 EXPECT_LE(surface.triangles, 5 * cells);
-                if (isovalue < 255)
+                if (cells > 0)
                     EXPECT_EQ(surface.vertices, surface.triangles / 2 + 2);
                 else
                     EXPECT_EQ(surface.triangles, 0u);

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -40,9 +41,9 @@ void write_text(const fs::path& path, const std::string& text) {
     file.commit();
 }
 
-void append(bench::Results& all, bench::Results more) {
-    std::move(more.rows.begin(), more.rows.end(), std::back_inserter(all.rows));
-    std::move(more.details.begin(), more.details.end(), std::back_inserter(all.details));
+void append(bench::Results& all, const bench::Results& more) {
+    all.rows.insert(all.rows.end(), more.rows.begin(), more.rows.end());
+    all.details.insert(all.details.end(), more.details.begin(), more.details.end());
 }
 
 bench::Results measure_data(const BenchArguments& arguments, const bench::DataSet& data,
@@ -81,29 +82,35 @@ void run_bench_index(BenchArguments arguments) {
         arguments.measure.structures.max_variations = {2};
     }
     bench::Results results{bench::this_machine(), {}, {}};
-    {
-        const CancelOnSignal signals;
+    const CancelOnSignal signals;
+    // What is measured is told at once: an hour is long, and the rest may be interrupted.
+    const auto add = [&](const auto& measure_one) {
         ProgressBar bar;
-        const index::Progress progress = [&](std::string_view phase, double fraction) {
+        const bench::Results more = measure_one([&](std::string_view phase, double fraction) {
             signals.check();
             bar.show(phase, fraction);
-        };
-        if (!arguments.file.empty())
-            append(results, measure_file(arguments, progress));
-        else
-            for (const std::string& name : arguments.data)
-                for (const std::string& type : arguments.types)
-                    append(results,
-                           measure_data(arguments,
-                                        bench::data_set(name, *index::value_type_from_name(type),
-                                                        arguments.steps),
-                                        progress));
-    }
-    if (!arguments.json.empty())
-        write_text(arguments.json, bench::to_json_text(results));
-    fmt::print("commit {}, {}, {} threads, {}, {}\n{}", results.header.commit,
-               results.header.processor, results.header.threads, results.header.compiler,
-               results.header.date, bench::table_of(results));
+        });
+        if (results.rows.empty())
+            fmt::print("commit {}, {}, {} threads, {}, {}\n", results.header.commit,
+                       results.header.processor, results.header.threads, results.header.compiler,
+                       results.header.date);
+        fmt::print("{}", bench::table_of(more));
+        std::fflush(stdout);
+        append(results, more);
+        if (!arguments.json.empty())
+            write_text(arguments.json, bench::to_json_text(results));
+    };
+    if (!arguments.file.empty())
+        add([&](const index::Progress& progress) { return measure_file(arguments, progress); });
+    else
+        for (const std::string& name : arguments.data)
+            for (const std::string& type : arguments.types)
+                add([&](const index::Progress& progress) {
+                    return measure_data(
+                        arguments,
+                        bench::data_set(name, *index::value_type_from_name(type), arguments.steps),
+                        progress);
+                });
 }
 
 void add_bench_index(CLI::App& bench_command) {
@@ -167,9 +174,11 @@ void add_bench_index(CLI::App& bench_command) {
         ->capture_default_str();
     command->add_flag("--quick", arguments->quick,
                       "Only look that it works: five steps of the sphere, one round");
-    command->footer("Searches are repeated until the clock can measure them, and every structure "
-                    "takes turns with what it\nis compared with; times are medians over the "
-                    "steps. The full table takes about an hour.");
+    command->footer(
+        "Searches are repeated until the clock can measure them, and every structure "
+        "takes turns with what it\nis compared with; times are medians over the "
+        "steps. The full table takes hours. Series by series it is printed and written; what "
+        "is written\nwhen it is interrupted stays.");
     command->callback([arguments] { run_bench_index(*arguments); });
 }
 

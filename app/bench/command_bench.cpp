@@ -175,10 +175,10 @@ void add_bench_index(CLI::App& bench_command) {
     command->add_flag("--quick", arguments->quick,
                       "Only look that it works: five steps of the sphere, one round");
     command->footer(
-        "Searches are repeated until the clock can measure them, and every structure "
-        "takes turns with what it\nis compared with; times are medians over the "
-        "steps. The full table takes hours. Series by series it is printed and written; what "
-        "is written\nwhen it is interrupted stays.");
+        "Times are processor time of one thread: medians over the steps, each structure "
+        "in turn with what it is\ncompared with. The full table takes hours. It is "
+        "printed and written series by series: what is written\nstays when the rest is "
+        "interrupted.");
     command->callback([arguments] { run_bench_index(*arguments); });
 }
 

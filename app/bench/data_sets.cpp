@@ -58,7 +58,7 @@ DataSet data_set(const std::string& name, index::ValueType type, std::optional<s
                                     .size = large ? 256u : 128u,
                                     .steps = steps.value_or(large ? 16 : 64)},
             .isovalue = {},
-            .active_cells = large ? 92'000.0 : 10'240.0};
+            .active_cells = large ? 96'000.0 : 10'240.0};
 }
 
 std::shared_ptr<const index::IndexFile> build_file(const DataSet& data,

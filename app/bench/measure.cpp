@@ -220,8 +220,7 @@ Results measure(const std::shared_ptr<const index::IndexFile>& file, const Measu
         row.percent_with_volume =
             percent(static_cast<double>(structure.bytes) + volume_bytes, raw_bytes);
         if (structure.build_seconds > 0)
-            row.build_mcs_per_s =
-                1e-6 * cell_steps / structure.build_seconds / structure.build_threads;
+            row.build_mcs_per_s = 1e-6 * cell_steps / structure.build_seconds;
 
         const ErrorCount errors =
             count_errors(values, structure, isovalues, phase("counting errors"));

@@ -32,7 +32,7 @@ struct Row {
     // What it is compared with, at the same steps and in turn with its own searches:
     double scan_us = 0, tbon_us = 0, flying_edges_us = 0, flying_edges_normals_us = 0;
     double memcpy_us = 0;                  ///< of the active ids
-    std::optional<double> build_mcs_per_s; ///< million cell-steps per second and thread
+    std::optional<double> build_mcs_per_s; ///< million cell-steps per second of processor time
 };
 
 /// What explains a row's false positives; not among its figures.

@@ -1,17 +1,28 @@
-// How long something took.
+// How much processor time something took, which others on the machine do not lengthen.
 #pragma once
 
-#include <chrono>
+#include <ctime>
 
 namespace isochron::app::bench {
 
 class Stopwatch {
   public:
-    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    enum class Of { this_thread, all_threads };
+    explicit Stopwatch(Of of = Of::this_thread)
+        : clock_(of == Of::this_thread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID),
+          start_(now()) {}
+
+    double seconds() const { return now() - start_; }
 
   private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
+    double now() const {
+        timespec time{};
+        clock_gettime(clock_, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+
+    clockid_t clock_;
+    double start_;
 };
 
 } // namespace isochron::app::bench

@@ -24,7 +24,7 @@ struct Structure {
     std::uint64_t entries = 0;            ///< stored (cell, interval, time node), where it has such
     bool candidates = false;              ///< its answers still want the exact test
     unsigned build_threads = 1;
-    double build_seconds = 0; ///< 0 where nothing is built
+    double build_seconds = 0; ///< of processor time, over all threads; 0 where nothing is built
 
     /// Appends the cells of a full search, in any order, each once.
     std::function<void(const index::Query&, Ids&)> ids;

@@ -53,7 +53,7 @@ struct OwnThiTree {
 Recipe thi_of(const FilePtr& file, const index::ThiOptions& options, unsigned threads) {
     const auto build = [=](const index::Progress& progress) {
         const index::StepValues& values = file->values();
-        const Stopwatch watch;
+        const Stopwatch watch(Stopwatch::Of::all_threads);
         auto bytes = index::build_thi_tree(values, options, progress, threads);
         const double seconds = watch.seconds();
         const auto own = std::make_shared<OwnThiTree>(std::move(bytes));
@@ -91,7 +91,7 @@ Recipe variant_of(const FilePtr& file, const NamedVariant& variant,
                   const index::ThiOptions& options, unsigned threads) {
     const auto build = [=](const index::Progress& progress) {
         const index::StepValues& values = file->values();
-        const Stopwatch watch;
+        const Stopwatch watch(Stopwatch::Of::all_threads);
         const std::shared_ptr<const ThiVariantTree> tree =
             build_thi_variant(variant.variant, values, options, progress, threads);
         const double seconds = watch.seconds();
@@ -115,7 +115,7 @@ Recipe variant_of(const FilePtr& file, const NamedVariant& variant,
 } // namespace
 
 Structure build_tbon(const FilePtr& file, unsigned threads) {
-    const Stopwatch watch;
+    const Stopwatch watch(Stopwatch::Of::all_threads);
     const auto tbon = std::make_shared<const Tbon>(file->values(), threads);
     Structure structure;
     structure.name = "tbon";

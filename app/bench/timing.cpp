@@ -41,10 +41,8 @@ std::vector<double> time_in_turn(const std::vector<Operation>& operations, std::
         for (std::uint32_t step = 0; step < steps; ++step)
             for (std::size_t i = 0; i < operations.size(); ++i) {
                 std::vector<double>& of_rounds = times[i][step];
-                if (!of_rounds.empty() && of_rounds.front() > kSlow)
-                    continue;
                 const double first = seconds_of(operations[i], step, 1);
-                if (first > kSlow && round == 0) {
+                if (first > kSlow) {
                     of_rounds.push_back(first);
                     continue;
                 }

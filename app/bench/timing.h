@@ -1,4 +1,4 @@
-// Times of operations that take anything from 50 ns to a second, measured in turn.
+// Processor times of operations that take anything from 50 ns to a second, measured in turn.
 #pragma once
 
 #include "app/bench/structure.h"
@@ -15,7 +15,7 @@ using Operation = std::function<void(std::uint32_t step)>;
 
 /// Runs all operations one after the other at each step, over all steps, several times: what
 /// disturbs the machine for a while disturbs all of them. Each runs once to fetch what it reads,
-/// then as often as the clock needs; slow ones (above 5 ms) run only once at each step.
+/// then as often as the clock needs; slow ones (above 5 ms) run once in each round.
 /// @return for each operation the median over the steps of the medians over the rounds, in seconds
 std::vector<double> time_in_turn(const std::vector<Operation>& operations, std::uint32_t steps,
                                  unsigned rounds);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <optional>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "index/brick_search.cpp"
@@ -124,6 +125,9 @@ class BrickSearch {
             finish();
     }
 
+    /// Cells of the bricks so far.
+    std::uint64_t tested() const { return tested_; }
+
     /// Tests what has been added.
     void finish() {
         find_active(batch_);
@@ -149,6 +153,7 @@ class BrickSearch {
                     (bz + 1 == bricks_[2] ? 4u : 0u)];
         batch_.first[slot] = static_cast<CellId>((z * cells_[1] + y) * cells_[0] + x);
         batch_.allowed[slot] = shape.cells;
+        tested_ += shape.size[0] * shape.size[1] * shape.size[2];
         const auto left = static_cast<std::size_t>(stored_.data() + stored_.size() - s);
         const bool nan = HWY_LIKELY(left >= shape.rows.back() + kRowValues)
                              ? compare(s, shape.rows, slot)
@@ -234,24 +239,26 @@ class BrickSearch {
     std::vector<CellId>& out_;
     CellBuffer buffer_{out_};
     Batch batch_;
+    std::uint64_t tested_ = 0;
 };
 
-/// @return false, and finds nothing, where a scan is faster
-bool search_step(const StepValues& values, std::span<const std::uint8_t> bricks,
-                 const LevelMap::Cut& level, std::uint64_t cut, std::size_t step,
-                 std::vector<CellId>& out) {
+/// @return cells that were tested; none, and nothing is found, where a scan is faster
+std::optional<std::uint64_t> search_step(const StepValues& values,
+                                         std::span<const std::uint8_t> bricks,
+                                         const LevelMap::Cut& level, std::uint64_t cut,
+                                         std::size_t step, std::vector<CellId>& out) {
     const Candidates candidates(bricks, level);
     if (candidates.count() * 100 > candidates.bricks() * scan_percent(values.type))
-        return false;
-    visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
+        return std::nullopt;
+    return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         BrickSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), out);
         for (std::size_t first = 0; first < candidates.bricks(); first += kWordBits)
             for (std::uint64_t word = candidates.word(first); word; word &= word - 1)
                 search.test(
                     static_cast<std::uint32_t>(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(word)));
         search.finish();
+        return search.tested();
     });
-    return true;
 }
 
 } // namespace
@@ -263,17 +270,22 @@ namespace isochron::index {
 
 HWY_EXPORT(search_step);
 
-void search_bricks(const StepValues& values, const LevelMap& levels,
-                   std::span<const std::uint8_t> bricks, const Query& query,
-                   std::vector<CellId>& out) {
+std::uint64_t search_bricks(const StepValues& values, const LevelMap& levels,
+                            std::span<const std::uint8_t> bricks, const Query& query,
+                            std::vector<CellId>& out) {
     assert(query.step < values.steps && levels.type() == values.type);
     assert(bricks.size() == BrickGrid(values.grid).bytes_per_step());
     const auto level = levels.cut(values.scaling, query.isovalue);
     const auto cut = stored_cut(values.type, values.scaling, query.isovalue);
     if (!level || !cut)
-        return;
-    if (!HWY_DYNAMIC_DISPATCH(search_step)(values, bricks, *level, *cut, query.step, out))
-        scan(values, query, out);
+        return 0;
+    const auto tested =
+        HWY_DYNAMIC_DISPATCH(search_step)(values, bricks, *level, *cut, query.step, out);
+    if (tested)
+        return *tested;
+    const std::size_t before = out.size();
+    scan(values, query, out);
+    return out.size() - before;
 }
 
 } // namespace isochron::index

@@ -50,8 +50,9 @@ void build_bricks(const StepValues& values, const LevelMap& levels, std::size_t 
 /// in ascending order within each; all in ascending order where so many bricks may hold active
 /// cells that a scan is faster.
 /// @param bricks of the query's step, as from `build_bricks` with these levels
-void search_bricks(const StepValues& values, const LevelMap& levels,
-                   std::span<const std::uint8_t> bricks, const Query& query,
-                   std::vector<CellId>& out);
+/// @return number of cells that were tested for it; of those found where a scan was faster
+std::uint64_t search_bricks(const StepValues& values, const LevelMap& levels,
+                            std::span<const std::uint8_t> bricks, const Query& query,
+                            std::vector<CellId>& out);
 
 } // namespace isochron::index

@@ -1,9 +1,9 @@
 // Which cells become entries of a table, a vector at a time; compiled once for each SIMD target.
+#include "index/cell_entries.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "index/cell_entries.cpp"
 #include <hwy/foreach_target.h>
-
-#include "index/cell_entries.h"
 
 #include <hwy/highway.h>
 

@@ -30,6 +30,7 @@ struct CellRow {
 
 struct CellSet {
     Query query;
+    SearchMethod method = SearchMethod::scan;
     std::vector<CellId> ids;                  ///< ascending
     std::vector<CellPoint> points;            ///< same order
     std::vector<CellRow> rows;                ///< ascending (z, y), non-empty rows only

@@ -14,7 +14,7 @@ decltype(auto) CellTable::visit(F&& f) const {
     return f(LengthLines(bytes_, head()));
 }
 
-bool CellTable::check(std::span<const std::byte> bytes, std::uint32_t cells) {
+bool CellTable::check(std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof(CellTableHead))
         return false;
     const CellTable table(bytes.data());
@@ -26,11 +26,15 @@ bool CellTable::check(std::span<const std::byte> bytes, std::uint32_t cells) {
     const CellTableLayout layout(head);
     if (head != with_offsets(head) || layout.end > bytes.size())
         return false;
-    const std::uint16_t* ids = part_at<std::uint16_t>(bytes.data(), layout.ids);
-    std::uint16_t highest = 0;
-    for (std::uint32_t i = 0; i < head.entries; ++i)
+    return table.visit([](const auto& directory) { return directory.check(); });
+}
+
+bool CellTable::has_ids_below(std::uint32_t cells) const {
+    const std::uint16_t* ids = part_at<std::uint16_t>(bytes_, head().ids);
+    std::uint16_t highest = 0; // without a branch for each
+    for (std::uint32_t i = 0; i < head().entries; ++i)
         highest = std::max(highest, ids[i]);
-    return highest < cells && table.visit([](const auto& directory) { return directory.check(); });
+    return highest < cells;
 }
 
 std::size_t CellTable::size() const {

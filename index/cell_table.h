@@ -51,9 +51,11 @@ class CellTable {
     /// @param head of a table, with kSlack ids behind the table's last
     explicit CellTable(const std::byte* head) : bytes_(head) {}
 
-    /// Whether the table lies within so many bytes, ids within `cells`, and whether a search stays
-    /// inside.
-    static bool check(std::span<const std::byte> bytes, std::uint32_t cells);
+    /// Whether the table lies within so many bytes, and whether a search stays inside; does not
+    /// read the ids.
+    static bool check(std::span<const std::byte> bytes);
+    /// Whether all ids are those of a chunk's cells; reads them all.
+    bool has_ids_below(std::uint32_t cells) const;
 
     /// Bytes of the whole table.
     std::size_t size() const;

@@ -160,4 +160,29 @@ void CellTier::verify() const {
     }
 }
 
+std::vector<TimeNodeCells> CellTier::nodes() const {
+    std::vector<TimeNodeCells> all;
+    for (std::uint32_t epoch = 0; epoch * kEpoch < steps_; ++epoch) {
+        std::vector<std::uint64_t> cells(TimeNode::count(epoch_steps(epoch)));
+        for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk) {
+            const CellUnit& unit = cells_[std::size_t{epoch} * chunking_.count() + chunk];
+            if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
+                refuse("cells", epoch, chunk);
+            const std::vector<std::uint32_t> entries = unit.entries();
+            for (std::size_t node = 0; node < cells.size(); ++node)
+                cells[node] += entries[node];
+        }
+        const auto add = [&](const auto& self, const TimeNode& node) -> void {
+            all.push_back({epoch * kEpoch + node.first, epoch * kEpoch + node.last, node.depth,
+                           cells[node.number]});
+            if (node.is_leaf())
+                return;
+            self(self, node.left());
+            self(self, node.right());
+        };
+        add(add, TimeNode::root(epoch_steps(epoch)));
+    }
+    return all;
+}
+
 } // namespace isochron::index

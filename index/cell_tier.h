@@ -45,6 +45,8 @@ class CellTier {
     void level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
                           std::vector<IdRun>& added, std::vector<IdRun>& removed) const;
 
+    /// Entries of every time node of every epoch, over all chunks, in depth-first order.
+    std::vector<TimeNodeCells> nodes() const;
     /// Checks everything, also what no search has needed yet; throws Error.
     void verify() const;
 

@@ -29,21 +29,29 @@ bool CellTables::check_head(const Expected& expected) const {
     return cell_checksum(unsealed) == head().checksum;
 }
 
+bool CellTables::lies_inside(const TableRef& ref) const {
+    const std::uint64_t end = std::uint64_t{ref.offset} + ref.size;
+    return ref.size * CellTable::kAlignment >= sizeof(CellTableHead) &&
+           end * CellTable::kAlignment <= size_ - kSlackBytes;
+}
+
 bool CellTables::check_table(std::uint32_t table) const {
     const TableRef& ref = refs()[table];
     if (ref.offset == 0)
         return true;
-    const std::uint64_t offset = std::uint64_t{ref.offset} * CellTable::kAlignment,
-                        size = std::uint64_t{ref.size} * CellTable::kAlignment;
-    if (offset + size > size_ - kSlackBytes)
+    if (!lies_inside(ref))
         return false;
-    const std::span bytes(bytes_ + offset, size);
-    return cell_checksum(bytes) == ref.checksum && CellTable::check(bytes, head().cells);
+    const std::span bytes(bytes_ + std::size_t{ref.offset} * CellTable::kAlignment,
+                          std::size_t{ref.size} * CellTable::kAlignment);
+    const std::size_t directory = CellTable(bytes.data()).head().ids;
+    return directory <= bytes.size() && cell_checksum(bytes.first(directory)) == ref.checksum &&
+           CellTable::check(bytes);
 }
 
 bool CellTables::check_tables() const {
-    for (std::uint32_t table = 0; table < head().tables; ++table)
-        if (!check_table(table))
+    for (std::uint32_t i = 0; i < head().tables; ++i)
+        if (!check_table(i) ||
+            (refs()[i].offset != 0 && !table(refs()[i]).has_ids_below(head().cells)))
             return false;
     return true;
 }
@@ -51,7 +59,8 @@ bool CellTables::check_tables() const {
 std::vector<std::uint32_t> CellTables::entries() const {
     std::vector<std::uint32_t> counts;
     for (std::uint32_t i = 0; i < head().tables; ++i)
-        counts.push_back(refs()[i].offset ? table(refs()[i]).head().entries : 0);
+        counts.push_back(
+            refs()[i].offset && lies_inside(refs()[i]) ? table(refs()[i]).head().entries : 0);
     return counts;
 }
 

@@ -31,7 +31,7 @@ static_assert(sizeof(CellUnitHead) == 32);
 /// looked at.
 struct TableRef {
     std::uint32_t offset = 0, size = 0; ///< in CellTable::kAlignment; offset 0: no entries
-    std::uint32_t checksum = 0;         ///< of the table
+    std::uint32_t checksum = 0; ///< of the table up to its ids, which a search does not go by
     std::uint8_t first_column = 0, last_row = 0;
     std::uint16_t reserved = 0;
 };
@@ -53,8 +53,10 @@ class CellTables {
     };
     /// Whether the head and the references are sound. Nothing else may be asked before.
     bool check_head(const Expected& expected) const;
-    /// Whether a table is, so that a search in it stays inside.
+    /// Whether a table is, so that a search in it stays inside; its ids are not read, and may be
+    /// those of no cell.
     bool check_table(std::uint32_t table) const;
+    /// Whether all are, with their ids.
     bool check_tables() const;
 
     /// Asks for the bytes that say where a table lies, ahead of need.
@@ -77,6 +79,7 @@ class CellTables {
     std::vector<std::uint32_t> entries() const;
 
   private:
+    bool lies_inside(const TableRef& ref) const;
     const TableRef* refs() const {
         return reinterpret_cast<const TableRef*>(bytes_ + sizeof(CellUnitHead));
     }

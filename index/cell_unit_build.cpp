@@ -32,7 +32,7 @@ class UnitBytes {
         const auto bytes = std::span<const std::byte>(out_).subspan(offset);
         refs_[table] = {static_cast<std::uint32_t>(offset / CellTable::kAlignment),
                         static_cast<std::uint32_t>(bytes.size() / CellTable::kAlignment),
-                        cell_checksum(bytes), head.first_column, head.last_row};
+                        cell_checksum(bytes.first(head.ids)), head.first_column, head.last_row};
     }
 
     void finish() {

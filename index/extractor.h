@@ -20,12 +20,15 @@ namespace isochron::index {
 /// Returns null when stopped. Throws to report a failure.
 using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
 
-/// The search over an open index: incremental THI search with the exact test, or the scan when the
-/// file has no tree. Copies share their state.
-Search search_in(std::shared_ptr<const IndexFile> file);
+/// What the file's tiers answer fastest: cells, else bricks, else the paper's tree, else the scan.
+SearchMethod cheapest_method(const IndexFile& file);
+/// Whether the file has what a method works on.
+bool can_search(const IndexFile& file, SearchMethod method);
 
-/// The scan, also when the file has a tree.
-Search scan_in(std::shared_ptr<const IndexFile> file);
+/// The search over an open index. Copies share their state.
+/// @param method instead of the cheapest; the file must have that tier
+Search search_in(std::shared_ptr<const IndexFile> file,
+                 std::optional<SearchMethod> method = std::nullopt);
 
 struct Request {
     Query query;

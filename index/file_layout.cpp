@@ -49,7 +49,7 @@ FileHeader checked_header(const std::string& name, std::span<const std::byte> fi
                                 file.size(), header.file_bytes));
     for (std::size_t i = 0; i < header.sections.size(); ++i) {
         const Section& section = header.sections[i];
-        if (section.offset % kSectionAlignment || section.offset < kSectionAlignment ||
+        if (section.offset % kPartAlignment || section.offset < kSectionAlignment ||
             section.offset > file.size() || section.bytes > file.size() - section.offset)
             throw Error(fmt::format("{}: damaged header: section {} lies outside the file", name,
                                     kSectionNames[i]));

@@ -1,9 +1,9 @@
 // Ids of runs, in whole vectors; compiled once for each SIMD target and chosen at run time.
+#include "index/id_runs.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "index/id_runs.cpp"
 #include <hwy/foreach_target.h>
-
-#include "index/id_runs.h"
 
 #include <hwy/highway.h>
 

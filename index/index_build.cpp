@@ -1,18 +1,24 @@
-// Writing of .isochron files: one pass over the series, then the tree over what was written.
+// Building of .isochron files: one pass over the series, then the tiers over what was written.
+#include "index/index_build.h"
+
+#include "index/bricks.h"
 #include "index/error.h"
 #include "index/file_layout.h"
-#include "index/index_file.h"
 #include "index/mapped_file.h"
 #include "index/metadata.h"
 #include "index/new_file.h"
-#include "index/value_stats.h"
+#include "index/parallel.h"
+#include "index/tier_plan.h"
+#include "index/unit_pass.h"
+#include "index/volume_pass.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
-#include <limits>
+#include <optional>
 
 namespace isochron::index {
 namespace {
@@ -27,47 +33,8 @@ void refuse_foreign_file(const std::filesystem::path& out) {
             fmt::format("{}: exists and is not an isochron index: not replaced", out.string()));
 }
 
-/// Reads every step once into the volume section; fills its checksum and the range.
-Section write_volume(VolumeSeries& series, NewFile& file, IndexStats& stats,
-                     const Progress& progress) {
-    const SeriesInfo& info = series.info();
-    const std::size_t stride = step_stride(info.step_bytes());
-    Section volume{.offset = kSectionAlignment, .bytes = info.steps() * stride};
-    file.reserve(volume.offset + volume.bytes);
-    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash(XXH3_createState(),
-                                                                        XXH3_freeState);
-    XXH3_64bits_reset(hash.get());
-    std::vector<std::byte> step(stride); // its padding stays zero
-    const std::span<std::byte> stored(step.data(), info.step_bytes());
-    stats.low = std::numeric_limits<double>::infinity();
-    stats.high = -stats.low;
-    for (std::size_t t = 0; t < info.steps(); ++t) {
-        if (progress)
-            progress("reading", static_cast<double>(t) / static_cast<double>(info.steps()));
-        series.read(t, stored);
-        add_range(info.type, info.scaling, stored, stats.low, stats.high, stats.nan_values);
-        XXH3_64bits_update(hash.get(), step.data(), step.size());
-        file.write_at(volume.offset + t * stride, step);
-    }
-    if (stats.low > stats.high)
-        stats.low = stats.high = 0; // no finite value at all
-    volume.checksum = XXH3_64bits_digest(hash.get());
-    return volume;
-}
-
-void count_values(const StepValues& values, IndexStats& stats, const Progress& progress) {
-    stats.histogram.assign(kHistogramBins, 0);
-    const std::size_t bytes = values.grid.vertex_count() * size_of(values.type);
-    for (std::size_t t = 0; t < values.steps; ++t) {
-        if (progress)
-            progress("counting", static_cast<double>(t) / static_cast<double>(values.steps));
-        add_histogram(values.type, values.scaling, {values.first + t * values.stride, bytes},
-                      stats.low, stats.high, stats.histogram);
-    }
-}
-
 /// Of everything that decides what a query answers and where it lies.
-std::uint64_t content_hash(const SeriesInfo& info, std::uint64_t volume_checksum) {
+std::uint64_t content_hash(const SeriesInfo& info, std::span<const std::uint64_t> checksums) {
     std::vector<double> numbers(info.grid.vertices.begin(), info.grid.vertices.end());
     for (const glm::dvec3& v : {info.grid.origin, info.grid.spacing, info.grid.direction[0],
                                 info.grid.direction[1], info.grid.direction[2]})
@@ -75,67 +42,227 @@ std::uint64_t content_hash(const SeriesInfo& info, std::uint64_t volume_checksum
     numbers.insert(numbers.end(),
                    {static_cast<double>(info.type), info.scaling.slope, info.scaling.intercept});
     numbers.insert(numbers.end(), info.times.begin(), info.times.end());
-    return XXH3_64bits_withSeed(numbers.data(), numbers.size() * sizeof(double), volume_checksum);
+    return XXH3_64bits_withSeed(numbers.data(), numbers.size() * sizeof(double),
+                                checksum_of(std::as_bytes(checksums)));
 }
 
-Section append(NewFile& file, const Section& previous, std::span<const std::byte> bytes) {
-    const Section section{.offset = align_up(previous.offset + previous.bytes, kSectionAlignment),
-                          .bytes = bytes.size(),
-                          .checksum = checksum_of(bytes)};
-    file.write_at(section.offset, bytes);
-    return section;
-}
+/// A new file of all members of the team, made by the first.
+class TeamFile {
+  public:
+    TeamFile(Team& team, const std::filesystem::path& target) : team_(team) {
+        std::string temporary;
+        team.together([&] {
+            if (team.rank() == 0) {
+                file_.emplace(target);
+                file_->remove_remains();
+                temporary = file_->temporary().string();
+            }
+        });
+        const auto names = team.gather(std::as_bytes(std::span(temporary)));
+        team.together([&] {
+            if (team.rank() > 0)
+                file_.emplace(
+                    target, std::filesystem::path(std::string(
+                                reinterpret_cast<const char*>(names[0].data()), names[0].size())));
+        });
+    }
+
+    NewFile& operator*() { return *file_; }
+    NewFile* operator->() { return &*file_; }
+
+    void commit() {
+        team_.together([&] {
+            if (team_.rank() > 0)
+                file_->commit();
+        });
+        team_.together([&] {
+            if (team_.rank() == 0)
+                file_->commit();
+        });
+    }
+
+  private:
+    Team& team_;
+    std::optional<NewFile> file_;
+};
+
+/// The sections of the file in the making.
+class Build {
+  public:
+    Build(VolumeSeries& series, const std::filesystem::path& out, const BuildOptions& options,
+          const Progress& progress, Team& team)
+        : series_(series), out_(out), options_(options), progress_(progress), team_(team),
+          threads_(thread_count(options.threads)),
+          file_(team, out), metadata_{.info = series.info(),
+                                      .tree = options.tree,
+                                      .referral = options.referral} {
+        if (options.referral)
+            scratch_.emplace(team, out.string() + ".volume");
+    }
+
+    void run() {
+        team_.together([&] { refuse_foreign_file(out_); });
+        read_steps();
+        std::optional<MappedFile> written;
+        team_.together([&] { written.emplace(volume_file().temporary()); });
+        const SeriesInfo& info = metadata_.info;
+        values_ = {.grid = info.grid,
+                   .type = info.type,
+                   .scaling = info.scaling,
+                   .steps = info.steps(),
+                   .first = written->bytes().data() + volume_offset(),
+                   .stride = step_stride(info.step_bytes())};
+        IndexStats& stats = metadata_.stats;
+        stats.histogram = count_values(values_, stats.low, stats.high, threads_, team_, progress_);
+        team_.together([&] {
+            metadata_.plan = plan_tiers(values_, *metadata_.levels, options_.tiers);
+            if (options_.with_tree)
+                metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::tree);
+        });
+        write_bricks();
+        write_cells();
+        team_.together([&] {
+            if (team_.rank() == 0)
+                write_rest();
+        });
+        if (progress_)
+            progress_("flushing to disk", 0.0);
+        file_.commit();
+    }
+
+  private:
+    /// Where the values are while the file is made; a file that refers to them needs them too.
+    NewFile& volume_file() { return scratch_ ? **scratch_ : *file_; }
+    std::uint64_t volume_offset() const { return scratch_ ? 0 : kSectionAlignment; }
+    bool has(Tier tier) const { return metadata_.plan.tiers.has(tier); }
+
+    void read_steps() {
+        const SeriesInfo& info = metadata_.info;
+        const std::uint64_t bytes = info.steps() * step_stride(info.step_bytes());
+        if (!scratch_)
+            header_.section(SectionKind::volume) = {kSectionAlignment, bytes, 0};
+        end_ = kSectionAlignment + header_.section(SectionKind::volume).bytes;
+        team_.together([&] {
+            if (team_.rank() == 0)
+                volume_file().reserve(volume_offset() + bytes);
+        });
+        VolumeFindings found =
+            read_volume(series_, volume_file(), volume_offset(), team_, progress_);
+        metadata_.stats.low = found.low;
+        metadata_.stats.high = found.high;
+        metadata_.stats.nan_values = found.nan_values;
+        metadata_.levels = std::move(found.levels);
+        header_.content_hash = content_hash(info, found.checksums);
+        checksums_ = std::move(found.checksums);
+    }
+
+    /// Of the sections that are made in parts, which begin where pages do.
+    Section& begin(SectionKind kind) {
+        Section& section = header_.section(kind);
+        section.offset = align_up(end_, kSectionAlignment);
+        return section;
+    }
+
+    void write_bricks() {
+        if (!has(Tier::bricks))
+            return;
+        Section& section = begin(SectionKind::bricks);
+        const BrickGrid bricks(values_.grid);
+        const std::uint64_t stride = align_up(bricks.bytes_per_step(), kPartAlignment);
+        section.bytes = stride * values_.steps;
+        end_ = section.offset + section.bytes;
+        const auto [first, last] = team_.share(values_.steps);
+        std::vector<std::uint64_t> checksums(last - first);
+        team_.together([&] {
+            parallel_for(
+                last - first, threads_,
+                [&](std::size_t item, unsigned) {
+                    std::vector<std::uint8_t> step(stride); // its padding is zero
+                    const auto extremes = std::span(step).first(bricks.bytes_per_step());
+                    build_bricks(values_, *metadata_.levels, first + item, extremes);
+                    checksums[item] = checksum_of(std::as_bytes(extremes));
+                    file_->write_at(section.offset + (first + item) * stride,
+                                    std::as_bytes(std::span(step)));
+                },
+                phase_of(progress_, "bricks"));
+        });
+        append_checksums(team_.gather_items(checksums));
+    }
+
+    void write_cells() {
+        if (!has(Tier::cells))
+            return;
+        Section& section = begin(SectionKind::units);
+        UnitFindings units = write_units(
+            values_, *metadata_.levels, has(Tier::deltas), *file_, section.offset,
+            out_.string() + fmt::format(".units{}", team_.rank()), threads_, team_, progress_);
+        section.bytes = units.bytes;
+        end_ = section.offset + section.bytes;
+        directory_ = std::move(units.directory);
+        metadata_.stats.cell_entries = units.entries;
+        append_checksums(units.checksums);
+    }
+
+    void append_checksums(const std::vector<std::uint64_t>& more) {
+        checksums_.insert(checksums_.end(), more.begin(), more.end());
+    }
+
+    void append(SectionKind kind, std::span<const std::byte> bytes) {
+        Section& section = header_.section(kind);
+        section = {align_up(end_, kPartAlignment), bytes.size(), checksum_of(bytes)};
+        file_->write_at(section.offset, bytes);
+        end_ = section.offset + section.bytes;
+    }
+
+    void write_rest() {
+        if (has(Tier::tree))
+            append(SectionKind::tree, build_thi_tree(values_, options_.tree, progress_, threads_));
+        append(SectionKind::directory, std::as_bytes(std::span(directory_)));
+        append(SectionKind::checksums, std::as_bytes(std::span(checksums_)));
+        const std::string text = to_json(metadata_);
+        append(SectionKind::metadata, std::as_bytes(std::span(text)));
+        for (Section& section : header_.sections)
+            if (section.offset == 0)
+                section.offset = kSectionAlignment; // an empty one lies anywhere
+        header_.file_bytes = end_;
+        file_->write_at(0, header_bytes(header_));
+    }
+
+    VolumeSeries& series_;
+    const std::filesystem::path& out_;
+    const BuildOptions& options_;
+    const Progress& progress_;
+    Team& team_;
+    unsigned threads_;
+    TeamFile file_;
+    std::optional<TeamFile> scratch_; ///< never gets its name
+    Metadata metadata_;
+    FileHeader header_;
+    StepValues values_;
+    std::vector<UnitEntry> directory_;
+    std::vector<std::uint64_t> checksums_;
+    std::uint64_t end_ = 0; ///< of what has been written
+};
 
 } // namespace
 
 void build_index(VolumeSeries& series, const std::filesystem::path& out,
-                 const BuildOptions& options, const Progress& progress) {
-    Metadata metadata{.info = series.info(), .stats = {}, .options = options};
-    SeriesInfo& info = metadata.info;
+                 const BuildOptions& options, const Progress& progress, Team& team) {
+    const SeriesInfo& info = series.info();
     try {
         check_limits(info);
+        if (options.tiers)
+            check_tiers(info.grid, *options.tiers);
     } catch (const Error& error) {
         throw Error(fmt::format("{}: {}", info.sources.empty() ? "series" : info.sources.front(),
                                 error.what()));
     }
-    NewFile file(out);
-    refuse_foreign_file(out);
-    const std::uint64_t cell_steps = info.grid.cell_count() * info.steps();
-    if (!options.exact_only && cell_steps > options.max_tree_cell_steps) {
-        metadata.options.exact_only = true;
-        info.notes.push_back(fmt::format(
-            "no tree: {} million cell-steps, a tree is built for up to {} million; queries scan "
-            "the volume",
-            cell_steps / 1'000'000, options.max_tree_cell_steps / 1'000'000));
-    }
+    Build(series, out, options, progress, team).run();
+}
 
-    FileHeader header;
-    const Section volume = write_volume(series, file, metadata.stats, progress);
-    std::vector<std::byte> tree;
-    {
-        const MappedFile written(file.temporary());
-        const StepValues values{.grid = info.grid,
-                                .type = info.type,
-                                .scaling = info.scaling,
-                                .steps = info.steps(),
-                                .first = written.bytes().data() + volume.offset,
-                                .stride = step_stride(info.step_bytes())};
-        count_values(values, metadata.stats, progress);
-        if (!metadata.options.exact_only)
-            tree = build_thi_tree(values, options.tree, progress);
-    }
-    header.content_hash = content_hash(info, volume.checksum);
-    header.section(SectionKind::volume) = volume;
-    header.section(SectionKind::tree) = append(file, volume, tree);
-    const std::string text = to_json(metadata);
-    header.section(SectionKind::metadata) =
-        append(file, header.section(SectionKind::tree), std::as_bytes(std::span(text)));
-    const Section& last = header.section(SectionKind::metadata);
-    header.file_bytes = last.offset + last.bytes;
-    file.write_at(0, header_bytes(header));
-    if (progress)
-        progress("flushing to disk", 0.0);
-    file.commit();
+void build_index(VolumeSeries& series, const std::filesystem::path& out,
+                 const BuildOptions& options, const Progress& progress) {
+    build_index(series, out, options, progress, *alone());
 }
 
 } // namespace isochron::index

@@ -49,6 +49,12 @@ LevelMap LevelMap::of_thresholds(ValueType type, std::span<const std::uint64_t> 
     return {type, {thresholds.begin(), thresholds.end()}, false, 0};
 }
 
+std::vector<std::uint64_t> LevelMap::distinct() const {
+    std::vector<std::uint64_t> values{lowest_};
+    values.insert(values.end(), thresholds_.begin(), thresholds_.end());
+    return values;
+}
+
 std::optional<LevelMap::Cut> LevelMap::cut(const Scaling& scaling, double isovalue) const {
     const auto stored = stored_cut(type_, scaling, isovalue);
     if (!stored || (lossless_ && *stored <= lowest_))

@@ -36,6 +36,8 @@ class LevelMap {
     bool lossless() const { return lossless_; }
     std::size_t levels() const { return thresholds_.size() + 1; }
     std::span<const std::uint64_t> thresholds() const { return thresholds_; }
+    /// All values' ordinals, as `of_values` takes them; of a lossless map.
+    std::vector<std::uint64_t> distinct() const;
 
     /// The side of a vertex by its rank: upper if `rank >= level` when exact; else upper if above
     /// the level, lower if below, and open if at it, which only the volume decides. The level is

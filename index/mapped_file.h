@@ -20,6 +20,10 @@ class MappedFile {
 
     std::span<const std::byte> bytes() const { return bytes_; }
 
+    /// Says that a part is read here and there, so that the system reads no more than what is
+    /// touched.
+    void expect_scattered_reads(std::span<const std::byte> part) const;
+
   private:
     std::span<const std::byte> bytes_;
 };

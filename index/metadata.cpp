@@ -96,6 +96,101 @@ SeriesInfo info_of(const json& j) {
     return info;
 }
 
+json json_of(const LevelMap& levels) {
+    if (size_of(levels.type()) == 1 && levels == LevelMap::of_type(levels.type()))
+        return "of the type";
+    if (levels.lossless())
+        return {{"values", levels.distinct()}};
+    return {{"thresholds", levels.thresholds()}};
+}
+
+std::vector<std::uint64_t> ascending(const json& values, std::size_t most) {
+    std::vector<std::uint64_t> numbers(values.is_array() ? values.size() : most + 1);
+    if (numbers.size() > most)
+        throw Error(fmt::format("expected at most {} levels", most));
+    get_whole(values, numbers);
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+        if (numbers[i] <= numbers[i - 1])
+            throw Error("levels that do not ascend");
+    return numbers;
+}
+
+LevelMap levels_of(const json& j, ValueType type) {
+    if (j.is_string()) {
+        if (size_of(type) != 1)
+            throw Error(fmt::format("levels of {}, which has too many values", name_of(type)));
+        return LevelMap::of_type(type);
+    }
+    if (j.contains("values"))
+        return LevelMap::of_values(type, ascending(j.at("values"), LevelMap::kMaxLevels));
+    return LevelMap::of_thresholds(type, ascending(j.at("thresholds"), LevelMap::kMaxLevels - 1));
+}
+
+json json_of(const TierPlan& plan) {
+    json tiers = json::array();
+    for (std::size_t i = 0; i < kTierNames.size(); ++i)
+        if (plan.tiers.has(static_cast<Tier>(i)))
+            tiers.push_back(kTierNames[i]);
+    return {{"tiers", tiers}, {"reasons", plan.reasons}};
+}
+
+TierPlan plan_of(const json& j) {
+    TierPlan plan;
+    for (const json& name : j.at("tiers")) {
+        const auto tier = tier_from_name(name.get<std::string>());
+        if (!tier)
+            throw Error(fmt::format("unknown tier {}", name.dump()));
+        plan.tiers = plan.tiers.with(*tier);
+    }
+    j.at("reasons").get_to(plan.reasons);
+    return plan;
+}
+
+template <class T>
+void put_optional(json& j, const char* key, const std::optional<T>& value) {
+    if (value)
+        j[key] = *value;
+}
+template <class T>
+void get_optional(const json& j, const char* key, std::optional<T>& value) {
+    if (j.contains(key))
+        value = j.at(key).get<T>();
+}
+
+json json_of(const Referral& referral) {
+    const ReadOptions& options = referral.options;
+    json j{{"files", json::array()},
+           {"big_endian", options.big_endian},
+           {"header_bytes", options.header_bytes}};
+    for (const std::filesystem::path& file : referral.files)
+        j["files"].push_back(file.string());
+    put_optional(j, "array", options.array);
+    put_optional(j, "component", options.component);
+    put_optional(j, "dims", options.dims);
+    if (options.type)
+        j["type"] = name_of(*options.type);
+    return j;
+}
+
+/// What the files leave open only: grid, times and units are those of the index itself.
+Referral referral_of(const json& j) {
+    Referral referral;
+    for (const json& file : j.at("files"))
+        referral.files.emplace_back(file.get<std::string>());
+    ReadOptions& options = referral.options;
+    j.at("big_endian").get_to(options.big_endian);
+    options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
+    get_optional(j, "array", options.array);
+    get_optional(j, "component", options.component);
+    if (j.contains("dims")) {
+        options.dims.emplace();
+        get_whole(j.at("dims"), *options.dims);
+    }
+    if (j.contains("type"))
+        options.type = value_type_from_name(j.at("type").get<std::string>());
+    return referral;
+}
+
 } // namespace
 
 void check_limits(const SeriesInfo& info) {
@@ -130,7 +225,7 @@ std::string to_json(const Metadata& metadata) {
     const SeriesInfo& info = metadata.info;
     const Grid& grid = info.grid;
     const IndexStats& stats = metadata.stats;
-    const json j{
+    json j{
         {"array", info.array},
         {"value_unit", info.value_unit},
         {"length_unit", info.length_unit},
@@ -151,12 +246,15 @@ std::string to_json(const Metadata& metadata) {
          {{"low", stats.low},
           {"high", stats.high},
           {"nan_values", stats.nan_values},
+          {"cell_entries", stats.cell_entries},
           {"histogram", stats.histogram}}},
-        {"build",
-         {{"lattice", metadata.options.tree.lattice},
-          {"max_variation", metadata.options.tree.max_variation},
-          {"exact_only", metadata.options.exact_only}}},
+        {"levels", json_of(metadata.levels.value())},
+        {"plan", json_of(metadata.plan)},
+        {"tree",
+         {{"lattice", metadata.tree.lattice}, {"max_variation", metadata.tree.max_variation}}},
     };
+    if (metadata.referral)
+        j["referral"] = json_of(*metadata.referral);
     // File names may be any bytes; JSON may not.
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -170,12 +268,16 @@ Metadata metadata_from_json(std::string_view text) try {
     stats.at("low").get_to(metadata.stats.low);
     stats.at("high").get_to(metadata.stats.high);
     metadata.stats.nan_values = whole<std::uint64_t>(stats.at("nan_values"));
+    metadata.stats.cell_entries = whole<std::uint64_t>(stats.at("cell_entries"));
     metadata.stats.histogram.resize(kHistogramBins);
     get_whole(stats.at("histogram"), metadata.stats.histogram);
-    const json& build = j.at("build");
-    metadata.options.tree.lattice = whole<std::uint32_t>(build.at("lattice"));
-    metadata.options.tree.max_variation = whole<std::uint32_t>(build.at("max_variation"));
-    build.at("exact_only").get_to(metadata.options.exact_only);
+    metadata.levels = levels_of(j.at("levels"), metadata.info.type);
+    metadata.plan = plan_of(j.at("plan"));
+    const json& tree = j.at("tree");
+    metadata.tree.lattice = whole<std::uint32_t>(tree.at("lattice"));
+    metadata.tree.max_variation = whole<std::uint32_t>(tree.at("max_variation"));
+    if (j.contains("referral"))
+        metadata.referral = referral_of(j.at("referral"));
     return metadata;
 } catch (const json::exception& error) {
     throw Error(error.what());

@@ -10,9 +10,12 @@ namespace isochron::index {
 
 /// The metadata section. `stats` has no sizes here: those follow from the section table.
 struct Metadata {
-    SeriesInfo info;
-    IndexStats stats;
-    BuildOptions options;
+    SeriesInfo info = {};
+    IndexStats stats = {};
+    TierPlan plan = {};
+    std::optional<LevelMap> levels = {}; ///< always set once the values are known
+    ThiOptions tree = {};
+    std::optional<Referral> referral = {};
 };
 
 /// Same metadata, same text: keys are sorted, numbers round-trip.

@@ -6,11 +6,14 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <random>
 
 namespace isochron::index {
@@ -41,13 +44,42 @@ NewFile::NewFile(fs::path target) : target_(std::move(target)) {
     } while (file_ < 0 && errno == EEXIST);
     if (file_ < 0)
         fail(errno);
+    ::flock(file_, LOCK_EX | LOCK_NB); // says that its writer lives
+}
+
+NewFile::NewFile(fs::path target, fs::path temporary)
+    : target_(std::move(target)), temporary_(std::move(temporary)), owner_(false) {
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file_ < 0)
+        fail(errno);
 }
 
 NewFile::~NewFile() {
     if (file_ < 0)
         return;
     ::close(file_);
-    ::unlink(temporary_.c_str());
+    if (owner_)
+        ::unlink(temporary_.c_str());
+}
+
+void NewFile::remove_remains() const {
+    const std::string start = fmt::format(".{}.", target_.filename().string());
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(target_), error)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() != start.size() + 8 || !name.starts_with(start) ||
+            !name.ends_with(".tmp") || entry.path() == temporary_)
+            continue;
+        const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+        if (file < 0)
+            continue;
+        // A new one may not have its lock yet.
+        struct stat status {};
+        const bool old = ::fstat(file, &status) == 0 && status.st_mtime + 60 < std::time(nullptr);
+        if (old && ::flock(file, LOCK_EX | LOCK_NB) == 0)
+            ::unlink(entry.path().c_str());
+        ::close(file);
+    }
 }
 
 void NewFile::fail(int error) const {
@@ -77,6 +109,8 @@ void NewFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
 void NewFile::commit() {
     if (::fsync(file_) != 0)
         fail(errno);
+    if (!owner_)
+        return;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)
         fail(errno);
     ::close(file_);

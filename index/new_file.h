@@ -15,6 +15,9 @@ class NewFile {
   public:
     /// @throws Error also when `target` exists and is not a regular file
     explicit NewFile(std::filesystem::path target);
+    /// Writes into the temporary file of another process, which owns it: here `commit` only
+    /// flushes.
+    NewFile(std::filesystem::path target, std::filesystem::path temporary);
     ~NewFile();
     NewFile(const NewFile&) = delete;
     NewFile& operator=(const NewFile&) = delete;
@@ -22,6 +25,8 @@ class NewFile {
     /// Claims disk space from the start of the file, so that a full disk shows before the work.
     void reserve(std::uint64_t bytes);
     void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+    /// Removes the temporary files that killed writers of the same name left.
+    void remove_remains() const;
     /// Flushes to disk, then renames over the final name.
     void commit();
 
@@ -29,9 +34,9 @@ class NewFile {
 
   private:
     [[noreturn]] void fail(int error) const;
-
     std::filesystem::path target_, temporary_;
     int file_ = -1;
+    bool owner_ = true;
 };
 
 } // namespace isochron::index

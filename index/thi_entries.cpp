@@ -163,10 +163,4 @@ std::vector<Interval> ThiEntries::take(std::size_t node) {
     return all;
 }
 
-std::function<void(double)> phase_of(const Progress& progress, std::string_view name) {
-    if (!progress)
-        return nullptr;
-    return [&progress, name](double fraction) { progress(name, fraction); };
-}
-
 } // namespace isochron::index

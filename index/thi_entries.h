@@ -50,7 +50,4 @@ class ThiEntries {
     std::vector<ByNode> by_worker_; ///< as each thread of the construction found them
 };
 
-/// A phase of `progress` for work that reports its fraction only; empty when `progress` is.
-std::function<void(double)> phase_of(const Progress& progress, std::string_view name);
-
 } // namespace isochron::index

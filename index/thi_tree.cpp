@@ -12,8 +12,8 @@ namespace isochron::index {
 ThiTree::ThiTree(std::span<const std::byte> bytes)
     : header_(check_thi_bytes(bytes)), parts_(thi_parts(header_, bytes)) {}
 
-std::vector<ThiTree::Node> ThiTree::nodes() const {
-    std::vector<Node> found;
+std::vector<TimeNodeCells> ThiTree::nodes() const {
+    std::vector<TimeNodeCells> found;
     const auto add = [&](const auto& self, const TimeNode& node) -> void {
         found.push_back(
             {node.first, node.last, node.depth,

@@ -17,6 +17,7 @@
 #include "index/step_values.h"
 #include "index/thi_entries.h"
 #include "index/thi_layout.h"
+#include "index/time_tree.h"
 
 #include <cstddef>
 #include <span>
@@ -41,13 +42,8 @@ class ThiTree {
     ///         block may yield wrong ones, also ids that no cell has.
     explicit ThiTree(std::span<const std::byte> bytes);
 
-    /// One node of the binary time tree, for `info --tree`; in depth-first order, root first.
-    struct Node {
-        std::uint32_t first_step, last_step; ///< inclusive span [t0, t1]
-        std::uint32_t depth;
-        std::uint64_t cells; ///< entries stored at the node
-    };
-    std::vector<Node> nodes() const;
+    /// Entries stored at every node of the binary time tree, in depth-first order, root first.
+    std::vector<TimeNodeCells> nodes() const;
     ThiOptions options() const { return {header_.lattice, header_.max_variation}; }
     std::uint32_t steps() const { return header_.steps; }
     std::uint64_t entries() const {

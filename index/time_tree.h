@@ -6,6 +6,13 @@
 
 namespace isochron::index {
 
+/// How many cells a node of the tree holds, for reports.
+struct TimeNodeCells {
+    std::uint32_t first_step, last_step; ///< inclusive span [t0, t1]
+    std::uint32_t depth;
+    std::uint64_t cells;
+};
+
 /// A node of the tree (section 3.1): an inclusive span of steps. Nodes are numbered depth first,
 /// root 0, a left child right after its parent, so that nothing about the tree has to be stored.
 /// A span is halved after the largest power of two of steps below its length: 10 steps have [0,9],

@@ -21,14 +21,34 @@ TestField test_field(std::mt19937& random) {
     return TestField({40, 36, 33}, kSteps, ValueType::u8, scaled(turbulence(random, 3), 120, 60));
 }
 
+bool may_be_searched(const CellUnit& unit, std::uint32_t cells) {
+    if (!unit.check_head(kSteps, cells))
+        return false;
+    for (std::uint32_t node = 0; node < TimeNode::count(kSteps); ++node)
+        if (!unit.check_table(node))
+            return false;
+    return true;
+}
+bool may_be_searched(const DeltaUnit& unit, std::uint32_t cells) {
+    if (!unit.check_head(kSteps, cells))
+        return false;
+    for (std::uint32_t step = 0; step < kSteps; ++step)
+        if (!unit.check_transition(step))
+            return false;
+    return true;
+}
+
 /// Searches a copy in a block of its own, whose borders the address sanitizer guards.
 /// @return whether it was taken for sound
 template <class Unit>
 bool survives(const std::vector<std::byte>& bytes, std::uint32_t cells, std::mt19937& random) {
     const std::vector<std::byte> copy(bytes);
     const Unit unit(copy, 0);
-    if (!unit.check(kSteps, cells))
+    if (!may_be_searched(unit, cells)) {
+        EXPECT_FALSE(unit.check(kSteps, cells));
         return false;
+    }
+    const bool sound = unit.check(kSteps, cells);
     (void)unit.entries();
     std::vector<CellId> ids;
     for (int search = 0; search < 10; ++search) {
@@ -49,8 +69,10 @@ bool survives(const std::vector<std::byte>& bytes, std::uint32_t cells, std::mt1
         append_ids(a, ids);
         append_ids(b, ids);
     }
-    for (const CellId id : ids)
-        EXPECT_LT(id, cells);
+    if (sound) {
+        for (const CellId id : ids)
+            EXPECT_LT(id, cells);
+    }
     return true;
 }
 
@@ -68,13 +90,36 @@ void seal(std::vector<std::byte>& bytes) {
                           size = std::size_t{ref.size} * CellTable::kAlignment;
         if (begin + size > bytes.size())
             continue;
-        ref.checksum = cell_checksum(std::span(bytes).subspan(begin, size));
+        const std::size_t directory =
+            size < sizeof(CellTableHead) ? size : CellTable(bytes.data() + begin).head().ids;
+        if (directory > size)
+            continue;
+        ref.checksum = cell_checksum(std::span(bytes).subspan(begin, directory));
         std::memcpy(bytes.data() + at, &ref, sizeof ref);
     }
     head.checksum = 0;
     std::memcpy(bytes.data(), &head, sizeof head);
     head.checksum = cell_checksum(std::span(bytes).first(refs));
     std::memcpy(bytes.data(), &head, sizeof head);
+}
+
+bool same_but_for_ids(std::vector<std::byte> a, std::vector<std::byte> b) {
+    CellUnitHead head;
+    std::memcpy(&head, b.data(), sizeof head);
+    for (std::uint32_t i = 0; i < head.tables; ++i) {
+        TableRef ref;
+        std::memcpy(&ref, b.data() + sizeof head + i * sizeof ref, sizeof ref);
+        if (ref.offset == 0)
+            continue;
+        const std::size_t begin = std::size_t{ref.offset} * CellTable::kAlignment;
+        const std::size_t ids = CellTable(b.data() + begin).head().ids;
+        const std::size_t end = std::size_t{ref.size} * CellTable::kAlignment;
+        std::fill(a.begin() + std::ptrdiff_t(begin + ids), a.begin() + std::ptrdiff_t(begin + end),
+                  std::byte{0});
+        std::fill(b.begin() + std::ptrdiff_t(begin + ids), b.begin() + std::ptrdiff_t(begin + end),
+                  std::byte{0});
+    }
+    return a == b;
 }
 
 template <class Unit>
@@ -112,7 +157,8 @@ void never_leaves(const std::vector<std::byte>& bytes, std::uint32_t cells) {
             const std::size_t at = begin + random() % std::min(range, bytes.size() - slack - begin);
             damaged[at] ^= static_cast<std::byte>(1 << random() % 8);
         }
-        ASSERT_EQ(survives<Unit>(damaged, cells, random), damaged == bytes);
+        // What a search goes by is covered by checksums, the ids are not.
+        ASSERT_EQ(survives<Unit>(damaged, cells, random), same_but_for_ids(damaged, bytes));
         seal(damaged);
         refused += !survives<Unit>(damaged, cells, random);
     }

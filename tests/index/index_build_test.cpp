@@ -1,16 +1,19 @@
 // Building an index: complete under its name, or not there at all.
 #include "index/error.h"
-#include "index/index_file.h"
+#include "index/index_build.h"
 #include "memory_series.h"
 #include "reader_fixtures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 
+#include <fcntl.h>
 #include <sched.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -25,9 +28,9 @@ class IndexBuildTest : public testing::Test {
   protected:
     /// The message with which building fails; empty if it does not.
     std::string build_error(VolumeSeries& read, const std::filesystem::path& out,
-                            const Progress& progress = {}) {
+                            const Progress& progress = {}, const BuildOptions& options = {}) {
         try {
-            build_index(read, out, {}, progress);
+            build_index(read, out, options, progress);
         } catch (const std::exception& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
             return error.what();
@@ -67,20 +70,23 @@ TEST_F(IndexBuildTest, CancellingInAnyPhaseLeavesTheOldIndexAsItWas) {
     build_index(series, folder.path() / "a", {});
     const std::string old = read_file(folder.path() / "a");
     std::vector<std::string> phases;
-    build_index(series, folder.path() / "a", {.tree = {.lattice = 8}},
-                [&](std::string_view phase, double) {
-                    if (phases.empty() || phases.back() != phase)
-                        phases.emplace_back(phase);
-                });
+    const BuildOptions everything{
+        .tiers = TierSet().with(Tier::bricks).with(Tier::cells).with(Tier::tree)};
+    build_index(series, folder.path() / "a", everything, [&](std::string_view phase, double) {
+        if (phases.empty() || phases.back() != phase)
+            phases.emplace_back(phase);
+    });
     EXPECT_NE(read_file(folder.path() / "a"), old);
     const std::string replaced = read_file(folder.path() / "a");
-    ASSERT_GE(phases.size(), 4u);
+    ASSERT_GE(phases.size(), 6u);
     for (const std::string& end : phases) {
-        EXPECT_EQ(build_error(series, folder.path() / "a",
-                              [&](std::string_view phase, double) {
-                                  if (phase == end)
-                                      throw std::runtime_error("enough");
-                              }),
+        EXPECT_EQ(build_error(
+                      series, folder.path() / "a",
+                      [&](std::string_view phase, double) {
+                          if (phase == end)
+                              throw std::runtime_error("enough");
+                      },
+                      everything),
                   "enough");
         EXPECT_THAT(names_in(folder.path()), ElementsAre("a"));
         EXPECT_EQ(read_file(folder.path() / "a"), replaced);
@@ -105,6 +111,22 @@ TEST_F(IndexBuildTest, AFullDiskIsToldAndLeavesNothingBehind) {
         EXPECT_THAT(names_in(folder.path()), IsEmpty()) << limit;
     }
     std::signal(SIGXFSZ, previous);
+}
+
+TEST_F(IndexBuildTest, WhatAKilledBuildLeftIsRemovedAndWhatALivingOneWritesIsNot) {
+    const auto place = [&](const std::string& name) {
+        std::ofstream(folder.path() / name) << "half an index";
+        const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+        std::filesystem::last_write_time(folder.path() / name, long_ago);
+    };
+    place(".a.dead.tmp");
+    place(".a.live.tmp");
+    place(".other.dead.tmp");
+    const int living = ::open((folder.path() / ".a.live.tmp").c_str(), O_WRONLY | O_CLOEXEC);
+    ASSERT_EQ(0, ::flock(living, LOCK_EX));
+    build_index(series, folder.path() / "a", {});
+    ::close(living);
+    EXPECT_THAT(names_in(folder.path()), ElementsAre(".a.live.tmp", ".other.dead.tmp", "a"));
 }
 
 TEST_F(IndexBuildTest, PlacesThatCannotBeWrittenAreToldBeforeAnythingIsRead) {
@@ -143,15 +165,6 @@ TEST_F(IndexBuildTest, SeriesBeyondTheLimitsAreRefused) {
     EXPECT_THAT(with([](auto& info) { info.times.clear(); }), HasSubstr("0 steps"));
     EXPECT_THAT(with([](auto& info) { info.scaling.slope = 0; }), HasSubstr("slope"));
     EXPECT_THAT(names_in(folder.path()), IsEmpty());
-}
-
-TEST_F(IndexBuildTest, ASeriesThatIsTooLongForATreeSaysSo) {
-    build_index(series, folder.path() / "a", {.tree = {}, .max_tree_cell_steps = 1000});
-    const auto file = IndexFile::open(folder.path() / "a");
-    EXPECT_EQ(file->tree(), nullptr);
-    EXPECT_TRUE(file->options().exact_only);
-    ASSERT_EQ(file->info().notes.size(), 1u);
-    EXPECT_THAT(file->info().notes[0], HasSubstr("no tree"));
 }
 
 } // namespace

@@ -1,11 +1,12 @@
 // The index file: what goes in comes out, and damage is told instead of believed.
 #include "index/error.h"
 #include "index/file_layout.h"
-#include "index/index_file.h"
+#include "index/index_build.h"
 #include "index/metadata.h"
 #include "memory_series.h"
 #include "reader_fixtures.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +18,7 @@
 namespace isochron::index {
 namespace {
 
+using testing::AnyOf;
 using testing::HasSubstr;
 
 void put(const std::filesystem::path& path, std::string_view bytes) {
@@ -65,11 +67,11 @@ TEST_F(IndexFileTest, EveryTypeGoesInAndComesOutUnchanged) {
     std::mt19937 random(test_seed());
     for (const ValueType type : {ValueType::i8, ValueType::u8, ValueType::i16, ValueType::u16,
                                  ValueType::i32, ValueType::f32, ValueType::f64})
-        for (const bool exact_only : {false, true}) {
+        for (const bool with_tree : {false, true}) {
             const TestField field({5, 3, 4}, 3, type, scaled(white_noise(random), 100, 10),
                                   {-0.5, 7.25});
             const StepValues in = field.view();
-            const auto file = IndexFile::open(build(in, {.tree = {}, .exact_only = exact_only}));
+            const auto file = IndexFile::open(build(in, {.with_tree = with_tree}));
             const StepValues& out = file->values();
             EXPECT_EQ(out.type, type);
             EXPECT_EQ(out.scaling, in.scaling);
@@ -79,9 +81,13 @@ TEST_F(IndexFileTest, EveryTypeGoesInAndComesOutUnchanged) {
             for (std::size_t t = 0; t < 3; ++t)
                 EXPECT_EQ(0, std::memcmp(out.first + t * out.stride, in.first + t * in.stride,
                                          60 * size_of(type)));
-            EXPECT_EQ(file->tree() == nullptr, exact_only);
-            EXPECT_EQ(file->stats().tree_bytes == 0, exact_only);
-            EXPECT_EQ(file->options().exact_only, exact_only);
+            EXPECT_EQ(file->tree() != nullptr, with_tree);
+            EXPECT_EQ(file->stats().tree_bytes > 0, with_tree);
+            EXPECT_EQ(file->plan().tiers.has(Tier::tree), with_tree);
+            // 180 values at most: every type has its levels.
+            EXPECT_TRUE(file->levels().lossless());
+            EXPECT_NE(file->cells(), nullptr);
+            EXPECT_FALSE(file->bricks(0).empty());
             EXPECT_EQ(file->stats().file_bytes,
                       std::filesystem::file_size(folder.path() / "a.isochron"));
             EXPECT_NO_THROW(file->verify());
@@ -119,7 +125,7 @@ TEST_F(IndexFileTest, TheDescriptionOfTheSeriesGoesInAndComesOutUnchanged) {
     info.sources = {"a b.vti", "../c.vti", "d.vti"};
     info.notes = {"cell data averaged to vertices"};
     build_index(series, folder.path() / "a.isochron",
-                {.tree = {.lattice = 16, .max_variation = 3}});
+                {.with_tree = true, .tree = {.lattice = 16, .max_variation = 3}});
     const auto file = IndexFile::open(folder.path() / "a.isochron");
     const SeriesInfo& out = file->info();
     EXPECT_EQ(out.array, info.array);
@@ -132,7 +138,8 @@ TEST_F(IndexFileTest, TheDescriptionOfTheSeriesGoesInAndComesOutUnchanged) {
     EXPECT_EQ(out.times, info.times);
     EXPECT_EQ(out.sources, info.sources);
     EXPECT_EQ(out.notes, info.notes);
-    EXPECT_EQ(file->options().tree, (ThiOptions{.lattice = 16, .max_variation = 3}));
+    EXPECT_EQ(file->tree_options(), (ThiOptions{.lattice = 16, .max_variation = 3}));
+    EXPECT_EQ(file->tree()->options(), file->tree_options());
 }
 
 TEST_F(IndexFileTest, ValuesThatAreNotFiniteAreCountedAndKeptOutOfTheRange) {
@@ -166,8 +173,8 @@ TEST_F(IndexFileTest, TheContentHashDependsOnValuesAndGridAlone) {
         return IndexFile::open(folder.path() / "a.isochron")->content_hash();
     };
     const std::uint64_t first = hash({}, 1);
-    EXPECT_EQ(hash({.tree = {.lattice = 8}}, 1), first);
-    EXPECT_EQ(hash({.tree = {}, .exact_only = true}, 1), first);
+    EXPECT_EQ(hash({.with_tree = true, .tree = {.lattice = 8}}, 1), first);
+    EXPECT_EQ(hash({.tiers = TierSet{}}, 1), first);
     EXPECT_NE(hash({}, 2), first);
     field.at<std::uint8_t>(1, 63) ^= 1;
     EXPECT_NE(hash({}, 1), first);
@@ -197,10 +204,10 @@ TEST_F(IndexFileTest, EveryKindOfHeaderDamageHasItsOwnLine) {
     EXPECT_THAT(message_of(good + "x"), HasSubstr("wrong size"));
 
     FileHeader newer = header_of(good);
-    newer.version = 2;
+    newer.version = kFileVersion + 1;
     std::string bytes = good;
     reseal(bytes, newer);
-    EXPECT_THAT(message_of(bytes), HasSubstr("file version 2, this program reads version 1"));
+    EXPECT_THAT(message_of(bytes), HasSubstr("file version 3, this program reads version 2"));
 
     FileHeader foreign = header_of(good);
     foreign.byte_order = 0x04030201;
@@ -237,8 +244,9 @@ TEST_F(IndexFileTest, EveryFlippedBitOfTheHeaderIsNoticed) {
 TEST_F(IndexFileTest, EveryFlippedBitOfASectionIsFoundByVerify) {
     const std::uint32_t seed = test_seed();
     std::mt19937 random(seed);
-    const TestField field({5, 6, 7}, 2, ValueType::f32, moving_sphere);
-    const std::string good = read_file(build(field.view()));
+    // With something in every section.
+    const TestField field({15, 16, 17}, 2, ValueType::u8, moving_sphere);
+    const std::string good = read_file(build(field.view(), {.with_tree = true}));
     const FileHeader header = header_of(good);
     for (std::size_t s = 0; s < header.sections.size(); ++s)
         for (int i = 0; i < 50; ++i) {
@@ -251,7 +259,9 @@ TEST_F(IndexFileTest, EveryFlippedBitOfASectionIsFoundByVerify) {
                 IndexFile::open(folder.path() / "b.isochron")->verify();
                 ADD_FAILURE() << kSectionNames[s] << " byte " << at;
             } catch (const Error& error) {
-                EXPECT_THAT(error.what(), HasSubstr(kSectionNames[s]));
+                // Or the padding of its parts.
+                EXPECT_THAT(error.what(), AnyOf(HasSubstr(kSectionNames[s]),
+                                                HasSubstr(fmt::format("byte {} is not", at))));
             }
         }
 }
@@ -309,7 +319,7 @@ TEST_F(IndexFileTest, ADeeplyNestedTextIsRefused) {
 
 TEST_F(IndexFileTest, ADamagedTreeIsRefusedWhenItIsFirstUsed) {
     const TestField field({5, 6, 7}, 2, ValueType::f32, moving_sphere);
-    std::string bytes = read_file(build(field.view()));
+    std::string bytes = read_file(build(field.view(), {.with_tree = true}));
     const FileHeader header = header_of(bytes);
     const Section tree = header.section(SectionKind::tree);
     std::fill_n(bytes.begin() + std::ptrdiff_t(tree.offset), tree.bytes, '\xff');

@@ -1,6 +1,7 @@
 // The search over an open index finds exactly the active cells, by tree and by scan.
 #include "index/error.h"
 #include "index/extractor.h"
+#include "index/index_build.h"
 #include "memory_series.h"
 #include "reader_fixtures.h"
 
@@ -13,22 +14,27 @@ namespace isochron::index {
 namespace {
 
 std::shared_ptr<const IndexFile> indexed(const TestFolder& folder, const StepValues& values,
-                                         bool exact_only = false) {
+                                         const BuildOptions& options = {}) {
     MemorySeries series(values);
-    build_index(series, folder.path() / "a.isochron", {.tree = {}, .exact_only = exact_only});
+    build_index(series, folder.path() / "a.isochron", options);
     return IndexFile::open(folder.path() / "a.isochron");
 }
 
-TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeWithAndWithoutATree) {
+constexpr std::array kMethods{SearchMethod::cells, SearchMethod::bricks, SearchMethod::tree,
+                              SearchMethod::scan};
+const BuildOptions kEveryMethod{
+    .tiers = TierSet().with(Tier::bricks).with(Tier::cells).with(Tier::tree)};
+
+TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeByEveryMethod) {
     const TestFolder folder;
     std::mt19937 random(test_seed());
     for (const ValueType type : {ValueType::i8, ValueType::u8, ValueType::i16, ValueType::u16,
                                  ValueType::i32, ValueType::f32, ValueType::f64})
-        for (const bool exact_only : {false, true}) {
+        for (const SearchMethod method : kMethods) {
             const TestField field({9, 8, 11}, 7, type, scaled(turbulence(random), 100, 10),
-                                  {exact_only ? -0.5 : 2.0, 1.0});
+                                  {method == SearchMethod::bricks ? -0.5 : 2.0, 1.0});
             const StepValues values = field.view();
-            const Search search = search_in(indexed(folder, values, exact_only));
+            const Search search = search_in(indexed(folder, values, kEveryMethod), method);
             const auto isovalues = quantiles(sorted_values(values), 9);
             for (int i = 0; i < 60; ++i) {
                 // Mostly the same isovalue, as in playback: the incremental search is used.
@@ -37,6 +43,7 @@ TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeWithAndWithoutATree) {
                 const CellSetPtr set = search(query, {});
                 ASSERT_NE(set, nullptr);
                 EXPECT_EQ(set->query, query);
+                EXPECT_EQ(set->method, method);
                 ASSERT_EQ(set->ids, BruteForce(values, query.step).active(query.isovalue))
                     << name_of(type) << " step " << query.step << " isovalue " << query.isovalue;
                 EXPECT_EQ(set->points.size(), set->ids.size());
@@ -50,9 +57,11 @@ TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeWithAndWithoutATree) {
 TEST(IndexSearch, FindsInTheFmriSeriesWhatTheScanFindsAtEveryStepAnd64Quantiles) {
     const TestFolder folder;
     const auto series = open_series({TEST_DATA "/fmri/filtered_func_data.nii.gz"});
-    build_index(*series, folder.path() / "a.isochron", {});
+    build_index(*series, folder.path() / "a.isochron", {.with_tree = true});
     const auto file = IndexFile::open(folder.path() / "a.isochron");
-    const Search by_tree = search_in(file), by_scan = scan_in(file);
+    const Search by_bricks = search_in(file), by_tree = search_in(file, SearchMethod::tree),
+                 by_scan = search_in(file, SearchMethod::scan);
+    ASSERT_EQ(cheapest_method(*file), SearchMethod::bricks);
     const auto isovalues = quantiles(sorted_values(file->values()), 64);
     std::uint64_t active = 0;
     for (const double isovalue : isovalues)
@@ -60,6 +69,8 @@ TEST(IndexSearch, FindsInTheFmriSeriesWhatTheScanFindsAtEveryStepAnd64Quantiles)
             const CellSetPtr found = by_tree({step, isovalue}, {});
             const CellSetPtr expected = by_scan({step, isovalue}, {});
             ASSERT_EQ(found->ids, expected->ids) << "step " << step << " isovalue " << isovalue;
+            ASSERT_EQ(by_bricks({step, isovalue}, {})->ids, expected->ids)
+                << "step " << step << " isovalue " << isovalue;
             active += found->ids.size();
         }
     EXPECT_GT(active, 1'000'000u);
@@ -76,7 +87,7 @@ TEST(IndexSearch, SlabsOfALargeScanMeetWithoutGapOrRepetition) {
     // More cells than one slab of the scan holds.
     const TestField field({300, 200, 120}, 1, ValueType::u8, white_noise(random));
     const StepValues values = field.view();
-    const auto file = indexed(folder, values, true);
+    const auto file = indexed(folder, values, {.tiers = TierSet{}});
     EXPECT_EQ(search_in(file)({0, 0.5}, {})->ids, BruteForce(values, 0).active(0.5));
 }
 
@@ -85,7 +96,7 @@ TEST(IndexSearch, TheScanIsUsedWhenItIsAskedFor) {
     const TestField field({12, 12, 12}, 4, ValueType::f32, moving_sphere);
     const auto file = indexed(folder, field.view());
     const Query query{2, 3.0};
-    const CellSetPtr scanned = scan_in(file)(query, {});
+    const CellSetPtr scanned = search_in(file, SearchMethod::scan)(query, {});
     EXPECT_EQ(scanned->candidates, scanned->ids.size());
     EXPECT_EQ(scanned->ids, search_in(file)(query, {})->ids);
 }
@@ -106,8 +117,8 @@ TEST(IndexSearch, AStoppedSearchGivesNothingAndTheNextIsRight) {
     const TestFolder folder;
     const TestField field({20, 20, 20}, 4, ValueType::f32, moving_sphere);
     const StepValues values = field.view();
-    for (const bool exact_only : {false, true}) {
-        const Search search = search_in(indexed(folder, values, exact_only));
+    for (const SearchMethod method : kMethods) {
+        const Search search = search_in(indexed(folder, values, kEveryMethod), method);
         std::stop_source stop;
         stop.request_stop();
         EXPECT_EQ(search({1, 150.0}, stop.get_token()), nullptr);

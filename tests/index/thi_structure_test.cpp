@@ -76,7 +76,7 @@ std::uint32_t below(std::mt19937& random, std::uint32_t end) {
 std::map<Span, std::uint64_t> cells_by_span(const TestField& field, ThiOptions options) {
     const auto bytes = build_thi_tree(field.view(), options);
     std::map<Span, std::uint64_t> found;
-    for (const ThiTree::Node& node : ThiTree(bytes).nodes())
+    for (const TimeNodeCells& node : ThiTree(bytes).nodes())
         if (node.cells)
             found[{node.first_step, node.last_step}] = node.cells;
     return found;

@@ -259,7 +259,7 @@ TEST(ThiTree, KnowsItsOptionsStepsAndEntries) {
     EXPECT_EQ(tree.options(), (ThiOptions{32, 3}));
     EXPECT_EQ(tree.steps(), 11u);
     std::uint64_t cells = 0;
-    for (const ThiTree::Node& node : tree.nodes())
+    for (const TimeNodeCells& node : tree.nodes())
         cells += node.cells;
     EXPECT_EQ(cells, tree.entries());
     EXPECT_LE(cells, 11 * field.view().grid.cell_count());

@@ -1,0 +1,48 @@
+// The search structures that an index can hold beside its volume.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isochron::index {
+
+enum class Tier : std::uint8_t {
+    bricks, ///< extremes of bricks: small, exact with the volume, for every type
+    cells,  ///< ids by their extremes in a time tree: fast, exact alone where levels are lossless
+    deltas, ///< what each step adds and removes: incremental search
+    tree,   ///< the paper's Temporal Hierarchical Index Tree
+};
+constexpr std::array<std::string_view, 4> kTierNames{"bricks", "cells", "deltas", "tree"};
+
+constexpr std::optional<Tier> tier_from_name(std::string_view name) {
+    for (std::size_t i = 0; i < kTierNames.size(); ++i)
+        if (kTierNames[i] == name)
+            return static_cast<Tier>(i);
+    return std::nullopt;
+}
+
+class TierSet {
+  public:
+    bool has(Tier tier) const { return bits_ & 1u << static_cast<unsigned>(tier); }
+    TierSet with(Tier tier) const { return TierSet(bits_ | 1u << static_cast<unsigned>(tier)); }
+    bool empty() const { return bits_ == 0; }
+    bool operator==(const TierSet&) const = default;
+
+    TierSet() = default;
+
+  private:
+    explicit TierSet(unsigned bits) : bits_(bits) {}
+    unsigned bits_ = 0;
+};
+
+/// Which tiers an index has, and why.
+struct TierPlan {
+    TierSet tiers;
+    std::vector<std::string> reasons; ///< a sentence for each tier that could be, for `info`
+};
+
+} // namespace isochron::index

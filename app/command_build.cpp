@@ -2,16 +2,21 @@
 #include "app/cancel.h"
 #include "app/commands.h"
 #include "app/file_patterns.h"
+#include "app/index_report.h"
 #include "app/positive_number.h"
 #include "app/progress_bar.h"
 #include "app/text.h"
+#include "index/appended_series.h"
 #include "index/error.h"
-#include "index/index_file.h"
+#include "index/index_build.h"
+#include "index/team.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
+#include <sstream>
 
 namespace isochron::app {
 namespace {
@@ -26,7 +31,8 @@ struct BuildArguments {
     std::vector<std::uint32_t> dims;
     std::vector<double> spacing, origin;
     index::BuildOptions build;
-    bool quiet = false;
+    std::string tiers;
+    bool quiet = false, append = false, refer = false;
 };
 
 std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
@@ -46,41 +52,93 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
     return read;
 }
 
+/// `bricks,cells`; `none` for an index that only scans.
+index::TierSet tiers_of(const std::string& list) {
+    index::TierSet tiers;
+    if (list == "none")
+        return tiers;
+    std::istringstream names(list);
+    for (std::string name; std::getline(names, name, ',');) {
+        const auto tier = index::tier_from_name(name);
+        if (!tier)
+            throw UsageError(fmt::format("--tiers: {}: expected none, or some of {}", name,
+                                         fmt::join(index::kTierNames, ",")));
+        tiers = tiers.with(*tier);
+    }
+    return tiers;
+}
+
+/// The files as the index will look for them: from its own folder.
+index::Referral referral_to(const std::vector<fs::path>& files, const BuildArguments& arguments) {
+    index::Referral referral{.files = {}, .options = read_options(arguments)};
+    const fs::path folder = fs::absolute(arguments.out).parent_path();
+    for (const fs::path& file : files)
+        referral.files.push_back(fs::absolute(file).lexically_relative(folder));
+    return referral;
+}
+
 std::string summary(const fs::path& out, const index::IndexFile& file) {
     const index::SeriesInfo& info = file.info();
     const index::IndexStats& stats = file.stats();
     const auto& n = info.grid.vertices;
-    std::string text =
-        fmt::format("{}: {} x {} x {} vertices, {} step{}, {}, values {} to {}{}\n"
-                    "{}: volume {}, tree {}\n",
-                    out.string(), n[0], n[1], n[2], info.steps(), info.steps() == 1 ? "" : "s",
-                    index::name_of(info.type), stats.low, stats.high, with_space(info.value_unit),
-                    human_bytes(static_cast<double>(stats.file_bytes)),
-                    human_bytes(static_cast<double>(stats.volume_bytes)),
-                    stats.tree_bytes ? human_bytes(static_cast<double>(stats.tree_bytes)) : "none");
+    std::string text = fmt::format("{}: {} x {} x {} vertices, {} step{}, {}, values {} to {}{}\n"
+                                   "{}\n",
+                                   out.string(), n[0], n[1], n[2], info.steps(),
+                                   info.steps() == 1 ? "" : "s", index::name_of(info.type),
+                                   stats.low, stats.high, with_space(info.value_unit), sizes(file));
     for (const std::string& note : info.notes)
         text += fmt::format("note: {}\n", note);
     return text;
 }
 
-void run_build(const BuildArguments& arguments) {
-    const CancelOnSignal signals;
-    const std::vector<fs::path> files = expand_patterns(arguments.files);
-    refuse_input_as_output(files, arguments.out);
-    const auto series = index::open_series(files, read_options(arguments));
+void build_with(index::Team& team, const BuildArguments& arguments, const CancelOnSignal& signals) {
+    const bool reports = team.rank() == 0 && !arguments.quiet;
+    index::BuildOptions options = arguments.build;
+    if (!arguments.tiers.empty())
+        options.tiers = tiers_of(arguments.tiers);
+    std::unique_ptr<index::VolumeSeries> series;
+    team.together([&] {
+        const std::vector<fs::path> files = expand_patterns(arguments.files);
+        refuse_input_as_output(files, arguments.out);
+        if (arguments.refer)
+            options.referral = referral_to(files, arguments);
+        series = index::open_series(files, read_options(arguments));
+        if (arguments.append)
+            series = index::append_to(index::IndexFile::open(arguments.out), arguments.out.string(),
+                                      std::move(series));
+    });
+    if (!series) { // nothing to append
+        if (reports)
+            fmt::print("{}: holds every step of these files already\n", arguments.out.string());
+        return;
+    }
     const index::SeriesInfo& info = series->info();
     {
         ProgressBar bar(stderr,
                         static_cast<double>(info.step_bytes()) * static_cast<double>(info.steps()));
-        index::build_index(*series, arguments.out, arguments.build,
-                           [&](std::string_view phase, double fraction) {
-                               signals.check();
-                               if (!arguments.quiet)
-                                   bar.show(phase, fraction);
-                           });
+        index::build_index(
+            *series, arguments.out, options,
+            [&](std::string_view phase, double fraction) {
+                signals.check();
+                if (reports)
+                    bar.show(phase, fraction);
+            },
+            team);
     }
-    if (!arguments.quiet)
+    if (reports)
         fmt::print("{}", summary(arguments.out, *index::IndexFile::open(arguments.out)));
+}
+
+void run_build(const BuildArguments& arguments) {
+    const CancelOnSignal signals;
+    const auto team = index::join_team();
+    try {
+        build_with(*team, arguments, signals);
+    } catch (const std::exception&) {
+        if (team->rank() > 0)
+            throw ReportedElsewhere();
+        throw;
+    }
 }
 
 void add_reading_options(CLI::App& command, BuildArguments& arguments) {
@@ -155,28 +213,51 @@ void add_build(CLI::App& program) {
 
     const char* index_group = "Index";
     command
-        ->add_option("--lattice", arguments->build.tree.lattice,
-                     "SpanSpaceSize L: the lattice has L x L elements, 1 to 4096")
-        ->check(CLI::Range(1u, 4096u))
-        ->capture_default_str()
+        ->add_option("--tiers", arguments->tiers,
+                     "Search structures instead of the planner's choice: some of "
+                     "bricks,cells,deltas,tree, or none")
+        ->type_name("LIST")
         ->group(index_group);
     command
-        ->add_option("--max-variation", arguments->build.tree.max_variation,
-                     "Most distinct lattice elements of a cell that is stored once for a time "
-                     "span, 1 to 64")
-        ->check(CLI::Range(1u, 64u))
-        ->capture_default_str()
+        ->add_flag("--append", arguments->append,
+                   "Add the steps that NAME.isochron does not hold yet, if any; FILES are all of "
+                   "them, those that it holds first")
         ->group(index_group);
     command
-        ->add_flag("--no-tree", arguments->build.exact_only,
-                   fmt::format("Write no tree: queries scan the volume (default beyond {} million "
-                               "cell-steps)",
-                               arguments->build.max_tree_cell_steps / 1'000'000))
+        ->add_flag("--refer", arguments->refer,
+                   "Refer to FILES instead of carrying a copy of their values")
         ->group(index_group);
+    command
+        ->add_option("--threads", arguments->build.threads,
+                     "Threads to build with (default 0: as many as there are processors)")
+        ->check(CLI::Range(0u, 1024u))
+        ->group(index_group);
+    CLI::Option* lattice =
+        command
+            ->add_option(
+                "--lattice", arguments->build.tree.lattice,
+                "Add the paper's tree, of SpanSpaceSize L: the lattice has L x L elements, "
+                "1 to 4096")
+            ->check(CLI::Range(1u, 4096u))
+            ->capture_default_str()
+            ->group(index_group);
+    CLI::Option* variation =
+        command
+            ->add_option("--max-variation", arguments->build.tree.max_variation,
+                         "Add the paper's tree: most distinct lattice elements of a cell that is "
+                         "stored once for a time span, 1 to 64")
+            ->check(CLI::Range(1u, 64u))
+            ->capture_default_str()
+            ->group(index_group);
     command->add_flag("--quiet", arguments->quiet, "Print nothing but errors");
-    command->footer("Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "
-                    "0, no file is left behind\nand an older index stays as it was.");
-    command->callback([arguments] { run_build(*arguments); });
+    command->footer(
+        "Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "
+        "0, no file is left behind\nand an older index stays as it was. mpirun -n N isochron "
+        "build ... spreads the work over N processes that\nshare a file system.");
+    command->callback([arguments, lattice, variation] {
+        arguments->build.with_tree = lattice->count() + variation->count() > 0;
+        run_build(*arguments);
+    });
 }
 
 } // namespace isochron::app

@@ -1,12 +1,9 @@
 // `isochron info`: what an index holds.
 #include "app/commands.h"
 #include "app/index_report.h"
-#include "app/progress_bar.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <unistd.h>
 
 #include <memory>
 
@@ -15,19 +12,12 @@ namespace {
 
 struct InfoArguments {
     std::filesystem::path file;
-    bool json = false, tree = false, verify = false;
+    bool json = false, tree = false;
 };
 
 void run_info(const InfoArguments& arguments) {
     const auto file = index::IndexFile::open(arguments.file);
-    if (arguments.verify) {
-        ProgressBar bar;
-        file->verify([&](std::string_view phase, double fraction) {
-            if (isatty(STDERR_FILENO))
-                bar.show(fmt::format("verifying {}", phase), fraction);
-        });
-    }
-    const IndexReport report{arguments.file.string(), *file, arguments.tree, arguments.verify};
+    const IndexReport report{arguments.file.string(), *file, arguments.tree};
     fmt::print("{}", arguments.json ? as_json(report) : as_text(report));
 }
 
@@ -37,21 +27,25 @@ void add_info(CLI::App& program) {
     auto arguments = std::make_shared<InfoArguments>();
     CLI::App* command = program.add_subcommand("info", "Print what an index holds.");
     command->add_option("file", arguments->file, "Index")->required()->type_name("NAME.isochron");
-    command->add_flag("--tree", arguments->tree, "Print the cells stored at every time node");
-    command->add_flag("--verify", arguments->verify,
-                      "Compare the checksums of all sections first: reads the whole file");
+    command->add_flag("--tree", arguments->tree,
+                      "Print the cells stored at every time node: of the paper's tree where there "
+                      "is one, else of the cells");
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->footer(
         "Sizes along axes are in the length unit of the files, times in their time unit, values\n"
-        "scaled and in their unit. Coherence is tree entries per cell-step: 1 when nothing merges\n"
-        "in time. Raw is steps x cells x 24 bytes. JSON keys: file, array, vertices, cells,\n"
+        "scaled and in their unit. Coherence is entries per cell-step in the same tree as --tree:\n"
+        "1 when nothing merges in time and every cell has two values. Raw is steps x cells x 24\n"
+        "bytes. JSON keys: file, array, vertices, cells,\n"
         "spacing, origin, direction (three axes), handedness (right or left), physical_size,\n"
         "length_unit, anatomy (none, ras or lps), steps, times, time_unit, uniform_time, type,\n"
         "slope, intercept, low, high (of finite values), value_unit, nan_values, histogram (256\n"
-        "equal bins over low to high), file_bytes, volume_bytes, tree_bytes, raw_bytes,\n"
-        "percent_of_raw (file without volume), lattice, max_variation, tree_entries and coherence\n"
-        "(only with a tree), content_hash, sources, notes, tree (only with --tree: first_step,\n"
-        "last_step, depth and cells of each node, depth first), verified (only with --verify).");
+        "equal bins over low to high), file_bytes, volume_bytes, bricks_bytes, cells_bytes,\n"
+        "deltas_bytes, tree_bytes, raw_bytes, percent_of_raw (file without volume), tiers, plan\n"
+        "(why these), levels, lossless, refers_to (files; null when it carries the values),\n"
+        "lattice and max_variation (of the paper's tree), tree_entries and coherence (only with a\n"
+        "tree), content_hash, sources, notes, tree (only with --tree: first_step, last_step, "
+        "depth\n"
+        "and cells of each node, depth first).");
     command->callback([arguments] { run_info(*arguments); });
 }
 

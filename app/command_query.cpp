@@ -1,17 +1,17 @@
 // `isochron query`: the active cells of one isovalue at one step, and what finding them took.
 #include "app/commands.h"
 #include "app/file_patterns.h"
+#include "app/id_file.h"
+#include "app/process_usage.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extractor.h"
-#include "index/new_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <memory>
 
 namespace isochron::app {
@@ -22,7 +22,8 @@ struct QueryArguments {
     double isovalue = 0;
     std::int64_t step = 0;
     std::uint32_t repeats = 5;
-    bool scan = false, json = false;
+    std::string method;
+    bool json = false;
 };
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
@@ -33,18 +34,18 @@ struct Times {
 
 struct Measured {
     index::CellSetPtr set;
-    Times cold, warm; ///< warm: medians; zero without repetitions
+    Times cold, warm;   ///< warm: medians; zero without repetitions
+    ProcessUsage usage; ///< after the first search
 };
 
 /// Every repetition starts a new search: otherwise it would find its own last result.
 Measured measure(const std::shared_ptr<const index::IndexFile>& file, const index::Query& query,
-                 bool scan, std::uint32_t repeats) {
-    const auto run = [&] {
-        return (scan ? index::scan_in(file) : index::search_in(file))(query, {});
-    };
+                 index::SearchMethod method, std::uint32_t repeats) {
+    const auto run = [&] { return index::search_in(file, method)(query, {}); };
     Measured result;
     result.set = run();
     result.cold = {result.set->search_time, result.set->shading_time};
+    result.usage = process_usage();
     std::vector<std::chrono::nanoseconds> search, shading;
     for (std::uint32_t i = 0; i < repeats; ++i) {
         const index::CellSetPtr again = run();
@@ -61,15 +62,26 @@ Measured measure(const std::shared_ptr<const index::IndexFile>& file, const inde
     return result;
 }
 
-void write_ids(const std::filesystem::path& path, const std::vector<index::CellId>& ids) {
-    static_assert(std::endian::native == std::endian::little && sizeof(index::CellId) == 4);
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(ids)));
-    file.commit();
+std::string_view name_of(index::SearchMethod method) {
+    return index::kSearchMethodNames[static_cast<std::size_t>(method)];
+}
+
+index::SearchMethod method_of(const QueryArguments& arguments, const index::IndexFile& file) {
+    for (std::size_t i = 0; i < index::kSearchMethodNames.size(); ++i) {
+        const auto method = static_cast<index::SearchMethod>(i);
+        if (index::kSearchMethodNames[i] != arguments.method)
+            continue;
+        if (!index::can_search(file, method))
+            throw index::Error(fmt::format("{}: has no {} to search in; isochron info tells what "
+                                           "it has",
+                                           arguments.file.string(), arguments.method));
+        return method;
+    }
+    return index::cheapest_method(file);
 }
 
 std::string as_json(const QueryArguments& arguments, const index::IndexFile& file,
-                    const Measured& result, bool scanned) {
+                    const Measured& result) {
     const index::SeriesInfo& info = file.info();
     const std::uint64_t active = result.set->ids.size();
     const std::uint64_t false_positives = result.set->candidates - active;
@@ -80,7 +92,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
         {"time_unit", info.time_unit},
         {"isovalue", arguments.isovalue},
         {"value_unit", info.value_unit},
-        {"method", scanned ? "scan" : "tree"},
+        {"method", name_of(result.set->method)},
         {"active_cells", active},
         {"candidates", result.set->candidates},
         {"false_positives", false_positives},
@@ -88,6 +100,8 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
          active ? nlohmann::ordered_json(double(false_positives) / double(active)) : nullptr},
         {"cold_search_ms", result.cold.search.count()},
         {"cold_shading_ms", result.cold.shading.count()},
+        {"resident_bytes", result.usage.resident_bytes},
+        {"read_bytes", result.usage.read_bytes},
         {"repetitions", arguments.repeats}};
     if (arguments.repeats > 0) {
         j["search_ms"] = result.warm.search.count();
@@ -99,7 +113,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
 }
 
 std::string as_text(const QueryArguments& arguments, const index::IndexFile& file,
-                    const Measured& result, bool scanned) {
+                    const Measured& result) {
     const index::SeriesInfo& info = file.info();
     const std::uint64_t active = result.set->ids.size();
     const std::uint64_t false_positives = result.set->candidates - active;
@@ -108,19 +122,20 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
                                    arguments.isovalue, with_space(info.value_unit), arguments.step,
                                    human_number(info.times[result.set->query.step]),
                                    with_space(info.time_unit), grouped(active));
-    if (scanned)
-        text += "found by         scan of the volume\n";
-    else
-        text += fmt::format("found by         THI tree: {} candidates, {} false positives{}\n",
-                            grouped(result.set->candidates), grouped(false_positives),
-                            active ? fmt::format(" ({:.2f} % of the active cells)",
-                                                 100.0 * double(false_positives) / double(active))
-                                   : "");
+    text += fmt::format("found by         {}: {} candidates, {} false positives{}\n",
+                        name_of(result.set->method), grouped(result.set->candidates),
+                        grouped(false_positives),
+                        active ? fmt::format(" ({:.2f} % of the active cells)",
+                                             100.0 * double(false_positives) / double(active))
+                               : "");
     const auto times = [](const Times& t) {
         return fmt::format("search {:.3f} ms, shading {:.3f} ms", t.search.count(),
                            t.shading.count());
     };
     text += fmt::format("first, cold      {}\n", times(result.cold));
+    text += fmt::format("memory           {} resident, {} read from disk\n",
+                        human_bytes(static_cast<double>(result.usage.resident_bytes)),
+                        human_bytes(static_cast<double>(result.usage.read_bytes)));
     if (arguments.repeats > 0)
         text += fmt::format("repeated, warm   {} (medians of {} full searches)\n",
                             times(result.warm), arguments.repeats);
@@ -137,14 +152,13 @@ void run_query(const QueryArguments& arguments) {
     if (arguments.step < 0 || arguments.step >= steps)
         throw index::Error(fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(),
                                        arguments.step, steps - 1));
-    const bool scanned = arguments.scan || file->stats().tree_bytes == 0;
     const Measured result =
-        measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue}, scanned,
-                arguments.repeats);
+        measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue},
+                method_of(arguments, *file), arguments.repeats);
     if (!arguments.ids.empty())
         write_ids(arguments.ids, result.set->ids);
-    fmt::print("{}", arguments.json ? as_json(arguments, *file, result, scanned)
-                                    : as_text(arguments, *file, result, scanned));
+    fmt::print("{}", arguments.json ? as_json(arguments, *file, result)
+                                    : as_text(arguments, *file, result));
 }
 
 } // namespace
@@ -167,14 +181,21 @@ void add_query(CLI::App& program) {
     command->add_option("--repeat", arguments->repeats, "Warm repetitions to take the median of")
         ->check(CLI::Range(0u, 1000u))
         ->capture_default_str();
-    command->add_flag("--scan", arguments->scan, "Scan the volume even if there is a tree");
+    command
+        ->add_option("--method", arguments->method,
+                     "Search by cells, bricks, tree or scan (default: the cheapest that the index "
+                     "has)")
+        ->check(CLI::IsMember(std::vector<std::string>(index::kSearchMethodNames.begin(),
+                                                       index::kSearchMethodNames.end())));
     command->add_flag("--json", arguments->json, "Print one JSON object");
     command->footer(
         "JSON keys: file, step, time, time_unit, isovalue (null unless finite), value_unit,\n"
-        "method (tree or scan), active_cells, candidates (before the exact test),\n"
+        "method (cells, bricks, tree or scan), active_cells, candidates (before the exact test),\n"
         "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
         "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
-        "file), repetitions, search_ms and shading_ms (medians of the repetitions, each a full\n"
+        "file), resident_bytes and read_bytes (of the process after that run: memory with mapped\n"
+        "files, and what came from disk instead of the page cache), repetitions, search_ms and "
+        "shading_ms (medians of the repetitions, each a full\n"
         "search; absent with --repeat 0), ids (only with --ids). Search includes the exact test;\n"
         "shading is positions and normals.");
     command->callback([arguments] { run_query(*arguments); });

@@ -51,9 +51,21 @@ double percent_of_raw(const index::IndexFile& file) {
            raw_bytes(file.info());
 }
 
+/// Of the paper's tree where there is one, else of the cells; empty without both.
+std::vector<index::TimeNodeCells> time_nodes(const index::IndexFile& file) {
+    if (file.tree())
+        return file.tree()->nodes();
+    return file.cells() ? file.cells()->nodes() : std::vector<index::TimeNodeCells>{};
+}
+
+/// In the same tree; 0 without one.
+std::uint64_t entries_of(const index::IndexFile& file) {
+    return file.tree() ? file.tree()->entries() : file.stats().cell_entries;
+}
+
 /// Entries per cell-step.
 double coherence(const index::IndexFile& file) {
-    return static_cast<double>(file.tree()->entries()) /
+    return static_cast<double>(entries_of(file)) /
            (static_cast<double>(file.info().grid.cell_count()) *
             static_cast<double>(file.info().steps()));
 }
@@ -79,10 +91,12 @@ std::string sources_text(const std::vector<std::string>& sources) {
 }
 
 std::string tree_text(const index::IndexFile& file) {
-    if (!file.tree())
-        return "tree          none\n";
+    const auto nodes = time_nodes(file);
+    if (nodes.empty())
+        return "time nodes    none: bricks and the scan have none; build --lattice adds the "
+               "paper's tree\n";
     std::string text;
-    for (const auto& node : file.tree()->nodes())
+    for (const auto& node : nodes)
         text += fmt::format("{:{}}[{},{}] {} cells\n", "", 2 * node.depth, node.first_step,
                             node.last_step, grouped(node.cells));
     return text;
@@ -90,13 +104,24 @@ std::string tree_text(const index::IndexFile& file) {
 
 } // namespace
 
+std::string sizes(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    const auto bytes = [](std::uint64_t n) { return human_bytes(static_cast<double>(n)); };
+    std::string text = bytes(stats.file_bytes);
+    text += file.referral() ? ": volume in its sources"
+                            : fmt::format(": volume {}", bytes(stats.volume_bytes));
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (const auto tier = static_cast<index::Tier>(i); file.plan().tiers.has(tier))
+            text += fmt::format(", {} {}", index::kTierNames[i], bytes(stats.bytes_of(tier)));
+    return text;
+}
+
 std::string as_text(const IndexReport& report) {
     const index::IndexFile& file = report.file;
     const SeriesInfo& info = file.info();
     const index::IndexStats& stats = file.stats();
     const Grid& grid = info.grid;
     const std::string length = with_space(info.length_unit);
-    const auto bytes = [](std::uint64_t n) { return human_bytes(static_cast<double>(n)); };
 
     std::string text = fmt::format("{}\n", report.name);
     const auto line = [&](std::string_view label, const std::string& value) {
@@ -124,20 +149,23 @@ std::string as_text(const IndexReport& report) {
     line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
     line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
     line("file",
-         fmt::format("{}: volume {}, tree {}; {:.1f} % of raw without the volume",
-                     bytes(stats.file_bytes), bytes(stats.volume_bytes),
-                     stats.tree_bytes ? bytes(stats.tree_bytes) : "none", percent_of_raw(file)));
-    if (const index::ThiTree* tree = file.tree())
-        line("coherence",
-             fmt::format("{:.4f} entries per cell-step ({} entries; lattice {}, max variation {})",
-                         coherence(file), grouped(tree->entries()), tree->options().lattice,
-                         tree->options().max_variation));
+         fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
+    for (const std::string& reason : file.plan().reasons)
+        line("plan", reason);
+    line("levels", fmt::format("{}, {}", file.levels().levels(),
+                               file.levels().lossless() ? "one for every value"
+                                                        : "shared by several values"));
+    if (entries_of(file) > 0)
+        line("coherence", fmt::format("{:.4f} entries per cell-step ({} entries{})",
+                                      coherence(file), grouped(entries_of(file)),
+                                      file.tree() ? fmt::format("; lattice {}, max variation {}",
+                                                                file.tree_options().lattice,
+                                                                file.tree_options().max_variation)
+                                                  : ""));
     line("content hash", fmt::format("{:016x}", file.content_hash()));
     text += sources_text(info.sources);
     for (const std::string& note : info.notes)
         line("note", note);
-    if (report.verified)
-        line("verified", "every section matches its checksum");
     if (report.tree)
         text += tree_text(file);
     return text;
@@ -175,14 +203,30 @@ std::string as_json(const IndexReport& report) {
         {"histogram", stats.histogram},
         {"file_bytes", stats.file_bytes},
         {"volume_bytes", stats.volume_bytes},
+        {"bricks_bytes", stats.bricks_bytes},
+        {"cells_bytes", stats.cells_bytes},
+        {"deltas_bytes", stats.deltas_bytes},
         {"tree_bytes", stats.tree_bytes},
         {"raw_bytes", raw_bytes(info)},
         {"percent_of_raw", percent_of_raw(file)},
-        {"lattice", file.options().tree.lattice},
-        {"max_variation", file.options().tree.max_variation},
+        {"tiers", nlohmann::ordered_json::array()},
+        {"plan", file.plan().reasons},
+        {"levels", file.levels().levels()},
+        {"lossless", file.levels().lossless()},
+        {"refers_to", nullptr},
+        {"lattice", file.tree_options().lattice},
+        {"max_variation", file.tree_options().max_variation},
     };
-    if (const index::ThiTree* tree = file.tree()) {
-        j["tree_entries"] = tree->entries();
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (file.plan().tiers.has(static_cast<index::Tier>(i)))
+            j["tiers"].push_back(index::kTierNames[i]);
+    if (file.referral()) {
+        j["refers_to"] = nlohmann::ordered_json::array();
+        for (const std::filesystem::path& source : file.referral()->files)
+            j["refers_to"].push_back(source.string());
+    }
+    if (entries_of(file) > 0) {
+        j["tree_entries"] = entries_of(file);
         j["coherence"] = coherence(file);
     }
     j["content_hash"] = fmt::format("{:016x}", file.content_hash());
@@ -190,15 +234,12 @@ std::string as_json(const IndexReport& report) {
     j["notes"] = info.notes;
     if (report.tree) {
         j["tree"] = nlohmann::ordered_json::array();
-        if (file.tree())
-            for (const auto& node : file.tree()->nodes())
-                j["tree"].push_back({{"first_step", node.first_step},
-                                     {"last_step", node.last_step},
-                                     {"depth", node.depth},
-                                     {"cells", node.cells}});
+        for (const auto& node : time_nodes(file))
+            j["tree"].push_back({{"first_step", node.first_step},
+                                 {"last_step", node.last_step},
+                                 {"depth", node.depth},
+                                 {"cells", node.cells}});
     }
-    if (report.verified)
-        j["verified"] = true;
     return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

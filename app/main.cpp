@@ -50,7 +50,9 @@ int main(int argc, char** argv) {
     program.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
     app::add_build(program);
     app::add_query(program);
+    app::add_change(program);
     app::add_info(program);
+    app::add_verify(program);
     app::add_explore(program);
     app::add_replay(program);
     app::add_generate(program);
@@ -63,6 +65,8 @@ int main(int argc, char** argv) {
         return fail(complaint(program, error), 2);
     } catch (const app::Cancelled& cancelled) {
         return fail(cancelled.what(), cancelled.status);
+    } catch (const app::ReportedElsewhere&) {
+        return 0;
     } catch (const app::UsageError& error) {
         return fail(error.what(), 2);
     } catch (const std::exception& error) {

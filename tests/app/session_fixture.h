@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/session.h"
-#include "index/index_file.h"
+#include "index/index_build.h"
 #include "tests/support/test_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,45 @@
+// `isochron verify`: whether an index is intact.
+#include "app/cancel.h"
+#include "app/commands.h"
+#include "app/progress_bar.h"
+#include "app/text.h"
+#include "index/index_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <memory>
+
+namespace isochron::app {
+namespace {
+
+void run_verify(const std::filesystem::path& path) {
+    const CancelOnSignal signals;
+    const auto file = index::IndexFile::open(path);
+    {
+        ProgressBar bar(stderr, static_cast<double>(file->stats().file_bytes));
+        file->verify([&](std::string_view phase, double fraction) {
+            signals.check();
+            if (isatty(STDERR_FILENO))
+                bar.show(phase, fraction);
+        });
+    }
+    fmt::print("{}: every checksum matches{}\n", path.string(),
+               file->referral() ? ", those of its sources too" : "");
+}
+
+} // namespace
+
+void add_verify(CLI::App& program) {
+    auto path = std::make_shared<std::filesystem::path>();
+    CLI::App* command = program.add_subcommand(
+        "verify", "Compare every checksum of an index: reads the whole file.");
+    command->add_option("file", *path, "Index")->required()->type_name("NAME.isochron");
+    command->footer("Reads the sources too where the index refers to them. Exit status: 0 intact, "
+                    "1 damaged, and one line that says where.");
+    command->callback([path] { run_verify(*path); });
+}
+
+} // namespace isochron::app

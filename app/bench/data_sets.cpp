@@ -1,6 +1,7 @@
 // The series that the benchmark makes for itself.
 #include "app/bench/data_sets.h"
 
+#include "index/index_build.h"
 #include <cassert>
 #include <cstring>
 
@@ -67,9 +68,7 @@ std::shared_ptr<const index::IndexFile> build_file(const DataSet& data,
     const auto series = std::visit(
         [&](const auto& of_kind) { return std::make_unique<MadeSeries>(of_kind, progress); },
         data.series);
-    index::BuildOptions options;
-    options.exact_only = true; // trees are measured with many settings, each built on its own
-    index::build_index(*series, file, options, progress);
+    index::build_index(*series, file, {}, progress);
     return index::IndexFile::open(file);
 }
 

@@ -121,10 +121,8 @@ void time_searches(const StepValues& values, const Structure& structure,
     }
     if (structure.change && steps > 1) {
         change = operations.size();
-        operations.push_back([&, added = Ids(), removed = Ids()](std::uint32_t step) mutable {
-            added.clear();
-            removed.clear();
-            structure.change({step, isovalue}, {neighbour(step), isovalue}, added, removed);
+        operations.push_back([&](std::uint32_t step) {
+            structure.change({step, isovalue}, {neighbour(step), isovalue});
         });
     }
     if (structure.follow && steps > 1) {
@@ -236,7 +234,14 @@ Results measure(const std::shared_ptr<const index::IndexFile>& file, const Measu
              .active = errors.active,
              .percent_at_isovalue = percent(static_cast<double>(here.false_positives),
                                             static_cast<double>(here.active)),
-             .entries = structure.entries});
+             .entries = structure.entries,
+             .normal_error_mean = {},
+             .normal_error_p99 = {}});
+        if (structure.normal_error) {
+            const NormalError error = structure.normal_error(row.isovalue);
+            results.details.back().normal_error_mean = error.mean_degrees;
+            results.details.back().normal_error_p99 = error.p99_degrees;
+        }
     }
     return results;
 }

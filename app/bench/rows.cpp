@@ -56,6 +56,8 @@ void each_field(AnyDetail& detail, Field&& field) requires
     field("active", detail.active);
     field("percent_at_isovalue", detail.percent_at_isovalue);
     field("entries", detail.entries);
+    field("normal_error_mean", detail.normal_error_mean);
+    field("normal_error_p99", detail.normal_error_p99);
 }
 
 template <class AnyHeader, class Field>

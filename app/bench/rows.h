@@ -41,6 +41,9 @@ struct ErrorDetail {
     std::uint64_t active = 0;       ///< truly active cells over all of them
     double percent_at_isovalue = 0; ///< false positives / active at the row's isovalue
     std::uint64_t entries = 0;      ///< stored; 0 where that means nothing
+    /// Degrees between a cell's normal at its step and that stored for a time span, over all steps
+    /// at the row's isovalue.
+    std::optional<double> normal_error_mean, normal_error_p99;
 };
 
 struct Header {

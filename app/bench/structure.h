@@ -1,6 +1,7 @@
 // A search structure as the benchmark sees it: what it costs and what it can be asked.
 #pragma once
 
+#include "app/bench/span_normals.h"
 #include "index/cell_set.h"
 #include "index/query.h"
 #include "index/thi_entries.h"
@@ -32,11 +33,13 @@ struct Structure {
     std::function<std::size_t(const index::Query&)> runs;
     /// Ids, positions and normals of the active cells; made from `ids` where it is empty.
     std::function<void(const index::Query&, index::CellSet&)> full;
-    /// Appends what comes and what goes between two queries, without knowing anything else.
-    std::function<void(const index::Query& from, const index::Query& to, Ids& added, Ids& removed)>
-        change;
+    /// Finds the ids that come and those that go between two queries, without knowing anything
+    /// else. @return how many
+    std::function<std::size_t(const index::Query& from, const index::Query& to)> change;
     /// Moves on from the last query it was given, to the complete new set. @return its size
     std::function<std::size_t(const index::Query&)> follow;
+    /// The error of normals that are stored once for a time span, at an isovalue.
+    std::function<NormalError(double isovalue)> normal_error;
 };
 
 } // namespace isochron::app::bench

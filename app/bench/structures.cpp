@@ -74,6 +74,9 @@ Recipe thi_of(const FilePtr& file, const index::ThiOptions& options, unsigned th
             own->tree.search_incremental(own->cursor, query.step, threshold(query));
             return own->cursor.cells.size();
         };
+        structure.normal_error = [file, own](double isovalue) {
+            return normal_error(file->values(), own->tree, isovalue);
+        };
         return structure;
     };
     return {name_with("thi", options), build};
@@ -130,6 +133,8 @@ std::vector<Recipe> structures_of(const FilePtr& file, const Structure& tbon,
                                   const StructureOptions& options) {
     std::vector<Recipe> all{scan_of(file),
                             {tbon.name, [tbon](const index::Progress&) { return tbon; }}};
+    for (Recipe& recipe : tiers_of(file))
+        all.push_back(std::move(recipe));
     for (const std::uint32_t lattice : options.lattices)
         for (const std::uint32_t max_variation : options.max_variations) {
             const index::ThiOptions thi{lattice, max_variation};

@@ -27,7 +27,10 @@ struct StructureOptions {
 /// The T-BON, which all others are compared with as well.
 Structure build_tbon(const std::shared_ptr<const index::IndexFile>& file, unsigned threads);
 
-/// The scan, the T-BON, and for every setting the THI tree and its variants.
+/// The tiers that the index itself holds: bricks, cells, cells with deltas.
+std::vector<Recipe> tiers_of(const std::shared_ptr<const index::IndexFile>& file);
+
+/// The scan, the T-BON, the tiers, and for every setting the THI tree and its variants.
 std::vector<Recipe> structures_of(const std::shared_ptr<const index::IndexFile>& file,
                                   const Structure& tbon, const StructureOptions& options);
 

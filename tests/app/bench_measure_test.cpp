@@ -7,6 +7,7 @@
 #include "app/bench/timing.h"
 
 #include "index/error.h"
+#include "index/index_build.h"
 #include "index/scan.h"
 #include "tests/index/memory_series.h"
 #include "tests/support/test_folder.h"
@@ -14,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace isochron::app::bench {
@@ -62,9 +64,7 @@ TEST(Structures, AreExactWhereTheyDoNotSayThatTheyReturnCandidates) {
     const test_support::TestFolder folder;
     const TestField field({18, 17, 16}, 6, ValueType::u8, index::moving_sphere);
     index::MemorySeries series(field.view());
-    index::BuildOptions options;
-    options.exact_only = true;
-    index::build_index(series, folder.path() / "a.isochron", options);
+    index::build_index(series, folder.path() / "a.isochron", {});
     const auto file = index::IndexFile::open(folder.path() / "a.isochron");
     const auto isovalues = quantile_isovalues(file->values(), 20);
     std::vector<std::string> names;
@@ -77,6 +77,13 @@ TEST(Structures, AreExactWhereTheyDoNotSayThatTheyReturnCandidates) {
         EXPECT_GT(count.active, 1000u);
         EXPECT_EQ(count.false_negatives, 0u) << structure.name;
         EXPECT_EQ(count.false_positives > 0, structure.candidates) << structure.name;
+        if (structure.change) {
+            Ids before, after, differ;
+            index::scan(file->values(), {1, 60}, before);
+            index::scan(file->values(), {2, 60}, after);
+            std::ranges::set_symmetric_difference(before, after, std::back_inserter(differ));
+            EXPECT_EQ(structure.change({1, 60}, {2, 60}), differ.size());
+        }
         if (!structure.follow)
             continue;
         for (const std::uint32_t step : {0u, 1u, 5u, 2u}) {
@@ -85,9 +92,10 @@ TEST(Structures, AreExactWhereTheyDoNotSayThatTheyReturnCandidates) {
             EXPECT_EQ(structure.follow({step, 60}), found.size());
         }
     }
-    EXPECT_THAT(names, ElementsAre("scan", "tbon", "thi", "thi-node-lattices", "thi-interval-trees",
-                                   "thi-compact-lists", "thi", "thi-node-lattices",
-                                   "thi-interval-trees", "thi-compact-lists"));
+    EXPECT_THAT(names,
+                ElementsAre("scan", "tbon", "bricks", "cells", "cells+deltas", "thi",
+                            "thi-node-lattices", "thi-interval-trees", "thi-compact-lists", "thi",
+                            "thi-node-lattices", "thi-interval-trees", "thi-compact-lists"));
 }
 
 TEST(Isovalues, AreTheQuantilesOfAllSteps) {
@@ -158,8 +166,7 @@ Results some_results() {
     row.incremental_full_us = 0.5;
     return {{"abc", "a processor", "a compiler", "2026-01-01", 2},
             {row, Row{}},
-            {ErrorDetail{.queries = 1600, .active = 12, .percent_at_isovalue = 10.6, .entries = 7},
-             ErrorDetail{}}};
+            {ErrorDetail{1600, 12, 10.6, 7, 0.5, 4.25}, ErrorDetail{}}};
 }
 
 TEST(Rows, HaveTheKeysOfEveryRowAndNullForWhatAStructureDoesNotHave) {

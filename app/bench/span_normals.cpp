@@ -1,0 +1,55 @@
+// The error of normals that are stored once for a time span.
+#include "app/bench/span_normals.h"
+
+#include "index/cell_set.h"
+#include "index/scan.h"
+#include "index/time_tree.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace isochron::app::bench {
+
+using index::CellId;
+using index::TimeNode;
+
+NormalError normal_error(const index::StepValues& values, const index::ThiTree& tree,
+                         double isovalue) {
+    const std::uint64_t threshold = index::KeyMap(values.type, values.scaling).threshold(isovalue);
+    std::vector<double> angles;
+    for (std::uint32_t step = 0; step < values.steps; ++step) {
+        index::ThiTree::Cursor cursor; // says at which depth each cell was found
+        tree.search_incremental(cursor, step, threshold);
+        TimeNode node = TimeNode::root(tree.steps());
+        std::size_t begin = 0;
+        for (const std::size_t end : cursor.reached) {
+            std::vector<CellId> cells(cursor.cells.begin() + static_cast<std::ptrdiff_t>(begin),
+                                      cursor.cells.begin() + static_cast<std::ptrdiff_t>(end));
+            index::keep_active(values, {step, isovalue}, cells);
+            const std::uint32_t middle = node.first + node.steps() / 2;
+            for (const CellId cell : cells) {
+                const glm::dvec3 now = index::cell_normal(values, step, cell),
+                                 stored = index::cell_normal(values, middle, cell);
+                if (now != glm::dvec3(0) && stored != glm::dvec3(0))
+                    angles.push_back(
+                        glm::degrees(std::acos(std::clamp(glm::dot(now, stored), -1.0, 1.0))));
+            }
+            begin = end;
+            if (!node.is_leaf())
+                node = node.towards(step);
+        }
+    }
+    if (angles.empty())
+        return {};
+    const auto p99 = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() * 99 / 100);
+    std::nth_element(angles.begin(), p99, angles.end());
+    return {std::accumulate(angles.begin(), angles.end(), 0.0) / static_cast<double>(angles.size()),
+            *p99};
+}
+
+} // namespace isochron::app::bench

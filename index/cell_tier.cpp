@@ -37,7 +37,7 @@ CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& c
                    const Units& deltas)
     : chunking_(chunking), steps_(steps),
       cells_(views<CellUnit>("cells", cells, chunking,
-                             std::size_t{chunking.count()} * ((steps + kEpoch - 1) / kEpoch))),
+                             std::size_t{chunking.count()} * epoch_count(steps))),
       deltas_(views<DeltaUnit>("deltas", deltas, chunking, deltas.empty() ? 0 : cells.size())),
       sound_steps_(cells.size() * kEpoch), sound_tables_(cells.size() * 2 * kEpoch),
       sound_transitions_(deltas.size() * kEpoch) {}
@@ -162,7 +162,7 @@ void CellTier::verify() const {
 
 std::vector<TimeNodeCells> CellTier::nodes() const {
     std::vector<TimeNodeCells> all;
-    for (std::uint32_t epoch = 0; epoch * kEpoch < steps_; ++epoch) {
+    for (std::uint32_t epoch = 0; epoch < epoch_count(steps_); ++epoch) {
         std::vector<std::uint64_t> cells(TimeNode::count(epoch_steps(epoch)));
         for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk) {
             const CellUnit& unit = cells_[std::size_t{epoch} * chunking_.count() + chunk];

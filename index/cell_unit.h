@@ -118,6 +118,11 @@ class TimePath {
     std::size_t count_ = 0;
 };
 
+/// Epochs of a series: all but the last have TimePath::kMaxSteps steps.
+constexpr std::uint32_t epoch_count(std::size_t steps) {
+    return static_cast<std::uint32_t>((steps + TimePath::kMaxSteps - 1) / TimePath::kMaxSteps);
+}
+
 /// The cells of one chunk at the steps of one epoch, which count from 0 here. A cell is an entry of
 /// the highest time nodes over whose span its extremes are constant.
 ///

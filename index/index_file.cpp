@@ -8,12 +8,10 @@
 #include "index/mapped_file.h"
 #include "index/metadata.h"
 #include "index/step_source.h"
-#include "index/unit_pass.h"
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <cstring>
+#include <algorithm>
 #include <memory>
 #include <mutex>
 

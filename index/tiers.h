@@ -29,7 +29,6 @@ class TierSet {
   public:
     bool has(Tier tier) const { return bits_ & 1u << static_cast<unsigned>(tier); }
     TierSet with(Tier tier) const { return TierSet(bits_ | 1u << static_cast<unsigned>(tier)); }
-    bool empty() const { return bits_ == 0; }
     bool operator==(const TierSet&) const = default;
 
     TierSet() = default;

@@ -1,16 +1,14 @@
 // The pass of a build that makes the cells and deltas of every chunk.
 #include "index/unit_pass.h"
 
-#include "index/cell_unit.h"
-#include "index/cell_unit_build.h"
 #include "index/chunking.h"
 #include "index/mapped_file.h"
 #include "index/parallel.h"
+#include "index/unit_builder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
 namespace isochron::index {
@@ -35,37 +33,6 @@ class PartWriter {
     std::uint64_t offset_, end_ = 0;
 };
 
-struct UnitBytes {
-    std::vector<std::byte> cells, deltas;
-    std::uint64_t entries = 0; ///< of the cells
-};
-
-/// The work space of one thread.
-class UnitBuilder {
-  public:
-    UnitBuilder(const StepValues& values, const LevelMap& levels)
-        : steps_(static_cast<std::uint32_t>(values.steps)), lossless_(levels.lossless()),
-          ranks_(values, levels) {}
-
-    void build(std::uint32_t chunk, std::uint32_t epoch, bool deltas, UnitBytes& out) {
-        const std::uint32_t first = epoch * TimePath::kMaxSteps;
-        const std::uint32_t count = std::min(TimePath::kMaxSteps, steps_ - first);
-        const std::uint32_t before = deltas && epoch > 0 ? 1 : 0; // the step into the epoch
-        ranks_.compute(chunk, first - before, count + before);
-        builder_.build_cells(ranks_, before, lossless_, out.cells);
-        const auto entries = CellUnit(out.cells, 0).entries();
-        out.entries = std::accumulate(entries.begin(), entries.end(), std::uint64_t{0});
-        if (deltas)
-            builder_.build_deltas(ranks_, before, out.deltas);
-    }
-
-  private:
-    std::uint32_t steps_;
-    bool lossless_;
-    ChunkRanks ranks_;
-    CellUnitBuilder builder_;
-};
-
 /// Copies what a member has spilled to its place, a piece at a time.
 void copy(const std::filesystem::path& from, std::uint64_t bytes, NewFile& to,
           std::uint64_t offset) {
@@ -79,10 +46,6 @@ void copy(const std::filesystem::path& from, std::uint64_t bytes, NewFile& to,
 }
 
 } // namespace
-
-std::uint32_t epoch_count(std::size_t steps) {
-    return static_cast<std::uint32_t>((steps + TimePath::kMaxSteps - 1) / TimePath::kMaxSteps);
-}
 
 UnitFindings write_units(const StepValues& values, const LevelMap& levels, bool deltas,
                          NewFile& file, std::uint64_t offset, const std::filesystem::path& spill,

@@ -13,9 +13,6 @@
 
 namespace isochron::index {
 
-/// Epochs of TimePath::kMaxSteps steps.
-std::uint32_t epoch_count(std::size_t steps);
-
 /// The units section as it was written.
 struct UnitFindings {
     std::uint64_t bytes = 0;

@@ -4,10 +4,8 @@
 #include "app/bench/structures.h"
 #include "index/bricks.h"
 #include "index/cell_change.h"
-#include "index/cell_unit_build.h"
 #include "index/chunking.h"
-
-#include <algorithm>
+#include "index/unit_builder.h"
 
 namespace isochron::app::bench {
 namespace {
@@ -39,22 +37,15 @@ double seconds_for_bricks(const IndexFile& file) {
 /// The same for the cells of all chunks and epochs, and their deltas.
 double seconds_for_cells(const IndexFile& file, bool deltas, const index::Progress& progress) {
     const StepValues& values = file.values();
-    const index::Chunking chunking(values.grid);
-    const auto steps = static_cast<std::uint32_t>(values.steps);
-    index::ChunkRanks ranks(values, file.levels());
-    index::CellUnitBuilder builder;
-    std::vector<std::byte> bytes;
+    const std::uint32_t chunks = index::Chunking(values.grid).count();
+    index::UnitBuilder builder(values, file.levels());
+    index::UnitBytes unit;
     const Stopwatch watch;
-    for (std::uint32_t first = 0; first < steps; first += index::TimePath::kMaxSteps)
-        for (std::uint32_t chunk = 0; chunk < chunking.count(); ++chunk) {
+    for (std::uint32_t epoch = 0; epoch < index::epoch_count(values.steps); ++epoch)
+        for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
             if (progress)
-                progress("building", static_cast<double>(chunk) / chunking.count());
-            const std::uint32_t before = deltas && first > 0 ? 1 : 0;
-            const std::uint32_t count = std::min(index::TimePath::kMaxSteps, steps - first);
-            ranks.compute(chunk, first - before, count + before);
-            builder.build_cells(ranks, before, file.levels().lossless(), bytes);
-            if (deltas)
-                builder.build_deltas(ranks, before, bytes);
+                progress("building", static_cast<double>(chunk) / chunks);
+            builder.build(chunk, epoch, deltas, unit);
         }
     return watch.seconds();
 }

@@ -19,9 +19,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16, ValueType::u16,
-                               ValueType::i32, ValueType::f32, ValueType::f64};
-
 /// Ordinals of all values of a series that are numbers, ascending.
 std::vector<std::uint64_t> distinct_ordinals(const StepValues& values) {
     std::set<std::uint64_t> all;

@@ -18,9 +18,6 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16, ValueType::u16,
-                               ValueType::i32, ValueType::f32, ValueType::f64};
-
 /// Three unit axes, turned out of the coordinate axes, mirrored if asked.
 glm::dmat3 turned(bool mirrored) {
     glm::dmat3 m(glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, -0.5))));

@@ -65,8 +65,7 @@ class IndexFileTest : public testing::Test {
 
 TEST_F(IndexFileTest, EveryTypeGoesInAndComesOutUnchanged) {
     std::mt19937 random(test_seed());
-    for (const ValueType type : {ValueType::i8, ValueType::u8, ValueType::i16, ValueType::u16,
-                                 ValueType::i32, ValueType::f32, ValueType::f64})
+    for (const ValueType type : kAllTypes)
         for (const bool with_tree : {false, true}) {
             const TestField field({5, 3, 4}, 3, type, scaled(white_noise(random), 100, 10),
                                   {-0.5, 7.25});

@@ -28,8 +28,7 @@ const BuildOptions kEveryMethod{
 TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeByEveryMethod) {
     const TestFolder folder;
     std::mt19937 random(test_seed());
-    for (const ValueType type : {ValueType::i8, ValueType::u8, ValueType::i16, ValueType::u16,
-                                 ValueType::i32, ValueType::f32, ValueType::f64})
+    for (const ValueType type : kAllTypes)
         for (const SearchMethod method : kMethods) {
             const TestField field({9, 8, 11}, 7, type, scaled(turbulence(random), 100, 10),
                                   {method == SearchMethod::bricks ? -0.5 : 2.0, 1.0});

@@ -12,9 +12,6 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16, ValueType::u16,
-                               ValueType::i32, ValueType::f32, ValueType::f64};
-
 /// Values of all magnitudes and both signs, the limits and their neighbours.
 template <class T>
 std::vector<T> samples(std::mt19937& random) {

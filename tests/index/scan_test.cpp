@@ -51,8 +51,6 @@ std::vector<double> ties(const StepValues& values) {
     return isovalues;
 }
 
-constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16, ValueType::u16,
-                               ValueType::i32, ValueType::f32, ValueType::f64};
 const std::array kScalings{Scaling{}, Scaling{-1, 0}, Scaling{0.1, 1e6}, Scaling{-1e-9, 1.0}};
 
 TEST(Scan, FindsTheActiveCellsOfEveryTypeAndScalingAtTies) {

@@ -13,6 +13,10 @@
 
 namespace isochron::index {
 
+inline constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16,
+                                      ValueType::u16, ValueType::i32, ValueType::f32,
+                                      ValueType::f64};
+
 /// A series that owns its values.
 class TestField {
   public:

@@ -17,8 +17,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16, ValueType::u16,
-                               ValueType::i32, ValueType::f32, ValueType::f64};
 
 std::vector<CellId> sorted(std::vector<CellId> ids) {
     std::sort(ids.begin(), ids.end());

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,22 +15,30 @@ namespace isochron::render {
 
 namespace {
 
-/// The uniform block of cell.vert, in std140 layout.
-struct Frame {
+/// The uniform block of frame.glsl, in std140 layout.
+struct EyeBlock {
     glm::mat4 rows;
+    glm::mat4 index_from_pixel;
     glm::mat4 eye_from_index;
     glm::mat4 eye_from_physical;
     glm::vec4 eye_in_index;
     glm::vec4 clip_per_pixel;
+    glm::vec4 viewport;
+    glm::vec4 depth_cue;
+};
+struct Frame {
+    std::array<EyeBlock, 2> eyes;
     glm::vec4 color;
     glm::vec4 light;
-    glm::vec4 depth_cue;
     float radius;
     std::int32_t ordered;
     std::int32_t soft_near_eye;
     float padding = 0.0f;
 };
-static_assert(sizeof(Frame) == 3 * 64 + 6 * 16);
+static_assert(sizeof(Frame) == 2 * (4 * 64 + 4 * 16) + 3 * 16);
+
+constexpr std::string_view kTwoEyes = "#extension GL_ARB_shader_viewport_layer_array : require\n"
+                                      "#define TWO_EYES\n";
 
 glm::vec3 linear_light(const glm::vec3& display) {
     return {std::pow(display.x, 2.2f), std::pow(display.y, 2.2f), std::pow(display.z, 2.2f)};
@@ -49,48 +58,85 @@ glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, fl
     return {near, 1.0f / std::max(far - near, 1e-6f), strength, 0.0f};
 }
 
-} // namespace
-
-CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
-    : gl_(&gl), shapes_(shapes),
-      quad_program_(link_program(gl, {shader_file("cell.vert"), shader_file("cell_quad.frag")})),
-      gaussian_program_(
-          link_program(gl, {shader_file("cell.vert"), shader_file("cell_gaussian.frag")})),
-      quads_(gl), orders_(gl), frame_(gl) {
-    const float sigmas = 0.5f * shapes.gaussian_diameter / shapes.gaussian_sigma;
-    gl.ProgramUniform1f(gaussian_program_.name(), 0,
-                        -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>);
-}
-
-void CellPass::draw(const View& view, const Placement& placement, const CellBuffers& cells,
-                    Footprint footprint, const CellAppearance& appearance) {
-    if (!cells.shown() || cells.shown()->points.empty())
-        return;
-    const bool gaussian = footprint == Footprint::gaussian;
+EyeBlock eye_block(const View& view, const Placement& placement, float depth_cue_strength) {
     const glm::mat4 eye_from_index = view.eye_from_room * placement.room_from_index;
     const bool parallel = view.clip_from_eye[3][3] == 1.0f;
-    const glm::vec4 eye_in_index =
-        glm::inverse(eye_from_index) * (parallel ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1));
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
     glm::mat4 pixel_from_clip(1.0f);
     pixel_from_clip[0][0] = half_size.x;
     pixel_from_clip[1][1] = half_size.y;
-
-    Frame frame{
-        .rows = glm::transpose(pixel_from_clip * view.clip_from_eye * eye_from_index),
+    const glm::mat4 pixel_from_index = pixel_from_clip * view.clip_from_eye * eye_from_index;
+    return {
+        .rows = glm::transpose(pixel_from_index),
+        .index_from_pixel = glm::mat4(glm::inverse(glm::dmat4(pixel_from_index))),
         .eye_from_index = eye_from_index,
         .eye_from_physical =
             glm::mat4(glm::mat3(view.eye_from_room) * placement.room_from_physical),
-        .eye_in_index = eye_in_index,
+        .eye_in_index = glm::inverse(eye_from_index) *
+                        (parallel ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1)),
         .clip_per_pixel = glm::vec4(1.0f / half_size, 0.0f, 0.0f),
+        .viewport = glm::vec4(view.corner, view.size),
+        .depth_cue = depth_cue(eye_from_index, placement.extent, depth_cue_strength),
+    };
+}
+
+} // namespace
+
+CellPass::Programs CellPass::programs(std::string_view fragment_shader) const {
+    const std::vector sources{shader_file("cell.vert"), shader_file(fragment_shader)};
+    Programs programs{link_program(*gl_, sources), std::nullopt};
+    if (two_views_at_once_)
+        programs.two = link_program(*gl_, sources, kTwoEyes);
+    return programs;
+}
+
+CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
+    : gl_(&gl), shapes_(shapes),
+      two_views_at_once_(has_extension(gl, "GL_ARB_shader_viewport_layer_array")),
+      quad_programs_(programs("cell_quad.frag")),
+      gaussian_programs_(programs("cell_gaussian.frag")), quads_(gl), orders_(gl), frame_(gl) {
+    const float sigmas = 0.5f * shapes.gaussian_diameter / shapes.gaussian_sigma;
+    const float falloff = -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
+    gl.ProgramUniform1f(gaussian_programs_.one.name(), 0, falloff);
+    if (gaussian_programs_.two)
+        gl.ProgramUniform1f(gaussian_programs_.two->name(), 0, falloff);
+}
+
+void CellPass::draw(std::span<const View> views, const Placement& placement,
+                    const CellBuffers& cells, Footprint footprint,
+                    const CellAppearance& appearance) {
+    if (!cells.shown() || cells.shown()->points.empty())
+        return;
+    const std::size_t at_once = two_views_at_once_ ? 2 : 1;
+    for (std::size_t first = 0; first < views.size(); first += at_once)
+        draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)), placement,
+                     cells, footprint, appearance);
+}
+
+void CellPass::draw_at_once(std::span<const View> views, const Placement& placement,
+                            const CellBuffers& cells, Footprint footprint,
+                            const CellAppearance& appearance) {
+    const bool gaussian = footprint == Footprint::gaussian;
+    Frame frame{
+        .eyes = {},
         .color = glm::vec4(linear_light(appearance.color), appearance.opacity),
         .light = {appearance.ambient, appearance.diffuse, appearance.specular,
                   appearance.shininess},
-        .depth_cue = depth_cue(eye_from_index, placement.extent, appearance.depth_cue),
         .radius = 0.5f * (gaussian ? shapes_.gaussian_diameter : shapes_.quad_diameter),
         .ordered = gaussian,
         .soft_near_eye = gaussian,
     };
+    const glm::ivec3 extent(placement.extent);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const View& view = views[i];
+        frame.eyes[i] = eye_block(view, placement, appearance.depth_cue);
+        gl_->ViewportIndexedf(static_cast<GLuint>(i), view.corner.x, view.corner.y, view.size.x,
+                              view.size.y);
+        if (gaussian)
+            gl_->BindTextureUnit(
+                static_cast<GLuint>(1 + i),
+                orders_.texture(cells, traversal_key(frame.eyes[i].eye_in_index, extent), extent));
+    }
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
     gl_->BindTextureUnit(0, cells.texture());
@@ -100,19 +146,15 @@ void CellPass::draw(const View& view, const Placement& placement, const CellBuff
     gl_->DepthMask(gaussian ? GL_FALSE : GL_TRUE);
     gl_->Disable(GL_CULL_FACE); // a mirrored volume turns every quad over
     if (gaussian) {
-        const glm::ivec3 extent(placement.extent);
-        gl_->BindTextureUnit(1,
-                             orders_.texture(cells, traversal_key(eye_in_index, extent), extent));
         gl_->Enable(GL_BLEND);
         gl_->BlendEquation(GL_FUNC_ADD);
         gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-        gl_->UseProgram(gaussian_program_.name());
     } else {
-        gl_->BindTextureUnit(1, 0);
         gl_->Disable(GL_BLEND);
-        gl_->UseProgram(quad_program_.name());
     }
-    quads_.draw(cells.shown()->points.size());
+    const Programs& programs = gaussian ? gaussian_programs_ : quad_programs_;
+    gl_->UseProgram((views.size() == 2 ? *programs.two : programs.one).name());
+    quads_.draw(cells.shown()->points.size(), static_cast<int>(views.size()));
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);
     gl_->UseProgram(0);

@@ -8,6 +8,9 @@
 #include "render/view.h"
 
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
 
 namespace isochron::render {
 
@@ -41,19 +44,40 @@ class CellPass {
     /// @throws Error when a shader does not compile
     explicit CellPass(const Gl& gl, const FootprintShapes& shapes = {});
 
-    /// Draws the shown set into the bound framebuffer and current viewport of `view.size`; nothing
-    /// when no set is shown. Quads test and write depth; splats test it only, and blend over what
-    /// is there with pre-multiplied alpha. Leaves depth test and depth writes on, blending and
-    /// culling off.
-    void draw(const View& view, const Placement& placement, const CellBuffers& cells,
+    /// Draws the shown set into the views' viewports of the bound framebuffer, two views in one
+    /// pass where the driver can; nothing when no set is shown. Quads test and write depth; splats
+    /// test it only, and blend over what is there with pre-multiplied alpha. Leaves depth test and
+    /// depth writes on, blending and culling off, and the viewport undefined.
+    void draw(std::span<const View> views, const Placement& placement, const CellBuffers& cells,
               Footprint footprint, const CellAppearance& appearance = {});
+    void draw(const View& view, const Placement& placement, const CellBuffers& cells,
+              Footprint footprint, const CellAppearance& appearance = {}) {
+        draw(std::span(&view, 1), placement, cells, footprint, appearance);
+    }
+
+    /// Whether two views are drawn in one pass: the vertex shader can choose the viewport.
+    bool draws_two_views_at_once() const { return two_views_at_once_; }
+    /// For comparisons: two passes although the driver could do with one.
+    void draw_views_apart() { two_views_at_once_ = false; }
 
     const OrderCache& orders() const { return orders_; }
 
   private:
+    /// The same shaders for one view and for two.
+    struct Programs {
+        Program one;
+        std::optional<Program> two;
+    };
+    Programs programs(std::string_view fragment_shader) const;
+    /// At most two, of which the second needs `Programs::two`.
+    void draw_at_once(std::span<const View> views, const Placement& placement,
+                      const CellBuffers& cells, Footprint footprint,
+                      const CellAppearance& appearance);
+
     const Gl* gl_;
     FootprintShapes shapes_;
-    Program quad_program_, gaussian_program_;
+    bool two_views_at_once_;
+    Programs quad_programs_, gaussian_programs_;
     QuadIndices quads_;
     OrderCache orders_;
     Buffer frame_;

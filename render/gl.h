@@ -95,6 +95,7 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLDRAWELEMENTSPROC, DrawElements)                                                               \
     ENTRY(PFNGLDRAWELEMENTSBASEVERTEXPROC, DrawElementsBaseVertex)                                           \
     ENTRY(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                             \
+    ENTRY(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXPROC, DrawElementsInstancedBaseVertex)                         \
     ENTRY(PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEPROC, DrawElementsInstancedBaseVertexBaseInstance) \
     ENTRY(PFNGLDRAWRANGEELEMENTSBASEVERTEXPROC, DrawRangeElementsBaseVertex)                                 \
     ENTRY(PFNGLMULTIDRAWELEMENTSBASEVERTEXPROC, MultiDrawElementsBaseVertex)                                 \

@@ -15,7 +15,8 @@ class QuadIndices {
 
     /// Draws `quads` quads with the current program; corners go counter-clockwise from the lower
     /// left: (-1,-1), (1,-1), (1,1), (-1,1).
-    void draw(std::size_t quads) const;
+    /// @param instances of every quad; those of one instance keep their order
+    void draw(std::size_t quads, int instances = 1) const;
 
   private:
     const Gl* gl_;

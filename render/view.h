@@ -10,7 +10,8 @@ namespace isochron::render {
 struct View {
     glm::mat4 clip_from_eye{1.0f}; ///< off-axis perspective (or orthographic), GL clip space
     glm::mat4 eye_from_room{1.0f}; ///< rigid
-    glm::ivec2 size{0};            ///< pixels of the target
+    glm::ivec2 size{0};            ///< of the viewport, pixels
+    glm::ivec2 corner{0};          ///< lower left of the viewport in the target, pixels
 
     glm::vec3 eye_in_room() const { return glm::vec3(glm::inverse(eye_from_room)[3]); }
 };

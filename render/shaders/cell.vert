@@ -10,22 +10,11 @@
 // picture of the unit disc, so `disc` is exactly 1 on the outline.
 
 layout(binding = 0) uniform usamplerBuffer cells;
-layout(binding = 1) uniform usamplerBuffer order;
+layout(binding = 1) uniform usamplerBuffer order; // of the first eye
+layout(binding = 2) uniform usamplerBuffer order_of_other_eye;
 
-layout(std140, binding = 0) uniform Frame {
-    // Rows of pixel_from_index: clip space with x and y in pixels from the middle of the viewport.
-    vec4 row_x, row_y, row_z, row_w;
-    mat4 eye_from_index;
-    mat4 eye_from_physical; // linear part
-    vec4 eye_in_index;      // w = 0 where the view is parallel
-    vec4 clip_per_pixel;    // xy
-    vec4 color;             // linear light; a: opacity
-    vec4 light;             // ambient, diffuse, specular, shininess
-    vec4 depth_cue;         // distance [m] where it starts, 1 / its length, strength
-    float radius;           // of the footprint, in voxels
-    bool ordered;           // draw through `order`
-    bool soft_near_eye;     // fade what comes so near that it would veil the whole view
-};
+#include "frame.glsl"
+#include "lighting.glsl"
 
 out vec2 disc;
 flat out vec4 shaded;
@@ -33,7 +22,7 @@ flat out vec4 shaded;
 const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
 
 vec4 to_pixels(vec4 p) {
-    return vec4(dot(row_x, p), dot(row_y, p), dot(row_z, p), dot(row_w, p));
+    return vec4(dot(EYE(row_x), p), dot(EYE(row_y), p), dot(EYE(row_z), p), dot(EYE(row_w), p));
 }
 
 // A matrix F with F F^T = s, the ellipse's shape in pixels: its columns are the half axes. Where
@@ -57,19 +46,6 @@ mat2 half_axes(float xx, float xy, float yy) {
     return mat2(u, vec2(-u.y, u.x)) * mat2(lengths.x, 0, 0, lengths.y) * mat2(c, -s, s, c);
 }
 
-vec3 shade(vec4 centre, vec3 packed_normal, out float distance_to_eye) {
-    vec3 at = (eye_from_index * centre).xyz;
-    distance_to_eye = length(at);
-    vec3 to_light = eye_in_index.w == 0.0 ? vec3(0, 0, 1) : -at / max(distance_to_eye, 1e-6);
-    vec3 n = mat3(eye_from_physical) * packed_normal;
-    // Without a normal a cell faces the viewer; with one, both its sides are lit.
-    float facing = dot(n, n) > 0.0 ? abs(dot(normalize(n), to_light)) : 1.0;
-    vec3 lit = color.rgb * (light.x + light.y * facing) + light.z * pow(facing, light.w);
-    float far = clamp((distance_to_eye - depth_cue.x) * depth_cue.y, 0.0, 1.0);
-    lit *= 1.0 - depth_cue.z * far;
-    return pow(clamp(lit, 0.0, 1.0), vec3(1.0 / 2.2)); // targets hold display values
-}
-
 vec3 unpack_normal(uint word) {
     ivec3 n = ivec3(word << 22, word << 12, word << 2) >> 22;
     return max(vec3(n) / 511.0, -1.0);
@@ -78,32 +54,34 @@ vec3 unpack_normal(uint word) {
 void main() {
     int slot = gl_VertexID >> 2;
     vec2 corner = kCorners[gl_VertexID & 3];
-    uvec3 cell = texelFetch(cells, ordered ? int(texelFetch(order, slot).x) : slot).xyz;
+    start_eye();
+    if (ordered)
+        slot = int((EYE_INDEX == 0 ? texelFetch(order, slot) : texelFetch(order_of_other_eye, slot)).x);
+    uvec3 cell = texelFetch(cells, slot).xyz;
     vec4 centre = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
 
     disc = corner;
-    float distance_to_eye;
-    shaded = vec4(shade(centre, unpack_normal(cell.z), distance_to_eye), color.a);
+    shaded = vec4(shade((EYE(eye_from_index) * centre).xyz, unpack_normal(cell.z)), color.a);
 
     vec4 p = to_pixels(centre);
     float rr = radius * radius;
-    float d = p.w * p.w - rr * dot(row_w.xyz, row_w.xyz);
-    vec3 from_centre = eye_in_index.xyz - centre.xyz;
+    float d = p.w * p.w - rr * dot(EYE(row_w).xyz, EYE(row_w).xyz);
+    vec3 from_centre = EYE(eye_in_index).xyz - centre.xyz;
     float eye_distance2 = dot(from_centre, from_centre);
-    if (soft_near_eye && eye_in_index.w != 0.0)
+    if (soft_near_eye && EYE(eye_in_index).w != 0.0)
         shaded.a *= smoothstep(1.0, 2.0, sqrt(eye_distance2 / rr));
 
     if (p.w > 0.0 && d > 0.1 * p.w * p.w) {
         // Coordinates relative to the centre's image keep small ellipses precise.
         vec2 m = p.xy / p.w;
-        vec3 a = row_x.xyz - m.x * row_w.xyz;
-        vec3 b = row_y.xyz - m.y * row_w.xyz;
+        vec3 a = EYE(row_x).xyz - m.x * EYE(row_w).xyz;
+        vec3 b = EYE(row_y).xyz - m.y * EYE(row_w).xyz;
         float k = rr / d;
-        vec2 shift = -k * vec2(dot(a, row_w.xyz), dot(b, row_w.xyz));
+        vec2 shift = -k * vec2(dot(a, EYE(row_w).xyz), dot(b, EYE(row_w).xyz));
         mat2 axes = half_axes(shift.x * shift.x + k * dot(a, a), shift.x * shift.y + k * dot(a, b),
                               shift.y * shift.y + k * dot(b, b));
-        gl_Position = vec4((m + shift + axes * corner) * clip_per_pixel.xy * p.w, p.z, p.w);
-    } else if (eye_in_index.w == 0.0 || eye_distance2 <= rr) {
+        gl_Position = vec4((m + shift + axes * corner) * EYE(clip_per_pixel).xy * p.w, p.z, p.w);
+    } else if (EYE(eye_in_index).w == 0.0 || eye_distance2 <= rr) {
         gl_Position = vec4(0, 0, -2, 1); // around the eye: nothing to see from inside
     } else {
         // The ellipsoid reaches behind the eye: its silhouette, a circle in index space, is drawn in
@@ -116,6 +94,6 @@ void main() {
         vec3 e2 = normalize(cross(from_centre, e1));
         vec3 at = centre.xyz + along * from_centre + size * (corner.x * e1 + corner.y * e2);
         vec4 q = to_pixels(vec4(at, 1.0));
-        gl_Position = vec4(q.xy * clip_per_pixel.xy, q.zw);
+        gl_Position = vec4(q.xy * EYE(clip_per_pixel).xy, q.zw);
     }
 }

@@ -6,6 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 namespace isochron::render {
 namespace {
@@ -174,6 +176,54 @@ TEST_P(CellPasses, NothingIsDrawnWithoutASetOrFromAnEmptyOne) {
     draw(cells, Footprint::quad);
     for (const std::uint8_t value : target_.read().rgba)
         ASSERT_EQ(value, 0);
+}
+
+TEST_P(CellPasses, TwoViewsInOnePassLookAsInTwo) {
+    // Another program, another viewport: a blended value may be rounded the other way.
+    const auto nearly_equal = [](int a, int b) { return std::abs(a - b) <= 1; };
+    ASSERT_TRUE(pass_.draws_two_views_at_once());
+    CellPass apart(gl_);
+    apart.draw_views_apart();
+    std::vector<glm::ivec3> cells;
+    for (int i = 0; i < 300; ++i)
+        cells.emplace_back(random_() % 12, random_() % 12, random_() % 30);
+    std::array<View, 2> views{view_, view_};
+    views[0].eye_from_room = glm::translate(glm::mat4(1.0f), glm::vec3(-2.0f, -3.0f, 0.0f));
+    views[1].eye_from_room = glm::translate(glm::mat4(1.0f), glm::vec3(-9.0f, -5.0f, 3.0f));
+    views[1].size = {kSize - 30, kSize - 7}; // side by side in one target, of two sizes
+    views[1].corner = {kSize, 5};
+    RenderTarget both(gl_, {2 * kSize, kSize});
+    const CellBuffers buffers = showing(gl_, cell_set(cells, packed_normal(kFacing)));
+    for (const Footprint footprint : {Footprint::quad, Footprint::gaussian}) {
+        std::array<Image, 2> images;
+        for (const bool at_once : {false, true}) {
+            both.bind();
+            both.clear({0, 0, 0, 0});
+            (at_once ? pass_ : apart).draw(views, placement_, buffers, footprint, appearance_);
+            images[at_once] = both.read();
+        }
+        EXPECT_TRUE(std::equal(images[0].rgba.begin(), images[0].rgba.end(), images[1].rgba.begin(),
+                               nearly_equal));
+        for (const View& view : views) {
+            RenderTarget alone(gl_, view.size);
+            alone.bind();
+            alone.clear({0, 0, 0, 0});
+            View moved = view;
+            moved.corner = {0, 0};
+            pass_.draw(moved, placement_, buffers, footprint, appearance_);
+            const Image expected = alone.read();
+            int covered = 0;
+            for (int y = 0; y < view.size.y; ++y)
+                for (int x = 0; x < view.size.x; ++x) {
+                    const std::uint8_t* pixel = expected.at(x, y);
+                    const std::uint8_t* same =
+                        images[1].at(view.corner.x + x, kSize - view.corner.y - view.size.y + y);
+                    covered += pixel[3] > 0;
+                    ASSERT_TRUE(std::equal(pixel, pixel + 4, same, nearly_equal)) << x << ' ' << y;
+                }
+            EXPECT_GT(covered, 100);
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(, CellPasses, both_contexts(), context_name);

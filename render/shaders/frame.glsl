@@ -1,0 +1,48 @@
+// What a draw of cells knows: where its eyes are, and how surfaces look. Drawn in one pass, two
+// eyes are two instances, each in its own viewport; EYE(field) is the field of the current one.
+
+struct Eye {
+    // Rows of pixel_from_index: clip space with x and y in pixels from the middle of the viewport.
+    vec4 row_x, row_y, row_z, row_w;
+    mat4 index_from_pixel;  // its inverse
+    mat4 eye_from_index;
+    mat4 eye_from_physical; // linear part
+    vec4 eye_in_index;      // w = 0 where the view is parallel: the direction towards the eye
+    vec4 clip_per_pixel;    // xy
+    vec4 viewport;          // corner and size in the target, pixels
+    vec4 depth_cue;         // distance [m] where it starts, 1 / its length, strength
+};
+
+layout(std140, binding = 0) uniform Frame {
+    Eye eyes[2];
+    vec4 color;         // linear light; a: opacity
+    vec4 light;         // ambient, diffuse, specular, shininess
+    float radius;       // of the footprint, in voxels
+    bool ordered;       // draw through `order`
+    bool soft_near_eye; // fade what comes so near that it would veil the whole view
+};
+
+#ifdef TWO_EYES
+// Both are read and one is taken: cheaper than an index that is not the same for all.
+#define EYE(field) (EYE_INDEX == 0 ? eyes[0].field : eyes[1].field)
+#ifdef VERTEX_STAGE
+#define EYE_INDEX gl_InstanceID
+flat out int eye_of_instance;
+#else
+#define EYE_INDEX eye_of_instance
+flat in int eye_of_instance;
+#endif
+#else
+#define EYE(field) eyes[0].field
+#define EYE_INDEX 0
+#endif
+
+#ifdef VERTEX_STAGE
+// First in every main(): leads the vertex to its eye's viewport.
+void start_eye() {
+#ifdef TWO_EYES
+    eye_of_instance = gl_InstanceID;
+    gl_ViewportIndex = gl_InstanceID;
+#endif
+}
+#endif

@@ -127,15 +127,17 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         .soft_near_eye = gaussian,
     };
     const glm::ivec3 extent(placement.extent);
+    const glm::mat3 axes(placement.room_from_index);
+    const glm::vec3 spacing(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i];
         frame.eyes[i] = eye_block(view, placement, appearance.depth_cue);
-        gl_->ViewportIndexedf(static_cast<GLuint>(i), view.corner.x, view.corner.y, view.size.x,
-                              view.size.y);
+        const glm::vec2 corner(view.corner), size(view.size);
+        gl_->ViewportIndexedf(static_cast<GLuint>(i), corner.x, corner.y, size.x, size.y);
         if (gaussian)
             gl_->BindTextureUnit(
                 static_cast<GLuint>(1 + i),
-                orders_.texture(cells, traversal_key(frame.eyes[i].eye_in_index, extent), extent));
+                orders_.texture(cells, traversal_key(frame.eyes[i].eye_in_index, extent, spacing)));
     }
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());

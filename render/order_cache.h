@@ -17,7 +17,7 @@ class OrderCache {
     explicit OrderCache(const Gl& gl);
 
     /// GL_TEXTURE_BUFFER, one R32UI texel per cell: indices into the shown points, back to front.
-    GLuint texture(const CellBuffers& cells, const TraversalKey& key, const glm::ivec3& extent);
+    GLuint texture(const CellBuffers& cells, const TraversalKey& key);
 
     /// How many orders were made so far.
     std::uint64_t sorts() const { return sorts_; }

@@ -1,8 +1,12 @@
 // Back-to-front order of cells for an eye anywhere, in linear time.
 //
-// After Botha and Post, "ShellSplatting: Interactive rendering of anisotropic volumes",
-// VisSym 2003: seen from a grid cell, the slices on either side of it hide each other towards it
-// only, and so do the rows of a slice and the cells of a row.
+// Cells are sorted by their distance from a reference point that lies on the same side of every
+// plane of the grid as the eye does. The order is exact for every such eye: what hides a cell is no
+// farther off along any axis, and nearer along one. And it changes little at a time: where the
+// traversal by slices, rows and cells (Botha and Post, "ShellSplatting: Interactive rendering of
+// anisotropic volumes", VisSym 2003) turns over as a whole when the eye's longest axis changes,
+// which is seen as a pop of splats that overlap, here two cells change places when they are equally
+// far away.
 #pragma once
 
 #include "index/cell_set.h"
@@ -10,7 +14,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,22 +22,29 @@ namespace isochron::render {
 
 /// What the order depends on: eyes with equal keys share one order of a set.
 struct TraversalKey {
-    /// Per axis the cell coordinate that the eye lies in, -1 below the volume, its size above.
-    glm::ivec3 eye_cell{0};
-    /// The axes from the slowest (slices) to the fastest: along the first the eye is farthest off,
-    /// so that slices follow each other in depth as closely as a grid allows.
-    std::array<std::uint8_t, 3> axes{2, 1, 0};
+    /// A position in the eye's cell, or beyond the grid as the eye is, in eighths of a cell, w = 1.
+    /// For a parallel view the signs of the direction towards the eye, w = 0.
+    glm::ivec4 reference{0, 0, 0, 1};
+    /// Per axis the weight of a squared distance (w = 1) or of a distance (w = 0), fixed point with
+    /// kWeightBits binary digits, at least 1.
+    glm::ivec3 weights{1};
     bool operator==(const TraversalKey&) const = default;
 };
 
+constexpr int kWeightBits = 4;
+
+/// An eye within the grid's range of an axis keeps its quarter of a cell there; beyond it the
+/// reference is coarser the farther off the eye, a tenth to a fifth of a degree, so that a standing
+/// head sorts rarely and what a new order changes is not seen.
 /// @param eye homogeneous, in vertex index coordinates: w = 1 for a position (on a voxel plane
 ///        either neighbour is right), w = 0 for the direction towards the eye of a parallel view
 /// @param cells number of cells per axis
-TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells);
+/// @param spacing of the grid in space, in any unit
+TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells, const glm::vec3& spacing);
 
 /// Writes a permutation of 0 .. points.size()-1 such that no cell's box is in front of a later
-/// one's. Three counting sorts: linear in the number of cells plus the size of the grid's sides.
+/// one's, by radix sort; cells at the same distance keep the order in which they are given.
 void order_back_to_front(std::span<const index::CellPoint> points, const TraversalKey& key,
-                         const glm::ivec3& cells, std::vector<std::uint32_t>& order);
+                         std::vector<std::uint32_t>& order);
 
 } // namespace isochron::render

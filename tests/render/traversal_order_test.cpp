@@ -50,9 +50,9 @@ std::vector<index::CellPoint> random_cells(std::mt19937& random, const glm::ivec
 }
 
 void expect_back_to_front(const std::vector<index::CellPoint>& points, const glm::vec4& eye,
-                          const glm::ivec3& size) {
+                          const glm::ivec3& size, const glm::vec3& spacing) {
     std::vector<std::uint32_t> order;
-    order_back_to_front(points, traversal_key(eye, size), size, order);
+    order_back_to_front(points, traversal_key(eye, size, spacing), order);
     std::vector<bool> seen(points.size(), false);
     for (const std::uint32_t cell : order) {
         ASSERT_LT(cell, points.size());
@@ -78,6 +78,11 @@ class TraversalOrder : public testing::Test {
     const unsigned seed_ = test_seed();
     testing::ScopedTrace trace_{__FILE__, __LINE__, seed_};
     std::mt19937 random_{seed_};
+    glm::vec3 random_spacing() {
+        glm::vec3 spacing(1.0f);
+        spacing[static_cast<int>(random_() % 3)] = float(std::exp(uniform(-3, 3)));
+        return spacing;
+    }
     double uniform(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random_);
     }
@@ -87,10 +92,10 @@ TEST_F(TraversalOrder, NoCellIsInFrontOfALaterOneForEyesInsideAndOutside) {
     for (int round = 0; round < 300; ++round) {
         const glm::ivec3 size(1 + random_() % 12, 1 + random_() % 12, 1 + random_() % 12);
         const auto points = random_cells(random_, size, 120);
-        const double reach = round % 3 == 0 ? 0.0 : round % 3 == 1 ? 3.0 : 100.0;
+        const double reach = round % 3 == 0 ? 0.0 : round % 3 == 1 ? 3.0 : std::exp(uniform(3, 20));
         const glm::vec4 eye(uniform(-reach, size.x + reach), uniform(-reach, size.y + reach),
                             uniform(-reach, size.z + reach), 1.0);
-        expect_back_to_front(points, eye, size);
+        expect_back_to_front(points, eye, size, random_spacing());
     }
 }
 
@@ -102,7 +107,7 @@ TEST_F(TraversalOrder, NoCellIsInFrontOfALaterOneForEyesOnVoxelPlanesEdgesAndCor
         for (int axis = 0; axis < 3; ++axis)
             if (axis == round % 3 || random_() % 2)
                 eye[axis] = std::round(eye[axis]);
-        expect_back_to_front(points, eye, size);
+        expect_back_to_front(points, eye, size, random_spacing());
     }
 }
 
@@ -113,25 +118,56 @@ TEST_F(TraversalOrder, NoCellIsInFrontOfALaterOneForParallelViews) {
         glm::vec4 towards(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), 0);
         if (round % 2)
             towards[round % 3] = 0.0f;
-        expect_back_to_front(points, towards, size);
+        expect_back_to_front(points, towards, size, random_spacing());
     }
 }
 
-TEST_F(TraversalOrder, EyesInTheSameCellShareOneKey) {
+TEST_F(TraversalOrder, EyesInTheSameQuarterOfACellShareOneKey) {
     const glm::ivec3 size(60, 50, 40);
-    const auto a = traversal_key({10.1, 20.2, 30.3, 1}, size);
-    EXPECT_EQ(a, traversal_key({10.9, 20.8, 30.4, 1}, size));
-    EXPECT_FALSE(a == traversal_key({11.1, 20.2, 30.3, 1}, size));
+    const auto a = traversal_key({10.01, 20.26, 30.3, 1}, size, glm::vec3(1));
+    EXPECT_EQ(a, traversal_key({10.24, 20.49, 30.4, 1}, size, glm::vec3(1)));
+    EXPECT_FALSE(a == traversal_key({10.26, 20.49, 30.4, 1}, size, glm::vec3(1)));
 }
 
-TEST_F(TraversalOrder, EyesBeyondTheVolumeShareTheKeyOfItsRim) {
+TEST_F(TraversalOrder, TheFartherTheEyeTheMoreItMovesBeforeItSortsAgain) {
     const glm::ivec3 size(60, 50, 40);
-    EXPECT_EQ(traversal_key({-5, 20.2, 100, 1}, size), traversal_key({-7, 20.3, 180, 1}, size));
+    const auto key = [&](float z) { return traversal_key({10, 20, z, 1}, size, glm::vec3(1)); };
+    EXPECT_EQ(key(50.26f), key(50.49f));
+    EXPECT_FALSE(key(50.26f) == key(50.51f));
+    EXPECT_EQ(key(40 + 1024), key(40 + 1025.9f));
+    EXPECT_FALSE(key(40 + 1024) == key(40 + 1026.1f));
+}
+
+TEST_F(TraversalOrder, ThePhysicallyFartherCellComesFirst) {
+    // Along the first axis cells are three times as long: two of them are farther than five.
+    const std::vector<index::CellPoint> points{{0, 5, 0, 0, 0}, {2, 0, 0, 0, 0}};
+    std::vector<std::uint32_t> order;
+    order_back_to_front(points, traversal_key({0.5, 0.5, 0.5, 1}, {9, 9, 9}, {1, 1, 1}), order);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 1}));
+    order_back_to_front(points, traversal_key({0.5, 0.5, 0.5, 1}, {9, 9, 9}, {3, 1, 1}), order);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 0}));
+}
+
+TEST_F(TraversalOrder, IsTheSameFarAwayAndForTheDirectionThere) {
+    const glm::ivec3 size(30, 30, 30);
+    const auto points = random_cells(random_, size, 500);
+    const glm::vec3 towards(0.3f, -0.5f, 0.8f);
+    std::vector<std::uint32_t> far, parallel;
+    order_back_to_front(points, traversal_key(glm::vec4(1e5f * towards, 1), size, glm::vec3(1)),
+                        far);
+    order_back_to_front(points, traversal_key(glm::vec4(towards, 0), size, glm::vec3(1)), parallel);
+    // Both rank cells by depth, up to their rounding of it: half a cell, at most, of either.
+    const auto depth = [&](std::uint32_t cell) {
+        return glm::dot(towards, glm::vec3(points[cell].x, points[cell].y, points[cell].z));
+    };
+    for (const auto& order : {far, parallel})
+        for (std::size_t i = 1; i < order.size(); ++i)
+            EXPECT_LT(depth(order[i - 1]) - depth(order[i]), 1.0f);
 }
 
 TEST_F(TraversalOrder, AnEmptySetHasAnEmptyOrder) {
     std::vector<std::uint32_t> order{1, 2, 3};
-    order_back_to_front({}, traversal_key({0, 0, 0, 1}, {4, 4, 4}), {4, 4, 4}, order);
+    order_back_to_front({}, traversal_key({0, 0, 0, 1}, {4, 4, 4}, glm::vec3(1)), order);
     EXPECT_TRUE(order.empty());
 }
 

@@ -99,28 +99,54 @@ Distances distances(std::span<const index::CellPoint> points, const TraversalKey
     return result;
 }
 
-struct Entry {
-    std::uint64_t nearness; ///< 0 for the farthest
-    std::uint32_t cell;
+/// A cell with its nearness, 0 for the farthest. Most fit into one word, which moves faster.
+struct Narrow {
+    std::uint64_t word;
+    Narrow() = default;
+    Narrow(std::uint64_t nearness, std::uint32_t cell) : word(nearness << 32 | cell) {}
+    std::uint64_t nearness() const { return word >> 32; }
+    std::uint32_t cell() const { return static_cast<std::uint32_t>(word); }
+};
+struct Wide {
+    std::uint64_t near_;
+    std::uint32_t cell_;
+    Wide() = default;
+    Wide(std::uint64_t nearness, std::uint32_t cell) : near_(nearness), cell_(cell) {}
+    std::uint64_t nearness() const { return near_; }
+    std::uint32_t cell() const { return cell_; }
 };
 
 constexpr int kDigitBits = 11;
-using DigitCounts = std::array<std::uint32_t, 1 << kDigitBits>;
 
-std::size_t digit(std::uint64_t nearness, int shift) {
-    return nearness >> shift & ((1u << kDigitBits) - 1);
+template <class Entry>
+std::size_t digit(const Entry& entry, int shift) {
+    return entry.nearness() >> shift & ((1u << kDigitBits) - 1);
 }
 
 /// One stable pass over a digit.
+template <class Entry>
 void sort_by_digit(const std::vector<Entry>& from, std::vector<Entry>& to, int shift) {
-    DigitCounts begin{};
+    std::array<std::uint32_t, 1 << kDigitBits> begin{};
     for (const Entry& entry : from)
-        ++begin[digit(entry.nearness, shift)];
+        ++begin[digit(entry, shift)];
     std::uint32_t sum = 0;
     for (std::uint32_t& count : begin)
         sum += std::exchange(count, sum);
     for (const Entry& entry : from)
-        to[begin[digit(entry.nearness, shift)]++] = entry;
+        to[begin[digit(entry, shift)]++] = entry;
+}
+
+template <class Entry>
+void sort_by_distance(std::span<const index::CellPoint> points, const Distances& distance,
+                      std::vector<std::uint32_t>& order) {
+    std::vector<Entry> entries(points.size()), sorted(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        entries[i] = {distance.largest - distance.of(points[i]), static_cast<std::uint32_t>(i)};
+    for (int shift = 0; distance.largest >> shift != 0; shift += kDigitBits) {
+        sort_by_digit(entries, sorted, shift);
+        entries.swap(sorted);
+    }
+    std::ranges::transform(entries, order.begin(), &Entry::cell);
 }
 
 } // namespace
@@ -165,15 +191,10 @@ void order_back_to_front(std::span<const index::CellPoint> points, const Travers
     if (points.empty())
         return;
     const Distances distance = distances(points, key);
-    std::vector<Entry> entries(points.size()), sorted(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-        entries[i] = {distance.largest - distance.of(points[i]), static_cast<std::uint32_t>(i)};
-    for (int shift = 0; distance.largest >> shift != 0; shift += kDigitBits) {
-        sort_by_digit(entries, sorted, shift);
-        entries.swap(sorted);
-    }
-    for (std::size_t i = 0; i < entries.size(); ++i)
-        order[i] = entries[i].cell;
+    if (distance.largest >> 32 == 0)
+        sort_by_distance<Narrow>(points, distance, order);
+    else
+        sort_by_distance<Wide>(points, distance, order);
 }
 
 } // namespace isochron::render

@@ -1,8 +1,10 @@
 // `isochron explore`: the live program, in a window.
+#include "app/check_config.h"
 #include "app/commands.h"
 #include "app/file_patterns.h"
 #include "app/positive_number.h"
 #include "app/session.h"
+#include "app/shipped_configs.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/new_file.h"
@@ -10,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <filesystem>
@@ -21,30 +24,28 @@ namespace {
 using interaction::Seconds;
 
 struct ExploreOptions {
-    std::string file;
+    std::optional<std::string> data;
     std::string config = "desktop";
-    std::optional<std::string> context, stereo, quality;
+    std::optional<std::string> check_config, context, stereo, quality;
     std::optional<std::string> record, report;
     std::optional<double> isovalue, seconds;
     std::optional<std::uint32_t> step;
     std::vector<int> size;
     std::string screenshots = ".";
-    bool no_panel = false;
+    bool no_panel = false, emulate = false;
 };
 
 Config configure(const ExploreOptions& options) {
     Config config = read_config(options.config);
-    stereo::Window& window = config.installation.windows.front();
     if (options.context)
         config.context = *stereo::context_kind_from_name(*options.context);
-    if (options.stereo)
-        window.stereo = *stereo::stereo_mode_from_name(*options.stereo);
     if (options.quality)
         config.quality = quality_mode_from_name(*options.quality);
-    if (!options.size.empty()) {
-        window.size = {options.size[0], options.size[1]};
-        window.fullscreen = false;
-    }
+    if (!options.size.empty() && !options.emulate)
+        for (stereo::Window& window : config.installation.windows) {
+            window.size = {options.size[0], options.size[1]};
+            window.fullscreen = false;
+        }
     if (config.context != stereo::ContextKind::glfw)
         throw UsageError(
             fmt::format("explore needs a window: --context glfw, not {}; `isochron replay` "
@@ -62,17 +63,20 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     state.isovalue = options.isovalue.value_or(state.isovalue);
     state.step = options.step.value_or(state.step);
     state.panel = !options.no_panel;
+    if (options.stereo)
+        state.stereo = *stereo::stereo_mode_from_name(*options.stereo);
     return state;
 }
 
 interaction::RecordingHeader header_of(const Session& session, const Config& config,
-                                       const index::IndexFile& file, const std::string& path,
-                                       glm::ivec2 window) {
+                                       const index::IndexFile& file, const std::string& path) {
     interaction::RecordingHeader header;
     header.program = kProgram;
     header.configuration = config.text;
     header.data = std::filesystem::absolute(path).string();
-    header.window = {window.x, window.y};
+    const glm::ivec2 window = session.windows()[0].framebuffer_size();
+    if (!session.windows().room()) // an emulated installation is as large as configured
+        header.window = {window.x, window.y};
     header.data_hash = fmt::format("{:016x}", file.content_hash());
     header.start = session.state().as_commands();
     return header;
@@ -83,7 +87,7 @@ void check_outputs(const ExploreOptions& options) {
     namespace fs = std::filesystem;
     for (const auto& out : {options.record, options.report})
         if (out)
-            refuse_input_as_output({options.file}, *out);
+            refuse_input_as_output({*options.data}, *out);
     if (options.record && fs::exists(*options.record))
         interaction::read_recording(*options.record); // only a recording may be replaced by one
     if (options.report)
@@ -110,21 +114,34 @@ class Pacer {
     Clock::time_point next_ = Clock::now();
 };
 
+stereo::Windows open(const ExploreOptions& options, const Config& config) {
+    const std::string title = fmt::format("Isochron: {}", *options.data);
+    const stereo::Installation& installation = config.installation;
+    if (options.emulate) {
+        stereo::ContextOptions room{.title = title, .vsync = config.vsync};
+        if (!options.size.empty())
+            room.size = {options.size[0], options.size[1]};
+        return open_room(config.context, installation, room);
+    }
+    const stereo::StereoMode start = options.stereo
+                                         ? *stereo::stereo_mode_from_name(*options.stereo)
+                                         : installation.windows.front().stereo;
+    return open_windows(config.context, installation,
+                        {.title = title, .vsync = config.vsync, .stereo = start});
+}
+
 void explore(const ExploreOptions& options) {
+    if (options.check_config)
+        return check_config(*options.check_config);
+    if (!options.data)
+        throw UsageError("file is required: an index made by `isochron build`");
     const Config config = configure(options);
-    for (const std::string& warning : screen_warnings(config))
-        fmt::print(stderr, "isochron: warning: {}\n", warning);
-    const auto file = index::IndexFile::open(options.file);
+    for (const ConfigProblem& problem : problems_of(config))
+        fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
+    const auto file = index::IndexFile::open(*options.data);
     check_outputs(options);
-    const stereo::Window& window = config.installation.windows.front();
-    const auto context =
-        stereo::make_context(config.context, {.size = window.size,
-                                              .position = window.position,
-                                              .title = fmt::format("Isochron: {}", options.file),
-                                              .fullscreen = window.fullscreen,
-                                              .monitor = window.monitor,
-                                              .vsync = config.vsync});
-    Session session(config, file, *context);
+    Session session(config, file, open(options, config));
+    const stereo::Windows& windows = session.windows();
     session.set_state(start_from(session.state(), options, file->info().steps()));
     session.set_screenshots(options.screenshots);
     // The writer lives on the thread that writes: a slow disk delays the recording, not the
@@ -133,18 +150,21 @@ void explore(const ExploreOptions& options) {
     std::shared_ptr<interaction::RecordingWriter> recorder;
     if (options.record) {
         recorder = std::make_shared<interaction::RecordingWriter>(
-            *options.record,
-            header_of(session, config, *file, options.file, context->framebuffer_size()));
+            *options.record, header_of(session, config, *file, *options.data));
         session.set_recording(true);
     }
 
     interaction::DesktopEmulation emulation(emulation_for(config));
+    RoomCamera camera(config.installation);
     Pacer pacer(config.frame_rate_limit);
     const auto start = std::chrono::steady_clock::now();
-    for (bool running = true; running && !context->should_close();) {
-        emulation.feed(session.panel_events(context->poll_events()));
+    for (bool running = true; running && !windows.should_close();) {
+        const auto events = session.panel_events(windows.poll_events());
+        emulation.feed(options.emulate ? camera.feed(events) : events);
         const Seconds now = std::chrono::steady_clock::now() - start;
-        const interaction::InputState input = emulation.poll(now);
+        interaction::InputState input = emulation.poll(now);
+        if (options.emulate)
+            input.devices.push_back({kRoomCamera, camera.pose(), true, 0, {}});
         interaction::Commands commands = session.commands_from(input);
         const interaction::Commands from_panel = session.take_panel_commands();
         interaction::merge(commands, from_panel);
@@ -164,12 +184,15 @@ void explore(const ExploreOptions& options) {
         recorder->finish();
     session.pictures().finish();
     if (options.report)
-        session.log().write(*options.report, context->description());
+        session.log().write(*options.report, windows.drawing().description());
 }
 
 std::string footer() {
     std::string text = "Mouse and keyboard:\n";
     for (const std::string& line : interaction::Controls::documentation())
+        text += "  " + line + "\n";
+    text += "\nWith --emulate:\n";
+    for (const std::string& line : RoomCamera::documentation())
         text += "  " + line + "\n";
     text += "\nExit status: 0 done, 1 bad input, 2 bad usage.";
     return text;
@@ -180,18 +203,26 @@ std::string footer() {
 void add_explore(CLI::App& program) {
     auto options = std::make_shared<ExploreOptions>();
     CLI::App* command = program.add_subcommand("explore", "Explore an index in a window, live.");
-    command->add_option("file", options->file, "Index made by `isochron build`")->required();
+    command->add_option("file", options->data, "Index made by `isochron build`");
     command
         ->add_option("--config", options->config,
-                     "TOML file, or the name of a shipped one (desktop)")
+                     fmt::format("TOML file, or the name of a shipped one: {}",
+                                 fmt::join(shipped_config_names(), ", ")))
         ->capture_default_str();
+    command->add_option("--check-config", options->check_config,
+                        "List the windows, screens, viewers and devices of this configuration "
+                        "and what is wrong with it, and leave");
+    command->add_flag("--emulate", options->emulate,
+                      "Show the whole installation in one window: the room from outside, with what "
+                      "every wall shows");
     command->add_option("--context", options->context, "GL context; explore needs glfw")
         ->check(CLI::IsMember({"glfw", "egl", "osmesa"}));
     command->add_option("--stereo", options->stereo, "Stereo mode to start in")
         ->check(CLI::IsMember(stereo_mode_names()));
     command->add_option("--quality", options->quality, "auto, fast or quality")
         ->check(CLI::IsMember(quality_mode_names()));
-    command->add_option("--size", options->size, "Window size in pixels")
+    command
+        ->add_option("--size", options->size, "Size of every window, or of the room's, in pixels")
         ->expected(2)
         ->check(CLI::Range(16, 16384));
     command->add_option("--isovalue", options->isovalue, "Isovalue to start with, in data units");

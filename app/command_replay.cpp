@@ -1,6 +1,7 @@
 // `isochron replay`: a recording becomes pictures and measurements, or plays again in a window.
 #include "app/commands.h"
 #include "app/file_patterns.h"
+#include "app/picture_names.h"
 #include "app/positive_number.h"
 #include "app/progress_bar.h"
 #include "app/replay.h"
@@ -20,7 +21,7 @@ struct Options {
     std::string recording;
     std::optional<std::string> data, out, config, context, stereo, quality, report;
     std::size_t every = 0;
-    bool stamps = false, from_devices = false, live = false, any_data = false;
+    bool stamps = false, from_devices = false, live = false, any_data = false, emulate = false;
     std::string eyes = "window";
     std::string format = "png";
     std::vector<int> size;
@@ -36,8 +37,11 @@ Config configure(const Options& options, const interaction::RecordingHeader& hea
         config.context = *stereo::context_kind_from_name(*options.context);
     if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
         config.installation.windows.front().size = {header.window[0], header.window[1]};
-    if (!options.size.empty())
-        config.installation.windows.front().size = {options.size[0], options.size[1]};
+    for (stereo::Window& window : config.installation.windows) {
+        if (!options.size.empty() && !options.emulate)
+            window.size = {options.size[0], options.size[1]};
+        window.fullscreen = false; // a replay looks on, it does not take the displays over
+    }
     return config;
 }
 
@@ -65,28 +69,34 @@ std::shared_ptr<const index::IndexFile> open_data(const Options& options,
 }
 
 /// Writes the pictures of one frame under names that start with `stem`, and notes which.
-void write_pictures(Session& session, const Options& options, const std::string& stem,
-                    std::vector<fs::path>& written) {
+void write_pictures(Session& session, const Options& options, const PictureNames& names,
+                    const std::string& stem, std::vector<fs::path>& written) {
     const fs::path folder = *options.out;
-    const auto write = [&](render::Image image, const std::string& eye) {
+    const auto write = [&](render::Image image, const std::string& suffix) {
         session.pictures().wait_for_room();
-        written.push_back(folder / fmt::format("{}{}.{}", stem, eye, options.format));
+        written.push_back(folder / fmt::format("{}{}.{}", stem, suffix, options.format));
         session.write_image(std::move(image), written.back());
     };
-    if (options.eyes == "window")
-        return write(session.display().read_window(), "");
-    for (stereo::Eye eye : stereo::eyes_of(session.state().stereo))
-        write(session.display().read_eye(eye), eye == stereo::Eye::left    ? "_left"
-                                               : eye == stereo::Eye::right ? "_right"
-                                                                           : "_centre");
-}
-
-/// A stamp's name as part of a file name.
-std::string file_name(std::string stamp) {
-    for (char& c : stamp)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_')
-            c = '_';
-    return stamp;
+    const auto write_eyes = [&](const stereo::Display& display, const PictureNames::Window& named) {
+        for (std::size_t i = 0; i < named.viewports.size(); ++i)
+            for (const stereo::Eye eye : stereo::eyes_of(display.mode()))
+                write(display.read_eye(eye, i),
+                      fmt::format("{}_{}", named.viewports[i], name_of(eye)));
+    };
+    if (session.room())
+        return write(session.room()->read(), "");
+    for (std::size_t i = 0; i < session.displays(); ++i) {
+        const stereo::Display& display = session.display(i);
+        const PictureNames::Window& named = names.windows[i];
+        if (options.eyes == "each") {
+            write_eyes(display, named);
+        } else if (stereo::upright(display.mode()) == stereo::StereoMode::quadbuffer) {
+            write(display.read_window(), named.suffix + "_left");
+            write(display.read_right_buffer(), named.suffix + "_right");
+        } else {
+            write(display.read_window(), named.suffix);
+        }
+    }
 }
 
 void make_folder(const fs::path& folder) {
@@ -114,6 +124,23 @@ void check(const Options& options) {
         throw UsageError("--live does not go with --every, --stamps or --from-devices");
 }
 
+stereo::Windows open(const Options& options, const Config& config,
+                     const interaction::RecordingHeader& header) {
+    const std::string title = "Isochron: " + options.recording;
+    if (options.emulate) {
+        stereo::ContextOptions room{.title = title};
+        if (!options.size.empty())
+            room.size = {options.size[0], options.size[1]};
+        return open_room(config.context, config.installation, room);
+    }
+    const std::string mode = options.stereo.value_or(header.start.stereo.value_or(""));
+    return open_windows(config.context, config.installation,
+                        {.title = title,
+                         .vsync = config.vsync,
+                         .stereo = stereo::stereo_mode_from_name(mode).value_or(
+                             config.installation.windows.front().stereo)});
+}
+
 void run(const Options& options) {
     check(options);
     if (options.report)
@@ -128,12 +155,8 @@ void run(const Options& options) {
         replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
     if (options.quality)
         replay.quality = quality_mode_from_name(*options.quality);
-    const stereo::Window& window = config.installation.windows.front();
-    const auto context =
-        stereo::make_context(config.context, {.size = window.size,
-                                              .position = window.position,
-                                              .title = "Isochron: " + options.recording});
-    Session session(config, file, *context);
+    const PictureNames names = picture_names(config.installation);
+    Session session(config, file, open(options, config, recording.header));
     session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
     if (options.out)
         make_folder(*options.out);
@@ -141,17 +164,18 @@ void run(const Options& options) {
     std::vector<std::string> different;
     std::vector<fs::path> written;
     if (options.live) {
-        replay_live(session, recording, replay, *context);
+        replay_live(session, recording, replay);
     } else {
         ProgressBar bar;
         different = replay_fixed_step(
             session, recording, replay,
             [&](std::size_t number, const interaction::RecordedFrame& frame) {
                 if (options.every > 0 && number % options.every == 0)
-                    write_pictures(session, options, fmt::format("frame_{:05}", number), written);
+                    write_pictures(session, options, names, fmt::format("frame_{:05}", number),
+                                   written);
                 if (options.stamps)
                     for (const std::string& stamp : frame.commands.stamps)
-                        write_pictures(session, options,
+                        write_pictures(session, options, names,
                                        fmt::format("stamp_{:05}_{}", number, file_name(stamp)),
                                        written);
                 bar.show("replaying", static_cast<double>(number + 1) /
@@ -162,8 +186,8 @@ void run(const Options& options) {
     for (const fs::path& path : written)
         fmt::print("wrote {}\n", path.string());
     if (options.report)
-        session.log().write(*options.report, context->description());
-    fmt::print("{}\n{}", context->description(), session.log().table());
+        session.log().write(*options.report, session.windows().drawing().description());
+    fmt::print("{}\n{}", session.windows().drawing().description(), session.log().table());
     if (options.from_devices && report_differences(different, recording.frames.size()) != 0)
         throw interaction::Error(options.recording +
                                  ": the devices no longer lead to its commands");
@@ -189,17 +213,20 @@ void add_replay(CLI::App& program) {
     command
         ->add_option("--eyes", options->eyes,
                      "window: one picture, composed as the stereo mode says; "
-                     "each: one picture per eye")
+                     "each: one picture per eye and viewport")
         ->check(CLI::IsMember({"window", "each"}))
         ->capture_default_str();
     command->add_option("--format", options->format, "png, or exr (linear)")
         ->check(CLI::IsMember({"png", "exr"}))
         ->capture_default_str();
     command
-        ->add_option("--size", options->size,
-                     "Size of the pictures or the window in pixels (default: as recorded)")
+        ->add_option(
+            "--size", options->size,
+            "Size of every window's pictures, or of the room's, in pixels (default: as recorded)")
         ->expected(2)
         ->check(CLI::Range(16, 16384));
+    command->add_flag("--emulate", options->emulate,
+                      "Show the room from outside, with what every wall shows, instead");
     command->add_option("--stereo", options->stereo, "Stereo mode instead of the recorded one")
         ->check(CLI::IsMember(stereo_mode_names()));
     command->add_option("--quality", options->quality, "Quality mode instead of the recorded one")

@@ -23,6 +23,7 @@ void add_info(CLI::App& program);
 void add_verify(CLI::App& program);
 void add_explore(CLI::App& program);
 void add_replay(CLI::App& program);
+void add_config(CLI::App& program);
 void add_bench(CLI::App& program);
 
 } // namespace isochron::app

@@ -1,6 +1,7 @@
 // An installation and its habits, as a TOML file describes them.
 #pragma once
 
+#include "app/display_config.h"
 #include "app/placement.h"
 #include "interaction/desktop_emulation.h"
 #include "interaction/motion_gate.h"
@@ -19,6 +20,7 @@ struct Config {
     bool vsync = true;
     float frame_rate_limit = 120.0f; ///< [1/s] where no display paces the frames
     stereo::Installation installation;
+    DisplayPlaces places; ///< where the file describes the installation's parts
     interaction::EmulationOptions emulation;
     interaction::StillnessLimits stillness;
     interaction::QualityMode quality = interaction::QualityMode::automatic;
@@ -34,15 +36,12 @@ struct Config {
 /// @throws ConfigError naming file, line, key and, for an unknown one, the nearest known key
 Config parse_config(const std::string& text, const std::string& name);
 
-/// @param path a file, or the name of a shipped configuration (`desktop`, `headless`)
+/// @param path a file, or the name of a shipped configuration (`desktop`, `cave4`, ...)
 /// @throws ConfigError as above, or when the file cannot be read
 Config read_config(const std::filesystem::path& path);
 
 /// The emulation's options with the field of view of the first window's first screen.
 interaction::EmulationOptions emulation_for(const Config& config);
-
-/// What is odd about the screens, one line each with the window's name; empty when nothing is.
-std::vector<std::string> screen_warnings(const Config& config);
 
 /// Names as configuration files and the command line use them.
 std::string name_of(interaction::QualityMode mode);

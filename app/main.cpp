@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
     app::add_explore(program);
     app::add_replay(program);
     app::add_generate(program);
+    app::add_config(program);
     app::add_bench(program);
     try {
         program.parse(argc, argv);

@@ -188,6 +188,11 @@ Commands PanelLayer::draw(glm::ivec2 framebuffer, const PanelModel& model) {
     return commands;
 }
 
+void PanelLayer::draw_again(glm::ivec2 framebuffer) {
+    ImGui::SetCurrentContext(imgui_);
+    render(*ImGui::GetDrawData(), framebuffer);
+}
+
 void PanelLayer::render(const ImDrawData& data, glm::ivec2 framebuffer) {
     gl_.Viewport(0, 0, framebuffer.x, framebuffer.y);
     gl_.Disable(GL_DEPTH_TEST);

@@ -30,6 +30,9 @@ class PanelLayer {
     /// Lays out and draws the panel onto the bound framebuffer. @return what the user did
     interaction::Commands draw(glm::ivec2 framebuffer, const PanelModel& model);
 
+    /// Draws what was laid out last once more, onto another framebuffer of that size.
+    void draw_again(glm::ivec2 framebuffer);
+
   private:
     void render(const ImDrawData& data, glm::ivec2 framebuffer);
     void make_font_texture();

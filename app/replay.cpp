@@ -75,12 +75,12 @@ std::vector<std::string> replay_fixed_step(Session& session,
 }
 
 void replay_live(Session& session, const interaction::Recording& recording,
-                 const ReplayOptions& options, stereo::GlContext& context) {
+                 const ReplayOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     const auto& frames = recording.frames;
     interaction::ReplayInput devices(recording);
-    while (!devices.finished() && !context.should_close()) {
-        context.poll_events();
+    while (!devices.finished() && !session.windows().should_close()) {
+        session.windows().poll_events();
         const interaction::Seconds now =
             std::chrono::steady_clock::now() - start + frames.front().input.time;
         Commands commands;

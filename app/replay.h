@@ -33,7 +33,7 @@ std::vector<std::string> replay_fixed_step(Session& session,
 /// On the wall clock, dropping no command; frames come as fast as the display takes them.
 /// Ends with the recording or when the window closes.
 void replay_live(Session& session, const interaction::Recording& recording,
-                 const ReplayOptions& options, stereo::GlContext& context);
+                 const ReplayOptions& options);
 
 /// The start state that a header holds. @throws interaction::Error when it cannot be held
 ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,

@@ -36,24 +36,38 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     state.isovalue = first_isovalue(file.stats());
     state.room_from_physical = place(file.info(), config.placement);
     state.quality = config.quality;
-    state.eye_separation = config.installation.eye_separation;
+    state.eye_separation = config.installation.viewers.front().eye_separation;
     state.stereo = config.installation.windows.front().stereo;
     return state;
+}
+
+/// The modes that a key goes through: upright ones that the windows can show.
+std::vector<std::string> live_stereo_modes(const stereo::Windows& windows) {
+    std::vector<std::string> names;
+    for (const stereo::StereoMode mode : stereo::all_stereo_modes())
+        if (!stereo::is_inverted(mode) &&
+            (mode != stereo::StereoMode::quadbuffer || windows[0].has_stereo_buffers()))
+            names.emplace_back(stereo::name_of(mode));
+    return names;
 }
 
 } // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
-                 stereo::GlContext& context, index::Search search)
-    : config_(std::move(config)), file_(std::move(file)), context_(context), gl_(context.loader()),
-      state_(start_state(config_, *file_)), home_(state_), gate_(config_.stillness),
-      extractor_(search ? std::move(search) : index::search_in(file_)),
-      scene_(gl_, file_->info(), config_),
-      display_(gl_, context_, config_.installation.windows.front(),
-               {.near_plane = config_.installation.near_plane,
-                .far_plane = config_.installation.far_plane,
-                .background = config_.background}),
-      panel_(gl_) {}
+                 stereo::Windows windows, index::Search search)
+    : config_(std::move(config)), file_(std::move(file)), windows_(std::move(windows)),
+      gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
+      gate_(config_.stillness), extractor_(search ? std::move(search) : index::search_in(file_)),
+      scene_(gl_, file_->info(), config_), panel_(gl_), stereo_modes_(live_stereo_modes(windows_)) {
+    const stereo::DisplayOptions options{.near_plane = config_.installation.near_plane,
+                                         .far_plane = config_.installation.far_plane,
+                                         .background = config_.background};
+    for (std::size_t i = 0; i < windows_.count(); ++i)
+        displays_.emplace_back(gl_, windows_.drawing(), windows_[i],
+                               config_.installation.windows[i], options);
+    if (windows_.room())
+        room_.emplace(gl_, *windows_.room(), config_.installation);
+}
 
 Session::~Session() = default;
 
@@ -119,39 +133,68 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     }
 }
 
+std::vector<stereo::Viewpoint> Session::viewpoints(const interaction::InputState& input) const {
+    std::vector<stereo::Viewpoint> found;
+    for (const stereo::Viewer& viewer : config_.installation.viewers) {
+        const interaction::DeviceState* head = input.find(viewer.head);
+        const interaction::Pose waiting{viewer.position, {1.0f, 0.0f, 0.0f, 0.0f}};
+        found.push_back({head && head->pose ? *head->pose : waiting,
+                         eye_separation_of(viewer, config_.installation, state_.eye_separation)});
+    }
+    return found;
+}
+
+std::vector<glm::ivec2> Session::window_sizes() const {
+    std::vector<glm::ivec2> sizes;
+    for (std::size_t i = 0; i < windows_.count(); ++i)
+        sizes.push_back(windows_[i].framebuffer_size());
+    return sizes;
+}
+
 void Session::draw_eyes(const interaction::InputState& input, bool with_panel,
                         FrameReport& report) {
     const bool settled = report.pace == Pace::settled;
     report.footprint = settled ? "gaussian" : "quad";
-    const interaction::DeviceState* head = input.find("head");
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
-    const Picture now{.head = head && head->pose ? *head->pose : config_.emulation.head,
+    const Picture now{.viewers = viewpoints(input),
                       .wand = wand ? wand->pose : std::nullopt,
                       .room_from_physical = state_.room_from_physical,
-                      .eye_separation = state_.eye_separation,
                       .stereo = state_.stereo,
                       .footprint = settled ? render::Footprint::gaussian : render::Footprint::quad,
                       .cells = scene_.shown(),
-                      .window = context_.framebuffer_size()};
-    const auto overlay = [&](glm::ivec2 size) {
+                      .windows = window_sizes()};
+    const auto panel = [&](glm::ivec2 size) {
         if (with_panel)
             draw_panel_overlay(size, report);
     };
     report.redrawn = now != drawn_;
-    if (!report.redrawn)
-        return display_.draw_overlay_again(overlay);
-    display_.draw(
-        now.head, now.eye_separation, now.stereo,
-        [&](const render::View& view, stereo::Eye) {
-            scene_.draw(view, now.room_from_physical, now.footprint, now.wand);
-        },
-        overlay);
+    panel_drawn_ = false;
+    for (std::size_t i = 0; i < displays_.size(); ++i) {
+        // The panel lies over one window.
+        const auto overlay = i == 0 && !room_ ? panel : stereo::Display::Overlay();
+        if (!report.redrawn) {
+            displays_[i].draw_overlay_again(overlay);
+            continue;
+        }
+        const auto& window = config_.installation.windows[i];
+        displays_[i].draw(
+            now.viewers, mode_of(window, config_.installation, now.stereo),
+            [&](const render::View& view, stereo::Eye) {
+                scene_.draw(view, now.room_from_physical, now.footprint, now.wand);
+            },
+            overlay);
+    }
     drawn_ = now;
+    if (room_)
+        room_->draw(displays_, now.viewers, now.wand, input, panel);
 }
 
 void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
-    if (!state_.panel || !context_.has_window())
+    if (!state_.panel || !windows_.first().has_window())
         return;
+    // The right buffer of a quad-buffered window shows what was laid out for the left one.
+    if (std::exchange(panel_drawn_, true))
+        return panel_.draw_again(size);
     const auto times = log_.stage(&FrameReport::total, kShownFrames);
     const PanelModel model{.info = file_->info(),
                            .stats = file_->stats(),
@@ -177,7 +220,7 @@ bool Session::captures(const FrameReport& report) const {
 void Session::take_screenshot() {
     --screenshots_wanted_;
     const auto name = fmt::format("isochron_{:04}.png", ++screenshots_taken_);
-    write_image(display_.read_window(), screenshot_folder_ / name);
+    write_image(room_ ? room_->read() : displays_.front().read_window(), screenshot_folder_ / name);
 }
 
 void Session::show_messages(std::vector<std::string> messages) {
@@ -209,7 +252,10 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     const bool capture = captures(report);
     draw_eyes(input, !capture, report);
     report.draw = stages.lap();
-    display_.present();
+    for (stereo::Display& display : displays_)
+        display.present();
+    if (room_)
+        room_->present();
     report.present = stages.lap();
     if (capture)
         take_screenshot();

@@ -12,11 +12,14 @@
 #include "app/explorer_state.h"
 #include "app/frame_log.h"
 #include "app/panel_layer.h"
+#include "app/room_view.h"
 #include "app/scene.h"
 #include "index/extractor.h"
 #include "interaction/controls.h"
 #include "stereo/display.h"
+#include "stereo/windows.h"
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -31,9 +34,10 @@ enum class Waiting : std::uint8_t { never, for_cells };
 
 class Session {
   public:
-    /// @param context current on this thread, outlives the session
+    /// @param windows those of the configured installation, or a context for its only one that
+    /// outlives the session; the one that draws is current on this thread
     /// @param search replaces the search over `file`, for tests; empty: the search itself
-    Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::GlContext& context,
+    Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::Windows windows,
             index::Search search = {});
     ~Session();
 
@@ -63,7 +67,12 @@ class Session {
 
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const { return extractor_.failure().value_or(""); }
-    const stereo::Display& display() const { return display_; }
+    const stereo::Windows& windows() const { return windows_; }
+    /// What a window of the installation shows.
+    const stereo::Display& display(std::size_t window = 0) const { return displays_[window]; }
+    std::size_t displays() const { return displays_.size(); }
+    /// The room of an emulated installation; null where its windows are real.
+    const RoomView* room() const { return room_ ? &*room_ : nullptr; }
     const FrameLog& log() const { return log_; }
 
     /// Writes a picture under its name, in the background.
@@ -73,14 +82,13 @@ class Session {
   private:
     /// Everything that the eyes' pictures depend on.
     struct Picture {
-        interaction::Pose head;
+        std::vector<stereo::Viewpoint> viewers;
         std::optional<interaction::Pose> wand;
         interaction::Similarity room_from_physical;
-        float eye_separation = 0;
         stereo::StereoMode stereo{};
         render::Footprint footprint{};
         index::CellSetPtr cells;
-        glm::ivec2 window{0};
+        std::vector<glm::ivec2> windows;
         bool operator==(const Picture&) const = default;
     };
 
@@ -88,13 +96,15 @@ class Session {
     void request_cells();
     void take_newest_cells(Waiting waiting, FrameReport& report);
     bool captures(const FrameReport& report) const;
+    std::vector<stereo::Viewpoint> viewpoints(const interaction::InputState& input) const;
+    std::vector<glm::ivec2> window_sizes() const;
     void draw_eyes(const interaction::InputState& input, bool with_panel, FrameReport& report);
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
     void take_screenshot();
 
     Config config_;
     std::shared_ptr<const index::IndexFile> file_;
-    stereo::GlContext& context_;
+    stereo::Windows windows_;
     render::Gl gl_;
     ExplorerState state_;
     ExplorerState home_;
@@ -102,10 +112,12 @@ class Session {
     interaction::MotionGate gate_;
     index::Extractor extractor_;
     Scene scene_;
-    stereo::Display display_;
+    std::deque<stereo::Display> displays_; ///< by window; a display stays where it is made
+    std::optional<RoomView> room_;
     std::optional<Picture> drawn_; ///< what the eyes saw last
     PanelLayer panel_;
-    const std::vector<std::string> stereo_modes_ = stereo_mode_names();
+    bool panel_drawn_ = false; ///< in this frame, over one buffer of its window
+    const std::vector<std::string> stereo_modes_;
     const std::vector<std::string> documentation_ = interaction::Controls::documentation();
     interaction::Commands panel_commands_;
     FrameLog log_;

@@ -1,13 +1,17 @@
-// The shipped configurations that are needed without their files.
+// The shipped configurations, which are found without their files.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace isochron::app {
 
 /// Text of configs/<name>.toml as it was at build time; empty for a name that is not shipped.
 std::optional<std::string> shipped_config(std::string_view name);
+
+/// Their names, as in `--config cave4`.
+std::vector<std::string> shipped_config_names();
 
 } // namespace isochron::app

@@ -41,6 +41,7 @@ class TomlReader {
     void word(std::string_view key, const std::vector<std::string>& words,
               const std::function<void(const std::string&)>& take);
 
+    int line() const { return static_cast<int>(table_.source().begin.line); } ///< of the table
     bool has(std::string_view key) const { return table_.contains(key); }
 
     /// A sub-table, or an array of tables, each read by `read` and finished after it.

@@ -15,31 +15,37 @@ glm::ivec2 at_least_one(glm::ivec2 size) {
     return glm::max(size, glm::ivec2(1));
 }
 
-std::string_view name_of(Eye eye) {
-    return eye == Eye::left ? "left" : eye == Eye::right ? "right" : "centre";
-}
+constexpr glm::vec4 kBlack{0.0f, 0.0f, 0.0f, 1.0f};
 
 } // namespace
 
-Display::Display(const render::Gl& gl, GlContext& context, Window window,
+Display::Display(const render::Gl& gl, GlContext& drawing, GlContext& context, Window window,
                  const DisplayOptions& options)
-    : gl_(&gl), context_(&context), window_(std::move(window)), options_(options), anaglyph_(gl),
-      composed_(gl, at_least_one(context.framebuffer_size())), targets_(window_.viewports.size()) {
-    composed_.clear({0.0f, 0.0f, 0.0f, 1.0f});
+    : gl_(&gl), context_(&context), window_(std::move(window)), options_(options), multiplex_(gl),
+      presenter_(gl, drawing, context), composed_(gl, at_least_one(context.framebuffer_size())),
+      targets_(window_.viewports.size()) {
+    composed_.clear(kBlack);
 }
 
-void Display::draw(const interaction::Pose& head, float eye_separation, StereoMode mode,
-                   const Scene& scene, const Overlay& overlay) {
+void Display::draw(std::span<const Viewpoint> viewers, StereoMode mode, const Scene& scene,
+                   const Overlay& overlay) {
     const glm::ivec2 size = context_->framebuffer_size();
     if (size.x < 1 || size.y < 1)
         return;
     mode_ = mode;
     composed_.resize(size);
+    if (upright(mode) != StereoMode::quadbuffer)
+        right_buffer_.reset();
+    else if (right_buffer_)
+        right_buffer_->resize(size);
+    else
+        right_buffer_.emplace(*gl_, size);
     for (std::size_t i = 0; i < targets_.size(); ++i) {
         const Viewport& viewport = window_.viewports[i];
+        const Viewpoint& viewer = viewers[viewport.viewer];
         EyeTargets drawn;
         for (const Eye eye : eyes_of(mode)) {
-            const glm::ivec2 pixels = region_of(viewport, eye).size;
+            const glm::ivec2 pixels = region_of(viewport, place_of(eye, mode)).size;
             const auto slot = static_cast<std::size_t>(eye);
             std::optional<render::RenderTarget>& target = drawn[slot];
             target = std::exchange(targets_[i][slot], std::nullopt);
@@ -49,8 +55,8 @@ void Display::draw(const interaction::Pose& head, float eye_separation, StereoMo
                 target.emplace(*gl_, pixels);
             target->clear(glm::vec4(options_.background, 1.0f));
             target->bind();
-            scene(view_of(viewport.screen, head, eye, eye_separation, options_.near_plane,
-                          options_.far_plane, pixels),
+            scene(view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
+                          options_.near_plane, options_.far_plane, pixels),
                   eye);
         }
         targets_[i] = std::move(drawn); // eyes no longer shown give their memory back
@@ -64,15 +70,15 @@ void Display::draw_overlay_again(const Overlay& overlay) {
         compose(overlay);
 }
 
-Display::Region Display::region_of(const Viewport& viewport, Eye eye) const {
+Display::Region Display::region_of(const Viewport& viewport, Eye place) const {
     glm::ivec2 corner(0), size = composed_.size();
-    if (mode_ == StereoMode::side_by_side) {
+    if (upright(mode_) == StereoMode::side_by_side) {
         const int half = size.x / 2;
-        corner.x = eye == Eye::left ? 0 : size.x - half;
+        corner.x = place == Eye::left ? 0 : size.x - half;
         size.x = half;
-    } else if (mode_ == StereoMode::top_bottom) {
+    } else if (upright(mode_) == StereoMode::top_bottom) {
         const int half = size.y / 2;
-        corner.y = eye == Eye::left ? size.y - half : 0;
+        corner.y = place == Eye::left ? size.y - half : 0;
         size.y = half;
     }
     // Both edges are rounded, so that neighbouring viewports neither overlap nor gape.
@@ -89,48 +95,57 @@ bool Display::fills_window() const {
         const glm::ivec2 covered = region_of(window_.viewports.front(), eye).size;
         area += covered.x * covered.y;
     }
-    if (mode_ == StereoMode::anaglyph_red_cyan)
-        area /= 2; // both eyes share one region
+    if (Multiplex::shows(mode_) || right_buffer_)
+        area /= 2; // both eyes have the same region
     return area == composed_.size().x * composed_.size().y;
 }
 
 void Display::compose(const Overlay& overlay) {
+    compose_into(composed_, Eye::left);
+    if (right_buffer_)
+        compose_into(*right_buffer_, Eye::right);
+    if (!overlay)
+        return;
+    composed_.bind();
+    overlay(composed_.size());
+    if (right_buffer_) {
+        right_buffer_->bind();
+        overlay(right_buffer_->size());
+    }
+}
+
+void Display::compose_into(const render::RenderTarget& target, Eye buffer) const {
     // A clear costs as much as a copy in software GL, so it is left out where it would not be seen.
     if (!fills_window())
-        composed_.clear({0.0f, 0.0f, 0.0f, 1.0f});
+        target.clear(kBlack);
     gl_->Disable(GL_SCISSOR_TEST);
     for (std::size_t i = 0; i < targets_.size(); ++i) {
         const Viewport& viewport = window_.viewports[i];
-        if (mode_ == StereoMode::anaglyph_red_cyan) {
+        if (Multiplex::shows(mode_)) {
             const Region region = region_of(viewport, Eye::left);
-            composed_.bind();
+            target.bind();
             gl_->Viewport(region.corner.x, region.corner.y, region.size.x, region.size.y);
-            anaglyph_.draw(eye_target(Eye::left, i), eye_target(Eye::right, i), region.corner);
+            multiplex_.draw(shown_at(Eye::left, i), shown_at(Eye::right, i), mode_, region.corner,
+                            target.size().y);
             continue;
         }
-        for (const Eye eye : eyes_of(mode_)) {
-            const Region region = region_of(viewport, eye);
+        for (const Eye place : right_buffer_ ? std::vector{buffer} : eyes_of(mode_)) {
+            const Region region = region_of(viewport, place);
             const glm::ivec2 end = region.corner + region.size;
-            gl_->BlitNamedFramebuffer(eye_target(eye, i).framebuffer(), composed_.framebuffer(), 0,
-                                      0, region.size.x, region.size.y, region.corner.x,
+            gl_->BlitNamedFramebuffer(shown_at(place, i).framebuffer(), target.framebuffer(), 0, 0,
+                                      region.size.x, region.size.y, region.corner.x,
                                       region.corner.y, end.x, end.y, GL_COLOR_BUFFER_BIT,
                                       GL_NEAREST);
         }
     }
-    if (overlay) {
-        composed_.bind();
-        overlay(composed_.size());
-    }
 }
 
 void Display::present() {
-    if (!context_->has_window())
-        return;
-    const glm::ivec2 size = composed_.size();
-    gl_->Disable(GL_SCISSOR_TEST);
-    gl_->BlitNamedFramebuffer(composed_.framebuffer(), 0, 0, 0, size.x, size.y, 0, 0, size.x,
-                              size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    context_->present();
+    presenter_.present(composed_, right_buffer_ ? &*right_buffer_ : nullptr);
+}
+
+const render::RenderTarget& Display::shown_at(Eye place, std::size_t viewport) const {
+    return eye_target(place_of(place, mode_), viewport);
 }
 
 const render::RenderTarget& Display::eye_target(Eye eye, std::size_t viewport) const {
@@ -143,6 +158,17 @@ const render::RenderTarget& Display::eye_target(Eye eye, std::size_t viewport) c
                                         "not draw it",
                                         window_.name, name_of(eye), stereo::name_of(mode_)));
     return *target;
+}
+
+glm::ivec2 Display::eye_size(std::size_t viewport) const {
+    return eye_target(eyes_of(mode_).front(), viewport).size();
+}
+
+render::Image Display::read_right_buffer() const {
+    if (!right_buffer_)
+        throw render::Error(fmt::format("window {}: the right buffer asked for, mode {} has none",
+                                        window_.name, stereo::name_of(mode_)));
+    return right_buffer_->read();
 }
 
 render::Image Display::read_eye(Eye eye, std::size_t viewport) const {

@@ -8,9 +8,10 @@
 
 #include "render/image.h"
 #include "render/render_target.h"
-#include "stereo/anaglyph.h"
 #include "stereo/gl_context.h"
 #include "stereo/installation.h"
+#include "stereo/multiplex.h"
+#include "stereo/presenter.h"
 #include "stereo/screen.h"
 
 #include <glm/vec2.hpp>
@@ -19,6 +20,8 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace isochron::stereo {
@@ -28,26 +31,45 @@ struct DisplayOptions {
     glm::vec3 background{0.0f};                  ///< sRGB, 0 to 1
 };
 
-/// One window; an installation with several windows has one display, and one context, for each.
+/// Where a viewer's eyes are in one frame.
+struct Viewpoint {
+    interaction::Pose head;
+    float eye_separation = 0; ///< [m]
+    bool operator==(const Viewpoint&) const = default;
+};
+
+/// One window; an installation with several windows has one display for each.
 ///
-/// `side_by_side` and `top_bottom` give each eye half the window, left eye left or on top. A screen
-/// that is a wall is squeezed into its half, as projectors and televisions expect that stretch each
-/// half over the whole wall again; a `fit_aspect` screen takes the aspect of the half, so that
-/// shapes stay round on a monitor.
+/// How each mode places the eyes is told in stereo_mode.h. `side_by_side` and `top_bottom` give
+/// each eye half the window, left eye left or on top. A screen that is a wall is squeezed into its
+/// half, as projectors and televisions expect that stretch each half over the whole wall again; a
+/// `fit_aspect` screen takes the aspect of the half, so that shapes stay round on a monitor.
 class Display {
   public:
     /// Draws one eye: the target is bound, cleared to the background, and its viewport set.
     using Scene = std::function<void(const render::View&, Eye)>;
-    /// Draws over the composed window (a panel), which is bound; gets its size in pixels.
+    /// Draws over the composed window (a panel), which is bound; gets its size in pixels. Called
+    /// for each buffer of the window: twice in a quad-buffered one, where it must draw the same.
     using Overlay = std::function<void(glm::ivec2)>;
 
-    /// @param gl, context current, and outlive the display
-    Display(const render::Gl& gl, GlContext& context, Window window, const DisplayOptions& options);
+    /// @param drawing the context that draws, current; @param context that of the window, which may
+    /// be the same one; both, and `gl`, outlive the display
+    Display(const render::Gl& gl, GlContext& drawing, GlContext& context, Window window,
+            const DisplayOptions& options);
+    Display(const render::Gl& gl, GlContext& context, Window window, const DisplayOptions& options)
+        : Display(gl, context, context, std::move(window), options) {}
 
     /// Draws one frame at the present size of the framebuffer: each eye that the mode shows, of
     /// each viewport, exactly once; then the overlay. A minimised window draws nothing.
+    /// @param viewers by number, as the window's viewports name them
+    void draw(std::span<const Viewpoint> viewers, StereoMode mode, const Scene& scene,
+              const Overlay& overlay = {});
+    /// The same for one viewer.
     void draw(const interaction::Pose& head, float eye_separation, StereoMode mode,
-              const Scene& scene, const Overlay& overlay = {});
+              const Scene& scene, const Overlay& overlay = {}) {
+        const Viewpoint viewer{head, eye_separation};
+        draw(std::span(&viewer, 1), mode, scene, overlay);
+    }
 
     /// Composes the eyes drawn last once more, with a new overlay: for frames in which nothing that
     /// the eyes see has changed.
@@ -56,13 +78,21 @@ class Display {
     /// Shows the frame drawn last; without a window there is nothing to do.
     void present();
 
+    const Window& window() const { return window_; }
     glm::ivec2 size() const { return composed_.size(); } ///< of the frame drawn last, pixels
+    StereoMode mode() const { return mode_; }            ///< of the frame drawn last
 
-    /// The whole window as drawn last, with the overlay.
+    /// The whole window as drawn last, with the overlay; of a quad-buffered one the left buffer.
     render::Image read_window() const { return composed_.read(); }
+    /// The right buffer of a quad-buffered window. @throws render::Error in any other mode
+    render::Image read_right_buffer() const;
     /// One eye's picture of a viewport at its own resolution, without the overlay.
     /// @throws render::Error when the frame drawn last did not show that eye
     render::Image read_eye(Eye eye, std::size_t viewport = 0) const;
+    /// The same picture where it lies. @throws as `read_eye`
+    const render::RenderTarget& eye_target(Eye eye, std::size_t viewport) const;
+    /// Pixels of each eye's picture of a viewport, as drawn last.
+    glm::ivec2 eye_size(std::size_t viewport) const;
 
   private:
     /// Part of the composed window, pixels from the lower left.
@@ -71,19 +101,23 @@ class Display {
     };
     using EyeTargets = std::array<std::optional<render::RenderTarget>, 3>; ///< by Eye
 
-    Region region_of(const Viewport& viewport, Eye eye) const;
-    const render::RenderTarget& eye_target(Eye eye, std::size_t viewport) const;
+    Region region_of(const Viewport& viewport, Eye place) const;
+    /// The eye's picture to show in the place of `place`.
+    const render::RenderTarget& shown_at(Eye place, std::size_t viewport) const;
     bool fills_window() const; ///< the eyes' regions leave no pixel of the window free
     void compose(const Overlay& overlay);
+    void compose_into(const render::RenderTarget& target, Eye buffer) const;
 
     const render::Gl* gl_;
     GlContext* context_;
     Window window_;
     DisplayOptions options_;
-    Anaglyph anaglyph_;
+    Multiplex multiplex_;
+    Presenter presenter_;
     StereoMode mode_ = StereoMode::mono; ///< of the frame drawn last
     render::RenderTarget composed_;
-    std::vector<EyeTargets> targets_; ///< by viewport
+    std::optional<render::RenderTarget> right_buffer_; ///< while the window is quad-buffered
+    std::vector<EyeTargets> targets_;                  ///< by viewport
 };
 
 } // namespace isochron::stereo

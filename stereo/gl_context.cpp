@@ -37,6 +37,19 @@ Function entry_point(const render::GlLoader& loader, const char* name) {
     return reinterpret_cast<Function>(address);
 }
 
+/// A picture's size on top of another context.
+class BesideContext final : public OffscreenContext {
+  public:
+    BesideContext(GlContext& drawing, glm::ivec2 size)
+        : OffscreenContext(size), drawing_(drawing) {}
+    void make_current() override { drawing_.make_current(); }
+    render::GlLoader loader() const override { return drawing_.loader(); }
+    std::string description() const override { return drawing_.description(); }
+
+  private:
+    GlContext& drawing_;
+};
+
 void require_gl_4_5_core(const render::GlLoader& loader) {
     const auto get_integer = entry_point<PFNGLGETINTEGERVPROC>(loader, "glGetIntegerv");
     GLint major = 0, minor = 0, profile = 0;
@@ -80,6 +93,10 @@ std::unique_ptr<GlContext> make_context(ContextKind kind, const ContextOptions& 
             }
         }
     throw render::Error("context of an unknown kind");
+}
+
+std::unique_ptr<GlContext> offscreen_beside(GlContext& drawing, glm::ivec2 size) {
+    return std::make_unique<BesideContext>(drawing, size);
 }
 
 std::string describe_current(const render::GlLoader& loader) {

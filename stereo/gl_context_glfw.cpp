@@ -116,6 +116,8 @@ class GlfwContext final : public GlContext {
         glfwWindowHint(GLFW_DEPTH_BITS, 0);
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
         glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        glfwWindowHint(GLFW_DECORATED, options.border ? GLFW_TRUE : GLFW_FALSE);
+        glfwWindowHint(GLFW_STEREO, options.stereo_buffers ? GLFW_TRUE : GLFW_FALSE);
         GLFWmonitor* monitor = options.fullscreen ? monitor_of(options.monitor) : nullptr;
         glm::ivec2 size = options.size;
         if (monitor) {
@@ -127,7 +129,12 @@ class GlfwContext final : public GlContext {
             glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
             size = {mode->width, mode->height};
         }
-        window_ = glfwCreateWindow(size.x, size.y, options.title.c_str(), monitor, nullptr);
+        auto* share = static_cast<GlfwContext*>(options.share);
+        window_ = glfwCreateWindow(size.x, size.y, options.title.c_str(), monitor,
+                                   share ? share->window_ : nullptr);
+        if (!window_ && options.stereo_buffers)
+            fail("no window with a left and a right buffer, which stereo mode quadbuffer needs; "
+                 "--stereo chooses another mode, --emulate shows the installation in one window");
         if (!window_)
             fail("no window with an OpenGL 4.5 core context");
         glfwSetWindowUserPointer(window_, this);
@@ -137,6 +144,9 @@ class GlfwContext final : public GlContext {
         glfwShowWindow(window_);
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(options.vsync ? 1 : 0);
+        stereo_buffers_ = options.stereo_buffers;
+        if (share)
+            share->make_current();
     }
     ~GlfwContext() override { glfwDestroyWindow(window_); }
     GlfwContext(const GlfwContext&) = delete;
@@ -152,6 +162,7 @@ class GlfwContext final : public GlContext {
         return size;
     }
     bool has_window() const override { return true; }
+    bool has_stereo_buffers() const override { return stereo_buffers_; }
     void present() override { glfwSwapBuffers(window_); }
     bool should_close() const override { return glfwWindowShouldClose(window_); }
     std::vector<WindowEvent> poll_events() override {
@@ -209,6 +220,7 @@ class GlfwContext final : public GlContext {
     GLFWwindow* window_ = nullptr;
     std::vector<WindowEvent> events_;
     GamepadEvent gamepad_{};
+    bool stereo_buffers_ = false;
 };
 
 } // namespace

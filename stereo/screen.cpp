@@ -39,6 +39,19 @@ Screen in_room(Screen screen, const interaction::Pose& head) {
     return screen;
 }
 
+/// The screen as it stands in the room at the head's pose, fitted to a picture of that size.
+Plane plane_in_room(const Screen& screen, const interaction::Pose& head, glm::ivec2 pixels) {
+    Plane plane = plane_of(in_room(screen, head));
+    if (screen.fit_aspect) {
+        const double aspect = static_cast<double>(pixels.x) / std::max(pixels.y, 1);
+        if (plane.half_width < plane.half_height * aspect)
+            plane.half_width = plane.half_height * aspect;
+        else
+            plane.half_height = plane.half_width / aspect;
+    }
+    return plane;
+}
+
 bool finite(glm::vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -52,15 +65,7 @@ glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separat
 
 render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
                      float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels) {
-    Plane plane = plane_of(in_room(screen, head));
-    if (screen.fit_aspect) {
-        const double aspect = static_cast<double>(pixels.x) / std::max(pixels.y, 1);
-        if (plane.half_width < plane.half_height * aspect)
-            plane.half_width = plane.half_height * aspect;
-        else
-            plane.half_height = plane.half_width / aspect;
-    }
-
+    const Plane plane = plane_in_room(screen, head, pixels);
     glm::dvec3 position(eye_position(head, eye, eye_separation));
     double distance = glm::dot(position - plane.middle, plane.normal);
     if (distance < kNearestEye) {
@@ -80,9 +85,40 @@ render::View view_of(const Screen& screen, const interaction::Pose& head, Eye ey
     return {glm::mat4(clip_from_eye), glm::mat4(eye_from_room), pixels};
 }
 
+std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction::Pose& head,
+                                         glm::ivec2 pixels) {
+    const Plane plane = plane_in_room(screen, head, pixels);
+    const glm::dvec3 across = plane.half_width * plane.right;
+    const glm::dvec3 upwards = plane.half_height * plane.up;
+    return {glm::vec3(plane.middle - across - upwards), glm::vec3(plane.middle - across + upwards),
+            glm::vec3(plane.middle + across + upwards), glm::vec3(plane.middle + across - upwards)};
+}
+
 glm::vec2 size_of(const Screen& screen) {
     return {glm::distance(screen.upper_left, screen.upper_right),
             glm::distance(screen.lower_left, screen.upper_left)};
+}
+
+double corner_angle(const Screen& screen) {
+    const Plane plane = plane_of(screen);
+    return glm::degrees(std::acos(std::clamp(-glm::dot(plane.right, plane.up), -1.0, 1.0)));
+}
+
+bool faces(const Screen& screen, glm::vec3 viewer) {
+    const Plane plane = plane_of(screen);
+    return glm::dot(glm::dvec3(viewer) - plane.middle, plane.normal) > 0.0;
+}
+
+float distance_to(const Screen& screen, const interaction::Pose& head) {
+    const Plane plane = plane_of(in_room(screen, head));
+    return static_cast<float>(
+        std::abs(glm::dot(glm::dvec3(head.position) - plane.middle, plane.normal)));
+}
+
+float vertical_field_of_view(const Screen& screen, const interaction::Pose& head) {
+    constexpr float kNearest = 0.1f; // metres: nearer heads do not aim any wider
+    const float distance = std::max(distance_to(screen, head), kNearest);
+    return 2.0f * std::atan(0.5f * size_of(screen).y / distance);
 }
 
 std::vector<std::string> problems(const Screen& screen, glm::vec3 viewer) {
@@ -95,22 +131,20 @@ std::vector<std::string> problems(const Screen& screen, glm::vec3 viewer) {
                             size.x, size.y)};
 
     std::vector<std::string> found;
-    const Plane plane = plane_of(screen);
-    const double cosine = std::clamp(glm::dot(plane.right, plane.up), -1.0, 1.0);
-    const double angle = glm::degrees(std::acos(-cosine));
-    if (std::abs(angle - 90.0) > 1.0)
+    const double angle = corner_angle(screen);
+    if (std::abs(angle - 90.0) > kSquareCorner)
         found.push_back(
             fmt::format("the corner at upper_left has {:.1f} degrees, expected 90", angle));
-    if (std::abs(cosine) > 0.999)
+    if (std::abs(angle - 90.0) > 87.0)
         return found; // flat as a line: it faces nowhere
     if (screen.carried_by_head)
         viewer = glm::vec3(0.0f);
-    if (glm::dot(glm::dvec3(viewer) - plane.middle, plane.normal) <= 0.0)
+    if (!faces(screen, viewer))
         found.push_back(fmt::format("it is mirrored: {} ({:g} {:g} {:g}) sees it from behind, "
                                     "with left and right exchanged",
                                     screen.carried_by_head ? "the head" : "a viewer at", viewer.x,
                                     viewer.y, viewer.z));
-    if (plane.up.y < -0.5)
+    if (plane_of(screen).up.y < -0.5)
         found.push_back("it is upside down: upper_left is below lower_left");
     return found;
 }

@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ namespace isochron::stereo {
 /// An eye nearer to a screen's plane than this, or behind it, is drawn as if it stood this far in
 /// front of it [m]: the projection stays finite while a head walks through a wall.
 constexpr float kNearestEye = 0.01f;
+
+/// A corner may differ from 90 degrees by this [degrees].
+constexpr double kSquareCorner = 1.0;
 
 /// Where an eye is in the room: half the separation along the head's right axis.
 /// @param eye_separation [m], 0 puts both eyes at the head's position
@@ -33,8 +37,27 @@ glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separat
 render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
                      float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels);
 
+/// The corners in the room, as `view_of` has them: carried along with the head, and fitted to the
+/// picture's aspect where the screen asks for it. Lower left, upper left, upper right, lower right.
+std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction::Pose& head,
+                                         glm::ivec2 pixels);
+
 /// Width and height [m].
 glm::vec2 size_of(const Screen& screen);
+
+/// At `upper_left` [degrees]; 90 for a rectangle, not a number where corners coincide.
+double corner_angle(const Screen& screen);
+
+/// Whether a point sees the screen from its front, from where left is left.
+/// @param viewer in the frame that the screen is given in
+bool faces(const Screen& screen, glm::vec3 viewer);
+
+/// From the head to the screen's plane [m].
+float distance_to(const Screen& screen, const interaction::Pose& head);
+
+/// The angle [rad] under which a head straight before the screen's middle, as far from its plane as
+/// this one, sees its height.
+float vertical_field_of_view(const Screen& screen, const interaction::Pose& head);
 
 /// What is wrong with the geometry, one line each; empty when nothing is.
 /// @param viewer a point that is meant to see the screen, room frame; a screen carried by the head

@@ -1,0 +1,45 @@
+// A camera that circles a room, moved by mouse while a key is held.
+#pragma once
+
+#include "interaction/pose.h"
+#include "interaction/window_event.h"
+#include "stereo/installation.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+inline constexpr float kRoomView = 0.8f; ///< [rad] vertical field of view of the room's picture
+
+/// While C is held: left drag orbits, middle or right drag moves, the wheel comes nearer.
+class RoomCamera {
+  public:
+    /// Starts behind, above and to the right of the viewers, with every screen in sight.
+    explicit RoomCamera(const stereo::Installation& installation);
+
+    /// Takes events into account. @return those that are not the camera's; releases always pass
+    std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events);
+
+    /// Where the camera is in the room; it looks along its -Z.
+    interaction::Pose pose() const;
+
+    /// One line per control, for `--help`.
+    static std::vector<std::string> documentation();
+
+  private:
+    bool take(const interaction::WindowEvent& event);
+    void drag(glm::vec2 by); ///< in window heights
+
+    glm::vec3 centre_{0.0f};    ///< that it circles, room
+    float distance_ = 1.0f;     ///< [m]
+    float yaw_ = 0.6f;          ///< [rad] to the right of the centre
+    float pitch_ = 0.5f;        ///< [rad] above it
+    bool held_ = false;         ///< the key
+    std::uint32_t buttons_ = 0; ///< of the mouse, by bit, pressed while the key was held
+    std::optional<interaction::MouseMoveEvent> cursor_;
+};
+
+} // namespace isochron::app

@@ -1,0 +1,9 @@
+#version 450 core
+// A facet of one colour.
+
+flat in vec3 color;
+out vec4 result;
+
+void main() {
+    result = vec4(color, 1.0);
+}

@@ -1,0 +1,20 @@
+#version 450 core
+// A triangle's corner in eye space, and its brightness by a light at the eye.
+
+layout(binding = 0) uniform samplerBuffer triangles; // three corners, colour
+uniform mat4 eye_from_model;
+uniform mat4 clip_from_eye;
+flat out vec3 color;
+
+void main() {
+    int first = gl_VertexID / 3 * 4;
+    vec3 corners[3];
+    for (int i = 0; i < 3; ++i)
+        corners[i] = (eye_from_model * vec4(texelFetch(triangles, first + i).xyz, 1.0)).xyz;
+    vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    float size = length(normal) * length(middle);
+    float facing = size > 0.0 ? max(0.0, dot(normal, -middle) / size) : 0.0;
+    color = texelFetch(triangles, first + 3).rgb * (0.3 + 0.7 * facing);
+    gl_Position = clip_from_eye * vec4(corners[gl_VertexID % 3], 1.0);
+}

@@ -1,0 +1,37 @@
+// Two eyes' pictures in one, pixel by pixel: by colour, or by rows, columns or squares.
+#pragma once
+
+#include "render/gl_objects.h"
+#include "render/render_target.h"
+#include "stereo/stereo_mode.h"
+
+#include <glm/vec2.hpp>
+
+namespace isochron::stereo {
+
+/// Red-cyan anaglyphs mix no channel: each filter sees exactly one eye's picture. Dubois' anaglyph
+/// is the least-squares projection of both pictures, in linear light, on what the glasses let
+/// through: E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP 2001,
+/// doi 10.1109/ICASSP.2001.941256, with the matrices of his "Conversion of a stereo pair to
+/// anaglyph with the least-squares projection method", 2009; the sum is cut to what a display can
+/// show.
+class Multiplex {
+  public:
+    explicit Multiplex(const render::Gl& gl);
+
+    /// Whether the mode puts both eyes into the same pixels' place, which is what `draw` is for.
+    static bool shows(StereoMode mode);
+
+    /// Draws over the current viewport. @param left, right the pictures for the places of the left
+    /// and of the right eye, of the viewport's size
+    /// @param corner of the viewport in the bound target, pixels from its lower left
+    /// @param window_height of the bound target: rows are counted from its top
+    void draw(const render::RenderTarget& left, const render::RenderTarget& right, StereoMode mode,
+              glm::ivec2 corner, int window_height) const;
+
+  private:
+    render::Program program_;
+    render::VertexArray no_attributes_;
+};
+
+} // namespace isochron::stereo

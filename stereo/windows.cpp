@@ -1,0 +1,77 @@
+// Opening of the windows of an installation.
+#include "stereo/windows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace isochron::stereo {
+namespace {
+
+ContextOptions options_of(const Window& window, const Installation& installation,
+                          const WindowOptions& options, GlContext* first) {
+    const StereoMode mode = mode_of(window, installation, options.stereo);
+    return {.size = window.size,
+            .position = window.position,
+            .title = first ? fmt::format("{}: {}", options.title, window.name) : options.title,
+            .fullscreen = window.fullscreen,
+            .monitor = window.monitor,
+            .vsync = options.vsync && !first,
+            .border = window.border,
+            .stereo_buffers = upright(mode) == StereoMode::quadbuffer,
+            .share = first};
+}
+
+} // namespace
+
+Windows::Windows(GlContext& only) : windows_{&only}, drawing_(&only) {}
+
+bool Windows::should_close() const {
+    return (room_ && room_->should_close()) ||
+           std::ranges::any_of(windows_,
+                               [](const GlContext* each) { return each->should_close(); });
+}
+
+std::vector<interaction::WindowEvent> Windows::poll_events() const {
+    if (room_)
+        return room_->poll_events();
+    std::vector<interaction::WindowEvent> events;
+    for (GlContext* window : windows_)
+        for (const interaction::WindowEvent& event : window->poll_events())
+            events.push_back(event);
+    return events;
+}
+
+Windows open_windows(ContextKind kind, const Installation& installation,
+                     const WindowOptions& options) {
+    Windows opened;
+    for (const Window& window : installation.windows) {
+        GlContext* first = opened.drawing_;
+        try {
+            opened.owned_.push_back(
+                first && !first->has_window()
+                    ? offscreen_beside(*first, window.size)
+                    : make_context(kind, options_of(window, installation, options, first)));
+        } catch (const render::Error& error) {
+            if (installation.windows.size() == 1)
+                throw;
+            throw render::Error(fmt::format("window {}: {}", window.name, error.what()));
+        }
+        opened.windows_.push_back(opened.owned_.back().get());
+        opened.drawing_ = opened.windows_.front();
+    }
+    return opened;
+}
+
+Windows open_room(ContextKind kind, const Installation& installation, const ContextOptions& room) {
+    Windows opened;
+    opened.owned_.push_back(make_context(kind, room));
+    opened.drawing_ = opened.room_ = opened.owned_.front().get();
+    for (const Window& window : installation.windows) {
+        opened.owned_.push_back(offscreen_beside(*opened.drawing_, window.size));
+        opened.windows_.push_back(opened.owned_.back().get());
+    }
+    return opened;
+}
+
+} // namespace isochron::stereo

@@ -22,6 +22,7 @@ constexpr const char* kScreenKey = "windows.viewports.projection";
 struct PlacedViewport {
     const stereo::Window& window;
     const stereo::Viewport& viewport;
+    std::size_t number; ///< of the viewport in its window, from 1
     int line;
 };
 
@@ -40,7 +41,7 @@ std::vector<PlacedViewport> viewports_of(const Config& config) {
     const auto& windows = config.installation.windows;
     for (std::size_t w = 0; w < windows.size(); ++w)
         for (std::size_t v = 0; v < windows[w].viewports.size(); ++v)
-            all.push_back({windows[w], windows[w].viewports[v],
+            all.push_back({windows[w], windows[w].viewports[v], v + 1,
                            line_at(place_of_window(config, w).viewports, v)});
     return all;
 }
@@ -48,24 +49,27 @@ std::vector<PlacedViewport> viewports_of(const Config& config) {
 std::string name_of(const PlacedViewport& place) {
     if (!place.viewport.name.empty())
         return fmt::format("{} of window {}", place.viewport.name, place.window.name);
-    return fmt::format("the screen of window {}", place.window.name);
+    if (place.window.viewports.size() > 1)
+        return fmt::format("viewport {} of window {}", place.number, place.window.name);
+    return fmt::format("window {}", place.window.name);
 }
 
 glm::vec2 pixels_of(const PlacedViewport& place) {
     return place.viewport.size * glm::vec2(place.window.size);
 }
 
-/// A pixel's width over its height on the screen. An eye that has half of the window is either
-/// stretched over the whole screen or comes from a projector of its own: of both, the squarer.
-float pixel_aspect(const PlacedViewport& place) {
-    const glm::vec2 metres = stereo::size_of(place.viewport.screen);
-    const glm::vec2 pixels = pixels_of(place);
-    const float whole = (metres.x / pixels.x) / (metres.y / pixels.y);
+/// A pixel on the screen [m]. An eye that has half of the window is either stretched over the whole
+/// screen or comes from a projector of its own: of both, the squarer.
+glm::vec2 pixel_size(const PlacedViewport& place) {
+    const glm::vec2 whole = stereo::size_of(place.viewport.screen) / pixels_of(place);
+    glm::vec2 half = whole;
     const stereo::StereoMode mode = stereo::upright(place.window.stereo);
-    const float half = mode == stereo::StereoMode::side_by_side ? 2.0f * whole
-                       : mode == stereo::StereoMode::top_bottom ? 0.5f * whole
-                                                                : whole;
-    return std::abs(std::log(half)) < std::abs(std::log(whole)) ? half : whole;
+    if (mode == stereo::StereoMode::side_by_side)
+        half.x *= 2.0f;
+    else if (mode == stereo::StereoMode::top_bottom)
+        half.y *= 2.0f;
+    const auto oblong = [](glm::vec2 size) { return std::abs(std::log(size.x / size.y)); };
+    return oblong(half) < oblong(whole) ? half : whole;
 }
 
 class Judge {
@@ -101,7 +105,8 @@ class Judge {
             add(place.line, kScreenKey,
                 fmt::format("{}: {:.4g} x {:.4g} m is no size of a screen: corners are in metres",
                             name_of(place), size.x, size.y));
-        const float aspect = pixel_aspect(place);
+        const glm::vec2 pixel = pixel_size(place);
+        const float aspect = pixel.x / pixel.y;
         if (!screen.fit_aspect && std::abs(aspect - 1.0f) > kSquare)
             add(place.line, kScreenKey,
                 fmt::format("{}: its pixels are not square: {:.2f} times as wide as high "
@@ -185,22 +190,23 @@ std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer&
     const stereo::Screen& screen = place.viewport.screen;
     const glm::vec2 low = place.viewport.position * glm::vec2(place.window.size);
     const glm::vec2 pixels = pixels_of(place), size = stereo::size_of(screen);
+    const glm::vec2 millimetres = 1000.0f * pixel_size(place);
     const double angle = stereo::corner_angle(screen);
     const glm::vec3 eyes = screen.carried_by_head ? glm::vec3(0.0f) : viewer.position;
     return fmt::format(
         "  viewport {}: {:.0f} x {:.0f} pixels at {:.0f}, {:.0f}; for {}\n"
         "    screen: {:.2f} x {:.2f} m, {}, {}, {}, {:.2f} m from the viewer{}\n",
-        place.viewport.name.empty() ? "-" : place.viewport.name, pixels.x, pixels.y, low.x, low.y,
-        viewer.name, size.x, size.y,
+        place.viewport.name.empty() ? std::to_string(place.number) : place.viewport.name, pixels.x,
+        pixels.y, low.x, low.y, viewer.name, size.x, size.y,
         screen.carried_by_head ? "carried by the head" : "fixed in the room",
         std::abs(angle - 90.0) <= stereo::kSquareCorner
             ? "corners square"
             : fmt::format("corners of {:.1f} degrees", angle),
         stereo::faces(screen, eyes) ? "faces the viewer" : "faces away from the viewer",
         stereo::distance_to(screen, {viewer.position, {1, 0, 0, 0}}),
-        screen.fit_aspect ? "; fitted to the window's shape"
-                          : fmt::format("; pixels {:.2f} x {:.2f} mm", 1000.0f * size.x / pixels.x,
-                                        1000.0f * size.y / pixels.y));
+        screen.fit_aspect
+            ? "; fitted to the window's shape"
+            : fmt::format("; pixels {:.2f} x {:.2f} mm", millimetres.x, millimetres.y));
 }
 
 /// Every device that the installation reads, a line each.

@@ -19,6 +19,7 @@ constexpr Key kKey = static_cast<Key>('C');
 constexpr float kTurn = 3.0f;                       ///< [rad per window height dragged]
 constexpr float kSteepest = 1.5f;                   ///< [rad]
 constexpr float kNotch = 1.1f;                      ///< nearer per notch of the wheel
+constexpr float kMargin = 1.1f;                     ///< around what the first picture shows
 constexpr float kNearest = 0.3f, kFarthest = 60.0f; ///< [m]
 
 } // namespace
@@ -40,7 +41,7 @@ RoomCamera::RoomCamera(const stereo::Installation& installation) {
         }
     centre_ = 0.5f * (low + high);
     const float radius = std::max(0.5f * glm::distance(low, high), kNearest);
-    distance_ = std::min(radius / std::sin(kRoomView / 2), kFarthest);
+    distance_ = std::min(kMargin * radius / std::sin(kRoomView / 2), kFarthest);
 }
 
 Pose RoomCamera::pose() const {

@@ -6,7 +6,8 @@
 namespace isochron::app {
 namespace {
 
-constexpr float kGridSpacing = 0.5f; ///< [m]
+constexpr float kGridSpacing = 0.5f;  ///< [m]
+constexpr float kGridHeight = -0.01f; ///< [m] under a floor that is a screen
 constexpr glm::vec4 kGrid(0.45f, 0.48f, 0.52f, 0.6f);
 constexpr glm::vec3 kEyeWhite(0.95f), kPupil(0.1f), kWand(0.85f, 0.62f, 0.25f);
 
@@ -44,11 +45,11 @@ std::vector<render::Line> floor_grid(glm::vec2 low, glm::vec2 high) {
     const auto step = [](float at) { return std::lround(at / kGridSpacing); };
     for (long i = step(low.x); i <= step(high.x); ++i) {
         const float x = kGridSpacing * static_cast<float>(i);
-        lines.push_back({{x, 0.0f, low.y}, {x, 0.0f, high.y}, kGrid});
+        lines.push_back({{x, kGridHeight, low.y}, {x, kGridHeight, high.y}, kGrid});
     }
     for (long i = step(low.y); i <= step(high.y); ++i) {
         const float z = kGridSpacing * static_cast<float>(i);
-        lines.push_back({{low.x, 0.0f, z}, {high.x, 0.0f, z}, kGrid});
+        lines.push_back({{low.x, kGridHeight, z}, {high.x, kGridHeight, z}, kGrid});
     }
     return lines;
 }

@@ -70,6 +70,10 @@ RoomView::RoomView(const render::Gl& gl, stereo::GlContext& window,
                {.near_plane = kNear, .far_plane = kFar, .background = kBackground}),
       lines_(gl), pictures_(gl), solids_(gl), floor_(floor_of(installation)) {}
 
+stereo::StereoMode RoomView::shown(stereo::StereoMode mode) {
+    return stereo::eyes_of(mode).size() == 1 ? mode : stereo::StereoMode::left;
+}
+
 void RoomView::draw(const std::deque<stereo::Display>& displays,
                     std::span<const stereo::Viewpoint> viewers,
                     const std::optional<interaction::Pose>& wand,

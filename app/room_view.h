@@ -23,7 +23,10 @@ class RoomView {
     RoomView(const render::Gl& gl, stereo::GlContext& window,
              const stereo::Installation& installation);
 
-    /// Draws the room around the displays as they are: walls with the left (or only) eye's picture,
+    /// The mode of which a wall shows one picture: the left eye's, or the only one.
+    static stereo::StereoMode shown(stereo::StereoMode mode);
+
+    /// Draws the room around the displays as they are: walls with the picture of one eye,
     /// clear from the front and as if of glass from behind; the lines from each viewer to the
     /// corners of what they see; heads, wand and floor. Then the overlay.
     /// @param input holds the camera; where it does not, the camera stands where it starts

@@ -177,8 +177,9 @@ void Session::draw_eyes(const interaction::InputState& input, bool with_panel,
             continue;
         }
         const auto& window = config_.installation.windows[i];
+        const stereo::StereoMode mode = mode_of(window, config_.installation, now.stereo);
         displays_[i].draw(
-            now.viewers, mode_of(window, config_.installation, now.stereo),
+            now.viewers, room_ ? RoomView::shown(mode) : mode,
             [&](const render::View& view, stereo::Eye) {
                 scene_.draw(view, now.room_from_physical, now.footprint, now.wand);
             },

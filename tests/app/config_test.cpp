@@ -51,7 +51,7 @@ settle_ms = 300
 mode = "fast"
 )",
                                        "lab.toml");
-    EXPECT_FLOAT_EQ(config.installation.eye_separation, 0.05f);
+    EXPECT_FLOAT_EQ(config.installation.viewers[0].eye_separation, 0.05f);
     EXPECT_EQ(config.emulation.head.position, glm::vec3(1.0f, 2.5f, -3.0f));
     ASSERT_EQ(config.installation.windows.size(), 1u);
     const stereo::Window& window = config.installation.windows[0];
@@ -115,16 +115,6 @@ TEST(Config, AnEmptyFileIsADefaultAndAFolderIsNone) {
     const test_support::TestFolder folder;
     EXPECT_EQ(read_config(folder.write("empty.toml", "")).installation.windows.size(), 1u);
     EXPECT_THROW(read_config(folder.path()), ConfigError);
-}
-
-TEST(Config, AScreenThatIsNoRectangleIsWarnedOf) {
-    const Config skewed = parse_config("[[windows]]\nname = \"west\"\n[[windows.viewports]]\n"
-                                       "[windows.viewports.projection]\nlower_left = [-1, 1, -1]\n"
-                                       "upper_left = [-0.5, 2, -1]\nupper_right = [1, 2, -1]\n",
-                                       "lab.toml");
-    ASSERT_EQ(screen_warnings(skewed).size(), 1u);
-    EXPECT_THAT(screen_warnings(skewed).front(), HasSubstr("lab.toml: window west: "));
-    EXPECT_TRUE(screen_warnings(read_config(SOURCE_ROOT "/configs/powerwall.toml")).empty());
 }
 
 TEST(Config, NearestWordIsSilentAboutStrangers) {

@@ -82,6 +82,15 @@ EyeBlock eye_block(const View& view, const Placement& placement, float depth_cue
 
 } // namespace
 
+const char* name_of(Footprint footprint) {
+    switch (footprint) {
+    case Footprint::quad: return "quad";
+    case Footprint::gaussian: return "gaussian";
+    case Footprint::surface: break;
+    }
+    return "surface";
+}
+
 CellPass::Programs CellPass::programs(std::string_view fragment_shader) const {
     const std::vector sources{shader_file("cell.vert"), shader_file(fragment_shader)};
     Programs programs{link_program(*gl_, sources), std::nullopt};

@@ -7,6 +7,7 @@
 #include "render/quad_indices.h"
 #include "render/view.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,11 +15,19 @@
 
 namespace isochron::render {
 
-/// What a cell looks like on the screen; both share the cells and their geometry.
+/// What a cell looks like on the screen, from the fastest to the best; all share the cells.
 enum class Footprint : std::uint8_t {
-    quad,    ///< flat and opaque, in any order: for motion
-    gaussian ///< blended back to front: for a settled view
+    quad,     ///< flat and opaque, in any order: for motion
+    gaussian, ///< blended back to front: for a settled view
+    surface   ///< the trilinear isosurface itself, cast per pixel: for a settled view
 };
+inline constexpr std::size_t kFootprints = 3;
+
+/// The best footprint that `CellPass` draws.
+inline constexpr Footprint kBestFootprint = Footprint::gaussian;
+
+/// `quad`, `gaussian`, `surface`: as configuration files and reports call them.
+const char* name_of(Footprint footprint);
 
 /// Sizes in voxels: lengths in vertex index coordinates, so anisotropic spacing stretches them.
 /// Defaults from the authors' own later code.

@@ -181,6 +181,7 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLDELETEQUERIESPROC, DeleteQueries)                                                             \
     ENTRY(PFNGLBEGINQUERYPROC, BeginQuery)                                                                   \
     ENTRY(PFNGLENDQUERYPROC, EndQuery)                                                                       \
+    ENTRY(PFNGLGETQUERYIVPROC, GetQueryiv)                                                                   \
     ENTRY(PFNGLQUERYCOUNTERPROC, QueryCounter)                                                               \
     ENTRY(PFNGLGETQUERYOBJECTIVPROC, GetQueryObjectiv)                                                       \
     ENTRY(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv)                                                     \

@@ -46,4 +46,13 @@ void ProgramKind::destroy(const Gl& gl, GLuint name) {
     gl.DeleteProgram(name);
 }
 
+GLuint QueryKind::create(const Gl& gl, GLenum target) {
+    GLuint name = 0;
+    gl.CreateQueries(target, 1, &name);
+    return name;
+}
+void QueryKind::destroy(const Gl& gl, GLuint name) {
+    gl.DeleteQueries(1, &name);
+}
+
 } // namespace isochron::render

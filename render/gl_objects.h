@@ -27,6 +27,10 @@ struct ProgramKind {
     static GLuint create(const Gl& gl);
     static void destroy(const Gl& gl, GLuint name);
 };
+struct QueryKind {
+    static GLuint create(const Gl& gl, GLenum target);
+    static void destroy(const Gl& gl, GLuint name);
+};
 
 /// Owns one GL object of the table's context, which must be current when the owner is made and
 /// when it goes. A moved-from owner holds name 0.
@@ -60,5 +64,6 @@ using VertexArray = GlObject<VertexArrayKind>;
 using Texture = GlObject<TextureKind>; ///< `Texture(gl, GL_TEXTURE_2D)`
 using Framebuffer = GlObject<FramebufferKind>;
 using Program = GlObject<ProgramKind>;
+using Query = GlObject<QueryKind>; ///< `Query(gl, GL_TIMESTAMP)`
 
 } // namespace isochron::render

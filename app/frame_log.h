@@ -1,10 +1,10 @@
 // What every frame did and how long each stage took: the program's own measurement.
 #pragma once
 
+#include "app/milliseconds.h"
 #include "index/query.h"
 #include "interaction/motion_gate.h"
 
-#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -13,8 +13,6 @@
 #include <vector>
 
 namespace isochron::app {
-
-using Milliseconds = std::chrono::duration<double, std::milli>;
 
 /// One frame, stage after stage in the order of the frame.
 struct FrameReport {

@@ -26,7 +26,7 @@ using interaction::Seconds;
 struct ExploreOptions {
     std::optional<std::string> data;
     std::string config = "desktop";
-    std::optional<std::string> check_config, context, stereo, quality;
+    std::optional<std::string> check_config, context, stereo, quality, footprint;
     std::optional<std::string> record, report;
     std::optional<double> isovalue, seconds;
     std::optional<std::uint32_t> step;
@@ -41,6 +41,8 @@ Config configure(const ExploreOptions& options) {
         config.context = *stereo::context_kind_from_name(*options.context);
     if (options.quality)
         config.quality = quality_mode_from_name(*options.quality);
+    if (options.footprint)
+        config.settled_footprint = settled_footprint_from_name(*options.footprint);
     if (!options.size.empty() && !options.emulate)
         for (stereo::Window& window : config.installation.windows) {
             window.size = {options.size[0], options.size[1]};
@@ -168,13 +170,13 @@ void explore(const ExploreOptions& options) {
         interaction::Commands commands = session.commands_from(input);
         const interaction::Commands from_panel = session.take_panel_commands();
         interaction::merge(commands, from_panel);
-        session.frame(input, commands, Waiting::never);
+        const FrameReport& drawn = session.frame(input, commands, Waiting::never);
         if (recorder)
-            recording.post(
-                [recorder, frame = interaction::RecordedFrame{input, commands, from_panel}] {
-                    recorder->append(frame);
-                    return std::string();
-                });
+            recording.post([recorder, frame = interaction::RecordedFrame{
+                                          input, commands, from_panel, name_of(drawn.footprint)}] {
+                recorder->append(frame);
+                return std::string();
+            });
         session.show_messages(recording.messages());
         running = !commands.quit && !(options.seconds && now.count() >= *options.seconds);
         pacer.wait();
@@ -221,6 +223,11 @@ void add_explore(CLI::App& program) {
         ->check(CLI::IsMember(stereo_mode_names()));
     command->add_option("--quality", options->quality, "auto, fast or quality")
         ->check(CLI::IsMember(quality_mode_names()));
+    command
+        ->add_option("--footprint", options->footprint,
+                     "What a settled picture is drawn with: auto (the best that fits the frame "
+                     "budget), or always gaussian or surface")
+        ->check(CLI::IsMember(settled_footprint_names()));
     command
         ->add_option("--size", options->size, "Size of every window, or of the room's, in pixels")
         ->expected(2)

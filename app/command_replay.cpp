@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct Options {
     std::string recording;
-    std::optional<std::string> data, out, config, context, stereo, quality, report;
+    std::optional<std::string> data, out, config, context, stereo, quality, footprint, report;
     std::size_t every = 0;
     bool stamps = false, from_devices = false, live = false, any_data = false, emulate = false;
     std::string eyes = "window";
@@ -37,6 +37,8 @@ Config configure(const Options& options, const interaction::RecordingHeader& hea
         config.context = *stereo::context_kind_from_name(*options.context);
     if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
         config.installation.windows.front().size = {header.window[0], header.window[1]};
+    if (options.footprint)
+        config.settled_footprint = settled_footprint_from_name(*options.footprint);
     for (stereo::Window& window : config.installation.windows) {
         if (!options.size.empty() && !options.emulate)
             window.size = {options.size[0], options.size[1]};
@@ -231,6 +233,12 @@ void add_replay(CLI::App& program) {
         ->check(CLI::IsMember(stereo_mode_names()));
     command->add_option("--quality", options->quality, "Quality mode instead of the recorded one")
         ->check(CLI::IsMember(quality_mode_names()));
+    command
+        ->add_option("--footprint", options->footprint,
+                     "What a settled picture is drawn with, instead of the configured: auto (the "
+                     "best there is; with --live the best that fits the frame budget), gaussian or "
+                     "surface")
+        ->check(CLI::IsMember(settled_footprint_names()));
     command->add_option("--config", options->config,
                         "TOML file or shipped name instead of the recorded configuration");
     command

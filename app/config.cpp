@@ -22,6 +22,9 @@ const std::vector<std::pair<QualityMode, std::string>> kQualityModes{
     {QualityMode::fast, "fast"},
     {QualityMode::quality, "quality"}};
 
+constexpr const char* kAnyFootprint = "auto";
+constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::surface};
+
 void read_emulation(TomlReader& reader, interaction::EmulationOptions& emulation) {
     reader.number("walk_speed", 0.01, 100.0, emulation.walk_speed);
     reader.number("look_speed", 0.01, 100.0, emulation.look_speed);
@@ -31,6 +34,10 @@ void read_emulation(TomlReader& reader, interaction::EmulationOptions& emulation
 void read_quality(TomlReader& reader, Config& config) {
     reader.word("mode", quality_mode_names(),
                 [&](const std::string& word) { config.quality = quality_mode_from_name(word); });
+    reader.word("settled", settled_footprint_names(), [&](const std::string& word) {
+        config.settled_footprint = settled_footprint_from_name(word);
+    });
+    reader.number("frame_budget_ms", 0.0, 1000.0, config.frame_budget_ms);
     reader.number("still_linear", 0.0, 10.0, config.stillness.linear);
     reader.number("still_angular", 0.0, 10.0, config.stillness.angular);
     reader.number("leave_factor", 1.0, 100.0, config.stillness.leave_factor);
@@ -98,6 +105,23 @@ std::vector<std::string> quality_mode_names() {
     names.reserve(kQualityModes.size());
     for (const auto& row : kQualityModes)
         names.push_back(row.second);
+    return names;
+}
+
+std::optional<render::Footprint> settled_footprint_from_name(const std::string& name) {
+    for (const render::Footprint footprint : kSettledFootprints)
+        if (name == render::name_of(footprint))
+            return footprint;
+    if (name == kAnyFootprint)
+        return std::nullopt;
+    throw ConfigError(
+        fmt::format("unknown footprint '{}', expected auto, gaussian or surface", name));
+}
+
+std::vector<std::string> settled_footprint_names() {
+    std::vector<std::string> names{kAnyFootprint};
+    for (const render::Footprint footprint : kSettledFootprints)
+        names.emplace_back(render::name_of(footprint));
     return names;
 }
 

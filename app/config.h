@@ -5,10 +5,12 @@
 #include "app/placement.h"
 #include "interaction/desktop_emulation.h"
 #include "interaction/motion_gate.h"
+#include "render/cell_pass.h"
 #include "stereo/gl_context.h"
 #include "stereo/installation.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace isochron::app {
@@ -24,6 +26,10 @@ struct Config {
     interaction::EmulationOptions emulation;
     interaction::StillnessLimits stillness;
     interaction::QualityMode quality = interaction::QualityMode::automatic;
+    /// What a settled picture is drawn with, whatever it costs; empty: the best that fits the
+    /// budget (in a fixed-step replay, which measures nothing, the best there is).
+    std::optional<render::Footprint> settled_footprint;
+    double frame_budget_ms = 0; ///< that drawing may take; 0: one period of the display
     PlacementOptions placement;
     int upload_kilobytes_per_frame = 4096;         ///< cells sent to the GPU per frame at most
     glm::vec3 background{0.055f, 0.063f, 0.078f};  ///< sRGB
@@ -48,5 +54,8 @@ std::string name_of(interaction::QualityMode mode);
 interaction::QualityMode quality_mode_from_name(const std::string& name); ///< @throws ConfigError
 std::vector<std::string> quality_mode_names();
 std::vector<std::string> stereo_mode_names();
+/// `auto` (empty), `gaussian`, `surface`: what a settled picture is drawn with.
+std::optional<render::Footprint> settled_footprint_from_name(const std::string& name);
+std::vector<std::string> settled_footprint_names();
 
 } // namespace isochron::app

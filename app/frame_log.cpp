@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -26,12 +27,19 @@ constexpr std::array<std::pair<const char*, Stage>, 7> kStages{{
     {"total", &FrameReport::total},
 }};
 
-nlohmann::json query_json(const index::Query& query) {
-    return {{"step", query.step}, {"isovalue", query.isovalue}};
+constexpr std::array kFootprints{render::Footprint::quad, render::Footprint::gaussian,
+                                 render::Footprint::surface};
+
+nlohmann::json time_json(const std::optional<Milliseconds>& time) {
+    return time ? nlohmann::json(time->count()) : nlohmann::json();
 }
 
-const char* name_of(interaction::Pace pace) {
-    return pace == interaction::Pace::settled ? "settled" : "moving";
+nlohmann::json summary_json(const TimeSummary& summary) {
+    return {{"median", summary.median}, {"p99", summary.p99}, {"worst", summary.worst}};
+}
+
+nlohmann::json query_json(const index::Query& query) {
+    return {{"step", query.step}, {"isovalue", query.isovalue}};
 }
 
 } // namespace
@@ -46,9 +54,35 @@ TimeSummary summarize(std::vector<double> milliseconds) {
 
 void FrameLog::add(const FrameReport& frame) {
     constexpr std::size_t kKept = 60 * 60 * 60;
-    if (frames_.size() == kKept)
+    if (frames_.size() == kKept) {
         frames_.pop_front();
+        ++dropped_;
+    }
     frames_.push_back(frame);
+}
+
+void FrameLog::set_gpu(std::uint64_t frame, Milliseconds time) {
+    if (frame >= dropped_ && frame < next())
+        frames_[frame - dropped_].gpu = time;
+}
+
+TimeSummary FrameLog::gpu() const {
+    std::vector<double> times;
+    for (const FrameReport& frame : frames_)
+        if (frame.gpu)
+            times.push_back(frame.gpu->count());
+    return summarize(std::move(times));
+}
+
+unsigned FrameLog::missed() const {
+    return std::accumulate(
+        frames_.begin(), frames_.end(), 0u,
+        [](unsigned sum, const FrameReport& frame) { return sum + frame.missed; });
+}
+
+std::uint64_t FrameLog::frames_with(render::Footprint footprint) const {
+    return static_cast<std::uint64_t>(
+        std::ranges::count(frames_, footprint, &FrameReport::footprint));
 }
 
 TimeSummary FrameLog::stage(Stage stage, std::size_t count) const {
@@ -70,18 +104,24 @@ double FrameLog::frames_per_second(std::size_t count) const {
 
 void FrameLog::write(const std::filesystem::path& path, const std::string& context) const {
     nlohmann::json report{{"program", kProgram}, {"context", context}, {"frames", frames_.size()}};
-    for (const auto& [name, member] : kStages) {
-        const TimeSummary summary = stage(member);
-        report["milliseconds"][name] = {
-            {"median", summary.median}, {"p99", summary.p99}, {"worst", summary.worst}};
-    }
+    for (const auto& [name, member] : kStages)
+        report["milliseconds"][name] = summary_json(stage(member));
+    report["milliseconds"]["gpu"] = summary_json(gpu());
+    report["missed"] = missed();
+    for (const render::Footprint footprint : kFootprints)
+        report["footprints"][name_of(footprint)] = frames_with(footprint);
     nlohmann::json& rows = report["rows"] = nlohmann::json::array();
     for (const FrameReport& frame : frames_) {
         nlohmann::json row{{"t", frame.time.count()},
                            {"asked", query_json(frame.asked)},
                            {"shown", frame.shown ? query_json(*frame.shown) : nlohmann::json()},
                            {"pace", name_of(frame.pace)},
-                           {"footprint", frame.footprint},
+                           {"footprint", name_of(frame.footprint)},
+                           {"reason", name_of(frame.reason)},
+                           {"budget_ms", frame.budget.count()},
+                           {"expected_ms", time_json(frame.expected)},
+                           {"gpu_ms", time_json(frame.gpu)},
+                           {"missed", frame.missed},
                            {"redrawn", frame.redrawn},
                            {"cells", frame.cells},
                            {"candidates", frame.candidates},
@@ -99,11 +139,16 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
 std::string FrameLog::table() const {
     std::string text = fmt::format("{} frames{:>15} {:>8} {:>8}  [ms]\n", frames_.size(), "median",
                                    "p99", "worst");
-    for (const auto& [name, member] : kStages) {
-        const TimeSummary summary = stage(member);
+    const auto line = [&](const char* name, const TimeSummary& summary) {
         text += fmt::format("  {:<14}{:>8.2f} {:>8.2f} {:>8.2f}\n", name, summary.median,
                             summary.p99, summary.worst);
-    }
+    };
+    for (const auto& [name, member] : kStages)
+        line(name, stage(member));
+    line("gpu", gpu());
+    for (const render::Footprint footprint : kFootprints)
+        text += fmt::format("  {:<14}{:>8} frames\n", name_of(footprint), frames_with(footprint));
+    text += fmt::format("  {:<14}{:>8} refreshes of the display\n", "missed", missed());
     return text;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/milliseconds.h"
+#include "app/quality_controller.h"
 #include "index/query.h"
 #include "interaction/motion_gate.h"
 
@@ -20,13 +21,20 @@ struct FrameReport {
     index::Query asked;
     std::optional<index::Query> shown; ///< of the cells drawn; empty before the first set
     interaction::Pace pace = interaction::Pace::moving;
-    const char* footprint = "quad";
-    bool redrawn = true;                ///< false: nothing that the eyes see had changed
-    std::uint64_t cells = 0;            ///< drawn
-    std::uint64_t candidates = 0;       ///< of the search behind them
-    std::uint64_t reused = 0;           ///< of these, taken over by incremental search
-    Milliseconds search{0}, shading{0}; ///< on the worker, of the shown set
-    Milliseconds wait{0};               ///< for the worker; fixed-step replay only
+    render::Footprint footprint = render::Footprint::quad;
+    QualityReason reason = QualityReason::moving; ///< for the footprint
+    bool final = false;                   ///< the picture is as good as it gets for these cells
+    Milliseconds budget{0};               ///< that drawing may take
+    std::optional<Milliseconds> expected; ///< draw cost of the footprint, by earlier frames
+    std::optional<Milliseconds> better;   ///< of a better one that does not fit
+    std::optional<Milliseconds> gpu;      ///< of this frame; known some frames later
+    unsigned missed = 0;                  ///< refreshes of the display without a new frame before
+    bool redrawn = true;                  ///< false: nothing that the eyes see had changed
+    std::uint64_t cells = 0;              ///< drawn
+    std::uint64_t candidates = 0;         ///< of the search behind them
+    std::uint64_t reused = 0;             ///< of these, taken over by incremental search
+    Milliseconds search{0}, shading{0};   ///< on the worker, of the shown set
+    Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
 };
 
@@ -40,11 +48,20 @@ TimeSummary summarize(std::vector<double> milliseconds);
 class FrameLog {
   public:
     void add(const FrameReport& frame);
+    /// Number of the next frame to be added, from 0.
+    std::uint64_t next() const { return dropped_ + frames_.size(); }
+    /// Completes a frame's report, if it is still kept.
+    void set_gpu(std::uint64_t frame, Milliseconds time);
     const std::deque<FrameReport>& frames() const { return frames_; }
 
     /// Times of one stage, of drawing over redrawn frames only, over the newest `count` frames (0:
     /// all of them).
     TimeSummary stage(Milliseconds FrameReport::*stage, std::size_t count = 0) const;
+
+    /// GPU times of all frames of which they are known.
+    TimeSummary gpu() const;
+    unsigned missed() const; ///< of all frames kept
+    std::uint64_t frames_with(render::Footprint footprint) const;
 
     /// Rate of the newest `count` frames, by their session times; 0 before the second frame.
     double frames_per_second(std::size_t count) const;
@@ -59,6 +76,7 @@ class FrameLog {
 
   private:
     std::deque<FrameReport> frames_;
+    std::uint64_t dropped_ = 0; ///< frames before those kept
 };
 
 } // namespace isochron::app

@@ -158,9 +158,7 @@ void view_section(const PanelModel& model, Commands& commands) {
         commands.quality = static_cast<interaction::QualityMode>(mode);
     ImGui::SameLine();
     const bool settled = model.frame.pace == interaction::Pace::settled;
-    note(fmt::format("{}: {}", settled ? "settled" : "moving",
-                     std::string_view(model.frame.footprint) == "quad" ? "fast quads"
-                                                                       : "ShellSplatting"),
+    note(quality_line(model.frame),
          settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
     ImGui::SetNextItemWidth(-60.0f);
     const std::string current(stereo::name_of(model.asked.stereo));
@@ -225,6 +223,18 @@ void keys_and_mouse(const std::vector<std::string>& lines) {
 }
 
 } // namespace
+
+std::string quality_line(const FrameReport& frame) {
+    std::string line = fmt::format("{}: {}", name_of(frame.pace), name_of(frame.footprint));
+    if (frame.expected)
+        line += fmt::format(", {:.1f} of {:.1f} ms", frame.expected->count(), frame.budget.count());
+    // That it moves or fits is said by the line already.
+    if (frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
+        line += fmt::format(" ({})", name_of(frame.reason));
+    if (frame.reason == QualityReason::over_budget && frame.better)
+        line.insert(line.size() - 1, fmt::format(": better takes {:.1f}", frame.better->count()));
+    return line;
+}
 
 std::string with_unit(double value, const std::string& unit) {
     return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);

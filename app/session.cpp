@@ -12,7 +12,6 @@ namespace isochron::app {
 namespace {
 
 using interaction::Commands;
-using interaction::Pace;
 
 /// Frames over which the panel summarises frame times.
 constexpr std::size_t kShownFrames = 120;
@@ -58,7 +57,8 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
     : config_(std::move(config)), file_(std::move(file)), windows_(std::move(windows)),
       gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
       gate_(config_.stillness), extractor_(search ? std::move(search) : index::search_in(file_)),
-      scene_(gl_, file_->info(), config_), panel_(gl_), stereo_modes_(live_stereo_modes(windows_)) {
+      scene_(gl_, file_->info(), config_), panel_(gl_), stereo_modes_(live_stereo_modes(windows_)),
+      quality_(gl_, config_, windows_.first().refresh_rate()) {
     const stereo::DisplayOptions options{.near_plane = config_.installation.near_plane,
                                          .far_plane = config_.installation.far_plane,
                                          .background = config_.background};
@@ -153,22 +153,23 @@ std::vector<glm::ivec2> Session::window_sizes() const {
 
 void Session::draw_eyes(const interaction::InputState& input, bool with_panel,
                         FrameReport& report) {
-    const bool settled = report.pace == Pace::settled;
-    report.footprint = settled ? "gaussian" : "quad";
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
     const Picture now{.viewers = viewpoints(input),
                       .wand = wand ? wand->pose : std::nullopt,
                       .room_from_physical = state_.room_from_physical,
                       .stereo = state_.stereo,
-                      .footprint = settled ? render::Footprint::gaussian : render::Footprint::quad,
+                      .footprint = report.footprint,
                       .cells = scene_.shown(),
                       .windows = window_sizes()};
     const auto panel = [&](glm::ivec2 size) {
         if (with_panel)
             draw_panel_overlay(size, report);
     };
-    report.redrawn = now != drawn_;
+    report.redrawn = now != drawn_ || measure_;
     panel_drawn_ = false;
+    StopWatch watch;
+    if (report.redrawn)
+        quality_.begin(log_.next());
     for (std::size_t i = 0; i < displays_.size(); ++i) {
         // The panel lies over one window.
         const auto overlay = i == 0 && !room_ ? panel : stereo::Display::Overlay();
@@ -181,10 +182,13 @@ void Session::draw_eyes(const interaction::InputState& input, bool with_panel,
         displays_[i].draw(
             now.viewers, room_ ? RoomView::shown(mode) : mode,
             [&](const render::View& view, stereo::Eye) {
+                quality_.viewed(view);
                 scene_.draw(view, now.room_from_physical, now.footprint, now.wand);
             },
             overlay);
     }
+    if (report.redrawn)
+        quality_.end(report, report.upload + watch.lap());
     drawn_ = now;
     if (room_)
         room_->draw(displays_, now.viewers, now.wand, input, panel);
@@ -211,15 +215,25 @@ void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
     interaction::merge(panel_commands_, panel_.draw(size, model));
 }
 
-bool Session::captures(const FrameReport& report) const {
-    // A capture waits for quality, unless the user has asked for none.
-    const bool good =
-        report.pace == Pace::settled || state_.quality == interaction::QualityMode::fast;
-    return screenshots_wanted_ > 0 && good && report.shown == state_.query();
+void Session::choose_quality(const interaction::InputState& input, Waiting waiting,
+                             FrameReport& report) {
+    quality_.collect(log_);
+    const bool live = waiting == Waiting::never;
+    if (live && !log_.frames().empty())
+        report.missed = quality_.missed(input.time - log_.frames().back().time);
+    measure_ = quality_.choose(state_, report.cells,
+                               live ? Choosing::by_measurement : Choosing::by_pace, report);
+}
+
+bool Session::captures(const FrameReport& report) {
+    return captures_.take({.time = report.time,
+                           .asked = report.asked,
+                           .shown = report.shown,
+                           .failed = extractor_.failure() && !extractor_.busy(),
+                           .final = report.final});
 }
 
 void Session::take_screenshot() {
-    --screenshots_wanted_;
     const auto name = fmt::format("isochron_{:04}.png", ++screenshots_taken_);
     write_image(room_ ? room_->read() : displays_.front().read_window(), screenshot_folder_ / name);
 }
@@ -243,11 +257,12 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     report.time = input.time;
     state_.apply(commands, file_->info().steps());
     if (commands.screenshot)
-        ++screenshots_wanted_;
+        captures_.ask();
     report.asked = state_.query();
     request_cells();
     take_newest_cells(waiting, report);
     report.pace = gate_.update(input, commands, state_.quality);
+    choose_quality(input, waiting, report);
 
     StopWatch stages;
     const bool capture = captures(report);

@@ -8,9 +8,11 @@
 #pragma once
 
 #include "app/background_work.h"
+#include "app/capture_wait.h"
 #include "app/config.h"
 #include "app/explorer_state.h"
 #include "app/frame_log.h"
+#include "app/frame_quality.h"
 #include "app/panel_layer.h"
 #include "app/room_view.h"
 #include "app/scene.h"
@@ -95,7 +97,8 @@ class Session {
     interaction::ControlContext control_context() const;
     void request_cells();
     void take_newest_cells(Waiting waiting, FrameReport& report);
-    bool captures(const FrameReport& report) const;
+    void choose_quality(const interaction::InputState& input, Waiting waiting, FrameReport& report);
+    bool captures(const FrameReport& report);
     std::vector<stereo::Viewpoint> viewpoints(const interaction::InputState& input) const;
     std::vector<glm::ivec2> window_sizes() const;
     void draw_eyes(const interaction::InputState& input, bool with_panel, FrameReport& report);
@@ -121,9 +124,11 @@ class Session {
     const std::vector<std::string> documentation_ = interaction::Controls::documentation();
     interaction::Commands panel_commands_;
     FrameLog log_;
+    FrameQuality quality_;
+    bool measure_ = false; ///< draw the frame even if nothing in it has changed
     BackgroundWork pictures_;
     std::filesystem::path screenshot_folder_;
-    int screenshots_wanted_ = 0;
+    CaptureWait captures_;
     int screenshots_taken_ = 0;
     bool recording_ = false;
     std::string message_;

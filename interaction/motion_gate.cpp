@@ -100,6 +100,10 @@ bool is_pending(const Commands& commands) {
 
 } // namespace
 
+const char* name_of(Pace pace) {
+    return pace == Pace::settled ? "settled" : "moving";
+}
+
 struct MotionGate::State {
     StillnessLimits limits;
     HeadHistory head;

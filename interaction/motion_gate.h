@@ -9,6 +9,8 @@
 namespace isochron::interaction {
 
 enum class Pace : std::uint8_t { moving, settled };
+/// `moving`, `settled`.
+const char* name_of(Pace pace);
 
 /// Below these speeds, tracked motion is tremor rather than intent.
 struct StillnessLimits {

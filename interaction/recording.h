@@ -34,6 +34,8 @@ struct RecordedFrame {
     InputState input;    ///< devices as polled, with the frame's time
     Commands commands;   ///< what they and the panel led to
     Commands from_panel; ///< the part of `commands` that no device explains
+    /// What the cells were drawn with (`quad`, ...); a report, which no replay obeys. May be empty.
+    std::string footprint;
     bool operator==(const RecordedFrame&) const = default;
 };
 
@@ -46,8 +48,8 @@ struct RecordedFrame {
 ///
 /// `devices` states all devices, `changed` only those that differ from the frame before, and
 /// neither means that all are as before. A device's `valid` (true), `buttons` (0) and `valuators`
-/// ([]) are left out at these values; so are a frame's empty `commands` and `panel`. Numbers
-/// round-trip.
+/// ([]) are left out at these values; so are a frame's empty `commands` and `panel`, and a
+/// `footprint` that is as in the frame before. Numbers round-trip.
 struct Recording {
     RecordingHeader header;
     std::vector<RecordedFrame> frames;

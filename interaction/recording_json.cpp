@@ -136,6 +136,8 @@ json to_json(const RecordedFrame& frame, const RecordedFrame* before) {
         result["changed"] = std::move(stated);
     add_commands(result, "commands", frame.commands);
     add_commands(result, "panel", frame.from_panel);
+    if (frame.footprint != (before ? before->footprint : ""))
+        result["footprint"] = frame.footprint;
     return result;
 }
 
@@ -163,7 +165,11 @@ RecordedFrame frame_from_json(const json& value, const RecordedFrame* before) {
         frame.commands = commands_from(*found, "commands");
     if (const json* found = members.find("panel"))
         frame.from_panel = commands_from(*found, "panel");
-    members.done({"t", "devices", "changed", "commands", "panel"});
+    if (const json* found = members.find("footprint"))
+        frame.footprint = text(*found, "footprint", kLongestName);
+    else if (before)
+        frame.footprint = before->footprint;
+    members.done({"t", "devices", "changed", "commands", "panel", "footprint"});
     return frame;
 }
 

@@ -42,6 +42,8 @@ class GlContext {
     virtual void present() = 0; ///< swaps a window's buffers; else does nothing
     /// Whether the window has a left and a right buffer.
     virtual bool has_stereo_buffers() const { return false; }
+    /// [Hz] of the display that shows the window; empty where nothing tells it.
+    virtual std::optional<double> refresh_rate() const { return std::nullopt; }
     virtual bool should_close() const = 0;
     virtual std::vector<interaction::WindowEvent> poll_events() = 0;
     virtual std::string description() const = 0; ///< `GLFW, OpenGL 4.5, llvmpipe (...)`

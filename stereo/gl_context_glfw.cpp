@@ -164,6 +164,13 @@ class GlfwContext final : public GlContext {
     bool has_window() const override { return true; }
     bool has_stereo_buffers() const override { return stereo_buffers_; }
     void present() override { glfwSwapBuffers(window_); }
+    std::optional<double> refresh_rate() const override {
+        GLFWmonitor* monitor = monitor_under_window();
+        const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+        if (!mode || mode->refreshRate <= 0)
+            return std::nullopt;
+        return mode->refreshRate;
+    }
     bool should_close() const override { return glfwWindowShouldClose(window_); }
     std::vector<WindowEvent> poll_events() override {
         glfwPollEvents();
@@ -181,6 +188,26 @@ class GlfwContext final : public GlContext {
             throw render::Error(fmt::format("monitor {} does not exist, there {} {}", index,
                                             count == 1 ? "is" : "are", count));
         return monitors[index];
+    }
+
+    /// The monitor that shows the middle of the window, else the first one; null without any.
+    GLFWmonitor* monitor_under_window() const {
+        glm::ivec2 corner, size;
+        glfwGetWindowPos(window_, &corner.x, &corner.y);
+        glfwGetWindowSize(window_, &size.x, &size.y);
+        const glm::ivec2 middle = corner + size / 2;
+        int count = 0;
+        GLFWmonitor** monitors = glfwGetMonitors(&count);
+        for (int i = 0; i < count; ++i) {
+            glm::ivec2 from, extent;
+            glfwGetMonitorPos(monitors[i], &from.x, &from.y);
+            const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+            extent = mode ? glm::ivec2(mode->width, mode->height) : glm::ivec2(0);
+            const glm::ivec2 at = middle - from;
+            if (at.x >= 0 && at.y >= 0 && at.x < extent.x && at.y < extent.y)
+                return monitors[i];
+        }
+        return glfwGetPrimaryMonitor();
     }
 
     static void push(GLFWwindow* window, const WindowEvent& event) {

@@ -49,6 +49,8 @@ upper_right = [2, 1, -1]
 [quality]
 settle_ms = 300
 mode = "fast"
+settled = "gaussian"
+frame_budget_ms = 8.5
 )",
                                        "lab.toml");
     EXPECT_FLOAT_EQ(config.installation.viewers[0].eye_separation, 0.05f);
@@ -61,6 +63,22 @@ mode = "fast"
     EXPECT_EQ(window.viewports[0].screen.upper_left, glm::vec3(-2.0f, 1.0f, -1.0f));
     EXPECT_DOUBLE_EQ(config.stillness.settle.count(), 0.3);
     EXPECT_EQ(config.quality, interaction::QualityMode::fast);
+    EXPECT_EQ(config.settled_footprint, render::Footprint::gaussian);
+    EXPECT_DOUBLE_EQ(config.frame_budget_ms, 8.5);
+}
+
+TEST(Config, WhatASettledPictureIsDrawnWithIsMeasuredUnlessItIsNamed) {
+    EXPECT_EQ(parse_config("", "lab.toml").settled_footprint, std::nullopt);
+    EXPECT_EQ(parse_config("[quality]\nsettled = \"auto\"\n", "lab.toml").settled_footprint,
+              std::nullopt);
+    EXPECT_EQ(parse_config("[quality]\nsettled = \"surface\"\n", "lab.toml").settled_footprint,
+              render::Footprint::surface);
+    EXPECT_THAT(error_of("[quality]\nsettled = \"quad\"\n"),
+                HasSubstr("lab.toml:2: quality.settled: unknown value 'quad'"));
+    EXPECT_THAT(error_of("[quality]\nframe_budget_ms = -1\n"),
+                HasSubstr("lab.toml:2: quality.frame_budget_ms: expected a number from 0 to 1000"));
+    EXPECT_THAT(error_of("[quality]\nframe_budget = 8\n"),
+                HasSubstr("did you mean 'frame_budget_ms'?"));
 }
 
 TEST(Config, UnknownKeyNamesLineAndNearestKey) {

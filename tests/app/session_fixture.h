@@ -72,4 +72,20 @@ inline interaction::InputState head_at_rest(double seconds) {
     return input;
 }
 
+/// A small series and a context without a window; instantiate it for EGL and OSMesa.
+class SessionTest : public testing::TestWithParam<stereo::ContextKind> {
+  protected:
+    SessionTest()
+        : file_(build_sphere(folder_.path())),
+          context_(stereo::make_context(GetParam(), {.size = {256, 128}})) {}
+
+    TestFolder folder_;
+    std::shared_ptr<const index::IndexFile> file_;
+    std::unique_ptr<stereo::GlContext> context_;
+};
+
+inline std::string context_name(const testing::TestParamInfo<stereo::ContextKind>& kind) {
+    return std::string(stereo::name_of(kind.param));
+}
+
 } // namespace isochron::app

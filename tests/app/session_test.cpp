@@ -16,20 +16,9 @@ namespace {
 
 using interaction::Commands;
 
-class SessionTest : public testing::TestWithParam<stereo::ContextKind> {
-  protected:
-    SessionTest()
-        : file_(build_sphere(folder_.path())),
-          context_(stereo::make_context(GetParam(), {.size = {256, 128}})) {}
-
-    TestFolder folder_;
-    std::shared_ptr<const index::IndexFile> file_;
-    std::unique_ptr<stereo::GlContext> context_;
-};
-
 INSTANTIATE_TEST_SUITE_P(Contexts, SessionTest,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
-                         [](const auto& kind) { return std::string(stereo::name_of(kind.param)); });
+                         context_name);
 
 /// Pixels that differ from the background in the corner.
 std::size_t drawn_pixels(const render::Image& image) {
@@ -161,10 +150,11 @@ TEST_P(SessionTest, SettlesIntoSplatsAndMovesInQuads) {
     FrameReport report;
     for (int frame = 0; frame < 30; ++frame)
         report = session.frame(head_at_rest(frame / 60.0), {}, Waiting::for_cells);
-    EXPECT_STREQ(report.footprint, "gaussian");
+    EXPECT_EQ(report.footprint, render::kBestFootprint);
     Commands drag;
     drag.isovalue = 7.0;
-    EXPECT_STREQ(session.frame(head_at_rest(0.6), drag, Waiting::for_cells).footprint, "quad");
+    EXPECT_EQ(session.frame(head_at_rest(0.6), drag, Waiting::for_cells).footprint,
+              render::Footprint::quad);
 }
 
 TEST_P(SessionTest, OnlyAChangeIsDrawnAgain) {

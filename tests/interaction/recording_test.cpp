@@ -120,6 +120,8 @@ Recording random_recording(unsigned seed, int frames) {
                 device = random_device(random, device.name);
         frame.commands = random_commands(random);
         frame.from_panel = random_commands(random);
+        if (random() % 4 == 0)
+            frame.footprint = random() % 2 ? "gaussian" : "quad";
         recording.frames.push_back(frame);
     }
     return recording;
@@ -155,7 +157,7 @@ TEST_F(RecordingFile, WritingAgainWhatWasReadGivesTheSameBytes) {
 TEST_F(RecordingFile, UnchangedDevicesTakeNoSpace) {
     Recording recording = random_recording(1, 1);
     for (int i = 0; i < 1000; ++i) {
-        RecordedFrame frame{recording.frames[0].input, {}, {}};
+        RecordedFrame frame{recording.frames[0].input, {}, {}, "gaussian"};
         frame.input.time += Seconds(1 + i);
         recording.frames.push_back(frame);
     }
@@ -303,7 +305,7 @@ TEST_F(RecordingFile, RandomDamageNeverDoesMoreThanComplain) {
 
 TEST_F(RecordingFile, WhatCannotBeReadBackIsNotWritten) {
     RecordingWriter writer(path_, {});
-    RecordedFrame frame{{Seconds(1), {head_at(kStanding)}}, {}, {}};
+    RecordedFrame frame{{Seconds(1), {head_at(kStanding)}}, {}, {}, {}};
     writer.append(frame);
     frame.input.devices[0].pose->position.x = std::nanf("");
     EXPECT_THROW(writer.append(frame), Error);

@@ -1,0 +1,40 @@
+// Decides when a capture that was asked for may be taken: it waits for the cells and for quality.
+#pragma once
+
+#include "index/query.h"
+#include "interaction/tracked_input.h"
+
+#include <optional>
+
+namespace isochron::app {
+
+/// What a capture waits for, in one frame.
+struct CaptureView {
+    interaction::Seconds time{0}; ///< session time
+    index::Query asked;
+    std::optional<index::Query> shown; ///< empty before the first cells
+    bool failed = false;               ///< what was asked for will not come
+    bool final = false;                ///< the picture is as good as it gets
+};
+
+/// A picture is taken once it shows what was asked for at its final quality. In motion that does
+/// not end (time that plays in a loop, a restless head), quality is waited for no longer than the
+/// patience: then the next picture of the asked cells is taken, or, when these change faster than
+/// they can be shown, the next picture. One query's cells are waited for as long as they take.
+class CaptureWait {
+  public:
+    static constexpr interaction::Seconds kPatience{10};
+
+    void ask() { ++wanted_; }
+    int wanted() const { return wanted_; }
+
+    /// Once per frame. @return true: take one now, which is then no longer wanted
+    bool take(const CaptureView& now);
+
+  private:
+    int wanted_ = 0;
+    std::optional<CaptureView> before_;
+    interaction::Seconds waited_{0}; ///< on quality, or on cells that keep changing
+};
+
+} // namespace isochron::app

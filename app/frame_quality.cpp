@@ -1,0 +1,74 @@
+// The quality of a session's frames.
+#include "app/frame_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+Milliseconds period_of(const Config& config, std::optional<double> refresh_rate) {
+    const double limit = config.frame_rate_limit;
+    return Milliseconds(1e3 / std::min(refresh_rate.value_or(limit), limit));
+}
+
+Milliseconds budget_of(const Config& config, Milliseconds period) {
+    return config.frame_budget_ms > 0 ? Milliseconds(config.frame_budget_ms) : period;
+}
+
+} // namespace
+
+FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
+                           std::optional<double> refresh_rate)
+    : settled_(config.settled_footprint), period_(period_of(config, refresh_rate)),
+      controller_(budget_of(config, period_)), meter_(gl) {}
+
+void FrameQuality::collect(FrameLog& log) {
+    for (const DrawSample& sample : meter_.finished()) {
+        controller_.measured(sample.footprint, sample.load, sample.cost());
+        if (sample.gpu)
+            log.set_gpu(sample.frame, *sample.gpu);
+    }
+}
+
+bool FrameQuality::choose(const ExplorerState& state, std::uint64_t cells, Choosing how,
+                          FrameReport& report) {
+    QualityInput input;
+    input.pace = report.pace;
+    input.mode = state.quality;
+    input.playing = state.playback.playing;
+    input.settled = settled_;
+    if (how == Choosing::by_pace)
+        input.settled = settled_.value_or(input.best);
+    input.load = {static_cast<double>(cells) * views_, pixels_};
+    const QualityChoice choice = controller_.choose(input);
+    report.footprint = choice.footprint;
+    report.reason = choice.reason;
+    report.final = choice.final;
+    report.budget = controller_.budget();
+    report.expected = choice.cost;
+    report.better = choice.better_cost;
+    return choice.measure;
+}
+
+void FrameQuality::begin(std::uint64_t frame) {
+    views_ = pixels_ = 0;
+    meter_.begin(frame);
+}
+
+void FrameQuality::viewed(const render::View& view) {
+    ++views_;
+    pixels_ += static_cast<double>(view.size.x) * static_cast<double>(view.size.y);
+}
+
+void FrameQuality::end(const FrameReport& report, Milliseconds processor) {
+    meter_.end(report.footprint, {static_cast<double>(report.cells) * views_, pixels_}, processor);
+}
+
+unsigned FrameQuality::missed(interaction::Seconds between) const {
+    // A budget longer than the display's period has allowed for missing some.
+    const double periods = between / std::max(period_, controller_.budget());
+    return static_cast<unsigned>(std::clamp(std::round(periods) - 1.0, 0.0, 1e9));
+}
+
+} // namespace isochron::app

@@ -1,0 +1,51 @@
+// The quality of a session's frames: budget, measurement and choice brought together.
+//
+//     quality.collect(log);                        // every frame
+//     quality.choose(state, cells, how, report);
+//     if (redraw) { quality.begin(log.next()); ... quality.viewed(view); ... quality.end(...); }
+#pragma once
+
+#include "app/config.h"
+#include "app/draw_meter.h"
+#include "app/explorer_state.h"
+#include "app/frame_log.h"
+#include "app/quality_controller.h"
+#include "render/view.h"
+
+namespace isochron::app {
+
+/// What a choice of footprint may depend on. A fixed-step replay repeats exactly: there a settled
+/// picture is drawn with what is configured, or the best there is, and nothing measured counts.
+enum class Choosing : std::uint8_t { by_measurement, by_pace };
+
+class FrameQuality {
+  public:
+    /// @param refresh_rate [Hz] of the display, if it is known
+    FrameQuality(const render::Gl& gl, const Config& config, std::optional<double> refresh_rate);
+
+    /// Learns from frames whose times are known by now, and completes their reports.
+    void collect(FrameLog& log);
+
+    /// Advances by one frame and says in its report how it is drawn, at the report's pace.
+    /// @param cells drawn in each view
+    /// @return true: draw even if nothing has changed, so that the cost gets known
+    bool choose(const ExplorerState& state, std::uint64_t cells, Choosing how, FrameReport& report);
+
+    /// Between these two, the frame is drawn.
+    void begin(std::uint64_t frame);
+    void viewed(const render::View& view);
+    /// @param processor time of giving the commands, with the upload
+    void end(const FrameReport& report, Milliseconds processor);
+
+    /// Refreshes of the display that passed without a new frame in the time between two frames.
+    unsigned missed(interaction::Seconds between) const;
+
+  private:
+    const std::optional<render::Footprint> settled_;
+    const Milliseconds period_; ///< of frames, as display and configuration allow
+    QualityController controller_;
+    DrawMeter meter_;
+    double views_ = 0, pixels_ = 0; ///< of the frame drawn last
+};
+
+} // namespace isochron::app

@@ -7,12 +7,14 @@ namespace isochron::app {
 
 bool CaptureWait::take(const CaptureView& now) {
     const auto before = std::exchange(before_, now);
+    if (!before || before->asked != now.asked)
+        asked_since_ = now.time;
     if (wanted_ == 0) {
         waited_ = {};
         return false;
     }
     const bool there = now.shown == now.asked || (now.failed && now.shown);
-    const bool under_way = before && before->asked == now.asked && !there;
+    const bool under_way = !there && now.time - asked_since_ >= kSteady;
     if (before && !under_way)
         waited_ += now.time - before->time;
     if (!(now.final && there) && (under_way || waited_ < kPatience))

@@ -18,12 +18,13 @@ struct CaptureView {
 };
 
 /// A picture is taken once it shows what was asked for at its final quality. In motion that does
-/// not end (time that plays in a loop, a restless head), quality is waited for no longer than the
-/// patience: then the next picture of the asked cells is taken, or, when these change faster than
-/// they can be shown, the next picture. One query's cells are waited for as long as they take.
+/// not end (time that plays in a loop, a restless head) this is waited for no longer than the
+/// patience; then the next picture is taken. Cells are waited for as long as they take, once their
+/// query has stood for a moment.
 class CaptureWait {
   public:
     static constexpr interaction::Seconds kPatience{10};
+    static constexpr interaction::Seconds kSteady{1}; ///< a query that no longer changes
 
     void ask() { ++wanted_; }
     int wanted() const { return wanted_; }
@@ -34,7 +35,8 @@ class CaptureWait {
   private:
     int wanted_ = 0;
     std::optional<CaptureView> before_;
-    interaction::Seconds waited_{0}; ///< on quality, or on cells that keep changing
+    interaction::Seconds asked_since_{0}; ///< when the newest query was first asked
+    interaction::Seconds waited_{0};      ///< for what motion withholds
 };
 
 } // namespace isochron::app

@@ -86,7 +86,7 @@ TEST_P(SessionQuality, WithinTheBudgetASettledPictureEndsAtTheBestAndIsThenLeftA
 TEST_P(SessionQuality, OverTheBudgetASettledPictureGoesBackToQuadsAndSaysWhy) {
     Session session(config_with(kNothing), file_, *context_);
     start(session);
-    const FrameReport report = rest(session, 60);
+    rest(session, 60);
     EXPECT_GT(frames_with(session, Footprint::gaussian), 0) << "it is not known before";
     rest(session, 6000);
     EXPECT_GT(frames_with(session, Footprint::quad), 5900);

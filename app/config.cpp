@@ -38,6 +38,7 @@ void read_quality(TomlReader& reader, Config& config) {
         config.settled_footprint = settled_footprint_from_name(word);
     });
     reader.number("frame_budget_ms", 0.0, 1000.0, config.frame_budget_ms);
+    reader.number("still_budget_ms", 0.0, 10000.0, config.still_budget_ms);
     reader.number("still_linear", 0.0, 10.0, config.stillness.linear);
     reader.number("still_angular", 0.0, 10.0, config.stillness.angular);
     reader.number("leave_factor", 1.0, 100.0, config.stillness.leave_factor);

@@ -29,7 +29,8 @@ struct Config {
     /// What a settled picture is drawn with, whatever it costs; empty: the best that fits the
     /// budget (in a fixed-step replay, which measures nothing, the best there is).
     std::optional<render::Footprint> settled_footprint;
-    double frame_budget_ms = 0; ///< that drawing may take; 0: one period of the display
+    double frame_budget_ms = 0;   ///< that drawing may take; 0: one period of the display
+    double still_budget_ms = 500; ///< likewise, once, of a picture that has come to rest
     PlacementOptions placement;
     int upload_kilobytes_per_frame = 4096;         ///< cells sent to the GPU per frame at most
     glm::vec3 background{0.055f, 0.063f, 0.078f};  ///< sRGB

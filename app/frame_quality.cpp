@@ -21,18 +21,23 @@ Milliseconds budget_of(const Config& config, Milliseconds period) {
 FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
                            std::optional<double> refresh_rate)
     : settled_(config.settled_footprint), period_(period_of(config, refresh_rate)),
-      controller_(budget_of(config, period_)), meter_(gl) {}
+      steady_(budget_of(config, period_)),
+      still_(std::max(steady_.budget(), Milliseconds(config.still_budget_ms))), meter_(gl) {}
 
 void FrameQuality::collect(FrameLog& log) {
     for (const DrawSample& sample : meter_.finished()) {
-        controller_.measured(sample.footprint, sample.load, sample.cost());
+        for (QualityController* controller : {&steady_, &still_})
+            controller->measured(sample.footprint, sample.load, sample.cost());
         if (sample.gpu)
             log.set_gpu(sample.frame, *sample.gpu);
     }
 }
 
-bool FrameQuality::choose(const ExplorerState& state, std::uint64_t cells, Choosing how,
+bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
                           FrameReport& report) {
+    if (changed)
+        changed_at_ = report.time;
+    const bool still = report.time - changed_at_ >= kStillAfter;
     QualityInput input;
     input.pace = report.pace;
     input.mode = state.quality;
@@ -40,12 +45,13 @@ bool FrameQuality::choose(const ExplorerState& state, std::uint64_t cells, Choos
     input.settled = settled_;
     if (how == Choosing::by_pace)
         input.settled = settled_.value_or(input.best);
-    input.load = {static_cast<double>(cells) * views_, pixels_};
-    const QualityChoice choice = controller_.choose(input);
+    input.load = {static_cast<double>(report.cells) * views_, pixels_};
+    QualityController& controller = still ? still_ : steady_;
+    const QualityChoice choice = controller.choose(input);
     report.footprint = choice.footprint;
     report.reason = choice.reason;
     report.final = choice.final;
-    report.budget = controller_.budget();
+    report.budget = controller.budget();
     report.expected = choice.cost;
     report.better = choice.better_cost;
     return choice.measure;
@@ -67,7 +73,7 @@ void FrameQuality::end(const FrameReport& report, Milliseconds processor) {
 
 unsigned FrameQuality::missed(interaction::Seconds between) const {
     // A budget longer than the display's period has allowed for missing some.
-    const double periods = between / std::max(period_, controller_.budget());
+    const double periods = between / std::max(period_, steady_.budget());
     return static_cast<unsigned>(std::clamp(std::round(periods) - 1.0, 0.0, 1e9));
 }
 

@@ -1,7 +1,7 @@
-// The quality of a session's frames: budget, measurement and choice brought together.
+// The quality of a session's frames: budgets, measurement and choice brought together.
 //
-//     quality.collect(log);                        // every frame
-//     quality.choose(state, cells, how, report);
+//     quality.collect(log);                                 // every frame
+//     const bool redraw = quality.choose(state, changed, how, report) || changed;
 //     if (redraw) { quality.begin(log.next()); ... quality.viewed(view); ... quality.end(...); }
 #pragma once
 
@@ -18,18 +18,25 @@ namespace isochron::app {
 /// picture is drawn with what is configured, or the best there is, and nothing measured counts.
 enum class Choosing : std::uint8_t { by_measurement, by_pace };
 
+/// Frames that are drawn one after the other have the frame budget. A picture in which nothing has
+/// moved for a while is drawn once and then only shown: it has the still budget, the pause that may
+/// be felt when it comes to rest. Each has a controller, and both learn from all frames.
 class FrameQuality {
   public:
+    /// A tracker slower than this does not look still between two of its poses.
+    static constexpr interaction::Seconds kStillAfter{0.1};
+
     /// @param refresh_rate [Hz] of the display, if it is known
     FrameQuality(const render::Gl& gl, const Config& config, std::optional<double> refresh_rate);
 
     /// Learns from frames whose times are known by now, and completes their reports.
     void collect(FrameLog& log);
 
-    /// Advances by one frame and says in its report how it is drawn, at the report's pace.
-    /// @param cells drawn in each view
+    /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
+    /// and with its cells.
+    /// @param changed what the eyes see is not what they saw last, beside the footprint
     /// @return true: draw even if nothing has changed, so that the cost gets known
-    bool choose(const ExplorerState& state, std::uint64_t cells, Choosing how, FrameReport& report);
+    bool choose(const ExplorerState& state, bool changed, Choosing how, FrameReport& report);
 
     /// Between these two, the frame is drawn.
     void begin(std::uint64_t frame);
@@ -43,7 +50,8 @@ class FrameQuality {
   private:
     const std::optional<render::Footprint> settled_;
     const Milliseconds period_; ///< of frames, as display and configuration allow
-    QualityController controller_;
+    QualityController steady_, still_;
+    interaction::Seconds changed_at_{0};
     DrawMeter meter_;
     double views_ = 0, pixels_ = 0; ///< of the frame drawn last
 };

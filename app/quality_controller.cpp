@@ -2,6 +2,7 @@
 #include "app/quality_controller.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -12,6 +13,7 @@ using render::Footprint;
 
 constexpr double kMargin = 0.8; ///< of the budget: what does not yet run is expected below it
 constexpr double kFallen = 0.7; ///< of the cost that failed: below it another load is at hand
+constexpr double kDearest = 8;  ///< budgets that a failed trial is reckoned at, at most
 constexpr double kGrown = 1.1;  ///< of the cost that was measured: likewise above it
 
 constexpr Footprint next_better(Footprint footprint) {
@@ -37,11 +39,11 @@ const char* name_of(QualityReason reason) {
 }
 
 void QualityController::measured(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
-    if (sampled_ != footprint) {
-        sampled_ = footprint;
+    Candidate& candidate = of(footprint);
+    if (std::exchange(sampled_, footprint) != footprint && cost > budget_) {
+        candidate.sampled.reset(); // to be measured again
         return;
     }
-    Candidate& candidate = of(footprint);
     candidate.cost.add(load, cost);
     candidate.sampled = load;
     candidate.known = true;
@@ -52,8 +54,10 @@ void QualityController::measured(Footprint footprint, const DrawLoad& load, Mill
     if (candidate.fits)
         candidate.failed = false;
     over_ = (budgeted_ && over_) || !candidate.fits;
-    if (!candidate.fits)
+    if (!candidate.fits) {
+        over_load_ = load;
         over_cost_ = cost;
+    }
 }
 
 QualityChoice QualityController::choose(const QualityInput& input) {
@@ -92,13 +96,13 @@ QualityChoice QualityController::within_budget(const QualityInput& input) {
         step_up(input);
     } else if (over_ || outgrown(now, input.load)) {
         if (over_)
-            fail(now, now.sampled, over_cost_);
+            fail(now, over_load_, over_cost_);
         else
             fail(now, input.load, *now.cost.predict(input.load));
         step_down(input.load);
     } else {
-        if (++now.lasted % kProven == 0)
-            now.wait = std::max(now.wait / 2, kShortestWait / 2);
+        if (++now.lasted == kProven)
+            now.wait = kShortestWait / 2;
         step_up(input);
     }
     return describe(input);
@@ -135,10 +139,10 @@ void QualityController::step_up(const QualityInput& input) {
 
 /// Whether the cells have changed so much that the next frame is expected over the budget.
 bool QualityController::outgrown(const Candidate& candidate, const DrawLoad& load) const {
-    if (!candidate.known || load == candidate.sampled)
+    if (!candidate.known || !candidate.sampled || load == candidate.sampled)
         return false;
     const Milliseconds expected = *candidate.cost.predict(load);
-    return expected > budget_ && expected > kGrown * *candidate.cost.predict(candidate.sampled);
+    return expected > budget_ && expected > kGrown * *candidate.cost.predict(*candidate.sampled);
 }
 
 /// Whether a better footprint than the present one may be drawn now.
@@ -172,13 +176,17 @@ bool QualityController::decided(const Candidate& candidate, const DrawLoad& load
            (candidate.known && *candidate.cost.predict(load) > kMargin * budget_);
 }
 
-void QualityController::fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) {
+void QualityController::fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
     candidate.failed = true;
     candidate.fits = false;
     candidate.failed_at = load;
     candidate.failed_cost = cost;
     candidate.age = 0;
-    candidate.wait = std::min(2 * candidate.wait, kLongestWait);
+    // One that has lasted may have met an accident; a trial that took several budgets is dear.
+    const double dear =
+        candidate.lasted < kShortestWait ? std::clamp(cost / budget_, 1.0, kDearest) : 1.0;
+    candidate.wait = static_cast<unsigned>(
+        std::min(2.0 * dear * candidate.wait, static_cast<double>(kLongestWait)));
 }
 
 QualityChoice QualityController::describe(const QualityInput& input) const {

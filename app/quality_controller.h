@@ -61,8 +61,8 @@ struct QualityChoice {
 /// A footprint measured over the budget, or expected over it at a new load, is left at once. It
 /// returns
 /// - when the load has fallen so that it is expected to fit with a margin, or
-/// - when the bad news is old: after 16 frames, after twice as many with every failure (at most
-///   2048), half as many again for every 256 frames that it then lasts.
+/// - when the bad news is old: after 16 frames, after twice as many with every failure (times the
+///   budgets, up to 8, that a failed trial took; at most 2048), until it has lasted 256 frames.
 /// Hence one load causes few frames over the budget, there are at least 16 frames from a step down
 /// to a step up, and after at most 2048 settled frames a footprint that fits is back.
 class QualityController {
@@ -72,8 +72,8 @@ class QualityController {
     explicit QualityController(Milliseconds budget) : budget_(budget) {}
 
     /// A frame that was drawn, in the order of the frames, soon or some frames later. The first one
-    /// after a change of footprint does not count: it pays for what is done only once (compiling,
-    /// sorting).
+    /// after a change of footprint pays for what is done only once (compiling, sorting): it counts
+    /// only if it is within the budget all the same.
     void measured(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 
     /// Advances by one frame.
@@ -84,8 +84,8 @@ class QualityController {
   private:
     struct Candidate {
         DrawCost cost;
-        DrawLoad sampled;   ///< load of the newest measurement
-        DrawLoad failed_at; ///< load of the newest failure
+        std::optional<DrawLoad> sampled; ///< load of the newest measurement that counts
+        DrawLoad failed_at;              ///< load of the newest failure
         Milliseconds failed_cost{0};
         bool known = false;  ///< measured since it was last forgotten
         bool fits = false;   ///< by the newest measurement
@@ -111,13 +111,14 @@ class QualityController {
     bool outgrown(const Candidate& candidate, const DrawLoad& load) const;
     bool returns(render::Footprint footprint, const DrawLoad& load);
     bool decided(const Candidate& candidate, const DrawLoad& load) const;
-    static void fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost);
+    void fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const;
 
     const Milliseconds budget_;
     std::array<Candidate, render::kFootprints> candidates_;
     render::Footprint current_ = render::Footprint::quad;
-    bool budgeted_ = false;                    ///< current_ was chosen by the budget
-    bool over_ = false;                        ///< current_ was measured over the budget
+    bool budgeted_ = false; ///< current_ was chosen by the budget
+    bool over_ = false;     ///< current_ was measured over the budget
+    DrawLoad over_load_;
     Milliseconds over_cost_{0};                ///< of that measurement
     unsigned since_down_ = kShortestWait;      ///< frames since a step down
     std::optional<render::Footprint> sampled_; ///< footprint of the newest measurement

@@ -151,21 +151,36 @@ std::vector<glm::ivec2> Session::window_sizes() const {
     return sizes;
 }
 
-void Session::draw_eyes(const interaction::InputState& input, bool with_panel,
-                        FrameReport& report) {
+/// With the footprint that was drawn last.
+Session::Picture Session::picture(const interaction::InputState& input) const {
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
-    const Picture now{.viewers = viewpoints(input),
-                      .wand = wand ? wand->pose : std::nullopt,
-                      .room_from_physical = state_.room_from_physical,
-                      .stereo = state_.stereo,
-                      .footprint = report.footprint,
-                      .cells = scene_.shown(),
-                      .windows = window_sizes()};
+    return {.viewers = viewpoints(input),
+            .wand = wand ? wand->pose : std::nullopt,
+            .room_from_physical = state_.room_from_physical,
+            .stereo = state_.stereo,
+            .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
+            .cells = scene_.shown(),
+            .windows = window_sizes()};
+}
+
+void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report) {
+    quality_.collect(log_);
+    const bool live = waiting == Waiting::never;
+    if (live && !log_.frames().empty())
+        report.missed = quality_.missed(report.time - log_.frames().back().time);
+    const bool changed = now != drawn_;
+    const bool measure = quality_.choose(
+        state_, changed, live ? Choosing::by_measurement : Choosing::by_pace, report);
+    now.footprint = report.footprint;
+    report.redrawn = now != drawn_ || measure;
+}
+
+void Session::draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
+                        FrameReport& report) {
     const auto panel = [&](glm::ivec2 size) {
         if (with_panel)
             draw_panel_overlay(size, report);
     };
-    report.redrawn = now != drawn_ || measure_;
     panel_drawn_ = false;
     StopWatch watch;
     if (report.redrawn)
@@ -215,16 +230,6 @@ void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
     interaction::merge(panel_commands_, panel_.draw(size, model));
 }
 
-void Session::choose_quality(const interaction::InputState& input, Waiting waiting,
-                             FrameReport& report) {
-    quality_.collect(log_);
-    const bool live = waiting == Waiting::never;
-    if (live && !log_.frames().empty())
-        report.missed = quality_.missed(input.time - log_.frames().back().time);
-    measure_ = quality_.choose(state_, report.cells,
-                               live ? Choosing::by_measurement : Choosing::by_pace, report);
-}
-
 bool Session::captures(const FrameReport& report) {
     return captures_.take({.time = report.time,
                            .asked = report.asked,
@@ -262,11 +267,12 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     request_cells();
     take_newest_cells(waiting, report);
     report.pace = gate_.update(input, commands, state_.quality);
-    choose_quality(input, waiting, report);
+    Picture now = picture(input);
+    choose_quality(now, waiting, report);
 
     StopWatch stages;
     const bool capture = captures(report);
-    draw_eyes(input, !capture, report);
+    draw_eyes(now, input, !capture, report);
     report.draw = stages.lap();
     for (stereo::Display& display : displays_)
         display.present();

@@ -97,11 +97,13 @@ class Session {
     interaction::ControlContext control_context() const;
     void request_cells();
     void take_newest_cells(Waiting waiting, FrameReport& report);
-    void choose_quality(const interaction::InputState& input, Waiting waiting, FrameReport& report);
+    Picture picture(const interaction::InputState& input) const;
+    void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
     bool captures(const FrameReport& report);
     std::vector<stereo::Viewpoint> viewpoints(const interaction::InputState& input) const;
     std::vector<glm::ivec2> window_sizes() const;
-    void draw_eyes(const interaction::InputState& input, bool with_panel, FrameReport& report);
+    void draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
+                   FrameReport& report);
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
     void take_screenshot();
 
@@ -125,7 +127,6 @@ class Session {
     interaction::Commands panel_commands_;
     FrameLog log_;
     FrameQuality quality_;
-    bool measure_ = false; ///< draw the frame even if nothing in it has changed
     BackgroundWork pictures_;
     std::filesystem::path screenshot_folder_;
     CaptureWait captures_;

@@ -51,6 +51,7 @@ settle_ms = 300
 mode = "fast"
 settled = "gaussian"
 frame_budget_ms = 8.5
+still_budget_ms = 200
 )",
                                        "lab.toml");
     EXPECT_FLOAT_EQ(config.installation.viewers[0].eye_separation, 0.05f);
@@ -65,6 +66,7 @@ frame_budget_ms = 8.5
     EXPECT_EQ(config.quality, interaction::QualityMode::fast);
     EXPECT_EQ(config.settled_footprint, render::Footprint::gaussian);
     EXPECT_DOUBLE_EQ(config.frame_budget_ms, 8.5);
+    EXPECT_DOUBLE_EQ(config.still_budget_ms, 200);
 }
 
 TEST(Config, WhatASettledPictureIsDrawnWithIsMeasuredUnlessItIsNamed) {

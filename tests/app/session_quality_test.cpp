@@ -28,6 +28,7 @@ class SessionQuality : public SessionTest {
         Config config = small_config();
         config.frame_rate_limit = kRate;
         config.frame_budget_ms = budget_ms;
+        config.still_budget_ms = 0;
         return config;
     }
     interaction::Seconds now() const { return interaction::Seconds(frame_ / kRate); }
@@ -94,6 +95,37 @@ TEST_P(SessionQuality, OverTheBudgetASettledPictureGoesBackToQuadsAndSaysWhy) {
     EXPECT_TRUE(std::ranges::any_of(frames, [](const FrameReport& frame) {
         return frame.reason == QualityReason::over_budget && frame.final && frame.better;
     }));
+}
+
+TEST_P(SessionQuality, APictureAtRestMayTakeItsTimeButNotOneThatSways) {
+    Config config = config_with(kNothing);
+    config.still_budget_ms = kPlenty;
+    Session session(config, file_, *context_);
+    start(session);
+    rest(session, 10);
+    FrameReport report = rest(session, 50);
+    EXPECT_EQ(report.footprint, render::kBestFootprint);
+    EXPECT_TRUE(report.final);
+    EXPECT_EQ(report.budget, Milliseconds(kPlenty));
+    EXPECT_FALSE(report.redrawn);
+    // Settled, but every second refresh shows another pose: that of a slow tracker.
+    const auto sway = [&](int frames) {
+        for (int i = 0; i < frames; ++i, ++frame_) {
+            interaction::InputState input = head_at_rest(now().count());
+            input.devices[0].pose->position.x = 1e-5f * static_cast<float>(frame_ / 2 % 2);
+            report = session.frame(input, {}, Waiting::never);
+            ASSERT_EQ(report.pace, interaction::Pace::settled);
+        }
+    };
+    sway(20);
+    const std::size_t first = session.log().frames().size();
+    sway(600);
+    const auto& frames = session.log().frames();
+    EXPECT_LE(
+        std::count_if(frames.begin() + static_cast<std::ptrdiff_t>(first), frames.end(),
+                      [](const FrameReport& frame) { return frame.footprint != Footprint::quad; }),
+        24);
+    EXPECT_EQ(report.budget, Milliseconds(kNothing));
 }
 
 TEST_P(SessionQuality, TimesOfTheGpuReachTheReport) {

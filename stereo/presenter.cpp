@@ -33,7 +33,9 @@ void Presenter::hand_over_to(GlContext& context) const {
 void Presenter::copy(const render::RenderTarget& picture, GLenum buffer) const {
     const glm::ivec2 size = picture.size();
     gl_.NamedFramebufferTexture(source_->name(), GL_COLOR_ATTACHMENT0, picture.color_texture(), 0);
-    gl_.NamedFramebufferDrawBuffer(0, buffer);
+    // Mesa 22.3 loses the window's buffers where they are chosen without being bound.
+    gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl_.DrawBuffer(buffer);
     gl_.BlitNamedFramebuffer(source_->name(), 0, 0, 0, size.x, size.y, 0, 0, size.x, size.y,
                              GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }

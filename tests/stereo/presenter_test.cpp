@@ -63,7 +63,8 @@ render::Gl counting_gl() {
         if (attachment == GL_COLOR_ATTACHMENT0)
             story().push_back("texture " + std::to_string(texture));
     };
-    gl.NamedFramebufferDrawBuffer = [](GLuint, GLenum buffer) {
+    gl.BindFramebuffer = [](GLenum, GLuint) {};
+    gl.DrawBuffer = [](GLenum buffer) {
         story().emplace_back(buffer == GL_BACK_LEFT    ? "left"
                              : buffer == GL_BACK_RIGHT ? "right"
                                                        : "back");

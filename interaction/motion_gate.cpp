@@ -2,10 +2,9 @@
 #include "interaction/motion_gate.h"
 
 #include "interaction/actions.h"
+#include "interaction/pose_history.h"
 
 #include <algorithm>
-#include <cmath>
-#include <deque>
 
 namespace isochron::interaction {
 namespace {
@@ -13,80 +12,10 @@ namespace {
 constexpr Seconds kWindow{0.1};     ///< over which stillness is judged
 constexpr Seconds kReaction{0.020}; ///< over which a start is noticed; long against tracker noise
 
-struct Speeds {
-    double linear = 0;  ///< [m/s]
-    double angular = 0; ///< [rad/s]
-    bool below(const StillnessLimits& limits, double factor) const {
-        return linear <= factor * limits.linear && angular <= factor * limits.angular;
-    }
-};
-
-/// Rotation vector [rad] from `from` to `to`.
-glm::dvec3 rotation_between(const glm::quat& from, const glm::quat& to) {
-    glm::dquat turn = glm::dquat(to) * glm::conjugate(glm::dquat(from));
-    if (turn.w < 0)
-        turn = -turn;
-    const glm::dvec3 axis(turn.x, turn.y, turn.z);
-    const double sine = glm::length(axis);
-    return sine > 0 ? axis * (2.0 * std::atan2(sine, turn.w) / sine) : glm::dvec3(0);
+bool below(const Velocity& speeds, const StillnessLimits& limits, double factor) {
+    return glm::length(speeds.linear) <= factor * limits.linear &&
+           glm::length(speeds.angular) <= factor * limits.angular;
 }
-
-/// The head's recent poses and what speeds they show.
-class HeadHistory {
-  public:
-    void add(Seconds time, const Pose& pose) {
-        if (!samples_.empty() && time <= samples_.back().time)
-            samples_.pop_back();
-        samples_.push_back({time, pose});
-        while (samples_.size() > 2 && time - samples_[0].time > kWindow)
-            samples_.pop_front();
-    }
-    void forget() { samples_.clear(); }
-
-    /// Slope of the least-squares line through the window: averages tracker noise away.
-    Speeds steady() const {
-        if (too_short())
-            return {};
-        const Sample& first = samples_.front();
-        const auto count = static_cast<double>(samples_.size());
-        double mean_time = 0;
-        for (const Sample& sample : samples_)
-            mean_time += (sample.time - first.time).count() / count;
-        double spread = 0;
-        glm::dvec3 linear(0), angular(0);
-        for (const Sample& sample : samples_) {
-            const double t = (sample.time - first.time).count() - mean_time;
-            spread += t * t;
-            linear += t * glm::dvec3(sample.pose.position - first.pose.position);
-            angular += t * rotation_between(first.pose.orientation, sample.pose.orientation);
-        }
-        return {glm::length(linear) / spread, glm::length(angular) / spread};
-    }
-
-    /// From the newest sample that is `kReaction` old: quick, and still above the noise.
-    Speeds sudden() const {
-        if (too_short())
-            return {};
-        const Sample& last = samples_.back();
-        const auto base = std::find_if(samples_.rbegin(), samples_.rend(), [&](const Sample& s) {
-            return last.time - s.time >= kReaction;
-        });
-        const double elapsed = (last.time - base->time).count();
-        return {glm::length(glm::dvec3(last.pose.position - base->pose.position)) / elapsed,
-                glm::length(rotation_between(base->pose.orientation, last.pose.orientation)) /
-                    elapsed};
-    }
-
-  private:
-    struct Sample {
-        Seconds time;
-        Pose pose;
-    };
-    bool too_short() const {
-        return samples_.empty() || samples_.back().time - samples_.front().time < kReaction;
-    }
-    std::deque<Sample> samples_;
-};
 
 bool is_pending(const DeviceState& device) {
     const std::uint64_t quiet = device.name == "keys" ? quiet_actions() : 0;
@@ -106,7 +35,7 @@ const char* name_of(Pace pace) {
 
 struct MotionGate::State {
     StillnessLimits limits;
-    HeadHistory head;
+    PoseHistory head{kWindow, kReaction};
     bool playing = false;
     Pace automatic = Pace::moving;
     Pace pace = Pace::moving;
@@ -130,11 +59,11 @@ struct MotionGate::State {
             automatic = Pace::moving;
             still_since.reset();
         } else if (automatic == Pace::settled) {
-            if (!head.sudden().below(limits, limits.leave_factor)) {
+            if (!below(head.sudden(), limits, limits.leave_factor)) {
                 automatic = Pace::moving;
                 still_since.reset();
             }
-        } else if (!head.steady().below(limits, 1.0)) {
+        } else if (!below(head.steady(), limits, 1.0)) {
             still_since.reset();
         } else {
             if (!still_since)

@@ -24,4 +24,20 @@ bool is_finite(const Pose& pose) {
            std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
 }
 
+bool is_finite(const Velocity& velocity) {
+    for (const glm::dvec3& v : {velocity.linear, velocity.angular})
+        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+            return false;
+    return true;
+}
+
+glm::dvec3 rotation_between(const glm::quat& from, const glm::quat& to) {
+    glm::dquat turn = glm::dquat(to) * glm::conjugate(glm::dquat(from));
+    if (turn.w < 0)
+        turn = -turn;
+    const glm::dvec3 axis(turn.x, turn.y, turn.z);
+    const double sine = glm::length(axis);
+    return sine > 0 ? axis * (2.0 * std::atan2(sine, turn.w) / sine) : glm::dvec3(0);
+}
+
 } // namespace isochron::interaction

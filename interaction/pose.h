@@ -19,9 +19,18 @@ struct Pose {
     bool operator==(const Pose&) const = default;
 };
 
+/// Of a posed thing, in the room: linear [m/s] and angular [rad/s, along the axis of turning].
+struct Velocity {
+    glm::dvec3 linear{0.0}, angular{0.0};
+    bool operator==(const Velocity&) const = default;
+};
+
 /// 4x4 matrix that maps the posed thing's own space to the room.
 glm::mat4 room_from(const Pose& pose);
 bool is_finite(const Pose& pose);
+bool is_finite(const Velocity& velocity);
+/// Rotation vector [rad] that turns `from` into `to` the short way, in the room.
+glm::dvec3 rotation_between(const glm::quat& from, const glm::quat& to);
 
 /// Where the data stands in the room: room = translation + scale * rotation * physical.
 struct Similarity {

@@ -1,4 +1,4 @@
-// The one interface behind which all input lives: emulation, replay, and later real trackers.
+// The one interface behind which all input lives: emulation, replay, trackers.
 #pragma once
 
 #include "interaction/pose.h"
@@ -11,6 +11,13 @@
 
 namespace isochron::interaction {
 
+/// What a device's pose is worth.
+enum class Tracking : std::uint8_t {
+    tracked, ///< measured a moment ago
+    held,    ///< the last good pose, kept through a gap
+    lost     ///< the last good pose, too old to say where the thing is; or none at all
+};
+
 /// State of one device at one time. Well-known names: `head`, `wand`, `mouse`, `keys`, `gamepad`.
 struct DeviceState {
     std::string name;
@@ -18,6 +25,11 @@ struct DeviceState {
     bool pose_valid = true;       ///< false while `pose` is only held from before
     std::uint64_t buttons = 0;    ///< bit i: button i is down
     std::vector<float> valuators; ///< 0 at rest; meaning and range by device (actions.h)
+    bool pose_lost = false;       ///< not valid, and no longer worth to be acted on
+    std::optional<Velocity> velocity = std::nullopt;   ///< of the pose, where it is known
+    std::optional<Seconds> measured = std::nullopt;    ///< session time when the pose was measured
+    std::optional<Seconds> device_time = std::nullopt; ///< the same moment by the device's clock
+    Tracking tracking() const;
     bool operator==(const DeviceState&) const = default;
 };
 
@@ -36,6 +48,11 @@ class TrackedInput {
     virtual ~TrackedInput() = default;
     /// @param now session time of the frame, never decreasing
     virtual InputState poll(Seconds now) = 0;
+    /// What has been received and refused so far, a line per source; for people.
+    virtual std::vector<std::string> status() const { return {}; }
 };
+
+/// `tracked`, `held`, `lost`.
+std::string_view name_of(Tracking tracking);
 
 } // namespace isochron::interaction

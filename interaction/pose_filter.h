@@ -1,0 +1,79 @@
+// Decides which of a tracker's samples are believed, and what the last good pose is worth.
+//
+//     PoseFilter filter({});
+//     filter.add({now, pose});
+//     if (filter.last() && filter.tracking(now) == Tracking::tracked)
+//         use(filter.last()->pose);
+#pragma once
+
+#include "interaction/tracked_input.h"
+
+namespace isochron::interaction {
+
+/// One measured pose, in the room.
+struct PoseSample {
+    Seconds time; ///< session time of the measurement
+    Pose pose;
+    std::optional<Velocity> velocity = std::nullopt;   ///< where the device tells it
+    std::optional<Seconds> device_time = std::nullopt; ///< the measurement by the device's clock
+};
+
+/// Whether it is finite, in a room, and its quaternion nearly of unit length.
+bool is_pose(const Pose& pose);
+
+struct PoseFilterLimits {
+    double fastest = 5.0;       ///< [m/s] what moves faster has jumped
+    double fastest_turn = 20.0; ///< [rad/s]
+    Seconds accept_jump{0.3};   ///< a jump is believed once it has lasted this long
+    Seconds held_after{0.1};    ///< a pose older than this is only held
+    Seconds lost_after{1.0};    ///< and one older than this is lost
+    double slack = 0.05;        ///< [m] never taken for a jump, as time stamps are not exact
+    double slack_turn = 0.2;    ///< [rad]
+    bool operator==(const PoseFilterLimits&) const = default;
+};
+
+/// What has become of the samples so far.
+struct PoseFilterCounts {
+    std::uint64_t accepted = 0;
+    std::uint64_t not_a_pose = 0; ///< not finite, or the orientation not a unit quaternion
+    std::uint64_t late = 0;       ///< older than the newest accepted one
+    std::uint64_t jumped = 0;     ///< implausibly far from the last good pose
+    std::uint64_t moved_on = 0;   ///< jumps that lasted and were believed
+};
+
+/// Pure function of the samples and times that it was given. A sample is believed when it is a pose
+/// and lies where the last good one can have moved to. One that does not starts a jump; those that
+/// follow it plausibly continue the jump, until it has lasted for `accept_jump`. Meanwhile, and
+/// while nothing comes, the last good pose stands.
+class PoseFilter {
+  public:
+    enum class Verdict : std::uint8_t { accepted, moved_on, refused };
+
+    explicit PoseFilter(const PoseFilterLimits& limits) : limits_(limits) {}
+    Verdict add(PoseSample sample);
+    /// Counts something that came in the place of a pose.
+    void refuse() { ++counts_.not_a_pose; }
+
+    /// The newest believed sample, its orientation of unit length.
+    const std::optional<PoseSample>& last() const { return last_; }
+    Tracking tracking(Seconds now) const;
+    const PoseFilterCounts& counts() const { return counts_; }
+    const PoseFilterLimits& limits() const { return limits_; }
+
+  private:
+    bool plausible(const PoseSample& from, const PoseSample& to) const;
+    Verdict accept(const PoseSample& sample);
+    bool continues_jump(const PoseSample& sample) const;
+    Verdict jump(const PoseSample& sample, Seconds since);
+
+    struct Jump {
+        Seconds since;
+        PoseSample newest;
+    };
+    PoseFilterLimits limits_;
+    std::optional<PoseSample> last_;
+    std::optional<Jump> jump_;
+    PoseFilterCounts counts_;
+};
+
+} // namespace isochron::interaction

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kLongestFrame = 0.1;    ///< [s] a stall must not become a leap
 constexpr float kSteepest = 1.5f;        ///< [rad] of looking up or down
-constexpr float kDeadZone = 0.15f;       ///< of a gamepad's axes
 constexpr glm::vec2 kHand{0.2f, -0.25f}; ///< [m] the wand, right of and below the head
 constexpr float kAimDistance = 1.5f;     ///< [m] from the head, where cursor and wand ray meet
 constexpr int kMostTaps = 16;            ///< remembered while frames are slow
@@ -42,9 +41,9 @@ struct Switch {
     }
 };
 
-float past_dead_zone(float value) {
+float past_dead_zone(float value, float zone) {
     const float size = std::min(std::abs(value), 1.0f);
-    return size > kDeadZone ? std::copysign((size - kDeadZone) / (1.0f - kDeadZone), value) : 0.0f;
+    return size > zone ? std::copysign((size - zone) / (1.0f - zone), value) : 0.0f;
 }
 
 struct Gamepad {
@@ -52,15 +51,15 @@ struct Gamepad {
     std::uint32_t buttons = 0, tapped = 0;
     std::vector<float> valuators;
 
-    void feed(const GamepadEvent& event) {
+    void feed(const GamepadEvent& event, float dead_zone) {
         present = event.present;
         buttons = present ? event.buttons : 0;
         tapped |= buttons;
         valuators.assign(static_cast<std::size_t>(GamepadAxis::count), 0.0f);
         for (std::size_t axis = 0; present && axis < valuators.size(); ++axis) {
             const bool trigger = axis >= static_cast<std::size_t>(GamepadAxis::left_trigger);
-            valuators[axis] =
-                past_dead_zone(trigger ? (event.axes[axis] + 1.0f) / 2.0f : event.axes[axis]);
+            valuators[axis] = past_dead_zone(
+                trigger ? (event.axes[axis] + 1.0f) / 2.0f : event.axes[axis], dead_zone);
         }
     }
 };
@@ -131,7 +130,10 @@ struct DesktopEmulation::State {
         mouse_down = 0;
         cursor.reset();
     }
-    void act(const GamepadEvent& event) { gamepad.feed(event); }
+    void act(const GamepadEvent& event) {
+        if (options.gamepad)
+            gamepad.feed(event, options.dead_zone);
+    }
 
     bool shown(Action action) const { return switches[static_cast<std::size_t>(action)].shown; }
     float axis(Action positive, Action negative) const {

@@ -1,0 +1,51 @@
+// Reads the datagrams that ART's tracking software DTrack sends: lines of ASCII.
+#pragma once
+
+#include "interaction/pose.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// A body or the body of a Flystick. Rotation: column i is the image of axis i, as the protocol
+/// orders its nine numbers. What is not tracked carries zeros.
+struct DTrackBody {
+    int id = 0; ///< from 0
+    bool tracked = false;
+    glm::dvec3 position{0.0}; ///< [m]
+    glm::dmat3 rotation{1.0};
+};
+struct DTrackFlystick {
+    DTrackBody body;
+    std::uint64_t buttons = 0;      ///< bit i: button i, from the right one to the left one
+    std::vector<float> controllers; ///< [-1, 1], left and up positive; valid even when not tracked
+};
+struct DTrackMarker {
+    int id = 0;
+    glm::dvec3 position{0.0}; ///< [m]
+};
+
+struct DTrackFrame {
+    std::uint32_t counter = 0;
+    std::optional<Seconds> time; ///< of the measurement, since midnight UTC
+    std::optional<int> calibrated_bodies;
+    std::vector<DTrackBody> bodies;
+    std::vector<DTrackFlystick> flysticks;
+    std::vector<DTrackMarker> markers;
+    int malformed_lines = 0; ///< left out
+};
+
+/// Lines `fr`, `ts`, `6dcal`, `6d`, `6di`, `6df2`, `6df` and `3d`; others are passed over. A line
+/// that does not read as it should, holds a number that is not finite, or announces another number
+/// of blocks than it has is left out whole.
+/// Source: A.R.T. GmbH, DTrack2 user manual, "Output of measurement data via Ethernet" (appendix B
+/// in version 2.12, 2016).
+/// @return empty when the datagram does not begin with a frame counter
+std::optional<DTrackFrame> parse_dtrack(std::string_view datagram);
+
+} // namespace isochron::interaction

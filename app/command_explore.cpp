@@ -5,6 +5,7 @@
 #include "app/positive_number.h"
 #include "app/session.h"
 #include "app/shipped_configs.h"
+#include "app/tracker_setup.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/new_file.h"
@@ -32,7 +33,7 @@ struct ExploreOptions {
     std::optional<std::uint32_t> step;
     std::vector<int> size;
     std::string screenshots = ".";
-    bool no_panel = false, emulate = false;
+    bool no_panel = false, emulate = false, list_devices = false;
 };
 
 Config configure(const ExploreOptions& options) {
@@ -140,6 +141,10 @@ void explore(const ExploreOptions& options) {
     const Config config = configure(options);
     for (const ConfigProblem& problem : problems_of(config))
         fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
+    for (const std::string& warning : device_warnings(config))
+        fmt::print(stderr, "isochron: warning: {}\n", warning);
+    interaction::CompositeInput trackers;
+    open_trackers(config.devices, trackers);
     const auto file = index::IndexFile::open(*options.data);
     check_outputs(options);
     Session session(config, file, open(options, config));
@@ -164,9 +169,11 @@ void explore(const ExploreOptions& options) {
         const auto events = session.panel_events(windows.poll_events());
         emulation.feed(options.emulate ? camera.feed(events) : events);
         const Seconds now = std::chrono::steady_clock::now() - start;
-        interaction::InputState input = emulation.poll(now);
+        // What is tracked goes before what mouse and keyboard emulate.
+        interaction::InputState input =
+            interaction::merged(trackers.poll(now), emulation.poll(now));
         if (options.emulate)
-            input.devices.push_back({kRoomCamera, camera.pose(), true, 0, {}});
+            input.devices.push_back({.name = kRoomCamera, .pose = camera.pose(), .valuators = {}});
         interaction::Commands commands = session.commands_from(input);
         const interaction::Commands from_panel = session.take_panel_commands();
         interaction::merge(commands, from_panel);
@@ -185,6 +192,8 @@ void explore(const ExploreOptions& options) {
     if (recorder)
         recorder->finish();
     session.pictures().finish();
+    for (const std::string& line : trackers.status())
+        fmt::print(stderr, "{}\n", line);
     if (options.report)
         session.log().write(*options.report, windows.drawing().description());
 }

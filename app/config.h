@@ -1,9 +1,9 @@
 // An installation and its habits, as a TOML file describes them.
 #pragma once
 
+#include "app/device_config.h"
 #include "app/display_config.h"
 #include "app/placement.h"
-#include "interaction/desktop_emulation.h"
 #include "interaction/motion_gate.h"
 #include "render/cell_pass.h"
 #include "stereo/gl_context.h"
@@ -24,6 +24,7 @@ struct Config {
     stereo::Installation installation;
     DisplayPlaces places; ///< where the file describes the installation's parts
     interaction::EmulationOptions emulation;
+    DeviceConfig devices;
     interaction::StillnessLimits stillness;
     interaction::QualityMode quality = interaction::QualityMode::automatic;
     /// What a settled picture is drawn with, whatever it costs; empty: the best that fits the

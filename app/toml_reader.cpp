@@ -150,6 +150,20 @@ void TomlReader::vector(std::string_view key, glm::vec3& into) {
     }
 }
 
+void TomlReader::list(std::string_view key, double low, double high, std::size_t longest,
+                      std::vector<double>& into) {
+    const toml::node* node = get(key);
+    if (!node)
+        return;
+    const toml::array* array = node->as_array();
+    if (!array || array->size() > longest)
+        fail(key, fmt::format("expected an array of at most {} numbers, got {}", longest,
+                              array ? fmt::format("one of {}", array->size()) : type_name(*node)));
+    into.clear();
+    for (const toml::node& element : *array)
+        into.push_back(finite_number(key, element, low, high));
+}
+
 void TomlReader::integers(std::string_view key, int low, int high, glm::ivec2& into) {
     const toml::node* node = get(key);
     if (!node)
@@ -204,6 +218,12 @@ bool TomlReader::tables(std::string_view key, const std::function<void(TomlReade
         reader.finish();
     }
     return true;
+}
+
+bool TomlReader::table_or_tables(std::string_view key,
+                                 const std::function<void(TomlReader&)>& read) {
+    const toml::node* node = table_.get(key);
+    return node && node->is_array() ? tables(key, read) : table(key, read);
 }
 
 void TomlReader::finish() const {

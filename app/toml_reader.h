@@ -35,6 +35,9 @@ class TomlReader {
     void text(std::string_view key, std::string& into);
     void vector(std::string_view key, glm::vec2& into);
     void vector(std::string_view key, glm::vec3& into);
+    /// An array of at most `longest` numbers in [low, high].
+    void list(std::string_view key, double low, double high, std::size_t longest,
+              std::vector<double>& into);
     void integers(std::string_view key, int low, int high, glm::ivec2& into);
 
     /// A word out of a closed set; `parse` returns false for a word it does not know.
@@ -48,6 +51,8 @@ class TomlReader {
     /// @return false when absent
     bool table(std::string_view key, const std::function<void(TomlReader&)>& read);
     bool tables(std::string_view key, const std::function<void(TomlReader&)>& read);
+    /// Either of them.
+    bool table_or_tables(std::string_view key, const std::function<void(TomlReader&)>& read);
 
     void finish() const;
 

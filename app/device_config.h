@@ -1,0 +1,26 @@
+// The trackers and other devices of an installation, as configuration files describe them.
+#pragma once
+
+#include "app/toml_reader.h"
+#include "interaction/desktop_emulation.h"
+#include "interaction/dtrack_input.h"
+#include "interaction/osc_input.h"
+#include "interaction/vrpn_input.h"
+
+#include <vector>
+
+namespace isochron::app {
+
+/// Each source may appear several times.
+struct DeviceConfig {
+    std::vector<interaction::DTrackOptions> dtrack;
+    std::vector<interaction::OscOptions> osc;
+    std::vector<interaction::VrpnOptions> vrpn;
+    bool empty() const { return dtrack.empty() && osc.empty() && vrpn.empty(); }
+};
+
+/// Reads the tables `tracking`, `dtrack`, `osc`, `vrpn` and `gamepad` of a configuration file.
+void read_devices(TomlReader& root, DeviceConfig& devices,
+                  interaction::EmulationOptions& emulation);
+
+} // namespace isochron::app

@@ -136,9 +136,16 @@ stereo::Windows open(const ExploreOptions& options, const Config& config) {
 void explore(const ExploreOptions& options) {
     if (options.check_config)
         return check_config(*options.check_config);
+    const Config config = configure(options);
+    if (options.list_devices) {
+        for (const std::string& line : describe_devices(config))
+            fmt::print("{}\n", line);
+        for (const std::string& warning : device_warnings(config))
+            fmt::print("warning: {}\n", warning);
+        return;
+    }
     if (!options.data)
         throw UsageError("file is required: an index made by `isochron build`");
-    const Config config = configure(options);
     for (const ConfigProblem& problem : problems_of(config))
         fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
     for (const std::string& warning : device_warnings(config))
@@ -251,6 +258,8 @@ void add_explore(CLI::App& program) {
         ->capture_default_str();
     command->add_option("--seconds", options->seconds, "Leave after this many seconds")
         ->check(positive_number());
+    command->add_flag("--list-devices", options->list_devices,
+                      "Say which devices the configuration names, and leave; needs no index");
     command->add_flag("--no-panel", options->no_panel,
                       "Start with the panel hidden (Tab shows it)");
     command->footer(footer());

@@ -38,6 +38,16 @@ nlohmann::json summary_json(const TimeSummary& summary) {
     return {{"median", summary.median}, {"p99", summary.p99}, {"worst", summary.worst}};
 }
 
+nlohmann::json tracking_json(const std::vector<DeviceTracking>& devices) {
+    nlohmann::json result;
+    for (const DeviceTracking& device : devices) {
+        result[device.name]["state"] = name_of(device.tracking);
+        if (device.age)
+            result[device.name]["age_ms"] = Milliseconds(*device.age).count();
+    }
+    return result;
+}
+
 nlohmann::json query_json(const index::Query& query) {
     return {{"step", query.step}, {"isovalue", query.isovalue}};
 }
@@ -128,6 +138,8 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"reused", frame.reused}};
         for (const auto& [name, member] : kStages)
             row[std::string(name) + "_ms"] = (frame.*member).count();
+        if (!frame.tracking.empty())
+            row["tracking"] = tracking_json(frame.tracking);
         rows.push_back(std::move(row));
     }
     const std::string text = report.dump(1) + "\n";

@@ -1,6 +1,7 @@
 // What every frame did and how long each stage took: the program's own measurement.
 #pragma once
 
+#include "app/device_tracking.h"
 #include "app/milliseconds.h"
 #include "app/quality_controller.h"
 #include "index/query.h"
@@ -36,6 +37,7 @@ struct FrameReport {
     Milliseconds search{0}, shading{0};   ///< on the worker, of the shown set
     Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
+    std::vector<DeviceTracking> tracking; ///< empty where nothing is tracked
 };
 
 /// The middle, the 99th percentile and the largest of some times.

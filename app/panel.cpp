@@ -202,6 +202,8 @@ void measurements(const PanelModel& model) {
     note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms", model.frames_per_second,
                      model.frame_times.median, model.frame_times.p99),
          kDim);
+    for (const DeviceTracking& device : frame.tracking)
+        note(in_words(device), device.tracking == interaction::Tracking::tracked ? kDim : kWarning);
 }
 
 /// In two columns: the control, and behind the run of spaces that pads it, its effect.

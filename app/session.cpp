@@ -260,6 +260,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     StopWatch whole;
     FrameReport report;
     report.time = input.time;
+    report.tracking = tracking_of(input);
     state_.apply(commands, file_->info().steps());
     if (commands.screenshot)
         captures_.ask();

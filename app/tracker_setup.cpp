@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace isochron::app {
@@ -13,27 +14,36 @@ namespace {
 
 using namespace interaction;
 
-std::string degrees_of(const Pose& pose) {
+/// Rounded, and without negative zeros.
+float tidy(float value) {
+    return std::round(value * 1000.0f) / 1000.0f + 0.0f;
+}
+
+std::string in_words(const Pose& pose) {
     const glm::vec3 p = pose.position;
     const glm::vec3 ahead = pose.orientation * glm::vec3(0, 0, -1);
     const glm::vec3 up = pose.orientation * glm::vec3(0, 1, 0);
     return fmt::format("at {:.3f} {:.3f} {:.3f} m, -Z to {:.2f} {:.2f} {:.2f}, "
                        "+Y to {:.2f} {:.2f} {:.2f}",
-                       p.x, p.y, p.z, ahead.x, ahead.y, ahead.z, up.x, up.y, up.z);
+                       tidy(p.x), tidy(p.y), tidy(p.z), tidy(ahead.x), tidy(ahead.y), tidy(ahead.z),
+                       tidy(up.x), tidy(up.y), tidy(up.z));
+}
+
+/// Where a tracker stands, as its devices have it.
+void describe_place(const Calibration& calibration, std::vector<std::string>& lines) {
+    lines.push_back(fmt::format("  in the room {}{}", in_words(calibration.room_from_tracker),
+                                calibration.scale == 1.0
+                                    ? std::string()
+                                    : fmt::format(", scaled by {}", calibration.scale)));
 }
 
 void describe(const DeviceOptions& device, const std::string& source,
               std::vector<std::string>& lines) {
-    const Calibration& calibration = device.calibration;
     lines.push_back(fmt::format("  {}: {}", device.name, source));
     if (!device.has_pose)
         return;
-    lines.push_back(
-        fmt::format("    tracker in the room {}{}", degrees_of(calibration.room_from_tracker),
-                    calibration.scale == 1.0 ? std::string()
-                                             : fmt::format(", scaled by {}", calibration.scale)));
     lines.push_back(fmt::format("    {} in its sensor {}", device.name,
-                                degrees_of(calibration.sensor_from_thing)));
+                                in_words(device.calibration.sensor_from_thing)));
     const PoseFilterLimits& limits = device.limits;
     lines.push_back(fmt::format(
         "    held after {:.0f} ms, lost after {:.0f} ms, jumps beyond {} m/s accepted after {:.0f} "
@@ -125,16 +135,19 @@ std::vector<std::string> describe_devices(const Config& config) {
     std::vector<std::string> lines;
     for (const DTrackOptions& dtrack : config.devices.dtrack) {
         lines.push_back(fmt::format("dtrack: UDP {}", to_string(dtrack.endpoint)));
+        describe_place(dtrack.devices.front().device.calibration, lines);
         for (const DTrackDevice& device : dtrack.devices)
             describe(device.device, source_of(device), lines);
     }
     for (const OscOptions& osc : config.devices.osc) {
         lines.push_back(fmt::format("osc: UDP {}", to_string(osc.endpoint)));
+        describe_place(osc.devices.front().device.calibration, lines);
         for (const OscDevice& device : osc.devices)
             describe(device.device, fmt::format("{}/{}/...", osc.prefix, device.source), lines);
     }
     for (const VrpnOptions& vrpn : config.devices.vrpn) {
         lines.emplace_back("vrpn:");
+        describe_place(vrpn.devices.front().device.calibration, lines);
         for (const VrpnDevice& device : vrpn.devices)
             describe(device.device, source_of(device), lines);
     }

@@ -48,7 +48,8 @@ struct RecordedFrame {
 ///
 /// `devices` states all devices, `changed` only those that differ from the frame before, and
 /// neither means that all are as before. A device's `valid` (true), `buttons` (0) and `valuators`
-/// ([]) are left out at these values; so are a frame's empty `commands` and `panel`, and a
+/// ([]) are left out at these values, what a tracker adds (`lost`, `velocity` [v, w], `measured`,
+/// `device_time`) where it has not been said; so are a frame's empty `commands` and `panel`, and a
 /// `footprint` that is as in the frame before. Numbers round-trip.
 struct Recording {
     RecordingHeader header;

@@ -39,6 +39,22 @@ Pose pose_from(const json& value) {
     return pose;
 }
 
+json velocity_json(const Velocity& velocity) {
+    const glm::dvec3& v = velocity.linear;
+    const glm::dvec3& w = velocity.angular;
+    return {v.x, v.y, v.z, w.x, w.y, w.z};
+}
+
+Velocity velocity_from(const json& value) {
+    list(value, "velocity", 6, 6);
+    Velocity velocity;
+    for (int i = 0; i < 3; ++i) {
+        velocity.linear[i] = number(value[i], "velocity");
+        velocity.angular[i] = number(value[i + 3], "velocity");
+    }
+    return velocity;
+}
+
 json device_json(const DeviceState& device) {
     json result{{"name", device.name}};
     if (device.pose)
@@ -49,6 +65,14 @@ json device_json(const DeviceState& device) {
         result["buttons"] = device.buttons;
     if (!device.valuators.empty())
         result["valuators"] = device.valuators;
+    if (device.pose_lost)
+        result["lost"] = true;
+    if (device.velocity)
+        result["velocity"] = velocity_json(*device.velocity);
+    if (device.measured)
+        result["measured"] = device.measured->count();
+    if (device.device_time)
+        result["device_time"] = device.device_time->count();
     return result;
 }
 
@@ -65,7 +89,18 @@ DeviceState device_from(const json& value) {
     if (const json* found = members.find("valuators"))
         for (const json& valuator : list(*found, "valuators", 0, kMostValuators))
             device.valuators.push_back(small_number(valuator, "valuators"));
-    members.done({"name", "pose", "valid", "buttons", "valuators"});
+    if (const json* found = members.find("lost"))
+        device.pose_lost = boolean(*found, "lost");
+    if (device.pose_lost && device.pose_valid)
+        throw Error(fmt::format("lost: the pose of {} is valid", excerpt(json(device.name))));
+    if (const json* found = members.find("velocity"))
+        device.velocity = velocity_from(*found);
+    if (const json* found = members.find("measured"))
+        device.measured = Seconds(number(*found, "measured"));
+    if (const json* found = members.find("device_time"))
+        device.device_time = Seconds(number(*found, "device_time"));
+    members.done({"name", "pose", "valid", "buttons", "valuators", "lost", "velocity", "measured",
+                  "device_time"});
     return device;
 }
 
@@ -181,6 +216,9 @@ void require_finite(const RecordedFrame& frame) {
     require(std::isfinite(frame.input.time.count()), "t");
     for (const DeviceState& device : frame.input.devices) {
         require(!device.pose || is_finite(*device.pose), device.name);
+        require(!device.velocity || is_finite(*device.velocity), device.name);
+        for (const auto& time : {device.measured, device.device_time})
+            require(!time || std::isfinite(time->count()), device.name);
         for (const float valuator : device.valuators)
             require(std::isfinite(valuator), device.name);
     }

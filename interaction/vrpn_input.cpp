@@ -93,6 +93,16 @@ struct VrpnInput::State {
             buttons = report.state ? buttons | mask : buttons & ~mask;
             source.received.tapped |= buttons;
         }
+        /// All of them, sent when a connection is made: some may be down already.
+        static void VRPN_CALLBACK buttons(void* self, const vrpn_BUTTONSTATESCB report) {
+            auto& source = *static_cast<Source*>(self);
+            std::uint64_t states = 0;
+            for (int i = 0; i < std::min(report.num_buttons, 64); ++i)
+                states |= std::uint64_t{report.states[i] != 0} << i;
+            const std::lock_guard lock(source.mutex);
+            source.received.buttons = states;
+            source.received.tapped |= states;
+        }
         static void VRPN_CALLBACK analog(void* self, const vrpn_ANALOGCB report) {
             auto& source = *static_cast<Source*>(self);
             const std::lock_guard lock(source.mutex);
@@ -149,6 +159,7 @@ struct VrpnInput::State {
             if (!options.buttons.empty()) {
                 buttons = std::make_unique<vrpn_Button_Remote>(options.buttons.c_str());
                 buttons->register_change_handler(&source, &Source::button);
+                buttons->register_states_handler(&source, &Source::buttons);
             }
             if (!options.analog.empty()) {
                 analog = std::make_unique<vrpn_Analog_Remote>(options.analog.c_str());

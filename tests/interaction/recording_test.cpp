@@ -98,6 +98,14 @@ DeviceState random_device(Random& random, std::string name) {
         device.buttons = std::uint64_t{random()} << 32 | random();
     for (unsigned i = random() % 4; i > 0; --i)
         device.valuators.push_back(static_cast<float>(uniform(random, -1, 1)));
+    device.pose_lost = !device.pose_valid && random() % 2;
+    if (random() % 2)
+        device.velocity =
+            Velocity{{uniform(random, -3, 3), 1e-300, 0}, {0, uniform(random, -9, 9), 1}};
+    if (random() % 2)
+        device.measured = Seconds(uniform(random, -1, 100));
+    if (random() % 2)
+        device.device_time = Seconds(uniform(random, 0, 4e9));
     return device;
 }
 

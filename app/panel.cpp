@@ -156,7 +156,6 @@ void view_section(const PanelModel& model, Commands& commands) {
     ImGui::SetNextItemWidth(110.0f);
     if (ImGui::Combo("quality", &mode, "auto\0fast\0quality\0"))
         commands.quality = static_cast<interaction::QualityMode>(mode);
-    ImGui::SameLine();
     const bool settled = model.frame.pace == interaction::Pace::settled;
     note(quality_line(model.frame),
          settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
@@ -230,11 +229,11 @@ std::string quality_line(const FrameReport& frame) {
     std::string line = fmt::format("{}: {}", name_of(frame.pace), name_of(frame.footprint));
     if (frame.expected)
         line += fmt::format(", {:.1f} of {:.1f} ms", frame.expected->count(), frame.budget.count());
-    // That it moves or fits is said by the line already.
-    if (frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
-        line += fmt::format(" ({})", name_of(frame.reason));
     if (frame.reason == QualityReason::over_budget && frame.better)
-        line.insert(line.size() - 1, fmt::format(": better takes {:.1f}", frame.better->count()));
+        line += fmt::format(" (better takes {:.1f})", frame.better->count());
+    // That it moves or fits is said by the line already.
+    else if (frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
+        line += fmt::format(" ({})", name_of(frame.reason));
     return line;
 }
 

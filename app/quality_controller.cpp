@@ -155,16 +155,20 @@ bool QualityController::returns(Footprint footprint, const DrawLoad& load) {
         return below == Footprint::quad || decided(of(below), load);
     }
     const auto expected = candidate.cost.predict(load);
-    if (candidate.failed && expected &&
-        *expected <= kFallen * *candidate.cost.predict(candidate.failed_at)) {
-        candidate.failed = false;
+    // The bad news was of another load, and is forgotten soon.
+    const bool fallen = candidate.failed && expected &&
+                        *expected <= kFallen * *candidate.cost.predict(candidate.failed_at);
+    if (fallen) {
+        candidate.failed_at = load;
         candidate.wait = kShortestWait / 2;
     }
-    if (!candidate.failed && expected && *expected <= (candidate.fits ? 1.0 : kMargin) * budget_)
+    if ((fallen || !candidate.failed) && expected &&
+        *expected <= (candidate.fits ? 1.0 : kMargin) * budget_)
         return true;
     if (candidate.age < std::max(candidate.wait, kShortestWait))
         return false;
     candidate.cost.forget();
+    candidate.sampled.reset();
     candidate.known = false;
     candidate.fits = false;
     return true;
@@ -177,9 +181,12 @@ bool QualityController::decided(const Candidate& candidate, const DrawLoad& load
 }
 
 void QualityController::fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
+    // Of several loads the least, so that cells that vary are no reason to try again.
+    if (!candidate.failed ||
+        *candidate.cost.predict(load) < *candidate.cost.predict(candidate.failed_at))
+        candidate.failed_at = load;
     candidate.failed = true;
     candidate.fits = false;
-    candidate.failed_at = load;
     candidate.failed_cost = cost;
     candidate.age = 0;
     // One that has lasted may have met an accident; a trial that took several budgets is dear.
@@ -191,15 +198,13 @@ void QualityController::fail(Candidate& candidate, const DrawLoad& load, Millise
 
 QualityChoice QualityController::describe(const QualityInput& input) const {
     const Candidate& now = of(current_);
-    const bool fits = current_ == Footprint::quad || now.fits;
     const bool measured_here = current_ == Footprint::quad || now.sampled == input.load;
-    QualityChoice choice{.footprint = current_,
-                         .reason = current_ == input.best ? QualityReason::fits
-                                                          : QualityReason::over_budget,
-                         .final = fits && (measured_here || input.playing),
-                         .measure = !fits || !measured_here,
-                         .cost = now.cost.predict(input.load),
-                         .better_cost = {}};
+    QualityChoice choice;
+    choice.footprint = current_;
+    choice.reason = current_ == input.best ? QualityReason::fits : QualityReason::over_budget;
+    choice.final = measured_here || (input.playing && now.fits);
+    choice.measure = !measured_here;
+    choice.cost = now.cost.predict(input.load);
     for (Footprint better = current_; better != input.best;) {
         better = next_better(better);
         if (!decided(of(better), input.load))

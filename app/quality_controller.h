@@ -85,7 +85,7 @@ class QualityController {
     struct Candidate {
         DrawCost cost;
         std::optional<DrawLoad> sampled; ///< load of the newest measurement that counts
-        DrawLoad failed_at;              ///< load of the newest failure
+        DrawLoad failed_at;              ///< least load of the failures
         Milliseconds failed_cost{0};
         bool known = false;  ///< measured since it was last forgotten
         bool fits = false;   ///< by the newest measurement

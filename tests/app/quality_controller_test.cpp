@@ -250,6 +250,43 @@ TEST_F(QualityControllerTest, ALoadOfOthersThatEndsIsNoticedWithinTheLongestWait
     }
 }
 
+TEST_F(QualityControllerTest, OldMeasurementsDoNotSpeakAgainstWhatFitsNow) {
+    double others = 10;
+    SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad& load) {
+        return others * 4e-5 * load.cells * (1 + static_cast<int>(footprint));
+    });
+    display.still = false;
+    const auto run = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            display.input.load.cells = uniform(1e4, 2e4);
+            display.frame();
+        }
+    };
+    run(20000);
+    EXPECT_LE(display.over_budget(), 20000 / 130) << "cells that vary are no reason to try again";
+    others = 1;
+    run(QualityController::kLongestWait + 40);
+    const std::size_t first = display.frames.size();
+    run(1000);
+    EXPECT_EQ(display.at(Footprint::surface, first), 1000);
+}
+
+TEST_F(QualityControllerTest, ACostThatRoseInTheMeantimeIsNoticedInAStillPicture) {
+    double scale = 1;
+    SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad&) {
+        return footprint == Footprint::surface ? 3 * scale : 1;
+    });
+    display.run(100);
+    ASSERT_EQ(display.frames.back().choice.footprint, Footprint::surface);
+    display.input.pace = Pace::moving;
+    display.run(10);
+    scale = 10;
+    display.input.pace = Pace::settled;
+    EXPECT_EQ(display.frame().choice.footprint, Footprint::surface) << "it did fit";
+    EXPECT_EQ(display.run(10).choice.footprint, Footprint::gaussian);
+    EXPECT_TRUE(display.frames.back().choice.final);
+}
+
 /// A display in any state: whatever paces, modes, loads and costs came before.
 void stir(SimulatedDisplay& display, std::mt19937& random, int frames) {
     const auto uniform = [&](double low, double high) {

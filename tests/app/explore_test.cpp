@@ -139,6 +139,33 @@ TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
     EXPECT_EQ(0, std::memcmp(image.at(20, 20), image.at(620, 460), 3));
 }
 
+TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheCamera) {
+    const auto program =
+        explore({"--config", "cave4", "--emulate", "--record", file("walk.jsonl"), "--no-panel"});
+    // The test's limit ends a hang.
+    screen_.xdotool({"keydown", "c", "mousedown", "1"});
+    screen_.xdotool({"mousemove_relative", "60", "20"});
+    screen_.xdotool({"mouseup", "1", "keyup", "c", "key", "m"});
+    while (folder_.read("walk.jsonl.part").find("stamp-1") == std::string::npos)
+        screen_.xdotool({"getmouselocation"});
+    screen_.xdotool({"key", "Escape"});
+    ASSERT_EQ(program->exit_status(), 0);
+    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    EXPECT_EQ(recording.header.window, (std::array{0, 0})) << "the walls are as configured";
+    const interaction::DeviceState* first = recording.frames.front().input.find("camera");
+    const interaction::DeviceState* last = recording.frames.back().input.find("camera");
+    ASSERT_TRUE(first && last);
+    EXPECT_NE(first->pose, last->pose);
+    EXPECT_FALSE(any_frame(recording, [](const auto& c) {
+        return c.room_from_physical.has_value();
+    })) << "the drag was the camera's";
+    EXPECT_EQ(Program({"replay", file("walk.jsonl"), "--from-devices", "--emulate", "--stamps",
+                       "--out", file("room"), "--size", "320", "200"})
+                  .exit_status(),
+              0);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("room")), {}), 1);
+}
+
 TEST_F(ExploreTest, NothingThatIsReadIsEverOverwritten) {
     const auto size = std::filesystem::file_size(file("sphere.isochron"));
     for (const char* option : {"--record", "--report"})

@@ -152,10 +152,9 @@ TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheC
     ASSERT_EQ(program->exit_status(), 0);
     const auto recording = interaction::read_recording(file("walk.jsonl"));
     EXPECT_EQ(recording.header.window, (std::array{0, 0})) << "the walls are as configured";
-    const interaction::DeviceState* first = recording.frames.front().input.find("camera");
-    const interaction::DeviceState* last = recording.frames.back().input.find("camera");
-    ASSERT_TRUE(first && last);
-    EXPECT_NE(first->pose, last->pose);
+    const interaction::DeviceState* camera = recording.frames.back().input.find("camera");
+    ASSERT_TRUE(camera);
+    EXPECT_NE(camera->pose, RoomCamera(read_config("cave4").installation).pose());
     EXPECT_FALSE(any_frame(recording, [](const auto& c) {
         return c.room_from_physical.has_value();
     })) << "the drag was the camera's";

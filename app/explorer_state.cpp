@@ -37,6 +37,10 @@ bool ExplorerState::apply(const interaction::Commands& commands, std::size_t ste
     }
     if (commands.panel)
         panel = *commands.panel;
+    if (commands.grid)
+        grid = *commands.grid;
+    if (commands.views)
+        set(views, *commands.views, commands.views->size() <= interaction::kMostViews);
     return taken;
 }
 
@@ -50,6 +54,8 @@ interaction::Commands ExplorerState::as_commands() const {
     all.eye_separation = eye_separation;
     all.stereo = std::string(stereo::name_of(stereo));
     all.panel = panel;
+    all.grid = grid;
+    all.views = views;
     return all;
 }
 

@@ -16,6 +16,8 @@ struct ExplorerState {
     float eye_separation = 0.063f;
     stereo::StereoMode stereo = stereo::StereoMode::mono;
     bool panel = true;
+    bool grid = false; ///< of the floor
+    std::vector<interaction::Viewpoint> views;
 
     /// Sets what the commands carry. A value that cannot be held (a step beyond the series, an
     /// unknown stereo mode, a number that is not finite) leaves the state as it was.

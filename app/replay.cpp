@@ -37,6 +37,8 @@ std::vector<std::string> differences(const Commands& a, const Commands& b) {
     compare("eye_separation", a.eye_separation, b.eye_separation);
     compare("stereo", a.stereo, b.stereo);
     compare("panel", a.panel, b.panel);
+    compare("grid", a.grid, b.grid);
+    compare("views", a.views, b.views);
     compare("screenshot", a.screenshot, b.screenshot);
     compare("quit", a.quit, b.quit);
     compare("stamps", a.stamps, b.stamps);

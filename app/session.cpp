@@ -86,6 +86,8 @@ interaction::ControlContext Session::control_context() const {
     context.eye_separation = state_.eye_separation;
     context.stereo = stereo::name_of(state_.stereo);
     context.panel = state_.panel;
+    context.grid = state_.grid;
+    context.views = &state_.views;
     context.stereo_modes = &stereo_modes_;
     return context;
 }

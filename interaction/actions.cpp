@@ -42,6 +42,17 @@ std::span<const KeyLine> key_lines() {
         {"L", "loop on, off", {{letter('L'), loop}}},
         {"+ -", "play twice, half as fast", {{Key::equal, faster}, {Key::minus, slower}}},
         {"Home", "reset volume and head", {{Key::home, reset}}},
+        {"J K",
+         "turn to the left, to the right by 30 degrees",
+         {{letter('J'), turn_left}, {letter('K'), turn_right}}},
+        {"T (hold)",
+         "aim at the floor with the wand; letting go teleports there",
+         {{letter('T'), teleport}}},
+        {"C", "recentre: the volume stands ahead of you again", {{letter('C'), recentre}}},
+        {"B N",
+         "save this viewpoint, go to the next saved one",
+         {{letter('B'), save_view}, {letter('N'), next_view}}},
+        {"H", "floor grid on, off", {{letter('H'), grid}}},
         {"1 2 3",
          "quality: automatic, always fast, always best",
          {{letter('1'), quality_auto}, {letter('2'), quality_fast}, {letter('3'), quality_best}}},
@@ -64,7 +75,7 @@ std::span<const KeyLine> key_lines() {
 }
 
 std::span<const ControlLine> control_lines() {
-    static constexpr std::array<ControlLine, 16> kLines{{
+    static constexpr std::array<ControlLine, 22> kLines{{
         {"Left drag", "orbit: turn the volume about its centre"},
         {"Middle drag, or Shift + left", "move the volume"},
         {"Right drag", "look around"},
@@ -75,6 +86,12 @@ std::span<const ControlLine> control_lines() {
         {"Wand button 2 (hold)", "fly where the wand points"},
         {"Wand valuator 1", "isovalue, the whole range in 4 s"},
         {"Wand valuator 2", "scale, twice the size in 1 s"},
+        {"Wand button 3 (hold)", "aim at the floor; letting go teleports there"},
+        {"Wand buttons 4, 5", "recentre, next saved viewpoint"},
+        {"Wand valuator 3", "fly where the wand points, or back"},
+        {"Wand valuator 4", "turn by 30 degrees"},
+        {"Both wands' button 1", "move, turn and scale the volume between two hands"},
+        {"Gamepad thumb buttons", "recentre (left), next saved viewpoint (right)"},
         {"Gamepad left stick", "fly forward, back and sideways"},
         {"Gamepad right stick", "turn, rise and sink"},
         {"Gamepad triggers", "lower, raise the isovalue"},

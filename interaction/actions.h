@@ -47,6 +47,14 @@ enum class Action : std::uint8_t {
     stamp,
     panel,
     quit,
+    // New ones come last: recordings hold the bits.
+    turn_left,
+    turn_right,
+    teleport,
+    recentre,
+    save_view,
+    next_view,
+    grid,
     count
 };
 
@@ -59,10 +67,11 @@ enum class MouseBit : std::uint8_t { left, right, middle };
 inline constexpr std::size_t kMouseWheel = 6;
 inline constexpr std::size_t kMouseValuators = 7;
 
-/// Bits of the device `wand`.
-enum class WandButton : std::uint8_t { grab, fly };
-/// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rates of isovalue and scale.
-enum class WandValuator : std::uint8_t { isovalue, scale, count };
+/// Bits of the device `wand`, and of `wand2`, the other hand's, of which only `grab` is read.
+enum class WandButton : std::uint8_t { grab, fly, teleport, recentre, next_view };
+/// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rates of isovalue and scale,
+/// speed of flying where it points, and turning by steps, right positive.
+enum class WandValuator : std::uint8_t { isovalue, scale, fly, turn, count };
 
 /// Bits of the device `gamepad`, in the order in which windowing libraries report them.
 enum class GamepadButton : std::uint8_t {
@@ -123,7 +132,7 @@ std::span<const ControlLine> control_lines();
 constexpr std::uint64_t quiet_actions() {
     return bit(Action::shift) | bit(Action::control) | bit(Action::quality_auto) |
            bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::screenshot) |
-           bit(Action::stamp) | bit(Action::panel) | bit(Action::quit);
+           bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) | bit(Action::save_view);
 }
 
 } // namespace isochron::interaction

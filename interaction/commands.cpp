@@ -25,6 +25,8 @@ void merge(Commands& into, const Commands& later) {
     override_with(into.eye_separation, later.eye_separation);
     override_with(into.stereo, later.stereo);
     override_with(into.panel, later.panel);
+    override_with(into.grid, later.grid);
+    override_with(into.views, later.views);
     into.screenshot = into.screenshot || later.screenshot;
     into.quit = into.quit || later.quit;
     into.stamps.insert(into.stamps.end(), later.stamps.begin(), later.stamps.end());

@@ -25,6 +25,14 @@ struct PlaybackState {
     bool operator==(const PlaybackState&) const = default;
 };
 
+/// A place in the data to come back to.
+struct Viewpoint {
+    std::string name;
+    Similarity room_from_physical;
+    bool operator==(const Viewpoint&) const = default;
+};
+inline constexpr std::size_t kMostViews = 64;
+
 /// Absolute results, not increments: applying them again changes nothing.
 struct Commands {
     std::optional<double> isovalue;
@@ -32,9 +40,11 @@ struct Commands {
     std::optional<PlaybackState> playback;
     std::optional<Similarity> room_from_physical; ///< navigation's result
     std::optional<QualityMode> quality;
-    std::optional<float> eye_separation; ///< metres, 0 to kWidestEyes
-    std::optional<std::string> stereo;   ///< a stereo mode's name
-    std::optional<bool> panel;           ///< panel shown
+    std::optional<float> eye_separation;         ///< metres, 0 to kWidestEyes
+    std::optional<std::string> stereo;           ///< a stereo mode's name
+    std::optional<bool> panel;                   ///< panel shown
+    std::optional<bool> grid;                    ///< floor grid shown
+    std::optional<std::vector<Viewpoint>> views; ///< all saved ones, at most kMostViews
     bool screenshot = false;
     bool quit = false;
     std::vector<std::string> stamps; ///< named moments of a recording

@@ -43,6 +43,25 @@ Similarity similarity_from(const json& value) {
     return result;
 }
 
+json views_json(const std::vector<Viewpoint>& views) {
+    json result = json::array();
+    for (const Viewpoint& view : views)
+        result.push_back({{"name", view.name},
+                          {"room_from_physical", similarity_json(view.room_from_physical)}});
+    return result;
+}
+
+std::vector<Viewpoint> views_from(const json& value) {
+    std::vector<Viewpoint> views;
+    for (const json& each : list(value, "views", 0, kMostViews)) {
+        Members members(each, "views");
+        views.push_back({text(members.at("name"), "name", kLongestName),
+                         similarity_from(members.at("room_from_physical"))});
+        members.done({"name", "room_from_physical"});
+    }
+    return views;
+}
+
 PlaybackState playback_from(const json& value) {
     Members members(value, "playback");
     const PlaybackState state{boolean(members.at("playing"), "playing"),
@@ -83,6 +102,10 @@ json commands_json(const Commands& commands) {
         result["stereo"] = *commands.stereo;
     if (commands.panel)
         result["panel"] = *commands.panel;
+    if (commands.grid)
+        result["grid"] = *commands.grid;
+    if (commands.views)
+        result["views"] = views_json(*commands.views);
     if (commands.screenshot)
         result["screenshot"] = true;
     if (commands.quit)
@@ -113,6 +136,10 @@ Commands commands_from(const json& value, std::string_view where) {
         commands.stereo = text(*found, "stereo", kLongestName);
     if (const json* found = members.find("panel"))
         commands.panel = boolean(*found, "panel");
+    if (const json* found = members.find("grid"))
+        commands.grid = boolean(*found, "grid");
+    if (const json* found = members.find("views"))
+        commands.views = views_from(*found);
     if (const json* found = members.find("screenshot"))
         commands.screenshot = boolean(*found, "screenshot");
     if (const json* found = members.find("quit"))
@@ -121,7 +148,7 @@ Commands commands_from(const json& value, std::string_view where) {
         for (const json& stamp : list(*found, "stamps", 0, kMostStamps))
             commands.stamps.push_back(text(stamp, "stamps", kLongestName));
     members.done({"isovalue", "step", "playback", "room_from_physical", "quality", "eye_separation",
-                  "stereo", "panel", "screenshot", "quit", "stamps"});
+                  "stereo", "panel", "grid", "views", "screenshot", "quit", "stamps"});
     return commands;
 }
 

@@ -2,7 +2,7 @@
 #include "interaction/controls.h"
 
 #include "interaction/actions.h"
-#include "interaction/navigation.h"
+#include "interaction/navigator.h"
 #include "interaction/playback.h"
 
 #include <algorithm>
@@ -15,20 +15,12 @@ namespace {
 
 constexpr double kLongestFrame = 0.1;    ///< [s] for rates: a stall must not become a leap
 constexpr double kLongestPlayback = 1.0; ///< [s] time plays on through slow frames
-constexpr double kOrbit = 3.14159265;    ///< [rad per window height dragged]
-constexpr double kViewHeight = 0.966;    ///< window height at distance 1, for a view of 0.9 rad
-constexpr double kNotch = 1.1;           ///< scale per notch of the wheel
-constexpr double kFlySpeed = 1.0;        ///< [m/s]
-constexpr double kTurnSpeed = 1.2;       ///< [rad/s]
-constexpr double kGrowth = 2.0;          ///< scale per second
-constexpr double kScaleRange = 1e3;      ///< either way of the home scale
 constexpr double kRangeSeconds = 4.0;    ///< isovalue: whole range at full deflection
 constexpr double kCoarse = 0.01;         ///< isovalue per key press, of the range
 constexpr double kFine = 0.001;          ///< and with Shift or by the wheel
 constexpr float kEyeStep = 0.001f;       ///< [m]
 constexpr Seconds kRepeatDelay{0.4};     ///< a held key repeats after this
 constexpr Seconds kRepeatInterval{0.05}; ///< and then this often
-constexpr glm::dvec3 kUp(0.0, 1.0, 0.0); ///< of the room
 
 /// Presses of one button, counted from its level and the clock.
 struct Repeat {
@@ -49,154 +41,21 @@ struct Repeat {
     }
 };
 
-/// One frame's devices, read safely: absent ones are at rest, and nothing is ever NaN.
-struct Reading {
-    const DeviceState* head;
-    const DeviceState* wand;
-    const DeviceState* mouse;
-    const DeviceState* keys;
-    const DeviceState* gamepad;
-
-    explicit Reading(const InputState& input)
-        : head(input.find("head")), wand(input.find("wand")), mouse(input.find("mouse")),
-          keys(input.find("keys")), gamepad(input.find("gamepad")) {}
-
-    static std::uint64_t buttons(const DeviceState* device) { return device ? device->buttons : 0; }
-    static double valuator(const DeviceState* device, std::size_t index) {
-        if (!device || index >= device->valuators.size() ||
-            !std::isfinite(device->valuators[index]))
-            return 0.0;
-        return device->valuators[index];
-    }
-    double wand_rate(WandValuator which) const {
-        return std::clamp(valuator(wand, static_cast<std::size_t>(which)), -1.0, 1.0);
-    }
-    double axis(GamepadAxis which) const {
-        return std::clamp(valuator(gamepad, static_cast<std::size_t>(which)), -1.0, 1.0);
-    }
-    double drag(MouseBit which, int direction) const {
-        return valuator(mouse, 2 * static_cast<std::size_t>(which) + direction);
-    }
-    bool key(Action action) const { return (buttons(keys) & bit(action)) != 0; }
-    bool pad(GamepadButton which) const { return (buttons(gamepad) & bit(which)) != 0; }
-    bool wand_button(WandButton which) const { return (buttons(wand) & bit(which)) != 0; }
-    std::optional<Pose> wand_pose() const {
-        return wand && wand->pose_valid ? wand->pose : std::nullopt;
-    }
-    /// A head pose that is only held still tells where the viewer is.
-    Pose viewer() const {
-        return head && head->pose ? *head->pose : Pose{{0.0f, 1.6f, 0.0f}, {1.0f, 0, 0, 0}};
-    }
-};
-
 } // namespace
 
 struct Controls::State {
     std::uint64_t last_keys = 0, last_pad = 0;
     std::optional<Seconds> last_time;
     Repeat isovalue_up, isovalue_down, step_forward, step_back, eyes_apart, eyes_together;
+    Navigator navigator;
     Playback playback;
     int stamps = 0;
-
-    /// The clutch: the volume follows the wand as it lay when `hand` closed around `held`.
-    struct Grab {
-        Pose hand;
-        Similarity held;
-        Similarity result; ///< what it led to; anything else moved the volume meanwhile
-    };
-    std::optional<Grab> grab;
 
     bool pressed(const Reading& now, Action action) const {
         return now.key(action) && !(last_keys & bit(action));
     }
     bool pressed(const Reading& now, GamepadButton button) const {
         return now.pad(button) && !(last_pad & bit(button));
-    }
-
-    Similarity navigate(const Reading& now, const ControlContext& context, double seconds) {
-        if (pressed(now, Action::reset) || pressed(now, GamepadButton::x)) {
-            grab.reset();
-            return context.home;
-        }
-        Similarity volume = context.room_from_physical;
-        volume = dragged(now, context, volume);
-        volume = flown(now, volume, seconds);
-        volume = resized(now, context, volume, seconds);
-        volume = held(now, context, volume);
-        return is_valid(volume) ? volume : context.room_from_physical;
-    }
-
-    static Similarity dragged(const Reading& now, const ControlContext& context,
-                              Similarity volume) {
-        const glm::dquat view = glm::normalize(glm::dquat(now.viewer().orientation));
-        const glm::dvec3 right = view * glm::dvec3(1, 0, 0);
-        const glm::dvec3 centre = transform(volume, context.pivot);
-        glm::dvec2 orbit(now.drag(MouseBit::left, 0), now.drag(MouseBit::left, 1));
-        glm::dvec2 move(now.drag(MouseBit::middle, 0), now.drag(MouseBit::middle, 1));
-        if (now.key(Action::shift)) {
-            move += orbit;
-            orbit = glm::dvec2(0);
-        }
-        if (orbit.x != 0)
-            volume = turned(volume, centre, kUp, kOrbit * orbit.x);
-        if (orbit.y != 0)
-            volume = turned(volume, centre, right, kOrbit * orbit.y);
-        if (move != glm::dvec2(0)) {
-            const double distance = glm::length(centre - glm::dvec3(now.viewer().position));
-            const glm::dvec3 up = view * kUp;
-            volume = moved(volume, distance * kViewHeight * (move.x * right - move.y * up));
-        }
-        return volume;
-    }
-
-    static Similarity flown(const Reading& now, Similarity volume, double seconds) {
-        const double speed = kFlySpeed * (now.key(Action::shift) ? kHurry : 1.0);
-        const std::optional<Pose> wand = now.wand_pose();
-        glm::dvec3 velocity(0.0); // of the viewer through the volume
-        if (now.wand_button(WandButton::fly) && wand)
-            velocity += glm::normalize(glm::dquat(wand->orientation)) * glm::dvec3(0, 0, -1);
-        const glm::dvec3 stick(now.axis(GamepadAxis::left_x), -now.axis(GamepadAxis::right_y),
-                               now.axis(GamepadAxis::left_y));
-        if (stick != glm::dvec3(0)) {
-            const glm::dvec3 back =
-                glm::normalize(glm::dquat(now.viewer().orientation)) * glm::dvec3(0, 0, 1);
-            const double heading = std::atan2(back.x, back.z);
-            velocity += glm::angleAxis(heading, kUp) * stick;
-        }
-        if (velocity != glm::dvec3(0))
-            volume = moved(volume, -speed * seconds * velocity);
-        const double turn = now.axis(GamepadAxis::right_x);
-        if (turn != 0)
-            volume =
-                turned(volume, glm::dvec3(now.viewer().position), kUp, kTurnSpeed * turn * seconds);
-        return volume;
-    }
-
-    static Similarity resized(const Reading& now, const ControlContext& context,
-                              const Similarity& volume, double seconds) {
-        const double notches =
-            now.key(Action::control) ? 0.0 : Reading::valuator(now.mouse, kMouseWheel);
-        const double rate = now.wand_rate(WandValuator::scale);
-        if (notches == 0 && rate == 0)
-            return volume;
-        const double factor = std::pow(kNotch, notches) * std::pow(kGrowth, rate * seconds);
-        return scaled(volume, transform(volume, context.pivot), factor,
-                      context.home.scale / kScaleRange, context.home.scale * kScaleRange);
-    }
-
-    /// A lost wand pose, or anything else that moves the volume, only opens and closes the hand.
-    Similarity held(const Reading& now, const ControlContext& context, const Similarity& volume) {
-        const std::optional<Pose> hand = now.wand_pose();
-        const bool closed = now.wand_button(WandButton::grab) || now.pad(GamepadButton::y);
-        if (!closed || !hand) {
-            grab.reset();
-            return volume;
-        }
-        if (!grab || volume != context.room_from_physical || grab->result != volume)
-            grab = Grab{*hand, volume, volume};
-        else
-            grab->result = carried(grab->held, grab->hand, *hand);
-        return grab->result;
     }
 
     double isovalue(const Reading& now, const ControlContext& context, Seconds time,
@@ -258,6 +117,19 @@ struct Controls::State {
             commands.playback = state;
     }
 
+    /// Where the volume is in this frame, under the next free name; the oldest of too many goes.
+    static void save_view(const ControlContext& context, Commands& commands) {
+        std::vector<Viewpoint> views = context.views ? *context.views : std::vector<Viewpoint>{};
+        std::size_t number = 1;
+        const auto name = [&] { return fmt::format("view-{}", number); };
+        while (std::ranges::find(views, name(), &Viewpoint::name) != views.end())
+            ++number;
+        if (views.size() == kMostViews)
+            views.erase(views.begin());
+        views.push_back({name(), commands.room_from_physical.value_or(context.room_from_physical)});
+        commands.views = std::move(views);
+    }
+
     void switches(const Reading& now, const ControlContext& context, Seconds time,
                   Commands& commands) {
         const auto choose = [&](Action action, QualityMode mode) {
@@ -284,6 +156,10 @@ struct Controls::State {
         }
         if (pressed(now, Action::panel))
             commands.panel = !context.panel;
+        if (pressed(now, Action::grid))
+            commands.grid = !context.grid;
+        if (pressed(now, Action::save_view))
+            save_view(context, commands);
         if (pressed(now, Action::stamp))
             commands.stamps.push_back(fmt::format("stamp-{}", ++stamps));
         commands.screenshot = pressed(now, Action::screenshot);
@@ -302,7 +178,7 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     s.last_time = input.time;
 
     Commands commands;
-    const Similarity volume = s.navigate(now, context, seconds);
+    const Similarity volume = s.navigator.update(now, context, seconds);
     if (volume != context.room_from_physical)
         commands.room_from_physical = volume;
     const double isovalue = s.isovalue(now, context, input.time, seconds);
@@ -314,6 +190,10 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     s.last_keys = Reading::buttons(now.keys);
     s.last_pad = Reading::buttons(now.gamepad);
     return commands;
+}
+
+std::optional<glm::dvec3> Controls::teleport_target() const {
+    return state_->navigator.teleport_target();
 }
 
 std::vector<std::string> Controls::documentation() {

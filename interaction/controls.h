@@ -24,6 +24,8 @@ struct ControlContext {
     float eye_separation = 0.063f;
     std::string stereo;
     bool panel = true;
+    bool grid = false;
+    std::vector<Viewpoint> const* views = nullptr;          ///< saved so far; may be null
     std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
 };
 
@@ -35,6 +37,9 @@ class Controls {
     ~Controls();
     /// One frame. Includes the step that playback has reached in physical time.
     Commands update(const InputState& input, const ControlContext& context);
+
+    /// Where letting go of the teleport button would lead; empty while nobody aims at the floor.
+    std::optional<glm::dvec3> teleport_target() const;
 
     /// One line per key, button and valuator, for `--help` and the panel.
     static std::vector<std::string> documentation();

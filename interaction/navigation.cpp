@@ -1,10 +1,17 @@
 // Moving the volume in the room.
 #include "interaction/navigation.h"
 
+#include <glm/gtx/quaternion.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace isochron::interaction {
+namespace {
+
+constexpr double kShortestSpan = 0.01; ///< [m] hands do not come nearer to each other
+
+} // namespace
 
 glm::dvec3 transform(const Similarity& similarity, const glm::dvec3& p) {
     return similarity.translation + similarity.scale * (similarity.rotation * p);
@@ -36,6 +43,37 @@ Similarity carried(const Similarity& from, const Pose& before, const Pose& after
     const glm::dvec3 offset = from.translation - glm::dvec3(before.position);
     return {glm::dvec3(after.position) + turn * offset, glm::normalize(turn * from.rotation),
             from.scale};
+}
+
+glm::dquat rotation_onto(const Span& from, const Span& to) {
+    const double from_length = glm::length(from.direction());
+    const double to_length = glm::length(to.direction());
+    if (!(from_length > kShortestSpan) || !(to_length > kShortestSpan))
+        return {1, 0, 0, 0};
+    return glm::rotation(from.direction() / from_length, to.direction() / to_length);
+}
+
+Similarity stretched(const Similarity& from, const Span& before, const Span& after,
+                     const glm::dquat& turn, double low, double high) {
+    const double growth = std::max(glm::length(after.direction()), kShortestSpan) /
+                          std::max(glm::length(before.direction()), kShortestSpan);
+    const Similarity grown = scaled(from, before.middle(), growth, low, high);
+    return {after.middle() + turn * (grown.translation - before.middle()),
+            glm::normalize(turn * grown.rotation), grown.scale};
+}
+
+std::optional<glm::dvec3> floor_point(const Pose& pose, double reach) {
+    const glm::dvec3 from(pose.position);
+    const glm::dvec3 ahead = glm::normalize(glm::dquat(pose.orientation)) * glm::dvec3(0, 0, -1);
+    if (!(from.y > 0) || !(ahead.y < 0))
+        return std::nullopt;
+    const double distance = from.y / -ahead.y;
+    return distance <= reach ? std::optional(from + distance * ahead) : std::nullopt;
+}
+
+double heading(const Pose& pose) {
+    const glm::dvec3 back = glm::normalize(glm::dquat(pose.orientation)) * glm::dvec3(0, 0, 1);
+    return std::atan2(back.x, back.z);
 }
 
 bool is_valid(const Similarity& similarity) {

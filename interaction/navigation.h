@@ -3,6 +3,8 @@
 
 #include "interaction/pose.h"
 
+#include <optional>
+
 namespace isochron::interaction {
 
 /// Physical point `p` in the room.
@@ -22,6 +24,26 @@ Similarity scaled(const Similarity& from, const glm::dvec3& centre, double facto
 
 /// Carried along rigidly by a hand that went from pose `before` to pose `after`.
 Similarity carried(const Similarity& from, const Pose& before, const Pose& after);
+
+/// Two points of the room that hold on to the volume.
+struct Span {
+    glm::dvec3 a, b;
+    glm::dvec3 middle() const { return (a + b) / 2.0; }
+    glm::dvec3 direction() const { return b - a; }
+};
+/// The shortest rotation that lays one span's direction along another's; none where one is too
+/// short to tell.
+glm::dquat rotation_onto(const Span& from, const Span& to);
+/// Turned by `turn` and scaled by the growth of the span, its middle following the span's middle.
+/// The scale stays within [low, high]; spans shorter than 1 cm count as 1 cm.
+Similarity stretched(const Similarity& from, const Span& before, const Span& after,
+                     const glm::dquat& turn, double low, double high);
+
+/// Where the ray of a pose meets the floor (y = 0 in the room), within `reach` [m] of it.
+std::optional<glm::dvec3> floor_point(const Pose& pose, double reach);
+
+/// Heading of a pose [rad], counter-clockwise from ahead (-Z) as seen from above.
+double heading(const Pose& pose);
 
 /// Whether every component is finite and the scale positive.
 bool is_valid(const Similarity& similarity);

@@ -226,6 +226,9 @@ void require_finite(const RecordedFrame& frame) {
         require(!commands->isovalue || std::isfinite(*commands->isovalue), "isovalue");
         require(!commands->room_from_physical || is_valid(*commands->room_from_physical),
                 "room_from_physical");
+        if (commands->views)
+            for (const Viewpoint& view : *commands->views)
+                require(is_valid(view.room_from_physical), "views");
         require(!commands->eye_separation || std::isfinite(*commands->eye_separation),
                 "eye_separation");
         require(!commands->playback || std::isfinite(commands->playback->speed), "speed");

@@ -12,8 +12,11 @@ namespace isochron::interaction {
 /// Controls with a session around them that obeys every command.
 class Desk {
   public:
+    Desk(const Desk&) = delete; // the context points into it
+    Desk& operator=(const Desk&) = delete;
     ControlContext context;
     std::vector<double> times{0, 1, 2, 3, 4};
+    std::vector<Viewpoint> views;
     std::vector<std::string> modes{"mono", "side_by_side", "top_bottom"};
 
     Desk() {
@@ -22,6 +25,7 @@ class Desk {
         context.high = 100;
         context.stereo = "mono";
         context.stereo_modes = &modes;
+        context.views = &views;
         context.home = {{0.1, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.01};
         context.room_from_physical = context.home;
         context.pivot = {30, 25, 30};
@@ -45,6 +49,10 @@ class Desk {
             context.stereo = *commands.stereo;
         if (commands.panel)
             context.panel = *commands.panel;
+        if (commands.grid)
+            context.grid = *commands.grid;
+        if (commands.views)
+            views = *commands.views;
         return commands;
     }
     /// Presses keys for one frame and lets go for another.
@@ -53,6 +61,7 @@ class Desk {
         merge(commands, frame({head_at(kStanding), keys_down(0)}));
         return commands;
     }
+    const Controls& controls() const { return controls_; }
     const Similarity& volume() const { return context.room_from_physical; }
     glm::dvec3 centre() const { return transform(volume(), context.pivot); }
 

@@ -21,6 +21,7 @@ class SimulatedSession {
         context_.times = &times_;
         context_.stereo = "mono";
         context_.stereo_modes = &modes_;
+        context_.views = &views_;
         context_.low = -1e-3;
         context_.high = 17.3;
         context_.home = {{0, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.03};
@@ -37,10 +38,13 @@ class SimulatedSession {
         context_.eye_separation = commands.eye_separation.value_or(context_.eye_separation);
         context_.stereo = commands.stereo.value_or(context_.stereo);
         context_.panel = commands.panel.value_or(context_.panel);
+        context_.grid = commands.grid.value_or(context_.grid);
+        views_ = commands.views.value_or(views_);
     }
 
   private:
     std::vector<double> times_{0, 0.1, 0.5, 0.6, 2, 2.5, 2.6, 7};
+    std::vector<Viewpoint> views_;
     std::vector<std::string> modes_{"mono", "left", "side_by_side"};
     ControlContext context_;
 };

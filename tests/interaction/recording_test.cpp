@@ -83,6 +83,11 @@ Commands random_commands(Random& random) {
         commands.stereo = "side_by_side";
     if (sometimes())
         commands.panel = sometimes();
+    if (sometimes())
+        commands.grid = sometimes();
+    if (sometimes())
+        commands.views = std::vector<Viewpoint>{{"zwölf", random_similarity(random)},
+                                                {"view-2", random_similarity(random)}};
     commands.screenshot = sometimes();
     commands.quit = sometimes();
     if (sometimes())

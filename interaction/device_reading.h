@@ -1,0 +1,56 @@
+// One frame's devices, read safely: absent ones are at rest, and nothing is ever NaN.
+#pragma once
+
+#include "interaction/actions.h"
+#include "interaction/tracked_input.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::interaction {
+
+/// Points into the state that it reads, which must outlive it.
+struct Reading {
+    const DeviceState* head;
+    const DeviceState* wand;
+    const DeviceState* other; ///< `wand2`, the other hand's
+    const DeviceState* mouse;
+    const DeviceState* keys;
+    const DeviceState* gamepad;
+
+    explicit Reading(const InputState& input)
+        : head(input.find("head")), wand(input.find("wand")), other(input.find("wand2")),
+          mouse(input.find("mouse")), keys(input.find("keys")), gamepad(input.find("gamepad")) {}
+
+    static std::uint64_t buttons(const DeviceState* device) { return device ? device->buttons : 0; }
+    static double valuator(const DeviceState* device, std::size_t index) {
+        if (!device || index >= device->valuators.size() ||
+            !std::isfinite(device->valuators[index]))
+            return 0.0;
+        return device->valuators[index];
+    }
+    double wand_rate(WandValuator which) const {
+        return std::clamp(valuator(wand, static_cast<std::size_t>(which)), -1.0, 1.0);
+    }
+    double axis(GamepadAxis which) const {
+        return std::clamp(valuator(gamepad, static_cast<std::size_t>(which)), -1.0, 1.0);
+    }
+    double drag(MouseBit which, int direction) const {
+        return valuator(mouse, 2 * static_cast<std::size_t>(which) + direction);
+    }
+    bool key(Action action) const { return (buttons(keys) & bit(action)) != 0; }
+    bool pad(GamepadButton which) const { return (buttons(gamepad) & bit(which)) != 0; }
+    bool wand_button(WandButton which) const { return (buttons(wand) & bit(which)) != 0; }
+    /// Where a hand is that is tracked; a pose that is only held moves nothing.
+    static std::optional<Pose> hand(const DeviceState* device) {
+        return device && device->pose && device->pose_valid && is_finite(*device->pose)
+                   ? device->pose
+                   : std::nullopt;
+    }
+    /// A head pose that is only held still tells where the viewer is.
+    Pose viewer() const {
+        return head && head->pose ? *head->pose : Pose{{0.0f, 1.6f, 0.0f}, {1.0f, 0, 0, 0}};
+    }
+};
+
+} // namespace isochron::interaction

@@ -1,0 +1,217 @@
+// Hands, mouse, keys and gamepad move the volume.
+#include "interaction/navigator.h"
+
+#include <utility>
+
+namespace isochron::interaction {
+namespace {
+
+constexpr double kOrbit = 3.14159265;     ///< [rad per window height dragged]
+constexpr double kViewHeight = 0.966;     ///< window height at distance 1, for a view of 0.9 rad
+constexpr double kNotch = 1.1;            ///< scale per notch of the wheel
+constexpr double kFlySpeed = 1.0;         ///< [m/s]
+constexpr double kTurnSpeed = 1.2;        ///< [rad/s]
+constexpr double kTurnStep = 0.523598776; ///< [rad] of a snap turn: 30 degrees
+constexpr double kTurnAt = 0.7;           ///< deflection that turns
+constexpr double kTurnAgain = 0.3;        ///< and below which the next one is armed
+constexpr double kGrowth = 2.0;           ///< scale per second
+constexpr double kTeleportReach = 20.0;   ///< [m] of the wand's ray
+constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  ///< of the room
+
+/// A head that is not finite turns nothing.
+bool can_see(const Reading& now) {
+    return is_finite(now.viewer());
+}
+
+Similarity dragged(const Reading& now, const ControlContext& context, Similarity volume) {
+    const glm::dquat view = glm::normalize(glm::dquat(now.viewer().orientation));
+    const glm::dvec3 right = view * glm::dvec3(1, 0, 0);
+    const glm::dvec3 centre = transform(volume, context.pivot);
+    glm::dvec2 orbit(now.drag(MouseBit::left, 0), now.drag(MouseBit::left, 1));
+    glm::dvec2 move(now.drag(MouseBit::middle, 0), now.drag(MouseBit::middle, 1));
+    if (now.key(Action::shift)) {
+        move += orbit;
+        orbit = glm::dvec2(0);
+    }
+    if (orbit.x != 0)
+        volume = turned(volume, centre, kUp, kOrbit * orbit.x);
+    if (orbit.y != 0)
+        volume = turned(volume, centre, right, kOrbit * orbit.y);
+    if (move != glm::dvec2(0)) {
+        const double distance = glm::length(centre - glm::dvec3(now.viewer().position));
+        const glm::dvec3 up = view * kUp;
+        volume = moved(volume, distance * kViewHeight * (move.x * right - move.y * up));
+    }
+    return volume;
+}
+
+Similarity flown(const Reading& now, Similarity volume, double seconds) {
+    const double speed = kFlySpeed * (now.key(Action::shift) ? kHurry : 1.0);
+    const double along = now.wand_rate(WandValuator::fly) + now.wand_button(WandButton::fly);
+    glm::dvec3 velocity(0.0); // of the viewer through the volume
+    if (const auto wand = Reading::hand(now.wand); wand && along != 0)
+        velocity += glm::normalize(glm::dquat(wand->orientation)) * glm::dvec3(0, 0, -1) * along;
+    const glm::dvec3 stick(now.axis(GamepadAxis::left_x), -now.axis(GamepadAxis::right_y),
+                           now.axis(GamepadAxis::left_y));
+    if (stick != glm::dvec3(0))
+        velocity += glm::angleAxis(heading(now.viewer()), kUp) * stick;
+    if (velocity != glm::dvec3(0))
+        volume = moved(volume, -speed * seconds * velocity);
+    const double turn = now.axis(GamepadAxis::right_x);
+    if (turn != 0)
+        volume =
+            turned(volume, glm::dvec3(now.viewer().position), kUp, kTurnSpeed * turn * seconds);
+    return volume;
+}
+
+Similarity resized(const Reading& now, const ControlContext& context, const Similarity& volume,
+                   double seconds) {
+    const double notches =
+        now.key(Action::control) ? 0.0 : Reading::valuator(now.mouse, kMouseWheel);
+    const double rate = now.wand_rate(WandValuator::scale);
+    if (notches == 0 && rate == 0)
+        return volume;
+    const double factor = std::pow(kNotch, notches) * std::pow(kGrowth, rate * seconds);
+    return scaled(volume, transform(volume, context.pivot), factor,
+                  context.home.scale / Navigator::kScaleRange,
+                  context.home.scale * Navigator::kScaleRange);
+}
+
+/// Home as it lies ahead of a viewer who stands at the room's origin, carried to where the viewer
+/// stands and looks now; heights stay.
+Similarity recentred(const Similarity& home, const Pose& viewer) {
+    const glm::dvec3 place(viewer.position.x, 0, viewer.position.z);
+    return moved(turned(home, glm::dvec3(0), kUp, heading(viewer)), place);
+}
+
+/// The saved viewpoint after the one at which the volume is; the first one when it is at none.
+std::optional<Similarity> next_view(const ControlContext& context) {
+    if (!context.views || context.views->empty())
+        return std::nullopt;
+    const auto at = std::ranges::find(*context.views, context.room_from_physical,
+                                      &Viewpoint::room_from_physical);
+    const bool first = at == context.views->end() || at + 1 == context.views->end();
+    return (first ? context.views->begin() : at + 1)->room_from_physical;
+}
+
+} // namespace
+
+bool Navigator::pressed(const Reading& now, Action action, WandButton button,
+                        GamepadButton pad) const {
+    return (now.key(action) && !(last_keys_ & bit(action))) ||
+           (now.wand_button(button) && !(last_wand_ & bit(button))) ||
+           (now.pad(pad) && !(last_pad_ & bit(pad)));
+}
+
+/// A place that a button asks for.
+std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlContext& context) {
+    const bool reset = (now.key(Action::reset) && !(last_keys_ & bit(Action::reset))) ||
+                       (now.pad(GamepadButton::x) && !(last_pad_ & bit(GamepadButton::x)));
+    if (reset)
+        return context.home;
+    if (can_see(now) &&
+        pressed(now, Action::recentre, WandButton::recentre, GamepadButton::left_thumb))
+        return recentred(context.home, now.viewer());
+    if (pressed(now, Action::next_view, WandButton::next_view, GamepadButton::right_thumb))
+        return next_view(context);
+    return std::nullopt;
+}
+
+/// Snap turns, about the viewer: a valuator turns once and must come back before it turns again.
+Similarity Navigator::stepped(const Reading& now, Similarity volume) {
+    const double deflection = now.wand_rate(WandValuator::turn);
+    double steps = 0; // to the right
+    if (std::abs(deflection) < kTurnAgain)
+        turn_armed_ = true;
+    if (turn_armed_ && std::abs(deflection) > kTurnAt) {
+        turn_armed_ = false;
+        steps += std::copysign(1.0, deflection);
+    }
+    const auto key = [&](Action action) {
+        return now.key(action) && !(last_keys_ & bit(action)) ? 1.0 : 0.0;
+    };
+    steps += key(Action::turn_right) - key(Action::turn_left);
+    // When the viewer turns to the right, the volume turns to the left.
+    return steps == 0 || !can_see(now)
+               ? volume
+               : turned(volume, glm::dvec3(now.viewer().position), kUp, kTurnStep * steps);
+}
+
+/// While the button is held the wand's ray shows the place; letting go brings the place to the
+/// viewer's feet.
+Similarity Navigator::teleported(const Reading& now, const Similarity& volume) {
+    const bool aims = now.key(Action::teleport) || now.wand_button(WandButton::teleport);
+    if (aims) {
+        const auto wand = Reading::hand(now.wand);
+        teleport_target_ = wand ? floor_point(*wand, kTeleportReach) : std::nullopt;
+        return volume;
+    }
+    const auto target = std::exchange(teleport_target_, std::nullopt);
+    if (!target || !can_see(now))
+        return volume;
+    const glm::vec3 eyes = now.viewer().position;
+    return moved(volume, glm::dvec3(eyes.x, 0, eyes.z) - *target);
+}
+
+Navigator::Hands Navigator::closed_hands(const Reading& now) {
+    const auto wand = Reading::hand(now.wand), other = Reading::hand(now.other);
+    const bool wand_closed = now.wand_button(WandButton::grab) || now.pad(GamepadButton::y);
+    const bool other_closed = (Reading::buttons(now.other) & bit(WandButton::grab)) != 0;
+    Hands hands;
+    if (wand_closed && wand)
+        hands.first = wand;
+    if (other_closed && other) {
+        if (hands.first)
+            hands.both = Span{hands.first->position, other->position};
+        else
+            hands.first = other;
+    }
+    return hands;
+}
+
+/// A lost hand, another number of hands, or anything else that moves the volume, only opens and
+/// closes the clutch.
+Similarity Navigator::held(const Hands& hands, const ControlContext& context,
+                           const Similarity& volume) {
+    if (!hands.first) {
+        grab_.reset();
+        return volume;
+    }
+    const bool goes_on = grab_ && grab_->span.has_value() == hands.both.has_value() &&
+                         volume == context.room_from_physical && grab_->result == volume;
+    if (!goes_on) {
+        grab_ = Grab{*hands.first, hands.both, hands.both, {1, 0, 0, 0}, volume, volume};
+    } else if (hands.both) {
+        // From frame to frame, so that hands may turn by more than half a circle.
+        grab_->turn = glm::normalize(rotation_onto(*grab_->newest, *hands.both) * grab_->turn);
+        grab_->newest = hands.both;
+        grab_->result =
+            stretched(grab_->held, *grab_->span, *hands.both, grab_->turn,
+                      context.home.scale / kScaleRange, context.home.scale * kScaleRange);
+    } else {
+        grab_->result = carried(grab_->held, grab_->hand, *hands.first);
+    }
+    return grab_->result;
+}
+
+Similarity Navigator::update(const Reading& now, const ControlContext& context, double seconds) {
+    Similarity volume = context.room_from_physical;
+    if (const auto place = chosen(now, context)) {
+        grab_.reset();
+        teleport_target_.reset();
+        volume = *place;
+    } else {
+        volume = dragged(now, context, volume);
+        volume = flown(now, volume, seconds);
+        volume = stepped(now, volume);
+        volume = teleported(now, volume);
+        volume = resized(now, context, volume, seconds);
+        volume = held(closed_hands(now), context, volume);
+    }
+    last_keys_ = Reading::buttons(now.keys);
+    last_pad_ = Reading::buttons(now.gamepad);
+    last_wand_ = Reading::buttons(now.wand);
+    return is_valid(volume) ? volume : context.room_from_physical;
+}
+
+} // namespace isochron::interaction

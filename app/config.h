@@ -4,6 +4,7 @@
 #include "app/device_config.h"
 #include "app/display_config.h"
 #include "app/placement.h"
+#include "interaction/comfort.h"
 #include "interaction/motion_gate.h"
 #include "render/cell_pass.h"
 #include "stereo/gl_context.h"
@@ -26,6 +27,8 @@ struct Config {
     interaction::EmulationOptions emulation;
     DeviceConfig devices;
     interaction::StillnessLimits stillness;
+    interaction::ComfortOptions comfort;
+    bool grid = false; ///< floor grid shown at the start
     interaction::QualityMode quality = interaction::QualityMode::automatic;
     /// What a settled picture is drawn with, whatever it costs; empty: the best that fits the
     /// budget (in a fixed-step replay, which measures nothing, the best there is).

@@ -186,4 +186,21 @@ void read_devices(TomlReader& root, DeviceConfig& devices, EmulationOptions& emu
     root.table("gamepad", [&](TomlReader& reader) { read_gamepad(reader, emulation); });
 }
 
+void read_comfort(TomlReader& root, ComfortOptions& comfort, bool& grid) {
+    root.table("comfort", [&](TomlReader& reader) {
+        reader.flag("grid", grid);
+        reader.flag("fade_when_lost", comfort.fade_when_lost);
+        milliseconds(reader, "lost_fade_ms", 60e3, comfort.lost_fade);
+        reader.flag("vignette", comfort.vignette);
+        reader.number("vignette_speed", 0.0, 100.0, comfort.vignette_speed);
+        reader.number("vignette_full", 0.0, 100.0, comfort.vignette_full);
+        double turn = comfort.vignette_turn / kDegree, full = comfort.vignette_turn_full / kDegree;
+        reader.number("vignette_turn", 0.0, 3600.0, turn);
+        reader.number("vignette_turn_full", 0.0, 3600.0, full);
+        comfort.vignette_turn = turn * kDegree;
+        comfort.vignette_turn_full = full * kDegree;
+        milliseconds(reader, "vignette_fade_ms", 60e3, comfort.vignette_fade);
+    });
+}
+
 } // namespace isochron::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/toml_reader.h"
+#include "interaction/comfort.h"
 #include "interaction/desktop_emulation.h"
 #include "interaction/dtrack_input.h"
 #include "interaction/osc_input.h"
@@ -22,5 +23,8 @@ struct DeviceConfig {
 /// Reads the tables `tracking`, `dtrack`, `osc`, `vrpn` and `gamepad` of a configuration file.
 void read_devices(TomlReader& root, DeviceConfig& devices,
                   interaction::EmulationOptions& emulation);
+
+/// Reads the table `comfort`.
+void read_comfort(TomlReader& root, interaction::ComfortOptions& comfort, bool& grid);
 
 } // namespace isochron::app

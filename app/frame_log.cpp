@@ -138,6 +138,10 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"reused", frame.reused}};
         for (const auto& [name, member] : kStages)
             row[std::string(name) + "_ms"] = (frame.*member).count();
+        if (frame.comfort != interaction::ComfortState{}) {
+            row["fade"] = frame.comfort.fade;
+            row["vignette"] = frame.comfort.vignette;
+        }
         if (!frame.tracking.empty())
             row["tracking"] = tracking_json(frame.tracking);
         rows.push_back(std::move(row));

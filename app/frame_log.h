@@ -5,6 +5,7 @@
 #include "app/milliseconds.h"
 #include "app/quality_controller.h"
 #include "index/query.h"
+#include "interaction/comfort.h"
 #include "interaction/motion_gate.h"
 
 #include <cstdint>
@@ -37,6 +38,7 @@ struct FrameReport {
     Milliseconds search{0}, shading{0};   ///< on the worker, of the shown set
     Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
+    interaction::ComfortState comfort;
     std::vector<DeviceTracking> tracking; ///< empty where nothing is tracked
 };
 

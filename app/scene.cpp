@@ -1,4 +1,4 @@
-// What one eye sees: the cells, the volume's box and the wand.
+// What one eye sees: the cells, the volume's box, the wand and what lies on the floor.
 #include "app/scene.h"
 
 #include <array>
@@ -30,6 +30,8 @@ void Scene::draw(const render::View& view, const interaction::Similarity& room_f
         const auto box = render::box_lines(placement.extent, kBoxColour);
         line_pass_.draw(view, placement.room_from_index, box);
     }
+    if (!guides_.empty())
+        line_pass_.draw(view, glm::mat4(1.0f), guides_);
     if (wand) {
         const std::array ray{render::Line{{0, 0, 0}, {0, 0, -kWandLength}, kWandColour}};
         line_pass_.draw(view, room_from(*wand), ray);

@@ -1,7 +1,8 @@
-// What one eye sees: the cells, the volume's box and the wand.
+// What one eye sees: the cells, the volume's box, the wand and what lies on the floor.
 #pragma once
 
 #include "app/config.h"
+#include "app/guides.h"
 #include "index/cell_set.h"
 #include "index/volume_series.h"
 #include "render/cell_buffers.h"
@@ -21,6 +22,8 @@ class Scene {
     void upload(const index::CellSetPtr& newest);
     const index::CellSetPtr& shown() const { return cells_.shown(); }
 
+    void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
+
     /// @param wand drawn as a ray when given
     void draw(const render::View& view, const interaction::Similarity& room_from_physical,
               render::Footprint footprint, const std::optional<interaction::Pose>& wand);
@@ -33,6 +36,7 @@ class Scene {
     render::CellBuffers cells_;
     render::CellPass cell_pass_;
     render::LinePass line_pass_;
+    std::vector<render::Line> guides_;
 };
 
 } // namespace isochron::app

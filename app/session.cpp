@@ -1,6 +1,7 @@
 // One session: the data, the worker, the eyes, and the story of one frame.
 #include "app/session.h"
 
+#include "interaction/navigator.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>
@@ -35,6 +36,7 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     state.isovalue = first_isovalue(file.stats());
     state.room_from_physical = place(file.info(), config.placement);
     state.quality = config.quality;
+    state.grid = config.grid;
     state.eye_separation = config.installation.viewers.front().eye_separation;
     state.stereo = config.installation.windows.front().stereo;
     return state;
@@ -56,7 +58,8 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                  stereo::Windows windows, index::Search search)
     : config_(std::move(config)), file_(std::move(file)), windows_(std::move(windows)),
       gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
-      gate_(config_.stillness), extractor_(search ? std::move(search) : index::search_in(file_)),
+      gate_(config_.stillness), comfort_(config_.comfort),
+      extractor_(search ? std::move(search) : index::search_in(file_)),
       scene_(gl_, file_->info(), config_), panel_(gl_), stereo_modes_(live_stereo_modes(windows_)),
       quality_(gl_, config_, windows_.first().refresh_rate()) {
     const stereo::DisplayOptions options{.near_plane = config_.installation.near_plane,
@@ -158,6 +161,7 @@ Session::Picture Session::picture(const interaction::InputState& input) const {
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
     return {.viewers = viewpoints(input),
             .wand = wand ? wand->pose : std::nullopt,
+            .guides = {state_.grid, interaction::teleport_target(input)},
             .room_from_physical = state_.room_from_physical,
             .stereo = state_.stereo,
             .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
@@ -185,8 +189,10 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     };
     panel_drawn_ = false;
     StopWatch watch;
-    if (report.redrawn)
+    if (report.redrawn) {
         quality_.begin(log_.next());
+        scene_.set_guides(now.guides);
+    }
     for (std::size_t i = 0; i < displays_.size(); ++i) {
         // The panel lies over one window.
         const auto overlay = i == 0 && !room_ ? panel : stereo::Display::Overlay();
@@ -266,6 +272,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     state_.apply(commands, file_->info().steps());
     if (commands.screenshot)
         captures_.ask();
+    report.comfort = comfort_.update(input, state_.room_from_physical);
     report.asked = state_.query();
     request_cells();
     take_newest_cells(waiting, report);

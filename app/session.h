@@ -86,6 +86,7 @@ class Session {
     struct Picture {
         std::vector<stereo::Viewpoint> viewers;
         std::optional<interaction::Pose> wand;
+        Guides guides;
         interaction::Similarity room_from_physical;
         stereo::StereoMode stereo{};
         render::Footprint footprint{};
@@ -115,6 +116,7 @@ class Session {
     ExplorerState home_;
     interaction::Controls controls_;
     interaction::MotionGate gate_;
+    interaction::Comfort comfort_;
     index::Extractor extractor_;
     Scene scene_;
     std::deque<stereo::Display> displays_; ///< by window; a display stays where it is made

@@ -192,10 +192,6 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     return commands;
 }
 
-std::optional<glm::dvec3> Controls::teleport_target() const {
-    return state_->navigator.teleport_target();
-}
-
 std::vector<std::string> Controls::documentation() {
     std::vector<std::string> lines;
     for (const KeyLine& line : key_lines())

@@ -38,9 +38,6 @@ class Controls {
     /// One frame. Includes the step that playback has reached in physical time.
     Commands update(const InputState& input, const ControlContext& context);
 
-    /// Where letting go of the teleport button would lead; empty while nobody aims at the floor.
-    std::optional<glm::dvec3> teleport_target() const;
-
     /// One line per key, button and valuator, for `--help` and the panel.
     static std::vector<std::string> documentation();
 

@@ -94,7 +94,21 @@ std::optional<Similarity> next_view(const ControlContext& context) {
     return (first ? context.views->begin() : at + 1)->room_from_physical;
 }
 
+bool aims(const Reading& now) {
+    return now.key(Action::teleport) || now.wand_button(WandButton::teleport);
+}
+
+std::optional<glm::dvec3> aimed_at(const Reading& now) {
+    const auto wand = Reading::hand(now.wand);
+    return wand ? floor_point(*wand, kTeleportReach) : std::nullopt;
+}
+
 } // namespace
+
+std::optional<glm::dvec3> teleport_target(const InputState& input) {
+    const Reading now(input);
+    return aims(now) ? aimed_at(now) : std::nullopt;
+}
 
 bool Navigator::pressed(const Reading& now, Action action, WandButton button,
                         GamepadButton pad) const {
@@ -140,10 +154,8 @@ Similarity Navigator::stepped(const Reading& now, Similarity volume) {
 /// While the button is held the wand's ray shows the place; letting go brings the place to the
 /// viewer's feet.
 Similarity Navigator::teleported(const Reading& now, const Similarity& volume) {
-    const bool aims = now.key(Action::teleport) || now.wand_button(WandButton::teleport);
-    if (aims) {
-        const auto wand = Reading::hand(now.wand);
-        teleport_target_ = wand ? floor_point(*wand, kTeleportReach) : std::nullopt;
+    if (aims(now)) {
+        teleport_target_ = aimed_at(now);
         return volume;
     }
     const auto target = std::exchange(teleport_target_, std::nullopt);

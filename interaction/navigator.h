@@ -7,6 +7,10 @@
 
 namespace isochron::interaction {
 
+/// Where letting go of the teleport button would lead: what the wand points at on the floor. Empty
+/// while nobody aims there.
+std::optional<glm::dvec3> teleport_target(const InputState& input);
+
 /// The viewer stays where the tracker says; what flies, turns and teleports is the volume, the
 /// other way. Everything returns a valid similarity whose scale is within `kScaleRange` of home's.
 class Navigator {
@@ -15,7 +19,6 @@ class Navigator {
 
     /// @param seconds since the last frame, for rates
     Similarity update(const Reading& now, const ControlContext& context, double seconds);
-    const std::optional<glm::dvec3>& teleport_target() const { return teleport_target_; }
 
   private:
     /// The clutch: the volume follows one hand, or two, as it lay when they closed around it.

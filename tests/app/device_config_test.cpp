@@ -63,6 +63,12 @@ button = "Button0@localhost"
 [gamepad]
 enabled = false
 dead_zone = 0.25
+
+[comfort]
+grid = true
+fade_when_lost = false
+vignette_turn = 90
+vignette_fade_ms = 250
 )";
 
 TEST(DeviceConfig, EveryValueArrives) {
@@ -103,6 +109,10 @@ TEST(DeviceConfig, EveryValueArrives) {
     EXPECT_EQ(config.devices.vrpn[0].devices[0].buttons, "Button0@localhost");
     EXPECT_FALSE(config.emulation.gamepad);
     EXPECT_FLOAT_EQ(config.emulation.dead_zone, 0.25f);
+    EXPECT_TRUE(config.grid);
+    EXPECT_FALSE(config.comfort.fade_when_lost);
+    EXPECT_NEAR(config.comfort.vignette_turn, 1.5707963, 1e-6);
+    EXPECT_EQ(config.comfort.vignette_fade, Seconds(0.25));
 }
 
 std::string error_of(const std::string& text) {

@@ -61,7 +61,6 @@ class Desk {
         merge(commands, frame({head_at(kStanding), keys_down(0)}));
         return commands;
     }
-    const Controls& controls() const { return controls_; }
     const Similarity& volume() const { return context.room_from_physical; }
     glm::dvec3 centre() const { return transform(volume(), context.pivot); }
 

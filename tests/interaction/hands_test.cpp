@@ -141,10 +141,10 @@ TEST(Navigator, TeleportBringsThePointedPlaceToTheFeet) {
     const glm::dvec3 place = physical(desk.volume(), {0.2, 0, -1});
     for (int frame = 0; frame < 3; ++frame)
         EXPECT_TRUE(desk.frame({head_at(head), wand_at(wand, bit(WandButton::teleport))}).empty());
-    ASSERT_TRUE(desk.controls().teleport_target());
+    ASSERT_TRUE(teleport_target({Seconds(0), {wand_at(wand, bit(WandButton::teleport))}}));
     desk.frame({head_at(head), wand_at(wand)});
     expect_near(transform(desk.volume(), place), {0.5, 0, 0.3}, 1e-6);
-    EXPECT_FALSE(desk.controls().teleport_target());
+    EXPECT_FALSE(teleport_target({Seconds(0), {wand_at(wand)}}));
     EXPECT_TRUE(desk.frame({head_at(head), wand_at(wand)}).empty());
 
     // Up, level, too flat for the reach, or out of sight: nowhere.

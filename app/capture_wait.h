@@ -11,8 +11,8 @@ namespace isochron::app {
 /// What a capture waits for, in one frame.
 struct CaptureView {
     interaction::Seconds time{0}; ///< session time
-    index::Query asked;
-    std::optional<index::Query> shown; ///< empty before the first cells
+    index::SurfacesQuery asked;
+    std::optional<index::SurfacesQuery> shown; ///< empty before the first cells
     bool failed = false;               ///< what was asked for will not come
     bool final = false;                ///< the picture is as good as it gets
 };

@@ -27,7 +27,7 @@ struct ExplorerState {
     /// Commands that set every field.
     interaction::Commands as_commands() const;
 
-    index::Query query() const { return {step, isovalue}; }
+    index::SurfacesQuery surfaces() const { return {step, {isovalue}}; }
     bool operator==(const ExplorerState&) const = default;
 };
 

@@ -19,7 +19,7 @@ namespace {
 using Stage = Milliseconds FrameReport::*;
 constexpr std::array<std::pair<const char*, Stage>, 7> kStages{{
     {"search", &FrameReport::search},
-    {"shading", &FrameReport::shading},
+    {"gather", &FrameReport::gather},
     {"wait", &FrameReport::wait},
     {"upload", &FrameReport::upload},
     {"draw", &FrameReport::draw},
@@ -34,6 +34,21 @@ nlohmann::json time_json(const std::optional<Milliseconds>& time) {
     return time ? nlohmann::json(time->count()) : nlohmann::json();
 }
 
+nlohmann::json query_json(const index::SurfacesQuery& query) {
+    nlohmann::json json{{"step", query.step}, {"isovalue", query.isovalues.front()}};
+    if (query.isovalues.size() > 1)
+        json["more_isovalues"] = std::vector(query.isovalues.begin() + 1, query.isovalues.end());
+    return json;
+}
+
+nlohmann::json upload_json(const render::UploadCount& count) {
+    return {{"sets", count.sets},
+            {"ids", count.ids},
+            {"whole_ids", count.whole_ids},
+            {"id_bytes", count.id_bytes},
+            {"brick_bytes", count.brick_bytes}};
+}
+
 nlohmann::json summary_json(const TimeSummary& summary) {
     return {{"median", summary.median}, {"p99", summary.p99}, {"worst", summary.worst}};
 }
@@ -46,10 +61,6 @@ nlohmann::json tracking_json(const std::vector<DeviceTracking>& devices) {
             result[device.name]["age_ms"] = Milliseconds(*device.age).count();
     }
     return result;
-}
-
-nlohmann::json query_json(const index::Query& query) {
-    return {{"step", query.step}, {"isovalue", query.isovalue}};
 }
 
 } // namespace
@@ -120,6 +131,7 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
     report["missed"] = missed();
     for (const render::Footprint footprint : kFootprints)
         report["footprints"][name_of(footprint)] = frames_with(footprint);
+    report["uploaded"] = upload_json(uploaded());
     nlohmann::json& rows = report["rows"] = nlohmann::json::array();
     for (const FrameReport& frame : frames_) {
         nlohmann::json row{{"t", frame.time.count()},
@@ -135,7 +147,8 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"redrawn", frame.redrawn},
                            {"cells", frame.cells},
                            {"candidates", frame.candidates},
-                           {"reused", frame.reused}};
+                           {"reused", frame.reused},
+                           {"uploaded", upload_json(frame.uploaded)}};
         for (const auto& [name, member] : kStages)
             row[std::string(name) + "_ms"] = (frame.*member).count();
         if (frame.comfort != interaction::ComfortState{}) {
@@ -152,6 +165,13 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
     file.commit();
 }
 
+render::UploadCount FrameLog::uploaded() const {
+    render::UploadCount all;
+    for (const FrameReport& frame : frames_)
+        all += frame.uploaded;
+    return all;
+}
+
 std::string FrameLog::table() const {
     std::string text = fmt::format("{} frames{:>15} {:>8} {:>8}  [ms]\n", frames_.size(), "median",
                                    "p99", "worst");
@@ -165,6 +185,12 @@ std::string FrameLog::table() const {
     for (const render::Footprint footprint : kFootprints)
         text += fmt::format("  {:<14}{:>8} frames\n", name_of(footprint), frames_with(footprint));
     text += fmt::format("  {:<14}{:>8} refreshes of the display\n", "missed", missed());
+    const render::UploadCount sent = uploaded();
+    if (sent.whole_ids > 0)
+        text += fmt::format("  {} sets uploaded with {:.1f} % of their ids: {} bytes, and {} bytes "
+                            "of the volume\n",
+                            sent.sets, 100.0 * double(sent.ids) / double(sent.whole_ids),
+                            sent.id_bytes, sent.brick_bytes);
     return text;
 }
 

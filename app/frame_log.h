@@ -7,6 +7,7 @@
 #include "index/query.h"
 #include "interaction/comfort.h"
 #include "interaction/motion_gate.h"
+#include "render/upload_count.h"
 
 #include <cstdint>
 #include <deque>
@@ -20,8 +21,8 @@ namespace isochron::app {
 /// One frame, stage after stage in the order of the frame.
 struct FrameReport {
     interaction::Seconds time{0}; ///< session time of the frame
-    index::Query asked;
-    std::optional<index::Query> shown; ///< of the cells drawn; empty before the first set
+    index::SurfacesQuery asked;
+    std::optional<index::SurfacesQuery> shown; ///< of the cells drawn; empty before the first set
     interaction::Pace pace = interaction::Pace::moving;
     render::Footprint footprint = render::Footprint::quad;
     QualityReason reason = QualityReason::moving; ///< for the footprint
@@ -35,7 +36,8 @@ struct FrameReport {
     std::uint64_t cells = 0;              ///< drawn
     std::uint64_t candidates = 0;         ///< of the search behind them
     std::uint64_t reused = 0;             ///< of these, taken over by incremental search
-    Milliseconds search{0}, shading{0};   ///< on the worker, of the shown set
+    render::UploadCount uploaded;         ///< in this frame
+    Milliseconds search{0}, gather{0};    ///< on the worker, of the shown set: cells, bricks
     Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
     interaction::ComfortState comfort;
@@ -74,6 +76,9 @@ class FrameLog {
     /// @param context description of the GL context, for the reader
     /// @throws index::Error
     void write(const std::filesystem::path& path, const std::string& context) const;
+
+    /// Of all frames.
+    render::UploadCount uploaded() const;
 
     /// A few lines for a terminal.
     std::string table() const;

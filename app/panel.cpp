@@ -63,7 +63,7 @@ void histogram(const PanelModel& model, Commands& commands) {
         list->AddLine({x, corner.y}, {x, corner.y + size.y}, colour, 2.0f);
     };
     if (model.frame.shown)
-        mark(model.frame.shown->isovalue, kShownColour);
+        mark(model.frame.shown->isovalues.front(), kShownColour);
     mark(model.asked.isovalue, kAskedColour);
     const double pointed = std::lerp(
         low, high, std::clamp((ImGui::GetIO().MousePos.x - corner.x) / size.x, 0.0f, 1.0f));
@@ -95,7 +95,8 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
     const auto& shown = model.frame.shown;
     note(fmt::format("isovalue: asked {}   shown {}",
                      with_unit(model.asked.isovalue, model.info.value_unit),
-                     shown ? with_unit(shown->isovalue, model.info.value_unit) : "nothing yet"),
+                     shown ? with_unit(shown->isovalues.front(), model.info.value_unit)
+                           : "nothing yet"),
          kDim);
 }
 
@@ -195,8 +196,8 @@ void measurements(const PanelModel& model) {
                      size.z, model.info.length_unit.empty() ? "" : " ", model.info.length_unit,
                      std::max({size.x, size.y, size.z}) * model.asked.room_from_physical.scale),
          kDim);
-    note(fmt::format("search {:.2f} ms   shading {:.2f} ms", frame.search.count(),
-                     frame.shading.count()),
+    note(fmt::format("search {:.2f} ms   bricks {:.2f} ms", frame.search.count(),
+                     frame.gather.count()),
          kDim);
     note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms", model.frames_per_second,
                      model.frame_times.median, model.frame_times.p99),

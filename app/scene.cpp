@@ -14,12 +14,12 @@ constexpr glm::vec4 kWandColour(1.0f, 0.77f, 0.36f, 0.9f);
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : grid_(info.grid), bounding_box_(config.bounding_box),
-      upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame), cells_(gl),
+      upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame), cells_(gl, info.grid),
       cell_pass_(gl), line_pass_(gl) {
     appearance_.color = config.surface_colour;
 }
 
-void Scene::upload(const index::CellSetPtr& newest) {
+void Scene::upload(const index::ExtractionPtr& newest) {
     cells_.upload(newest, upload_bytes_);
 }
 

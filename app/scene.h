@@ -3,7 +3,6 @@
 
 #include "app/config.h"
 #include "app/guides.h"
-#include "index/cell_set.h"
 #include "index/volume_series.h"
 #include "render/cell_buffers.h"
 #include "render/cell_pass.h"
@@ -19,8 +18,10 @@ class Scene {
     Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config);
 
     /// Moves the newest set to the GPU, at most the configured bytes per call.
-    void upload(const index::CellSetPtr& newest);
-    const index::CellSetPtr& shown() const { return cells_.shown(); }
+    void upload(const index::ExtractionPtr& newest);
+    const index::ExtractionPtr& shown() const { return cells_.shown(); }
+
+    const render::UploadCount& uploaded() const { return cells_.count(); }
 
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
 

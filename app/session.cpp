@@ -55,11 +55,11 @@ std::vector<std::string> live_stereo_modes(const stereo::Windows& windows) {
 } // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
-                 stereo::Windows windows, index::Search search)
+                 stereo::Windows windows, index::Extract extract)
     : config_(std::move(config)), file_(std::move(file)), windows_(std::move(windows)),
       gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
       gate_(config_.stillness), comfort_(config_.comfort),
-      extractor_(search ? std::move(search) : index::search_in(file_)),
+      extractor_(extract ? std::move(extract) : index::extract_from(file_)),
       scene_(gl_, file_->info(), config_), panel_(gl_), stereo_modes_(live_stereo_modes(windows_)),
       quality_(gl_, config_, windows_.first().refresh_rate()) {
     const stereo::DisplayOptions options{.near_plane = config_.installation.near_plane,
@@ -109,7 +109,7 @@ Session::panel_events(std::span<const interaction::WindowEvent> events) {
 }
 
 void Session::request_cells() {
-    index::Request request{state_.query(), std::nullopt};
+    index::Request request{state_.surfaces(), std::nullopt};
     const auto steps = static_cast<std::uint32_t>(file_->info().steps());
     if (state_.playback.playing && steps > 1)
         request.next_step = (state_.step + (state_.playback.reverse ? steps - 1 : 1)) % steps;
@@ -117,24 +117,26 @@ void Session::request_cells() {
 }
 
 void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
+    const render::UploadCount before = scene_.uploaded();
     StopWatch watch;
     if (waiting == Waiting::for_cells) {
         extractor_.wait();
         report.wait = watch.lap();
     }
-    const index::CellSetPtr newest = extractor_.newest();
+    const index::ExtractionPtr newest = extractor_.newest();
     scene_.upload(newest);
     // A replay shows what was asked for, however many upload budgets that takes.
     while (waiting == Waiting::for_cells && newest && scene_.shown() != newest)
         scene_.upload(newest);
     report.upload = watch.lap();
-    if (const index::CellSetPtr& shown = scene_.shown()) {
+    report.uploaded = scene_.uploaded().since(before);
+    if (const index::ExtractionPtr& shown = scene_.shown()) {
         report.shown = shown->query;
-        report.cells = shown->ids.size();
-        report.candidates = shown->candidates;
-        report.reused = shown->reused;
-        report.search = shown->search_time;
-        report.shading = shown->shading_time;
+        report.cells = shown->cells();
+        report.candidates = shown->candidates();
+        report.reused = shown->reused();
+        report.search = shown->search_time();
+        report.gather = shown->gather_time;
     }
 }
 
@@ -273,7 +275,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     if (commands.screenshot)
         captures_.ask();
     report.comfort = comfort_.update(input, state_.room_from_physical);
-    report.asked = state_.query();
+    report.asked = state_.surfaces();
     request_cells();
     take_newest_cells(waiting, report);
     report.pace = gate_.update(input, commands, state_.quality);

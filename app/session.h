@@ -38,9 +38,9 @@ class Session {
   public:
     /// @param windows those of the configured installation, or a context for its only one that
     /// outlives the session; the one that draws is current on this thread
-    /// @param search replaces the search over `file`, for tests; empty: the search itself
+    /// @param extract replaces the extraction from `file`, for tests; empty: the extraction itself
     Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::Windows windows,
-            index::Search search = {});
+            index::Extract extract = {});
     ~Session();
 
     const ExplorerState& state() const { return state_; }
@@ -90,7 +90,7 @@ class Session {
         interaction::Similarity room_from_physical;
         stereo::StereoMode stereo{};
         render::Footprint footprint{};
-        index::CellSetPtr cells;
+        index::ExtractionPtr cells;
         std::vector<glm::ivec2> windows;
         bool operator==(const Picture&) const = default;
     };

@@ -1,6 +1,7 @@
 // Positions and normals of active cells: differences cell by cell, normals many cells at a time.
 #include "index/cell_difference.h"
 #include "index/cell_set.h"
+#include "index/cell_walk.h"
 
 #include <glm/common.hpp>
 
@@ -75,31 +76,22 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     Shader<DifferenceBatch> exact({}, matrix);
     using Batch = ValueBatch<std::conditional_t<kSmall, T, std::uint8_t>>;
     Shader<Batch> fast(Batch(values.grid), matrix);
-    const std::uint32_t width = values.grid.cells()[0], height = values.grid.cells()[1];
-    std::uint64_t row_end = 0; // id behind the current row
+    const std::uint32_t width = values.grid.cells()[0];
+    CellWalk walk(values.grid);
     CellDifferences<T> row(values, set.query.step, 0, 0);
     bool inner = false;
     CellPoint point{};
     for (std::size_t i = 0; i < set.ids.size(); ++i) {
-        const CellId id = set.ids[i];
         if (i % 4096 == 0 && stop.stop_requested())
             return false;
-        if (id >= row_end) {
-            // Most often the next row, which saves two divisions.
-            if (row_end > 0 && id - row_end < width && point.y + 1u < height) {
-                ++point.y;
-                row_end += width;
-            } else {
-                const auto [x, y, z] = values.grid.cell_of(id);
-                point.y = static_cast<std::uint16_t>(y);
-                point.z = static_cast<std::uint16_t>(z);
-                row_end = std::uint64_t{id} - x + width;
-            }
+        if (walk.to(set.ids[i])) {
+            point.y = static_cast<std::uint16_t>(walk.y());
+            point.z = static_cast<std::uint16_t>(walk.z());
             set.rows.push_back({point.y, point.z, static_cast<std::uint32_t>(i)});
             row = CellDifferences<T>(values, set.query.step, point.y, point.z);
             inner = kSmall && smallest >= kFloatIsEnough && !row.border();
         }
-        point.x = static_cast<std::uint16_t>(id - (row_end - width));
+        point.x = static_cast<std::uint16_t>(walk.x());
         set.points[i] = point;
         if constexpr (kSmall)
             if (inner && point.x > 0 && point.x + 1u < width) {

@@ -1,6 +1,7 @@
 // The one background worker.
 #include "index/extractor.h"
 
+#include <algorithm>
 #include <bit>
 #include <condition_variable>
 #include <deque>
@@ -11,54 +12,56 @@ namespace isochron::index {
 namespace {
 
 /// Bitwise, so that a NaN equals itself: otherwise asking for one again would be something new.
-bool same(const Query& a, const Query& b) {
+bool same(const SurfacesQuery& a, const SurfacesQuery& b) {
     return a.step == b.step &&
-           std::bit_cast<std::uint64_t>(a.isovalue) == std::bit_cast<std::uint64_t>(b.isovalue);
+           std::ranges::equal(a.isovalues, b.isovalues, {}, std::bit_cast<std::uint64_t, double>,
+                              std::bit_cast<std::uint64_t, double>);
 }
 
-/// The newest few sets, of answers and of prefetches.
-class RecentSets {
+/// The newest few extractions, of answers and of prefetches.
+class RecentExtractions {
   public:
-    CellSetPtr find(const Query& query) const {
-        for (const CellSetPtr& set : sets_)
-            if (same(set->query, query))
-                return set;
+    ExtractionPtr find(const SurfacesQuery& query) const {
+        for (const ExtractionPtr& known : kept_)
+            if (same(known->query, query))
+                return known;
         return nullptr;
     }
 
-    /// @return the set that had to go, for the caller to free where it does not hold anybody up
-    CellSetPtr add(CellSetPtr set) {
-        sets_.push_front(std::move(set));
-        if (sets_.size() <= kKept)
+    /// @return the one that had to go, for the caller to free where it does not hold anybody up
+    ExtractionPtr add(ExtractionPtr extraction) {
+        kept_.push_front(std::move(extraction));
+        if (kept_.size() <= kKept)
             return nullptr;
-        CellSetPtr oldest = std::move(sets_.back());
-        sets_.pop_back();
+        ExtractionPtr oldest = std::move(kept_.back());
+        kept_.pop_back();
         return oldest;
     }
 
   private:
     static constexpr std::size_t kKept = 3; ///< shown, prefetched, and one for stepping back
-    std::deque<CellSetPtr> sets_;
+    std::deque<ExtractionPtr> kept_;
 };
 
 } // namespace
 
 struct Extractor::State {
     struct Job {
-        Query query;
+        SurfacesQuery query;
         bool prefetch;
         std::stop_source stop;
     };
     struct Outcome {
-        CellSetPtr set;      ///< null: stopped or failed
-        std::string failure; ///< empty unless failed
+        ExtractionPtr extraction; ///< null: stopped or failed
+        std::string failure;      ///< empty unless failed
     };
 
-    explicit State(Search s) : search(std::move(s)) {}
+    explicit State(Extract e) : extract(std::move(e)) {}
+
+    SurfacesQuery prefetched_query() const { return {*wanted->next_step, wanted->query.isovalues}; }
 
     bool prefetch_wanted() const {
-        return wanted && wanted->next_step && !prefetch_done &&
-               !recent.find({*wanted->next_step, wanted->query.isovalue});
+        return wanted && wanted->next_step && !prefetch_done && !recent.find(prefetched_query());
     }
     bool has_work() const { return (wanted && !answered) || prefetch_wanted(); }
 
@@ -66,7 +69,7 @@ struct Extractor::State {
     Outcome run(const Job& job);
     void finish(const Job& job, Outcome outcome);
 
-    const Search search;
+    const Extract extract;
     mutable std::mutex mutex; ///< of all below; held for a few assignments only
     mutable std::condition_variable_any changed;
     std::optional<Request> wanted;
@@ -74,8 +77,8 @@ struct Extractor::State {
     bool prefetch_done = false; ///< the wanted prefetch need not be tried again
     bool abandoned = false;     ///< the last search was given up: the next one is finished
     std::optional<Job> running;
-    RecentSets recent;
-    CellSetPtr shown;
+    RecentExtractions recent;
+    ExtractionPtr shown;
     std::optional<std::string> failure;
     std::jthread worker; ///< last, so that it starts after and ends before everything it uses
 };
@@ -86,9 +89,9 @@ void Extractor::State::work(const std::stop_token& stop) {
         if (stop.stop_requested())
             return;
         const bool prefetch = answered;
-        const Query query =
-            prefetch ? Query{*wanted->next_step, wanted->query.isovalue} : wanted->query;
-        if (CellSetPtr known = recent.find(query)) { // only an answer: known prefetches are no work
+        const SurfacesQuery query = prefetch ? prefetched_query() : wanted->query;
+        if (ExtractionPtr known =
+                recent.find(query)) { // only an answer: known prefetches are no work
             answered = true;
             failure.reset();
             shown.swap(known);
@@ -109,26 +112,26 @@ void Extractor::State::work(const std::stop_token& stop) {
 
 Extractor::State::Outcome Extractor::State::run(const Job& job) {
     try {
-        CellSetPtr set = search(job.query, job.stop.get_token());
-        if (!set && !job.stop.stop_requested())
-            return {nullptr, "the search gave no result"};
-        return {std::move(set), {}};
+        ExtractionPtr extraction = extract(job.query, job.stop.get_token());
+        if (!extraction && !job.stop.stop_requested())
+            return {nullptr, "the extraction gave no result"};
+        return {std::move(extraction), {}};
     } catch (const std::exception& error) {
         return {nullptr, error.what()};
     } catch (...) {
-        return {nullptr, "unknown failure of the search"};
+        return {nullptr, "unknown failure of the extraction"};
     }
 }
 
 void Extractor::State::finish(const Job& job, Outcome outcome) {
-    CellSetPtr dropped, replaced = outcome.set; // freed after the lock
+    ExtractionPtr dropped, replaced = outcome.extraction; // freed after the lock
     {
         const std::scoped_lock lock(mutex);
         running.reset();
         const bool stopped = job.stop.stop_requested();
         const bool is_answer = same(job.query, wanted->query) && !answered;
-        if (outcome.set) {
-            dropped = recent.add(outcome.set);
+        if (outcome.extraction) {
+            dropped = recent.add(outcome.extraction);
             if (is_answer)
                 answered = true;
             if (is_answer || !job.prefetch) {
@@ -145,12 +148,12 @@ void Extractor::State::finish(const Job& job, Outcome outcome) {
         if (job.prefetch && !stopped)
             prefetch_done = wanted->next_step == job.query.step;
         if (!job.prefetch)
-            abandoned = !outcome.set && stopped;
+            abandoned = !outcome.extraction && stopped;
     }
     changed.notify_all();
 }
 
-Extractor::Extractor(Search search) : state_(std::make_unique<State>(std::move(search))) {
+Extractor::Extractor(Extract extract) : state_(std::make_unique<State>(std::move(extract))) {
     state_->worker =
         std::jthread([state = state_.get()](std::stop_token stop) { state->work(stop); });
 }
@@ -168,7 +171,8 @@ Extractor::~Extractor() {
 }
 
 void Extractor::request(const Request& request) {
-    std::optional<std::stop_source> stop; // used after the lock: it may run callbacks of the search
+    std::optional<std::stop_source>
+        stop; // used after the lock: it may run callbacks of the extraction
     {
         const std::scoped_lock lock(state_->mutex);
         State& s = *state_;
@@ -189,7 +193,7 @@ void Extractor::request(const Request& request) {
     state_->changed.notify_all();
 }
 
-CellSetPtr Extractor::newest() const {
+ExtractionPtr Extractor::newest() const {
     const std::scoped_lock lock(state_->mutex);
     return state_->shown;
 }

@@ -1,37 +1,20 @@
-// The one background worker: newest request in, newest finished cell set out, never a wait.
+// The one background worker: newest request in, newest finished extraction out, never a wait.
 //
-//     index::Extractor extractor(index::search_in(file));
-//     extractor.request({.query = {step, isovalue}, .next_step = step + 1});
-//     if (auto set = extractor.newest()) draw(*set);      // every frame, never blocks
+//     index::Extractor extractor(index::extract_from(file));
+//     extractor.request({.query = {step, {isovalue}}, .next_step = step + 1});
+//     if (auto newest = extractor.newest()) show(newest);      // every frame, never blocks
 #pragma once
 
-#include "index/cell_set.h"
-#include "index/index_file.h"
+#include "index/extraction.h"
 
-#include <functional>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 
 namespace isochron::index {
 
-/// Computes one cell set; runs on the worker only, keeps the state of incremental search.
-/// Returns null when stopped. Throws to report a failure.
-using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
-
-/// What the file's tiers answer fastest: cells, else bricks, else the paper's tree, else the scan.
-SearchMethod cheapest_method(const IndexFile& file);
-/// Whether the file has what a method works on.
-bool can_search(const IndexFile& file, SearchMethod method);
-
-/// The search over an open index. Copies share their state.
-/// @param method instead of the cheapest; the file must have that tier
-Search search_in(std::shared_ptr<const IndexFile> file,
-                 std::optional<SearchMethod> method = std::nullopt);
-
 struct Request {
-    Query query;
+    SurfacesQuery query;
     std::optional<std::uint32_t> next_step; ///< prefetched once the query is answered (playback)
 };
 
@@ -40,7 +23,7 @@ struct Request {
 /// or a fast playback instead of standing still until they stop.
 class Extractor {
   public:
-    explicit Extractor(Search search);
+    explicit Extractor(Extract extract);
     ~Extractor(); ///< stops and joins the worker
     Extractor(const Extractor&) = delete;
     Extractor& operator=(const Extractor&) = delete;
@@ -49,9 +32,9 @@ class Extractor {
     /// Asking again for what is already asked does nothing. Never waits for the worker.
     void request(const Request& request);
 
-    /// The newest finished set, null before the first; stays the same until a newer one is
+    /// The newest finished extraction, null before the first; stays the same until a newer one is
     /// finished.
-    CellSetPtr newest() const;
+    ExtractionPtr newest() const;
 
     /// Message of the last failure, until a later query succeeds.
     std::optional<std::string> failure() const;

@@ -1,7 +1,8 @@
 // The search over an open index, as the worker runs it.
+#include "index/index_search.h"
+
 #include "index/bricks.h"
 #include "index/error.h"
-#include "index/extractor.h"
 #include "index/id_sort.h"
 #include "index/scan.h"
 
@@ -19,9 +20,10 @@ constexpr std::size_t kScanChunk = 1 << 22; ///< cells between two looks at the 
 
 class IndexSearch {
   public:
-    IndexSearch(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> forced)
+    IndexSearch(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> forced,
+                Shading shading)
         : file_(std::move(file)), method_(forced ? *forced : cheapest_method(*file_)),
-          keys_(file_->info().type, file_->info().scaling) {}
+          shading_(shading), keys_(file_->info().type, file_->info().scaling) {}
 
     CellSetPtr operator()(const Query& query, const std::stop_token& stop) {
         const std::size_t steps = file_->info().steps();
@@ -36,7 +38,8 @@ class IndexSearch {
         if (!searched)
             return nullptr;
         // Loading may decode a file; a step without active cells does without.
-        if (!set->ids.empty() && !shade_cells(file_->load(query.step).values, *set, stop))
+        if (shading_ == Shading::cells && !set->ids.empty() &&
+            !shade_cells(file_->load(query.step).values, *set, stop))
             return nullptr;
         set->search_time = found - started;
         set->shading_time = Clock::now() - found;
@@ -137,6 +140,7 @@ class IndexSearch {
 
     std::shared_ptr<const IndexFile> file_;
     SearchMethod method_;
+    Shading shading_;
     KeyMap keys_;
     ThiTree::Cursor cursor_;
     // Kept for their memory:
@@ -164,9 +168,10 @@ SearchMethod cheapest_method(const IndexFile& file) {
     return SearchMethod::scan;
 }
 
-Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method) {
+Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+                 Shading shading) {
     // `std::function` wants something that can be copied; the state of a search must not be.
-    auto search = std::make_shared<IndexSearch>(std::move(file), method);
+    auto search = std::make_shared<IndexSearch>(std::move(file), method, shading);
     return [search = std::move(search)](const Query& query, const std::stop_token& stop) {
         return (*search)(query, stop);
     };

@@ -1,9 +1,11 @@
-// What is asked of an index: one isovalue at one step.
+// What is asked of an index: isovalues at one step.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace isochron::index {
 
@@ -17,6 +19,18 @@ struct Query {
     std::uint32_t step = 0;
     double isovalue = 0.0;
     bool operator==(const Query&) const = default;
+};
+
+/// Isosurfaces that are shown together.
+constexpr std::size_t kMostSurfaces = 8;
+
+/// The isosurfaces of 1 to kMostSurfaces isovalues at one step.
+struct SurfacesQuery {
+    std::uint32_t step = 0;
+    std::vector<double> isovalues; ///< a surface is known by its place in this list
+
+    Query surface(std::size_t i) const { return {step, isovalues[i]}; }
+    bool operator==(const SurfacesQuery&) const = default;
 };
 
 } // namespace isochron::index

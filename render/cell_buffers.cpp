@@ -1,4 +1,4 @@
-// Transfer of cell sets within a byte budget.
+// The way of a set to the GPU: merge, bricks, message, and then all of it at once.
 #include "render/cell_buffers.h"
 
 #include <fmt/format.h>
@@ -6,52 +6,131 @@
 #include <algorithm>
 
 namespace isochron::render {
+namespace {
 
-constexpr std::size_t kCellBytes = sizeof(index::CellPoint);
+/// Cells looked at in one call, so that a frame never stalls on a large set: some 1 ms.
+constexpr std::size_t kLookedAt = 1 << 18;
+constexpr std::size_t kWord = sizeof(std::uint32_t);
 
-CellBuffers::CellBuffers(const Gl& gl) : gl_(&gl), slots_{Slot(gl), Slot(gl)} {
-    GLint limit = 0;
-    gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-    limit_ = limit;
+std::size_t rounded_to_units(std::size_t bytes) {
+    return (bytes + StagingRing::kUnit - 1) / StagingRing::kUnit * StagingRing::kUnit;
 }
 
-void CellBuffers::begin(Slot& slot, index::CellSetPtr set) {
-    if (set->points.size() > limit_)
-        throw Error(fmt::format("{} cells at step {}, this GL can draw at most {}",
-                                set->points.size(), set->query.step, limit_));
-    // Fresh storage instead of the old bytes, which the GPU may still be drawing from.
-    gl_->NamedBufferData(slot.buffer.name(),
-                         std::max(set->points.size(), std::size_t{1}) * kCellBytes, nullptr,
-                         GL_STREAM_DRAW);
-    gl_->TextureBuffer(slot.texture.name(), GL_RGB32UI, slot.buffer.name());
-    slot.set = std::move(set);
-    slot.sent = 0;
+} // namespace
+
+CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t staging_bytes)
+    : gl_(&gl), grid_(grid), ring_(gl, rounded_to_units(staging_bytes)),
+      points_(gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole),
+      message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
+      corner_values_(gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none),
+      corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none) {}
+
+CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points) {
+    CellBuffers cells(gl, {.vertices = {2, 2, 2}}, 2 * StagingRing::kUnit);
+    cells.points_.reserve(points.size(), DeviceArray::Contents::dropped);
+    gl.NamedBufferSubData(cells.points_.buffer(), 0, static_cast<GLsizeiptr>(points.size_bytes()),
+                          points.data());
+    auto slots = std::make_shared<Slots>();
+    for (const index::CellPoint& point : points) {
+        slots->slot_of_rank.push_back(static_cast<std::uint32_t>(slots->places.size()));
+        slots->places.push_back({point.x, point.y, point.z, point.style});
+    }
+    cells.slots_ = std::move(slots);
+    cells.version_ = 1;
+    return cells;
 }
 
-bool CellBuffers::upload(index::CellSetPtr newest, std::size_t byte_budget) {
-    std::size_t cells_left = std::max(byte_budget / kCellBytes, std::size_t{1});
+bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget) {
+    const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
+    std::size_t sent = 0;
     bool changed = false;
     for (;;) {
-        Slot& back = slots_[1 - front_];
-        if (!back.set) {
-            if (!newest || newest == shown() || cells_left == 0)
-                return changed;
-            begin(back, newest);
+        if (!arriving_) {
+            if (!newest || newest == shown_)
+                break;
+            begin(newest);
         }
-        const auto& points = back.set->points;
-        const std::size_t cells = std::min(cells_left, points.size() - back.sent);
-        if (cells > 0)
-            gl_->NamedBufferSubData(back.buffer.name(), back.sent * kCellBytes, cells * kCellBytes,
-                                    points.data() + back.sent);
-        back.sent += cells;
-        cells_left -= cells;
-        if (back.sent < points.size())
-            return changed;
-        slots_[front_].set = nullptr;
-        front_ = 1 - front_;
-        ++version_;
+        if (!send_on(most, sent))
+            break;
+        show();
         changed = true;
     }
+    ring_.end_frame();
+    return changed;
+}
+
+void CellBuffers::begin(index::ExtractionPtr set) {
+    if (set->cells() > points_.limit())
+        throw Error(fmt::format("{} cells at step {}, this GL can draw at most {}", set->cells(),
+                                set->query.step, points_.limit()));
+    if (!bricks_) {
+        bricks_.emplace(*gl_, grid_, set->bricks.held);
+        compute_.emplace(*gl_, grid_, set->bricks.held);
+    }
+    plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
+    merged_ = false;
+    words_sent_ = 0;
+    bricks_->begin(set->bricks);
+    arriving_ = std::move(set);
+}
+
+/// Goes on with the set on its way. @return whether all of it is on the GPU
+bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
+    merged_ = merged_ || plan_->merge(kLookedAt);
+    if (!merged_)
+        return false;
+    if (!bricks_->complete()) {
+        const std::size_t part = bricks_->send(ring_, bytes - sent);
+        sent += part;
+        count_.brick_bytes += part;
+    }
+    return bricks_->complete() && send_message(bytes, sent);
+}
+
+bool CellBuffers::send_message(std::size_t bytes, std::size_t& sent) {
+    message_.reserve(plan_->words(), DeviceArray::Contents::dropped);
+    std::size_t cells = kLookedAt;
+    while (!plan_->done()) {
+        const std::size_t rest = (plan_->words() - words_sent_) * kWord;
+        const std::size_t most = std::min(bytes - sent, rest);
+        const std::span<std::byte> room = ring_.room(most);
+        const std::size_t words = plan_->message(
+            {reinterpret_cast<std::uint32_t*>(room.data()), std::min(room.size(), most) / kWord},
+            cells);
+        if (words == 0)
+            break;
+        ring_.copy(words * kWord, message_.buffer(), words_sent_ * kWord);
+        words_sent_ += words;
+        sent += words * kWord;
+        count_.id_bytes += words * kWord;
+    }
+    return plan_->done();
+}
+
+void CellBuffers::show() {
+    const std::size_t cells = arriving_->cells();
+    points_.reserve(cells, DeviceArray::Contents::kept);
+    compute_->enter_pages(*bricks_);
+    compute_->place_cells(*plan_, *arriving_, message_, points_);
+    compute_->fill_normals(*arriving_, *bricks_, points_);
+    bricks_->show();
+    ++count_.sets;
+    count_.ids += plan_->ids();
+    count_.whole_ids += cells;
+    slots_ = std::make_shared<const Slots>(plan_->take());
+    plan_ = nullptr;
+    shown_ = std::move(arriving_);
+    arriving_ = nullptr;
+    ++version_;
+}
+
+void CellBuffers::compute_corners() {
+    if (!shown_ || corners_version_ == version_)
+        return;
+    corner_values_.reserve(shown_->cells(), DeviceArray::Contents::dropped);
+    corner_gradients_.reserve(shown_->cells(), DeviceArray::Contents::dropped);
+    compute_->fill_corners(*shown_, *bricks_, points_, corner_values_, corner_gradients_);
+    corners_version_ = version_;
 }
 
 } // namespace isochron::render

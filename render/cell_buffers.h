@@ -1,58 +1,100 @@
-// The cells on the GPU: the set that is drawn, and behind it the next one while it is sent.
+// The cells on the GPU: the set that is drawn, and the changes that lead to the next one.
 //
-//     buffers.upload(extractor.newest(), 4 << 20);   // every frame
-//     if (buffers.shown()) pass.draw(view, placement, buffers, footprint, appearance);
+//     cells.upload(extractor.newest(), 4 << 20);   // every frame
+//     if (cells.shown()) pass.draw(view, placement, cells, footprint, appearance);
 #pragma once
 
-#include "index/cell_set.h"
-#include "render/gl_objects.h"
+#include "index/extraction.h"
+#include "render/brick_pool.h"
+#include "render/cell_compute.h"
+#include "render/slot_plan.h"
+#include "render/staging_ring.h"
+#include "render/upload_count.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
 
 namespace isochron::render {
 
-/// Two slots: one is drawn and never written, the other is filled within a byte budget per frame
-/// and takes its place once it is complete, so that no frame ever shows half a set.
+/// A pool of dense slots. A new set comes as the cells that it adds and removes, through a ring of
+/// mapped memory within a byte budget per frame, and is applied at once when all of it and of its
+/// bricks is on the GPU, so that no frame ever shows half a set. Normals, and what the exact
+/// surface is drawn from, are computed there from the bricks.
 class CellBuffers {
   public:
-    explicit CellBuffers(const Gl& gl);
+    /// @param staging_bytes of the ring, at least twice StagingRing::kUnit; rounded up to units
+    CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t staging_bytes = 8 << 20);
 
-    /// Sends at most `byte_budget` bytes, at least one cell. A set whose transfer has begun is
+    /// Cells that come with their normals, and never change: no set is shown.
+    static CellBuffers of_points(const Gl& gl, std::span<const index::CellPoint> points);
+
+    /// Sends at most `byte_budget` bytes (at least StagingRing::kUnit), fewer where the GPU has not
+    /// yet taken what was sent before; never waits for it. A set whose transfer has begun is
     /// finished before a newer one is taken, so that a stream of new sets cannot keep the picture
     /// from ever changing; sets in between are skipped. Null changes nothing.
     /// @return true when another set is shown than before
-    /// @throws Error when the set is larger than the driver's buffer textures
-    bool upload(index::CellSetPtr newest, std::size_t byte_budget);
+    /// @throws Error when the set is larger than the driver's buffers can be
+    bool upload(index::ExtractionPtr newest, std::size_t byte_budget);
 
     /// The set that is drawn, null before the first is complete.
-    const index::CellSetPtr& shown() const { return slots_[front_].set; }
-
+    const index::ExtractionPtr& shown() const { return shown_; }
     /// True while a set is on its way to the GPU.
-    bool pending() const { return slots_[1 - front_].set != nullptr; }
-
+    bool pending() const { return arriving_ != nullptr; }
     /// Grows with every change of the shown set.
     std::uint64_t version() const { return version_; }
 
-    /// GL_TEXTURE_BUFFER of the shown set, one RGB32UI texel per cell: the words of a CellPoint.
-    GLuint texture() const { return slots_[front_].texture.name(); }
+    /// Cells drawn; one that several surfaces pass through counts for each.
+    std::size_t size() const { return slots_->places.size(); }
+    /// Which cell has which slot.
+    const Slots& slots() const { return *slots_; }
+
+    /// GL_TEXTURE_BUFFER by slot, one RGB32UI texel: the words of an index::CellPoint.
+    GLuint texture() const { return points_.texture(); }
+
+    /// Computes the two textures below for the shown set, unless they are up to date.
+    /// @throws Error when there are more than `corner_limit()` cells
+    void compute_corners();
+    /// So many cells can have them: less than can be drawn without.
+    std::size_t corner_limit() const { return corner_gradients_.limit(); }
+    /// GL_TEXTURE_BUFFER by slot, two RGBA32F texels: the values at the cell's vertices less its
+    /// surface's isovalue, in brick units (index/brick_values.h), which have the same sign and the
+    /// same roots. Vertices are in the order 000, 100, 010, 110, 001, 101, 011, 111, x first.
+    GLuint corner_values_texture() const { return corner_values_.texture(); }
+    /// GL_TEXTURE_BUFFER by slot, four RGBA32UI texels: for each vertex, in the same order, two
+    /// words of two halves: (gradient x, y), (gradient z, 0). Gradients are central differences
+    /// (one-sided at the border) in physical space, towards lower values, times one factor for the
+    /// whole data set; zero where they are not finite.
+    GLuint corner_gradients_texture() const { return corner_gradients_.texture(); }
+
+    /// Since the beginning.
+    const UploadCount& count() const { return count_; }
+    /// Null before the first set.
+    const BrickPool* bricks() const { return bricks_ ? &*bricks_ : nullptr; }
 
   private:
-    struct Slot {
-        explicit Slot(const Gl& gl) : buffer(gl), texture(gl, GL_TEXTURE_BUFFER) {}
-        Buffer buffer;
-        Texture texture;
-        index::CellSetPtr set;
-        std::size_t sent = 0; ///< cells
-    };
-    void begin(Slot& slot, index::CellSetPtr set);
+    void begin(index::ExtractionPtr set);
+    bool send_on(std::size_t bytes, std::size_t& sent);
+    bool send_message(std::size_t bytes, std::size_t& sent);
+    void show();
 
     const Gl* gl_;
-    std::array<Slot, 2> slots_;
-    std::size_t front_ = 0;
-    std::uint64_t version_ = 0;
-    std::size_t limit_ = 0; ///< cells that a buffer texture can hold
+    index::Grid grid_;
+    StagingRing ring_;
+    DeviceArray points_, message_, corner_values_, corner_gradients_;
+    std::optional<BrickPool> bricks_;    ///< made when the first set tells the type
+    std::optional<CellCompute> compute_; ///< likewise
+    index::ExtractionPtr shown_;
+    std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
+    std::uint64_t version_ = 0, corners_version_ = 0;
+    UploadCount count_;
+    // The set on its way:
+    index::ExtractionPtr arriving_;
+    std::unique_ptr<SlotPlan> plan_;
+    bool merged_ = false;
+    std::size_t words_sent_ = 0;
 };
 
 } // namespace isochron::render

@@ -114,7 +114,7 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
 void CellPass::draw(std::span<const View> views, const Placement& placement,
                     const CellBuffers& cells, Footprint footprint,
                     const CellAppearance& appearance) {
-    if (!cells.shown() || cells.shown()->points.empty())
+    if (cells.size() == 0)
         return;
     const std::size_t at_once = two_views_at_once_ ? 2 : 1;
     for (std::size_t first = 0; first < views.size(); first += at_once)
@@ -165,7 +165,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     }
     const Programs& programs = gaussian ? gaussian_programs_ : quad_programs_;
     gl_->UseProgram((views.size() == 2 ? *programs.two : programs.one).name());
-    quads_.draw(cells.shown()->points.size(), static_cast<int>(views.size()));
+    quads_.draw(cells.size(), static_cast<int>(views.size()));
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);
     gl_->UseProgram(0);

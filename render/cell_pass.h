@@ -53,8 +53,8 @@ class CellPass {
     /// @throws Error when a shader does not compile
     explicit CellPass(const Gl& gl, const FootprintShapes& shapes = {});
 
-    /// Draws the shown set into the views' viewports of the bound framebuffer, two views in one
-    /// pass where the driver can; nothing when no set is shown. Quads test and write depth; splats
+    /// Draws the cells into the views' viewports of the bound framebuffer, two views in one
+    /// pass where the driver can; nothing where there are none. Quads test and write depth; splats
     /// test it only, and blend over what is there with pre-multiplied alpha. Leaves depth test and
     /// depth writes on, blending and culling off, and the viewport undefined.
     void draw(std::span<const View> views, const Placement& placement, const CellBuffers& cells,

@@ -18,7 +18,7 @@ GLuint OrderCache::texture(const CellBuffers& cells, const TraversalKey& key) {
     Entry& oldest =
         *std::min_element(entries_.begin(), entries_.end(),
                           [](const Entry& a, const Entry& b) { return a.last_use < b.last_use; });
-    order_back_to_front(cells.shown()->points, key, order_);
+    order_back_to_front(cells.slots(), key, order_);
     // Fresh storage: the GPU may still be drawing in the order that gives way.
     gl_->NamedBufferData(oldest.buffer.name(), order_.size() * sizeof(order_[0]), order_.data(),
                          GL_STREAM_DRAW);

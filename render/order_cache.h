@@ -16,7 +16,7 @@ class OrderCache {
   public:
     explicit OrderCache(const Gl& gl);
 
-    /// GL_TEXTURE_BUFFER, one R32UI texel per cell: indices into the shown points, back to front.
+    /// GL_TEXTURE_BUFFER, one R32UI texel per cell: slots, back to front.
     GLuint texture(const CellBuffers& cells, const TraversalKey& key);
 
     /// How many orders were made so far.

@@ -60,15 +60,15 @@ struct Distances {
     int unit_bits = 0;
     std::uint64_t largest = 0;
 
-    std::uint64_t of(const index::CellPoint& point) const {
-        return (along[0][point.x] + along[1][point.y] + along[2][point.z]) >> unit_bits;
+    std::uint64_t of(const CellPlace& place) const {
+        return (along[0][place.x] + along[1][place.y] + along[2][place.z]) >> unit_bits;
     }
 };
 
-Distances distances(std::span<const index::CellPoint> points, const TraversalKey& key) {
+Distances distances(std::span<const CellPlace> places, const TraversalKey& key) {
     glm::ivec3 low(std::numeric_limits<int>::max()), high(0);
-    for (const index::CellPoint& point : points) {
-        const glm::ivec3 at(point.x, point.y, point.z);
+    for (const CellPlace& place : places) {
+        const glm::ivec3 at(place.x, place.y, place.z);
         low = glm::min(low, at);
         high = glm::max(high, at);
     }
@@ -99,21 +99,21 @@ Distances distances(std::span<const index::CellPoint> points, const TraversalKey
     return result;
 }
 
-/// A cell with its nearness, 0 for the farthest. Most fit into one word, which moves faster.
+/// A slot with its cell's nearness, 0 for the farthest. Most fit into one word, which moves faster.
 struct Narrow {
     std::uint64_t word;
     Narrow() = default;
-    Narrow(std::uint64_t nearness, std::uint32_t cell) : word(nearness << 32 | cell) {}
+    Narrow(std::uint64_t nearness, std::uint32_t slot) : word(nearness << 32 | slot) {}
     std::uint64_t nearness() const { return word >> 32; }
-    std::uint32_t cell() const { return static_cast<std::uint32_t>(word); }
+    std::uint32_t slot() const { return static_cast<std::uint32_t>(word); }
 };
 struct Wide {
     std::uint64_t near_;
-    std::uint32_t cell_;
+    std::uint32_t slot_;
     Wide() = default;
-    Wide(std::uint64_t nearness, std::uint32_t cell) : near_(nearness), cell_(cell) {}
+    Wide(std::uint64_t nearness, std::uint32_t slot) : near_(nearness), slot_(slot) {}
     std::uint64_t nearness() const { return near_; }
-    std::uint32_t cell() const { return cell_; }
+    std::uint32_t slot() const { return slot_; }
 };
 
 constexpr int kDigitBits = 11;
@@ -137,16 +137,18 @@ void sort_by_digit(const std::vector<Entry>& from, std::vector<Entry>& to, int s
 }
 
 template <class Entry>
-void sort_by_distance(std::span<const index::CellPoint> points, const Distances& distance,
+void sort_by_distance(const Slots& slots, const Distances& distance,
                       std::vector<std::uint32_t>& order) {
-    std::vector<Entry> entries(points.size()), sorted(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-        entries[i] = {distance.largest - distance.of(points[i]), static_cast<std::uint32_t>(i)};
+    std::vector<Entry> entries(order.size()), sorted(order.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+        const std::uint32_t slot = slots.slot_of_rank[rank];
+        entries[rank] = {distance.largest - distance.of(slots.places[slot]), slot};
+    }
     for (int shift = 0; distance.largest >> shift != 0; shift += kDigitBits) {
         sort_by_digit(entries, sorted, shift);
         entries.swap(sorted);
     }
-    std::ranges::transform(entries, order.begin(), &Entry::cell);
+    std::ranges::transform(entries, order.begin(), &Entry::slot);
 }
 
 } // namespace
@@ -185,16 +187,16 @@ TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells,
     return key;
 }
 
-void order_back_to_front(std::span<const index::CellPoint> points, const TraversalKey& key,
+void order_back_to_front(const Slots& slots, const TraversalKey& key,
                          std::vector<std::uint32_t>& order) {
-    order.resize(points.size());
-    if (points.empty())
+    order.resize(slots.places.size());
+    if (order.empty())
         return;
-    const Distances distance = distances(points, key);
+    const Distances distance = distances(slots.places, key);
     if (distance.largest >> 32 == 0)
-        sort_by_distance<Narrow>(points, distance, order);
+        sort_by_distance<Narrow>(slots, distance, order);
     else
-        sort_by_distance<Wide>(points, distance, order);
+        sort_by_distance<Wide>(slots, distance, order);
 }
 
 } // namespace isochron::render

@@ -9,7 +9,7 @@
 // far away.
 #pragma once
 
-#include "index/cell_set.h"
+#include "render/slot_plan.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -42,9 +42,9 @@ constexpr int kWeightBits = 4;
 /// @param spacing of the grid in space, in any unit
 TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells, const glm::vec3& spacing);
 
-/// Writes a permutation of 0 .. points.size()-1 such that no cell's box is in front of a later
-/// one's, by radix sort; cells at the same distance keep the order in which they are given.
-void order_back_to_front(std::span<const index::CellPoint> points, const TraversalKey& key,
+/// Writes the slots such that no cell's box is in front of a later one's, by radix sort; cells at
+/// the same distance keep their ranks, so that the order does not depend on who has which slot.
+void order_back_to_front(const Slots& slots, const TraversalKey& key,
                          std::vector<std::uint32_t>& order);
 
 } // namespace isochron::render

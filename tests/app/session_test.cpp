@@ -37,7 +37,7 @@ TEST_P(SessionTest, ShowsTheCellsThatWereAskedFor) {
     commands.step = 3;
     const FrameReport report = session.frame(head_at_rest(0), commands, Waiting::for_cells);
     ASSERT_TRUE(report.shown.has_value());
-    EXPECT_EQ(*report.shown, (index::Query{3, 8.0}));
+    EXPECT_EQ(*report.shown, (index::SurfacesQuery{3, {8.0}}));
     EXPECT_GT(report.cells, 500u);
     EXPECT_GT(drawn_pixels(session.display().read_window()), 1000u);
 }
@@ -46,14 +46,14 @@ TEST_P(SessionTest, FramesGoOnWhileAnExtractionHangs) {
     std::latch entered(1);
     std::promise<void> release;
     const std::shared_future<void> released = release.get_future().share();
-    const index::Search search = [&](const index::Query& query, std::stop_token) {
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token) {
         entered.count_down();
         released.wait();
-        auto set = std::make_shared<index::CellSet>();
-        set->query = query;
-        return set;
+        auto extraction = std::make_shared<index::Extraction>();
+        extraction->query = query;
+        return extraction;
     };
-    Session session(small_config(), file_, *context_, search);
+    Session session(small_config(), file_, *context_, extract);
     session.frame(head_at_rest(0), {}, Waiting::never);
     entered.wait();
     for (int frame = 1; frame <= 50; ++frame) {
@@ -62,7 +62,8 @@ TEST_P(SessionTest, FramesGoOnWhileAnExtractionHangs) {
         EXPECT_FALSE(session.frame(head_at_rest(frame / 60.0), commands, Waiting::never).shown);
     }
     release.set_value();
-    EXPECT_EQ(session.frame(head_at_rest(1), {}, Waiting::for_cells).shown, (index::Query{0, 9.0}));
+    EXPECT_EQ(session.frame(head_at_rest(1), {}, Waiting::for_cells).shown,
+              (index::SurfacesQuery{0, {9.0}}));
 }
 
 /// Frames with a head that moves, so that each is drawn; their total times in milliseconds.
@@ -85,14 +86,14 @@ std::vector<double> moving_frames(Session& session, const Commands& first,
 
 TEST_P(SessionTest, AnExtractionOfTwoSecondsLeavesTheFramesAsTheyAre) {
     constexpr std::chrono::seconds kExtraction{2};
-    const index::Search real = index::search_in(file_);
+    const index::Extract real = index::extract_from(file_);
     std::promise<void> never;
-    const index::Search search = [&](const index::Query& query, std::stop_token stop) {
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
         if (query.step == 1)
             never.get_future().wait_for(kExtraction); // as long as a very large step takes
         return real(query, stop);
     };
-    Session session(small_config(), file_, *context_, search);
+    Session session(small_config(), file_, *context_, extract);
     session.frame(head_at_rest(0), {}, Waiting::for_cells);
     const auto before =
         moving_frames(session, {}, [n = 0](const FrameReport&) mutable { return ++n <= 600; });
@@ -112,14 +113,14 @@ TEST_P(SessionTest, AnExtractionOfTwoSecondsLeavesTheFramesAsTheyAre) {
 TEST_P(SessionTest, FramesGoOnWhileAReadStalls) {
     int ends[2];
     ASSERT_EQ(pipe(ends), 0);
-    const index::Search search = [&](const index::Query& query, std::stop_token) {
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token) {
         char byte;
         EXPECT_EQ(::read(ends[0], &byte, 1), 1); // blocks in the kernel until the byte arrives
-        auto set = std::make_shared<index::CellSet>();
-        set->query = query;
-        return set;
+        auto extraction = std::make_shared<index::Extraction>();
+        extraction->query = query;
+        return extraction;
     };
-    Session session(small_config(), file_, *context_, search);
+    Session session(small_config(), file_, *context_, extract);
     for (int frame = 0; frame < 50; ++frame)
         EXPECT_FALSE(session.frame(head_at_rest(frame / 60.0), {}, Waiting::never).shown);
     ASSERT_EQ(::write(ends[1], "x", 1), 1);
@@ -129,13 +130,13 @@ TEST_P(SessionTest, FramesGoOnWhileAReadStalls) {
 }
 
 TEST_P(SessionTest, AFailingExtractionLeavesThePictureAndSaysWhy) {
-    const index::Search real = index::search_in(file_);
-    const index::Search search = [&](const index::Query& query, std::stop_token stop) {
+    const index::Extract real = index::extract_from(file_);
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
         if (query.step == 2)
             throw std::runtime_error("step 2 cannot be read");
         return real(query, stop);
     };
-    Session session(small_config(), file_, *context_, search);
+    Session session(small_config(), file_, *context_, extract);
     const auto cells = session.frame(head_at_rest(0), {}, Waiting::for_cells).cells;
     Commands to_step_2;
     to_step_2.step = 2;

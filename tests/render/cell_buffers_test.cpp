@@ -1,105 +1,273 @@
-// Transfer of cell sets: within its budget, never half a set, never starved.
+// Transfer of cell sets: differences only, within the budget, never half a set, never starved.
+#include "tests/render/extractions.h"
 #include "tests/render/gl_test.h"
 
 #include <algorithm>
+#include <array>
+#include <set>
+#include <tuple>
 
 namespace isochron::render {
 namespace {
 
-constexpr std::size_t kCell = sizeof(index::CellPoint);
-std::size_t sent_bytes = 0;
-PFNGLNAMEDBUFFERSUBDATAPROC real_sub_data = nullptr;
-void APIENTRY counting_sub_data(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data) {
-    sent_bytes += size;
-    real_sub_data(buffer, offset, size, data);
+using index::CellId;
+using index::TestField;
+using index::ValueType;
+
+constexpr std::size_t kEnough = std::size_t{1} << 30;
+
+std::size_t copied_bytes = 0;
+PFNGLCOPYNAMEDBUFFERSUBDATAPROC real_copy = nullptr;
+void APIENTRY counting_copy(GLuint from, GLuint to, GLintptr read, GLintptr write,
+                            GLsizeiptr size) {
+    copied_bytes += static_cast<std::size_t>(size);
+    real_copy(from, to, read, write, size);
 }
 
 class CellUpload : public GlTest {
   protected:
     CellUpload() {
-        real_sub_data = gl_.NamedBufferSubData;
-        gl_.NamedBufferSubData = counting_sub_data;
-        sent_bytes = 0;
+        real_copy = gl_.CopyNamedBufferSubData;
+        gl_.CopyNamedBufferSubData = counting_copy;
     }
-    index::CellSetPtr random_set(std::size_t cells) {
-        std::vector<glm::ivec3> at(cells);
-        for (glm::ivec3& cell : at)
-            cell = {random_() % 1000, random_() % 1000, random_() % 1000};
-        return cell_set(at, static_cast<std::uint32_t>(random_()));
+
+    using Cell = std::tuple<unsigned, CellId>; ///< surface, id
+    static std::vector<Cell> cells_of(const index::Extraction& set) {
+        std::vector<Cell> all;
+        for (unsigned s = 0; s < set.surfaces.size(); ++s)
+            for (const CellId id : set.surfaces[s].ids)
+                all.emplace_back(s, id);
+        return all;
     }
-    /// What the GPU holds for the shown set is the shown set.
-    void expect_whole(const CellBuffers& buffers) {
-        const auto& points = buffers.shown()->points;
+    /// What is drawn, from GPU memory.
+    std::vector<Cell> drawn(const CellBuffers& buffers) {
         gl_.BindTextureUnit(0, buffers.texture());
-        GLint buffer = 0;
         gl_.ActiveTexture(GL_TEXTURE0);
+        GLint buffer = 0;
         gl_.GetIntegerv(GL_TEXTURE_BUFFER_DATA_STORE_BINDING, &buffer);
-        std::vector<index::CellPoint> held(points.size());
+        std::vector<index::CellPoint> points(buffers.size());
         if (!points.empty())
-            gl_.GetNamedBufferSubData(buffer, 0, held.size() * kCell, held.data());
-        EXPECT_TRUE(std::equal(points.begin(), points.end(), held.begin(),
-                               [](const index::CellPoint& a, const index::CellPoint& b) {
-                                   return a.x == b.x && a.y == b.y && a.z == b.z &&
-                                          a.normal == b.normal;
-                               }));
+            gl_.GetNamedBufferSubData(GLuint(buffer), 0,
+                                      GLsizeiptr(points.size() * sizeof points[0]), points.data());
+        std::vector<Cell> all;
+        for (std::size_t slot = 0; slot < points.size(); ++slot) {
+            const index::CellPoint& p = points[slot];
+            const CellPlace& place = buffers.slots().places[slot];
+            EXPECT_EQ((CellPlace{p.x, p.y, p.z, p.style}), place) << "slot " << slot;
+            all.emplace_back(p.style & 7u, (CellId{p.z} * kSide + p.y) * kSide + p.x);
+        }
+        std::ranges::sort(all);
+        return all;
     }
+    void expect_whole(const CellBuffers& buffers) {
+        ASSERT_TRUE(buffers.shown());
+        EXPECT_EQ(drawn(buffers), cells_of(*buffers.shown()));
+    }
+    std::vector<CellId> random_ids(std::size_t count) {
+        std::set<CellId> ids;
+        while (ids.size() < count)
+            ids.insert(CellId(random_() % (kSide * kSide * kSide)));
+        return {ids.begin(), ids.end()};
+    }
+    index::ExtractionPtr random_set(std::size_t count) {
+        return extractions_.of_cells(std::uint32_t(random_() % 2), {random_ids(count)});
+    }
+
+    static constexpr unsigned kSide = 19; ///< cells
+    TestField field_{{kSide + 1, kSide + 1, kSide + 1},
+                     2,
+                     ValueType::u8,
+                     index::scaled(index::white_noise(random_), 100, 100)};
+    Extractions extractions_{field_.view()};
 };
 
 TEST_P(CellUpload, StaysWithinTheBudgetAndShowsWholeSetsOnly) {
-    CellBuffers buffers(gl_);
-    const auto first = random_set(1000), second = random_set(777);
-    ASSERT_TRUE(buffers.upload(first, 1000 * kCell));
+    CellBuffers buffers(gl_, field_.view().grid);
+    const auto first = random_set(500), second = random_set(300);
+    ASSERT_TRUE(buffers.upload(first, kEnough));
     EXPECT_EQ(buffers.shown(), first);
-    for (int frame = 0; frame < 8; ++frame) {
-        sent_bytes = 0;
-        const bool changed = buffers.upload(second, 100 * kCell + 5);
-        EXPECT_LE(sent_bytes, 100 * kCell + 5);
-        EXPECT_EQ(changed, frame == 7);
-        EXPECT_EQ(buffers.shown(), frame == 7 ? second : first);
-        EXPECT_EQ(buffers.pending(), frame != 7);
+    expect_whole(buffers);
+    int frames = 0;
+    for (bool changed = false; !changed; ++frames) {
+        ASSERT_LT(frames, 1000);
+        copied_bytes = 0;
+        changed = buffers.upload(second, 1003);
+        EXPECT_LE(copied_bytes, 1003u);
+        EXPECT_EQ(buffers.shown(), changed ? second : first);
+        EXPECT_EQ(buffers.pending(), !changed);
         expect_whole(buffers);
     }
-    sent_bytes = 0;
+    EXPECT_GT(frames, 4);
+    copied_bytes = 0;
     EXPECT_FALSE(buffers.upload(second, 1 << 20));
-    EXPECT_EQ(sent_bytes, 0u);
+    EXPECT_EQ(copied_bytes, 0u);
 }
 
 TEST_P(CellUpload, FinishesWhatItBeganHoweverFastNewSetsArrive) {
-    CellBuffers buffers(gl_);
-    std::vector<index::CellSetPtr> sets;
+    CellBuffers buffers(gl_, field_.view().grid);
+    std::vector<index::ExtractionPtr> sets;
     int changes = 0;
-    for (int frame = 0; frame < 50; ++frame) {
+    for (int frame = 0; frame < 300; ++frame) {
         sets.push_back(random_set(300));
-        changes += buffers.upload(sets.back(), 100 * kCell);
+        changes += buffers.upload(sets.back(), 4000);
         if (buffers.shown())
             expect_whole(buffers);
     }
-    EXPECT_EQ(changes, 16); // three frames each
-    EXPECT_NE(std::find(sets.end() - 6, sets.end(), buffers.shown()), sets.end());
+    EXPECT_GT(changes, 15);
+    EXPECT_NE(std::find(sets.end() - 20, sets.end(), buffers.shown()), sets.end());
 }
 
 TEST_P(CellUpload, ABudgetOfNothingStillMovesOn) {
-    CellBuffers buffers(gl_);
-    const auto set = random_set(5);
-    for (int frame = 0; frame < 4; ++frame)
-        EXPECT_FALSE(buffers.upload(set, 0));
-    EXPECT_TRUE(buffers.upload(set, 0));
+    CellBuffers buffers(gl_, field_.view().grid, 2 * StagingRing::kUnit);
+    const auto set = extractions_.of_cells(0, {{5, 6, 9}});
+    EXPECT_FALSE(buffers.upload(set, 0));
+    int frames = 1;
+    while (!buffers.upload(set, 0))
+        ASSERT_LT(++frames, 1000);
+    expect_whole(buffers);
 }
 
-TEST_P(CellUpload, AnEmptySetReplacesAFullOne) {
-    CellBuffers buffers(gl_);
-    buffers.upload(random_set(10), 1 << 20);
-    const std::uint64_t before = buffers.version();
-    const auto empty = cell_set({});
-    EXPECT_TRUE(buffers.upload(empty, 1 << 20));
-    EXPECT_EQ(buffers.shown(), empty);
-    EXPECT_GT(buffers.version(), before);
+TEST_P(CellUpload, AnyRunOfSetsShowsEachWholeWithTinyBudgetsAndSkips) {
+    CellBuffers buffers(gl_, field_.view().grid, 512);
+    const auto next_ids = [&](std::vector<CellId> ids) {
+        std::set<CellId> cells(ids.begin(), ids.end());
+        if (random_() % 8 == 0)
+            cells.clear();
+        for (auto n = random_() % 40; n > 0 && !cells.empty(); --n)
+            cells.erase(std::next(cells.begin(), std::ptrdiff_t(random_() % cells.size())));
+        for (const CellId id : random_ids(random_() % 60))
+            cells.insert(id);
+        return std::vector<CellId>(cells.begin(), cells.end());
+    };
+    index::ExtractionPtr set, last_shown, begun;
+    std::uint64_t version = 0, whole = 0;
+    for (int frame = 0; frame < 3000; ++frame) {
+        if (!set || random_() % 10 == 0) {
+            std::vector<std::vector<CellId>> surfaces(1 + random_() % 3);
+            for (std::size_t s = 0; s < surfaces.size(); ++s)
+                surfaces[s] = next_ids(set && s < set->surfaces.size() ? set->surfaces[s].ids
+                                                                       : std::vector<CellId>{});
+            set = extractions_.of_cells(std::uint32_t(random_() % 2), surfaces);
+        }
+        const bool changed = buffers.upload(set, random_() % 3 ? 16 + random_() % 6000 : 0);
+        EXPECT_EQ(changed, buffers.version() > version);
+        version = buffers.version();
+        if (changed || frame % 50 == 0) {
+            if (buffers.shown())
+                expect_whole(buffers);
+            EXPECT_EQ(buffers.shown() != last_shown, changed);
+        }
+        if (changed) { // what was on its way, and in the same frame perhaps the newest, too
+            last_shown = buffers.shown();
+            whole += (begun ? begun->cells() : 0) + (last_shown != begun ? set->cells() : 0);
+            EXPECT_TRUE(last_shown == begun || last_shown == set);
+            begun = nullptr;
+        }
+        if (buffers.pending() && !begun)
+            begun = set;
+    }
+    EXPECT_EQ(buffers.count().sets, version);
+    EXPECT_EQ(buffers.count().whole_ids, whole);
+    EXPECT_LT(buffers.count().ids, whole);
+    EXPECT_GT(version, 20u);
+}
+
+TEST_P(CellUpload, CountsTheIdsAndTheBytesThatAreSent) {
+    CellBuffers buffers(gl_, field_.view().grid);
+    std::vector<CellId> ids = random_ids(400);
+    const auto first = extractions_.of_cells(0, {ids});
+    copied_bytes = 0;
+    buffers.upload(first, kEnough);
+    const std::size_t brick = index::kBrickVertices + 2 * sizeof(std::uint32_t); // with its page
+    const std::uint64_t bricks = first->bricks.ids.size();
+    EXPECT_EQ(buffers.count(), (UploadCount{1, 400, 400, 1600, bricks * brick}));
+    // Ten go and ten come: ten slots change. The step is the same, and the bricks are there.
+    const std::set<CellId> there(ids.begin(), ids.end());
+    for (int i = 0; i < 10; ++i)
+        ids.erase(ids.begin() + 7 * i);
+    for (CellId id = 0, added = 0; added < 10; ++id)
+        if (!there.contains(id)) {
+            ids.push_back(id);
+            ++added;
+        }
+    std::ranges::sort(ids);
+    const auto second = extractions_.of_cells(0, {ids});
+    ASSERT_EQ(second->bricks.ids.size(), bricks);
+    buffers.upload(second, kEnough);
+    EXPECT_EQ(buffers.count(), (UploadCount{2, 410, 800, 1680, bricks * brick}));
+}
+
+TEST_P(CellUpload, AnEmptySetReplacesAFullOneAndAFullOneAnEmptyOne) {
+    CellBuffers buffers(gl_, field_.view().grid);
+    const auto full = random_set(10), empty = random_set(0);
+    for (const auto& set : {full, empty, full, empty}) {
+        const std::uint64_t before = buffers.version();
+        EXPECT_TRUE(buffers.upload(set, 1 << 20));
+        EXPECT_EQ(buffers.shown(), set);
+        EXPECT_GT(buffers.version(), before);
+        expect_whole(buffers);
+    }
 }
 
 TEST_P(CellUpload, NothingNewChangesNothing) {
-    CellBuffers buffers(gl_);
+    CellBuffers buffers(gl_, field_.view().grid);
     EXPECT_FALSE(buffers.upload(nullptr, 1 << 20));
     EXPECT_EQ(buffers.shown(), nullptr);
+}
+
+TEST_P(CellUpload, BuffersMayMoveWhileASetIsOnItsWay) {
+    CellBuffers buffers(gl_, field_.view().grid);
+    buffers.upload(random_set(200), kEnough);
+    const auto next = random_set(200);
+    ASSERT_FALSE(buffers.upload(next, 700));
+    CellBuffers moved(std::move(buffers));
+    while (!moved.upload(next, 700)) {
+    }
+    expect_whole(moved);
+}
+
+GLenum APIENTRY never_passed(GLsync, GLbitfield, GLuint64) {
+    return GL_TIMEOUT_EXPIRED;
+}
+
+TEST_P(CellUpload, WhereTheGpuIsBehindTheFrameGoesOnAndTheSetLater) {
+    CellBuffers buffers(gl_, field_.view().grid, 4096);
+    const auto set = random_set(500);
+    const auto real = gl_.ClientWaitSync;
+    gl_.ClientWaitSync = never_passed;
+    for (int frame = 0; frame < 20; ++frame)
+        EXPECT_FALSE(buffers.upload(set, kEnough));
+    gl_.ClientWaitSync = real;
+    for (int frame = 0; !buffers.shown(); ++frame) {
+        ASSERT_LT(frame, 100'000);
+        buffers.upload(set, kEnough);
+    }
+    expect_whole(buffers);
+}
+
+PFNGLGETINTEGERVPROC real_integer = nullptr;
+void APIENTRY small_textures(GLenum name, GLint* value) {
+    real_integer(name, value);
+    if (name == GL_MAX_TEXTURE_BUFFER_SIZE)
+        *value = 100'000;
+}
+
+TEST_P(CellUpload, ASetThatTheDriverCannotHoldIsAClearError) {
+    real_integer = gl_.GetIntegerv;
+    gl_.GetIntegerv = small_textures;
+    const TestField field({2, 400, 300}, 1, ValueType::u8, index::white_noise(random_));
+    Extractions extractions(field.view());
+    std::vector<CellId> all(field.view().grid.cell_count());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = CellId(i);
+    CellBuffers buffers(gl_, field.view().grid);
+    EXPECT_EQ(buffers.corner_limit(), 25'000u);
+    try {
+        buffers.upload(extractions.of_cells(0, {all}), kEnough);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "119301 cells at step 0, this GL can draw at most 100000");
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(, CellUpload, both_contexts(), context_name);

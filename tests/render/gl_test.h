@@ -47,13 +47,14 @@ inline std::string context_name(const testing::TestParamInfo<stereo::ContextKind
     return std::string(stereo::name_of(info.param));
 }
 
-/// A set of cells, all with the same packed normal.
-inline index::CellSetPtr cell_set(const std::vector<glm::ivec3>& cells, std::uint32_t normal = 0) {
-    auto set = std::make_shared<index::CellSet>();
+/// Cells, all with the same packed normal.
+inline std::vector<index::CellPoint> cell_set(const std::vector<glm::ivec3>& cells,
+                                              std::uint32_t normal = 0) {
+    std::vector<index::CellPoint> points;
     for (const glm::ivec3& cell : cells)
-        set->points.push_back(
+        points.push_back(
             {std::uint16_t(cell.x), std::uint16_t(cell.y), std::uint16_t(cell.z), 0, normal});
-    return set;
+    return points;
 }
 
 /// GL_INT_2_10_10_10_REV.
@@ -64,11 +65,9 @@ inline std::uint32_t packed_normal(const glm::vec3& n) {
     return word;
 }
 
-/// Buffers that show the set.
-inline CellBuffers showing(const Gl& gl, index::CellSetPtr set) {
-    CellBuffers buffers(gl);
-    buffers.upload(std::move(set), std::size_t{1} << 30);
-    return buffers;
+/// Buffers that hold these cells.
+inline CellBuffers showing(const Gl& gl, const std::vector<index::CellPoint>& points) {
+    return CellBuffers::of_points(gl, points);
 }
 
 } // namespace isochron::render

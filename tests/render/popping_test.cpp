@@ -18,8 +18,8 @@ constexpr int kCells = 40;
 constexpr int kSize = 192;
 
 /// The cells that the level set f = 0 crosses, with its normals.
-index::CellSetPtr shell(const std::function<float(const glm::vec3&)>& f) {
-    auto set = std::make_shared<index::CellSet>();
+std::vector<index::CellPoint> shell(const std::function<float(const glm::vec3&)>& f) {
+    std::vector<index::CellPoint> points;
     for (int z = 0; z < kCells; ++z)
         for (int y = 0; y < kCells; ++y)
             for (int x = 0; x < kCells; ++x) {
@@ -36,10 +36,10 @@ index::CellSetPtr shell(const std::function<float(const glm::vec3&)>& f) {
                     step[axis] = 0.5f;
                     normal[axis] = f(at - step) - f(at + step);
                 }
-                set->points.push_back({std::uint16_t(x), std::uint16_t(y), std::uint16_t(z), 0,
-                                       packed_normal(glm::normalize(normal))});
+                points.push_back({std::uint16_t(x), std::uint16_t(y), std::uint16_t(z), 0,
+                                  packed_normal(glm::normalize(normal))});
             }
-    return set;
+    return points;
 }
 
 float ball(const glm::vec3& p) {

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <set>
+#include <tuple>
 
 namespace isochron::render {
 namespace {
@@ -38,30 +40,42 @@ bool can_hide(const glm::ivec3& front, const glm::ivec3& back, const glm::dvec4&
     return high - low > 1e-9;
 }
 
-std::vector<index::CellPoint> random_cells(std::mt19937& random, const glm::ivec3& size,
-                                           int count) {
+/// Slots in the order of their cells' ids.
+std::vector<std::uint32_t> by_rank(const std::vector<CellPlace>& places) {
+    std::vector<std::uint32_t> slots(places.size());
+    std::iota(slots.begin(), slots.end(), 0u);
+    std::ranges::sort(slots, {}, [&](std::uint32_t slot) {
+        const CellPlace& at = places[slot];
+        return std::tuple(at.z, at.y, at.x);
+    });
+    return slots;
+}
+
+Slots random_cells(std::mt19937& random, const glm::ivec3& size, int count) {
     std::set<std::array<int, 3>> cells;
     for (int i = 0; i < count; ++i)
         cells.insert({int(random() % size.z), int(random() % size.y), int(random() % size.x)});
-    std::vector<index::CellPoint> points;
+    Slots points;
     for (const auto& [z, y, x] : cells)
-        points.push_back({std::uint16_t(x), std::uint16_t(y), std::uint16_t(z), 0, 0});
+        points.places.push_back({std::uint16_t(x), std::uint16_t(y), std::uint16_t(z), 0});
+    std::shuffle(points.places.begin(), points.places.end(), random);
+    points.slot_of_rank = by_rank(points.places);
     return points;
 }
 
-void expect_back_to_front(const std::vector<index::CellPoint>& points, const glm::vec4& eye,
-                          const glm::ivec3& size, const glm::vec3& spacing) {
+void expect_back_to_front(const Slots& points, const glm::vec4& eye, const glm::ivec3& size,
+                          const glm::vec3& spacing) {
     std::vector<std::uint32_t> order;
     order_back_to_front(points, traversal_key(eye, size, spacing), order);
-    std::vector<bool> seen(points.size(), false);
+    std::vector<bool> seen(points.places.size(), false);
     for (const std::uint32_t cell : order) {
-        ASSERT_LT(cell, points.size());
+        ASSERT_LT(cell, points.places.size());
         ASSERT_FALSE(seen[cell]) << "cell " << cell << " twice";
         seen[cell] = true;
     }
-    ASSERT_EQ(order.size(), points.size());
+    ASSERT_EQ(order.size(), points.places.size());
     auto box = [&](std::uint32_t cell) {
-        return glm::ivec3(points[cell].x, points[cell].y, points[cell].z);
+        return glm::ivec3(points.places[cell].x, points.places[cell].y, points.places[cell].z);
     };
     for (std::size_t early = 0; early < order.size(); ++early)
         for (std::size_t late = early + 1; late < order.size(); ++late) {
@@ -140,7 +154,7 @@ TEST_F(TraversalOrder, TheFartherTheEyeTheMoreItMovesBeforeItSortsAgain) {
 
 TEST_F(TraversalOrder, ThePhysicallyFartherCellComesFirst) {
     // Along the first axis cells are three times as long: two of them are farther than five.
-    const std::vector<index::CellPoint> points{{0, 5, 0, 0, 0}, {2, 0, 0, 0, 0}};
+    const Slots points{.slot_of_rank = {0, 1}, .places = {{0, 5, 0, 0}, {2, 0, 0, 0}}};
     std::vector<std::uint32_t> order;
     order_back_to_front(points, traversal_key({0.5, 0.5, 0.5, 1}, {9, 9, 9}, {1, 1, 1}), order);
     EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 1}));
@@ -158,7 +172,8 @@ TEST_F(TraversalOrder, IsTheSameFarAwayAndForTheDirectionThere) {
     order_back_to_front(points, traversal_key(glm::vec4(towards, 0), size, glm::vec3(1)), parallel);
     // Both rank cells by depth, up to their rounding of it: half a cell, at most, of either.
     const auto depth = [&](std::uint32_t cell) {
-        return glm::dot(towards, glm::vec3(points[cell].x, points[cell].y, points[cell].z));
+        return glm::dot(towards, glm::vec3(points.places[cell].x, points.places[cell].y,
+                                           points.places[cell].z));
     };
     for (const auto& order : {far, parallel})
         for (std::size_t i = 1; i < order.size(); ++i)
@@ -169,6 +184,21 @@ TEST_F(TraversalOrder, AnEmptySetHasAnEmptyOrder) {
     std::vector<std::uint32_t> order{1, 2, 3};
     order_back_to_front({}, traversal_key({0, 0, 0, 1}, {4, 4, 4}, glm::vec3(1)), order);
     EXPECT_TRUE(order.empty());
+}
+
+TEST_F(TraversalOrder, DoesNotDependOnWhoHasWhichSlot) {
+    const glm::ivec3 size(9, 9, 9);
+    const Slots some = random_cells(random_, size, 300);
+    Slots others = some; // the same cells in other slots
+    std::shuffle(others.places.begin(), others.places.end(), random_);
+    others.slot_of_rank = by_rank(others.places);
+    const TraversalKey key = traversal_key({4.5f, 4.5f, 30.0f, 1.0f}, size, glm::vec3(1));
+    std::vector<std::uint32_t> a, b;
+    order_back_to_front(some, key, a);
+    order_back_to_front(others, key, b);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_EQ(some.places[a[i]], others.places[b[i]]);
 }
 
 } // namespace

@@ -1,0 +1,44 @@
+// The result of one request: the active cells of its surfaces and the bricks behind them.
+#pragma once
+
+#include "index/index_search.h"
+#include "index/volume_bricks.h"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Immutable once published; whoever shows it needs no mapped page.
+struct Extraction {
+    SurfacesQuery query;
+    std::vector<CellSet> surfaces; ///< one for each isovalue: ids without points and rows
+    std::vector<float> levels;     ///< of the isovalues, in brick units: see BrickLevels
+    VolumeBricks bricks;           ///< of the step, for all surfaces
+    std::chrono::nanoseconds gather_time{0};
+
+    std::size_t cells() const; ///< of all surfaces: one that is active in two counts twice
+    std::uint64_t candidates() const;
+    std::uint64_t reused() const;
+    std::chrono::nanoseconds search_time() const;
+};
+
+using ExtractionPtr = std::shared_ptr<const Extraction>;
+
+/// Computes one extraction; runs on the worker only, keeps the state of incremental search.
+/// Returns null when stopped. Throws to report a failure.
+using Extract = std::function<ExtractionPtr(const SurfacesQuery&, std::stop_token)>;
+
+/// The extraction from an open index: each surface has an incremental search of its own. Copies
+/// share their state. What it makes throws Error for a step that the series does not have and for
+/// other than 1 to kMostSurfaces isovalues.
+/// @param method instead of the cheapest; the file must have that tier
+Extract extract_from(std::shared_ptr<const IndexFile> file,
+                     std::optional<SearchMethod> method = std::nullopt);
+
+} // namespace isochron::index

@@ -1,0 +1,13 @@
+#version 450 core
+// Enters the bricks of a new set into the page table.
+
+#include "work.glsl"
+
+layout(std430, binding = 0) writeonly buffer Pages { uint pages[]; };
+layout(std430, binding = 1) readonly buffer Message { uvec2 message[]; }; // brick id, slot
+
+void main() {
+    uint i = my_work();
+    if (i < work.y)
+        pages[message[i].x] = message[i].y;
+}

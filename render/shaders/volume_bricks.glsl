@@ -1,0 +1,94 @@
+// The values around a cell, from bricks of the volume; needs BRICKS, the sampler of their type.
+// A brick has 8^3 vertices (index/volume_bricks.h), x fastest.
+
+layout(binding = 0) uniform usamplerBuffer pages; // slots by brick id
+layout(binding = 1) uniform BRICKS bricks;        // held values by slot
+
+layout(std140, binding = 0) uniform Volume {
+    vec4 from_difference_x, from_difference_y, from_difference_z; // rows: towards lower values
+    ivec3 vertices;
+    float factor;         // brick units per held value
+    ivec3 tiles;          // bricks along each axis
+    float gradient_scale; // of stored gradients, per brick unit
+    vec4 levels[2];       // of the surfaces, in brick units
+};
+
+// Of the four planes around a cell along one axis (its two vertices and their outer neighbours,
+// folded inwards at the border): where they lie in their bricks, and in which of two bricks.
+struct Planes {
+    ivec4 offset;
+    bvec4 second;
+    ivec2 brick;
+};
+
+Planes planes(int cell, int count, int shift) {
+    ivec4 at = clamp(cell + ivec4(-1, 0, 1, 2), 0, count - 1);
+    ivec4 brick = at >> 3;
+    return Planes((at & 7) << shift, notEqual(brick, ivec4(brick.x)), ivec2(brick.x, brick.w));
+}
+
+ivec4 first_texels(ivec4 brick) {
+    return ivec4(texelFetch(pages, brick.x).x, texelFetch(pages, brick.y).x,
+                 texelFetch(pages, brick.z).x, texelFetch(pages, brick.w).x) << 9;
+}
+
+// The values on those planes, row by row along x: row_yz is of planes y and z. Rows of inner planes
+// have all four values, the others those at the cell's vertices only, and there are none where both
+// y and z are outer: no central difference reaches there. Without arrays and loops, which software
+// GL neither unrolls nor keeps in registers.
+vec4 row_11, row_21, row_12, row_22;
+vec2 row_01, row_31, row_02, row_32, row_10, row_20, row_13, row_23;
+
+float value_at(int texel) { return float(texelFetch(bricks, texel).x) * factor; }
+
+// First texels of a row in the first and the second brick along x; `lower` has those of bricks that
+// are first along z: both along x of the first along y, then of the second.
+ivec2 row_start(bool second_y, bool second_z, int offset, ivec4 lower, ivec4 upper) {
+    ivec4 of_z = second_z ? upper : lower;
+    return (second_y ? of_z.zw : of_z.xy) + offset;
+}
+
+vec4 inner_row(ivec2 start, Planes x) {
+    ivec4 at = mix(start.xxxx, start.yyyy, x.second) + x.offset;
+    return vec4(value_at(at.x), value_at(at.y), value_at(at.z), value_at(at.w));
+}
+
+vec2 outer_row(ivec2 start, Planes x) {
+    ivec2 at = mix(start.xx, start.yy, x.second.yz) + x.offset.yz;
+    return vec2(value_at(at.x), value_at(at.y));
+}
+
+void read_around(ivec3 cell) {
+    Planes x = planes(cell.x, vertices.x, 0);
+    Planes y = planes(cell.y, vertices.y, 3);
+    Planes z = planes(cell.z, vertices.z, 6);
+    ivec4 page = y.brick.xxyy * tiles.x + x.brick.xyxy;
+    ivec4 lower = first_texels(page + z.brick.x * tiles.y * tiles.x);
+    ivec4 upper = first_texels(page + z.brick.y * tiles.y * tiles.x);
+#define START(i, j) row_start(y.second[i], z.second[j], y.offset[i] + z.offset[j], lower, upper)
+    row_11 = inner_row(START(1, 1), x);
+    row_21 = inner_row(START(2, 1), x);
+    row_12 = inner_row(START(1, 2), x);
+    row_22 = inner_row(START(2, 2), x);
+    row_01 = outer_row(START(0, 1), x);
+    row_31 = outer_row(START(3, 1), x);
+    row_02 = outer_row(START(0, 2), x);
+    row_32 = outer_row(START(3, 2), x);
+    row_10 = outer_row(START(1, 0), x);
+    row_20 = outer_row(START(2, 0), x);
+    row_13 = outer_row(START(1, 3), x);
+    row_23 = outer_row(START(2, 3), x);
+#undef START
+}
+
+// What the differences at a cell's two vertices along one axis are weighed with: central ones, or
+// one-sided at the border.
+vec2 difference_weights(int cell, int count) {
+    return vec2(cell == 0 ? 1.0 : 0.5, cell + 2 == count ? 1.0 : 0.5);
+}
+
+// Neither infinite nor NaN, also where a compiler takes both for impossible.
+bool is_finite(vec3 v) {
+    const uvec3 kExponent = uvec3(0x7f800000u);
+    return all(notEqual(floatBitsToUint(v) & kExponent, kExponent));
+}

@@ -1,0 +1,31 @@
+// What was sent to the GPU, and what it would have been without sending differences only.
+#pragma once
+
+#include <cstdint>
+
+namespace isochron::render {
+
+struct UploadCount {
+    std::uint64_t sets = 0;        ///< shown
+    std::uint64_t ids = 0;         ///< sent for them
+    std::uint64_t whole_ids = 0;   ///< that they have: to send them whole
+    std::uint64_t id_bytes = 0;    ///< ids, with their slots where differences are sent
+    std::uint64_t brick_bytes = 0; ///< bricks of the volume with their pages
+
+    UploadCount& operator+=(const UploadCount& other) {
+        sets += other.sets;
+        ids += other.ids;
+        whole_ids += other.whole_ids;
+        id_bytes += other.id_bytes;
+        brick_bytes += other.brick_bytes;
+        return *this;
+    }
+    /// @param before an earlier count of the same
+    UploadCount since(const UploadCount& before) const {
+        return {sets - before.sets, ids - before.ids, whole_ids - before.whole_ids,
+                id_bytes - before.id_bytes, brick_bytes - before.brick_bytes};
+    }
+    bool operator==(const UploadCount&) const = default;
+};
+
+} // namespace isochron::render

@@ -10,9 +10,10 @@ namespace {
 
 using interaction::Seconds;
 
-constexpr index::Query kBefore{0, 1.0}, kAsked{0, 2.0};
+const index::SurfacesQuery kBefore{0, {1.0}}, kAsked{0, {2.0}};
 
-CaptureView view(double time, index::Query asked, std::optional<index::Query> shown, bool final) {
+CaptureView view(double time, const index::SurfacesQuery& asked,
+                 const std::optional<index::SurfacesQuery>& shown, bool final) {
     return {.time = Seconds(time), .asked = asked, .shown = shown, .final = final};
 }
 
@@ -68,7 +69,7 @@ TEST(CaptureWait, MotionThatDoesNotEndIsWaitedForNoLongerThanThePatience) {
     const auto restless = [](double time) { return view(time, kAsked, kAsked, false); };
     const auto playing = [](double time) {
         const auto step = static_cast<std::uint32_t>(time * 4);
-        return view(time, {step + 1, 1.0}, index::Query{step, 1.0}, false);
+        return view(time, {step + 1, {1.0}}, index::SurfacesQuery{step, {1.0}}, false);
     };
     const auto playing_fast = [&](double time) {
         CaptureView now = playing(time);

@@ -222,15 +222,15 @@ TEST_P(SessionQuality, TimeThatPlaysIsDrawnInQuadsAndACaptureOfItComesAllTheSame
 }
 
 TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) {
-    const index::Search real = index::search_in(file_);
+    const index::Extract real = index::extract_from(file_);
     std::promise<void> release;
     const std::shared_future<void> released = release.get_future().share();
-    const index::Search search = [&](const index::Query& query, std::stop_token stop) {
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
         if (query.step == 1)
             released.wait();
         return real(query, stop);
     };
-    Session session(config_with(kPlenty), file_, *context_, search);
+    Session session(config_with(kPlenty), file_, *context_, extract);
     session.set_screenshots(folder_.path());
     start(session);
     Commands to_step_1;

@@ -195,7 +195,7 @@ TEST(CellSet, NormalsOfASphereThatIsBrightInsidePointOutwards) {
         const glm::dvec3 outwards = glm::normalize(
             glm::dvec3(point.x + 0.5, point.y + 0.5, point.z + 0.5) - glm::dvec3(22, 19, 22));
         EXPECT_GT(glm::dot(glm::normalize(unpacked(point.normal)), outwards), 0.9999);
-        EXPECT_EQ(point.reserved, 0);
+        EXPECT_EQ(point.style, 0);
     }
 }
 

@@ -102,8 +102,8 @@ TEST_P(CaveTest, ACubesEdgesCrossFromWallToWallWithoutAStepForAMovingHead) {
                     continue;
                 ++crossings;
                 const double expected = kSide * (1.0 - height / 3.0);
-                EXPECT_NEAR(*front, expected, 1.5) << "head " << step;
-                EXPECT_NEAR(*right, expected, 1.5) << "head " << step;
+                EXPECT_NEAR(*front, expected, 1.0) << "head " << step;
+                EXPECT_NEAR(*right, expected, 1.0) << "head " << step;
             }
         }
     }

@@ -164,6 +164,8 @@ void view_section(const PanelModel& model, Commands& commands) {
     const std::string current(stereo::name_of(model.asked.stereo));
     if (ImGui::BeginCombo("stereo", current.c_str())) {
         for (stereo::StereoMode candidate : stereo::all_stereo_modes()) {
+            if (upright(candidate) == stereo::StereoMode::quadbuffer && !model.quad_buffered)
+                continue;
             const std::string name(stereo::name_of(candidate));
             if (ImGui::Selectable(name.c_str(), candidate == model.asked.stereo))
                 commands.stereo = name;

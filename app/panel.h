@@ -24,6 +24,7 @@ struct PanelModel {
     std::string failure;                      ///< of the worker; empty when all is well
     std::string message;                      ///< newest note, such as a saved screenshot
     const std::vector<std::string>& controls; ///< one line per key
+    bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
 };
 
 /// The rectangle that the panel covers: pixels from the top left.

@@ -236,7 +236,8 @@ void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
                            .recording = recording_,
                            .failure = failure(),
                            .message = message_,
-                           .controls = documentation_};
+                           .controls = documentation_,
+                           .quad_buffered = windows_[0].has_stereo_buffers()};
     interaction::merge(panel_commands_, panel_.draw(size, model));
 }
 

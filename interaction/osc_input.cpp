@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -37,12 +38,20 @@ std::optional<Seconds> time_of(std::string_view tag) {
     return Seconds(seconds + fraction / kFraction);
 }
 
-std::optional<double> number(char type, const lo_arg& argument) {
+/// liblo leaves 64-bit values where the message has them, at multiples of 4 bytes.
+template <typename T>
+double value_at(const void* argument) {
+    T value;
+    std::memcpy(&value, argument, sizeof value);
+    return static_cast<double>(value);
+}
+
+std::optional<double> number(char type, const void* argument) {
     switch (type) {
-    case LO_INT32: return argument.i;
-    case LO_INT64: return static_cast<double>(argument.h);
-    case LO_FLOAT: return argument.f;
-    case LO_DOUBLE: return argument.d;
+    case LO_INT32: return value_at<std::int32_t>(argument);
+    case LO_INT64: return value_at<std::int64_t>(argument);
+    case LO_FLOAT: return value_at<float>(argument);
+    case LO_DOUBLE: return value_at<double>(argument);
     case LO_TRUE: return 1.0;
     case LO_FALSE: return 0.0;
     default: return std::nullopt;
@@ -60,7 +69,7 @@ std::optional<std::array<double, N>> numbers(lo_message message) {
     lo_arg** arguments = lo_message_get_argv(message);
     std::array<double, N> values;
     for (std::size_t i = 0; i < N; ++i) {
-        const auto value = number(types[i], *arguments[i]);
+        const auto value = number(types[i], arguments[i]);
         if (!value)
             return std::nullopt;
         values[i] = *value;

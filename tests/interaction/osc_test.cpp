@@ -73,6 +73,16 @@ TEST_P(OscTest, ButtonsAndValuatorsArriveWithAnyNumbers) {
     EXPECT_EQ(box.tracking(), Tracking::tracked) << "a box of buttons has no pose to lose";
 }
 
+/// 64-bit values lie at multiples of 4 bytes.
+TEST_P(OscTest, PosesMayBeDoubles) {
+    std::vector<test_support::OscArgument> arguments;
+    for (const double value : {0.5, 1.5, -0.25, 0.0, 0.6, 0.0, 0.8})
+        arguments.push_back({'d', value});
+    const DeviceState head = after(osc_message("/isochron/glasses/pose", arguments), "head");
+    ASSERT_TRUE(head.pose);
+    expect_near(head.pose->position, kLeaning.position, 1e-6);
+}
+
 TEST_P(OscTest, ABundlesTimeTagDatesItsPose) {
     constexpr double kSince1900 = 3.9e9;
     for (int i = 0; i <= 10; ++i) {

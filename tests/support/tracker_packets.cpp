@@ -72,9 +72,15 @@ std::string osc_message(std::string_view address, const std::vector<OscArgument>
     std::string types = ",", values;
     for (const OscArgument& argument : arguments) {
         types.push_back(argument.type);
-        append(values, argument.type == 'i'
-                           ? static_cast<std::uint32_t>(static_cast<std::int32_t>(argument.value))
-                           : std::bit_cast<std::uint32_t>(static_cast<float>(argument.value)));
+        if (argument.type == 'i') {
+            append(values, static_cast<std::uint32_t>(static_cast<std::int32_t>(argument.value)));
+        } else if (argument.type == 'f') {
+            append(values, std::bit_cast<std::uint32_t>(static_cast<float>(argument.value)));
+        } else {
+            const auto bits = std::bit_cast<std::uint64_t>(argument.value);
+            append(values, static_cast<std::uint32_t>(bits >> 32));
+            append(values, static_cast<std::uint32_t>(bits));
+        }
     }
     return padded(address) + padded(types) + values;
 }

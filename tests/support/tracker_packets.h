@@ -33,7 +33,7 @@ std::string dtrack_datagram(std::uint32_t counter, std::optional<double> stamp,
                             const std::vector<PlayedFlystick>& flysticks = {},
                             const std::vector<glm::dvec3>& markers = {});
 
-/// An argument of type i or f.
+/// An argument of type i, f or d.
 struct OscArgument {
     char type;
     double value;

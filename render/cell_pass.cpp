@@ -18,7 +18,7 @@ namespace {
 /// The uniform block of frame.glsl, in std140 layout.
 struct EyeBlock {
     glm::mat4 rows;
-    glm::mat4 index_from_pixel;
+    glm::vec4 ray_right, ray_up, ray_ahead;
     glm::mat4 eye_from_index;
     glm::mat4 eye_from_physical;
     glm::vec4 eye_in_index;
@@ -35,10 +35,7 @@ struct Frame {
     std::int32_t soft_near_eye;
     float padding = 0.0f;
 };
-static_assert(sizeof(Frame) == 2 * (4 * 64 + 4 * 16) + 3 * 16);
-
-constexpr std::string_view kTwoEyes = "#extension GL_ARB_shader_viewport_layer_array : require\n"
-                                      "#define TWO_EYES\n";
+static_assert(sizeof(Frame) == 2 * (3 * 64 + 7 * 16) + 3 * 16);
 
 glm::vec3 linear_light(const glm::vec3& display) {
     return {std::pow(display.x, 2.2f), std::pow(display.y, 2.2f), std::pow(display.z, 2.2f)};
@@ -66,9 +63,16 @@ EyeBlock eye_block(const View& view, const Placement& placement, float depth_cue
     pixel_from_clip[0][0] = half_size.x;
     pixel_from_clip[1][1] = half_size.y;
     const glm::mat4 pixel_from_index = pixel_from_clip * view.clip_from_eye * eye_from_index;
+    const glm::dmat4 index_from_pixel = glm::inverse(glm::dmat4(pixel_from_index));
+    // A pixel's ray is the points (x w, y w, z, w), z being linear in w.
+    const glm::dmat4 clip(view.clip_from_eye);
+    const double ahead_z = parallel ? 1.0 : clip[2][2] / clip[2][3];
+    const glm::dvec4 ahead = index_from_pixel * glm::dvec4(0, 0, ahead_z, parallel ? 0.0 : 1.0);
     return {
         .rows = glm::transpose(pixel_from_index),
-        .index_from_pixel = glm::mat4(glm::inverse(glm::dmat4(pixel_from_index))),
+        .ray_right = glm::vec4(index_from_pixel[0]),
+        .ray_up = glm::vec4(index_from_pixel[1]),
+        .ray_ahead = glm::vec4(glm::dvec4(glm::dvec3(ahead), ahead_z)),
         .eye_from_index = eye_from_index,
         .eye_from_physical =
             glm::mat4(glm::mat3(view.eye_from_room) * placement.room_from_physical),
@@ -103,7 +107,8 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
     : gl_(&gl), shapes_(shapes),
       two_views_at_once_(has_extension(gl, "GL_ARB_shader_viewport_layer_array")),
       quad_programs_(programs("cell_quad.frag")),
-      gaussian_programs_(programs("cell_gaussian.frag")), quads_(gl), orders_(gl), frame_(gl) {
+      gaussian_programs_(programs("cell_gaussian.frag")), surface_(gl, two_views_at_once_),
+      quads_(gl), orders_(gl), frame_(gl) {
     const float sigmas = 0.5f * shapes.gaussian_diameter / shapes.gaussian_sigma;
     const float falloff = -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
     gl.ProgramUniform1f(gaussian_programs_.one.name(), 0, falloff);
@@ -126,13 +131,14 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
                             const CellBuffers& cells, Footprint footprint,
                             const CellAppearance& appearance) {
     const bool gaussian = footprint == Footprint::gaussian;
+    const bool blended = gaussian || (footprint == Footprint::surface && appearance.opacity < 1.0f);
     Frame frame{
         .eyes = {},
         .color = glm::vec4(linear_light(appearance.color), appearance.opacity),
         .light = {appearance.ambient, appearance.diffuse, appearance.specular,
                   appearance.shininess},
         .radius = 0.5f * (gaussian ? shapes_.gaussian_diameter : shapes_.quad_diameter),
-        .ordered = gaussian,
+        .ordered = blended,
         .soft_near_eye = gaussian,
     };
     const glm::ivec3 extent(placement.extent);
@@ -143,7 +149,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         frame.eyes[i] = eye_block(view, placement, appearance.depth_cue);
         const glm::vec2 corner(view.corner), size(view.size);
         gl_->ViewportIndexedf(static_cast<GLuint>(i), corner.x, corner.y, size.x, size.y);
-        if (gaussian)
+        if (blended)
             gl_->BindTextureUnit(
                 static_cast<GLuint>(1 + i),
                 orders_.texture(cells, traversal_key(frame.eyes[i].eye_in_index, extent, spacing)));
@@ -154,18 +160,22 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
 
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
-    gl_->DepthMask(gaussian ? GL_FALSE : GL_TRUE);
+    gl_->DepthMask(blended ? GL_FALSE : GL_TRUE);
     gl_->Disable(GL_CULL_FACE); // a mirrored volume turns every quad over
-    if (gaussian) {
+    if (blended) {
         gl_->Enable(GL_BLEND);
         gl_->BlendEquation(GL_FUNC_ADD);
         gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     } else {
         gl_->Disable(GL_BLEND);
     }
-    const Programs& programs = gaussian ? gaussian_programs_ : quad_programs_;
-    gl_->UseProgram((views.size() == 2 ? *programs.two : programs.one).name());
-    quads_.draw(cells.size(), static_cast<int>(views.size()));
+    if (footprint == Footprint::surface) {
+        surface_.draw(quads_, cells, blended, views.size());
+    } else {
+        const Programs& programs = gaussian ? gaussian_programs_ : quad_programs_;
+        gl_->UseProgram((views.size() == 2 ? *programs.two : programs.one).name());
+        quads_.draw(cells.size(), static_cast<int>(views.size()));
+    }
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);
     gl_->UseProgram(0);

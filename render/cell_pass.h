@@ -1,10 +1,11 @@
-// Draws a set of cells as fast quads or as Gaussian splats (ShellSplatting).
+// Draws a set of cells as fast quads, as Gaussian splats (ShellSplatting) or as the exact surface.
 #pragma once
 
 #include "render/cell_buffers.h"
 #include "render/order_cache.h"
 #include "render/placement.h"
 #include "render/quad_indices.h"
+#include "render/surface_pass.h"
 #include "render/view.h"
 
 #include <cstddef>
@@ -19,12 +20,12 @@ namespace isochron::render {
 enum class Footprint : std::uint8_t {
     quad,     ///< flat and opaque, in any order: for motion
     gaussian, ///< blended back to front: for a settled view
-    surface   ///< the trilinear isosurface itself, cast per pixel: for a settled view
+    surface   ///< the exact trilinear isosurface, crisp at any distance: for a settled view
 };
 inline constexpr std::size_t kFootprints = 3;
 
 /// The best footprint that `CellPass` draws.
-inline constexpr Footprint kBestFootprint = Footprint::gaussian;
+inline constexpr Footprint kBestFootprint = Footprint::surface;
 
 /// `quad`, `gaussian`, `surface`: as configuration files and reports call them.
 const char* name_of(Footprint footprint);
@@ -39,7 +40,7 @@ struct FootprintShapes {
 
 struct CellAppearance {
     glm::vec3 color{0.97f, 0.88f, 0.70f}; ///< as a display shows it (sRGB), 0 to 1
-    float opacity = 1.0f;                 ///< of the middle of a Gaussian splat, 0 to 1
+    float opacity = 1.0f;                 ///< of a surface or the middle of a splat, 0 to 1
     float ambient = 0.05f;
     float diffuse = 0.95f;   ///< head light, both sides
     float specular = 0.22f;  ///< added in white
@@ -53,10 +54,11 @@ class CellPass {
     /// @throws Error when a shader does not compile
     explicit CellPass(const Gl& gl, const FootprintShapes& shapes = {});
 
-    /// Draws the cells into the views' viewports of the bound framebuffer, two views in one
-    /// pass where the driver can; nothing where there are none. Quads test and write depth; splats
-    /// test it only, and blend over what is there with pre-multiplied alpha. Leaves depth test and
-    /// depth writes on, blending and culling off, and the viewport undefined.
+    /// Draws the cells into the views' viewports of the bound framebuffer, two views in one pass
+    /// where the driver can; nothing where there are none. Quads and opaque surfaces test and write
+    /// depth; splats and surfaces of less opacity test it only, and blend over what is there with
+    /// pre-multiplied alpha. Surfaces are drawn from the corners that the cells have computed.
+    /// Leaves depth test and depth writes on, blending and culling off, and the viewport undefined.
     void draw(std::span<const View> views, const Placement& placement, const CellBuffers& cells,
               Footprint footprint, const CellAppearance& appearance = {});
     void draw(const View& view, const Placement& placement, const CellBuffers& cells,
@@ -87,6 +89,7 @@ class CellPass {
     FootprintShapes shapes_;
     bool two_views_at_once_;
     Programs quad_programs_, gaussian_programs_;
+    SurfacePass surface_;
     QuadIndices quads_;
     OrderCache orders_;
     Buffer frame_;

@@ -22,6 +22,11 @@ const std::vector<ShaderSource>& shader_files();
 /// The file of that name. @throws Error when there is none
 ShaderSource shader_file(std::string_view name);
 
+/// Prelude of programs that draw two views in one pass, see frame.glsl.
+inline constexpr std::string_view kTwoEyes =
+    "#extension GL_ARB_shader_viewport_layer_array : require\n"
+    "#define TWO_EYES\n";
+
 /// Compiles and links.
 /// @param prelude lines behind #version in every stage: extensions and definitions
 /// @throws Error with the file's name and the driver's log

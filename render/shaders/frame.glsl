@@ -4,7 +4,10 @@
 struct Eye {
     // Rows of pixel_from_index: clip space with x and y in pixels from the middle of the viewport.
     vec4 row_x, row_y, row_z, row_w;
-    mat4 index_from_pixel;  // its inverse
+    // The view ray of a pixel, in index space. Across it, per pixel times w: `ray_right`, `ray_up`.
+    // Along it, per unit of w (where w = 1 for all, of clip z): `ray_ahead` plus, in perspective,
+    // the pixel's share of the other two; its w is the clip z per that unit.
+    vec4 ray_right, ray_up, ray_ahead;
     mat4 eye_from_index;
     mat4 eye_from_physical; // linear part
     vec4 eye_in_index;      // w = 0 where the view is parallel: the direction towards the eye

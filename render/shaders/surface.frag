@@ -1,0 +1,132 @@
+#version 450 core
+// The trilinear surface in one cell: where the view ray meets it, and its light.
+//
+// Along a ray the value is a cubic. Between its turning points a cubic is monotonic, so that the
+// signs at the ends of these stretches tell every root, and each is found by Halley's method within
+// bounds. No branches but discards: software GL runs all of them for all pixels.
+
+#include "frame.glsl"
+#include "lighting.glsl"
+#include "surface.glsl"
+
+out vec4 result;
+
+// Half a side of the box, a little larger: a root on a face lies in both cells.
+const float kHalf = 0.5 + 1e-5;
+const int kSteps = 3; // leave 0.001 voxel in noise, and 0.00001 on smooth surfaces
+
+// The part of a view ray in the cell, its ends at s = -1 and s = 1; empty without length.
+struct Ray {
+    vec3 middle, half_chord;
+    float along_middle, along_half; // how far along the ray, from the plane of the cell's centre
+};
+
+Ray ray_in_cell() {
+    vec4 viewport = EYE(viewport);
+    vec2 pixel = gl_FragCoord.xy - viewport.xy - 0.5 * viewport.zw;
+    float perspective = EYE(eye_in_index).w;
+    vec3 right = EYE(ray_right).xyz, up = EYE(ray_up).xyz;
+    vec4 ahead = EYE(ray_ahead);
+    vec3 direction = ahead.xyz + perspective * (pixel.x * right + pixel.y * up);
+    vec2 shift = pixel * centre.w - centre.xy;
+    vec3 origin = shift.x * right + shift.y * up;
+
+    vec3 size = abs(direction);
+    float tiny = 1e-8 * max(size.x, max(size.y, size.z)); // instead of 0, which divides
+    direction = mix(direction, vec3(tiny), lessThan(size, vec3(tiny)));
+    vec3 inverse = 1.0 / direction;
+    vec3 middle = -origin * inverse, reach = kHalf * abs(inverse);
+    vec3 enter = middle - reach, leave = middle + reach;
+    float near_plane = -(centre.z + centre.w) / (ahead.w + perspective);
+    float first = max(max(enter.x, near_plane), max(enter.y, enter.z));
+    float last = min(leave.x, min(leave.y, leave.z));
+    float half_way = 0.5 * (first + last), half_length = 0.5 * (last - first);
+    return Ray(origin + half_way * direction, half_length * direction, half_way, half_length);
+}
+
+// The values along the ray as a cubic in s: coefficients of 1, s, s^2, s^3.
+vec4 cubic_along(Ray ray) {
+    vec3 b = ray.half_chord;
+    vec4 at = value_and_slope(ray.middle);
+    vec3 about = mixed_at(ray.middle);
+    return vec4(at.x, dot(at.yzw, b), (about.x * b.x * b.y + about.y * b.x * b.z) + about.z * b.y * b.z,
+                mixed.w * b.x * b.y * b.z);
+}
+
+float value_at(vec4 k, float s) { return ((k.w * s + k.z) * s + k.y) * s + k.x; }
+
+// In order; -1 stands for those that are not between the ray's ends.
+vec2 turning_points(vec4 k) {
+    float cubic = 3.0 * k.w;
+    float d = k.z * k.z - cubic * k.y;
+    float root = sqrt(max(d, 0.0));
+    float q = -(k.z + (k.z >= 0.0 ? root : -root));
+    float a = d > 0.0 && abs(q) < abs(cubic) ? q / cubic : -1.0;
+    float b = d > 0.0 && abs(k.y) < abs(q) ? k.y / q : -1.0;
+    return vec2(min(a, b), max(a, b));
+}
+
+// The one root between two points with values of different sign and no turning point in between.
+float root_between(vec4 k, float low, float high, float f_low, float f_high) {
+    bool above = f_low >= 0.0;
+    float s = low + (high - low) * f_low / (f_low - f_high);
+    for (int i = 0; i < kSteps; ++i) {
+        float f = value_at(k, s);
+        float slope = (3.0 * k.w * s + 2.0 * k.z) * s + k.y;
+        float bend = 6.0 * k.w * s + 2.0 * k.z;
+        bool before = (f >= 0.0) == above;
+        low = before ? s : low;
+        high = before ? high : s;
+        float halley = s - 2.0 * f * slope / (2.0 * slope * slope - f * bend);
+        s = halley >= low && halley <= high ? halley : 0.5 * (low + high);
+    }
+    return s;
+}
+
+// Towards lower values, in physical space: continuous from cell to cell, as the cells' own slopes
+// are not.
+vec3 gradient(vec3 p) {
+    vec3 along_y = gradient_linear[2] + p.x * gradient_mixed[0];
+    vec3 along_z = gradient_linear[3] + p.x * gradient_mixed[1] +
+                   p.y * (gradient_mixed[2] + p.x * gradient_mixed[3]);
+    return gradient_linear[0] + p.x * gradient_linear[1] + p.y * along_y + p.z * along_z;
+}
+
+float depth_at(Ray ray, float s) {
+    float along = ray.along_middle + s * ray.along_half;
+    float w = centre.w + along * EYE(eye_in_index).w;
+    return 0.5 + 0.5 * (centre.z + along * EYE(ray_ahead).w) / w;
+}
+
+vec3 light_at(Ray ray, float s) {
+    vec3 p = ray.middle + s * ray.half_chord;
+    return shade(centre_in_eye + mat3(EYE(eye_from_index)) * p, gradient(p));
+}
+
+void main() {
+    Ray ray = ray_in_cell();
+    vec4 k = cubic_along(ray);
+    vec2 turns = turning_points(k);
+    float f0 = value_at(k, -1.0), f1 = value_at(k, turns.x), f2 = value_at(k, turns.y), f3 = value_at(k, 1.0);
+    // A change of sign up to the first turning point, up to the second one, and anywhere.
+    bool first = (f0 >= 0.0) != (f1 >= 0.0), second = (f0 >= 0.0) != (f2 >= 0.0);
+    bool third = (f0 >= 0.0) != (f3 >= 0.0);
+    if (!(ray.along_half > 0.0) || !(first || second || third))
+        discard;
+    float nearest = root_between(k, first ? -1.0 : second ? turns.x : turns.y,
+                                 first ? turns.x : second ? turns.y : 1.0,
+                                 first ? f0 : second ? f1 : f2, first ? f1 : second ? f2 : f3);
+    gl_FragDepth = depth_at(ray, nearest);
+    result = vec4(light_at(ray, nearest), 1.0);
+#ifdef BLENDED
+    // Behind the nearest layer may be two more.
+    bool to_third = second != third, to_second = first != second;
+    vec4 behind = vec4(0);
+    if (to_third && (first || second))
+        behind = vec4(light_at(ray, root_between(k, turns.y, 1.0, f2, f3)), 1.0) * color.a;
+    if (to_second && first)
+        behind = vec4(light_at(ray, root_between(k, turns.x, turns.y, f1, f2)), 1.0) * color.a +
+                 behind * (1.0 - color.a);
+    result = result * color.a + behind * (1.0 - color.a);
+#endif
+}

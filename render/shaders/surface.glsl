@@ -1,0 +1,26 @@
+// What the vertices of a cell's quad tell its fragments about the cell; needs frame.glsl.
+
+#ifdef VERTEX_STAGE
+#define OF_CELL flat out
+#else
+#define OF_CELL flat in
+#endif
+
+// A cell's own coordinates are voxels from its centre: they stay precise in any volume.
+OF_CELL vec4 centre; // in pixels from the middle of the viewport times w, z and w
+OF_CELL vec3 centre_in_eye;
+// Trilinear interpolation as polynomials, coefficients of 1, x, y, z and of xy, xz, yz, xyz: of the
+// value, whatever its scale, and of the gradient towards lower values in physical space.
+OF_CELL vec4 linear, mixed;
+OF_CELL vec3 gradient_linear[4], gradient_mixed[4];
+
+// The coefficients of xy, xz and yz about `p`.
+vec3 mixed_at(vec3 p) { return mixed.xyz + mixed.w * p.zyx; }
+
+// The value at `p` and, behind it, its derivatives by x, y and z.
+vec4 value_and_slope(vec3 p) {
+    vec3 about = mixed_at(p);
+    vec3 slope = linear.yzw + vec3(mixed.xx * p.yx, mixed.y * p.x) + vec3(about.yz * p.z, about.z * p.y);
+    float value = linear.x + linear.y * p.x + (linear.z + mixed.x * p.x) * p.y + slope.z * p.z;
+    return vec4(value, slope);
+}

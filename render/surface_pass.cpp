@@ -1,0 +1,28 @@
+// The programs and GL state of a draw of ray-cast cells.
+#include "render/surface_pass.h"
+
+#include "render/shader.h"
+
+#include <string>
+
+namespace isochron::render {
+
+SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once) : gl_(&gl) {
+    const std::vector sources{shader_file("surface.vert"), shader_file("surface.frag")};
+    for (const bool blended : {false, true})
+        for (const bool two : {false, true})
+            if (!two || two_views_at_once)
+                programs_[blended][two] = link_program(gl, sources,
+                                                       std::string(two ? kTwoEyes : "") +
+                                                           (blended ? "#define BLENDED\n" : ""));
+}
+
+void SurfacePass::draw(const QuadIndices& quads, const CellBuffers& cells, bool blended,
+                       std::size_t views) const {
+    gl_->BindTextureUnit(3, cells.corner_values_texture());
+    gl_->BindTextureUnit(4, cells.corner_gradients_texture());
+    gl_->UseProgram(programs_[blended][views - 1]->name());
+    quads.draw(cells.size(), static_cast<int>(views));
+}
+
+} // namespace isochron::render

@@ -1,0 +1,32 @@
+// Draws the exact trilinear isosurface of a set of cells, by casting a ray per pixel into each.
+#pragma once
+
+#include "render/cell_buffers.h"
+#include "render/quad_indices.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace isochron::render {
+
+class SurfacePass {
+  public:
+    /// @param two_views_at_once also makes the programs that draw two views in one pass
+    /// @throws Error when a shader does not compile
+    SurfacePass(const Gl& gl, bool two_views_at_once);
+
+    /// Draws with the frame, cells, orders and viewports that CellPass has bound, and its depth and
+    /// blend state. Writes the depth of the surface, whatever GL's depth range makes of its box.
+    /// @param blended several layers within a cell are blended far to near, pre-multiplied
+    /// @param cells whose corners are computed
+    /// @param views 1 or 2
+    void draw(const QuadIndices& quads, const CellBuffers& cells, bool blended,
+              std::size_t views) const;
+
+  private:
+    const Gl* gl_;
+    std::array<std::array<std::optional<Program>, 2>, 2> programs_; ///< [blended][views - 1]
+};
+
+} // namespace isochron::render

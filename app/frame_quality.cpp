@@ -34,7 +34,7 @@ void FrameQuality::collect(FrameLog& log) {
 }
 
 bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
-                          FrameReport& report) {
+                          render::Footprint best, FrameReport& report) {
     if (changed)
         changed_at_ = report.time;
     const bool still = report.time - changed_at_ >= kStillAfter;
@@ -42,9 +42,11 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     input.pace = report.pace;
     input.mode = state.quality;
     input.playing = state.playback.playing;
-    input.settled = settled_;
+    input.best = best;
+    if (settled_)
+        input.settled = std::min(*settled_, best);
     if (how == Choosing::by_pace)
-        input.settled = settled_.value_or(input.best);
+        input.settled = input.settled.value_or(best);
     input.load = {static_cast<double>(report.cells) * views_, pixels_};
     QualityController& controller = still ? still_ : steady_;
     const QualityChoice choice = controller.choose(input);

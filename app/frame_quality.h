@@ -1,7 +1,7 @@
 // The quality of a session's frames: budgets, measurement and choice brought together.
 //
 //     quality.collect(log);                                 // every frame
-//     const bool redraw = quality.choose(state, changed, how, report) || changed;
+//     const bool redraw = quality.choose(state, changed, how, best, report) || changed;
 //     if (redraw) { quality.begin(log.next()); ... quality.viewed(view); ... quality.end(...); }
 #pragma once
 
@@ -36,7 +36,8 @@ class FrameQuality {
     /// and with its cells.
     /// @param changed what the eyes see is not what they saw last, beside the footprint
     /// @return true: draw even if nothing has changed, so that the cost gets known
-    bool choose(const ExplorerState& state, bool changed, Choosing how, FrameReport& report);
+    bool choose(const ExplorerState& state, bool changed, Choosing how, render::Footprint best,
+                FrameReport& report);
 
     /// Between these two, the frame is drawn.
     void begin(std::uint64_t frame);

@@ -23,6 +23,11 @@ void Scene::upload(const index::ExtractionPtr& newest) {
     cells_.upload(newest, upload_bytes_);
 }
 
+render::Footprint Scene::best_footprint() const {
+    return cells_.size() <= cells_.corner_limit() ? render::kBestFootprint
+                                                  : render::Footprint::gaussian;
+}
+
 void Scene::draw(const render::View& view, const interaction::Similarity& room_from_physical,
                  render::Footprint footprint, const std::optional<interaction::Pose>& wand) {
     const auto placement = render::Placement::of(grid_, matrix(room_from_physical));
@@ -36,6 +41,8 @@ void Scene::draw(const render::View& view, const interaction::Similarity& room_f
         const std::array ray{render::Line{{0, 0, 0}, {0, 0, -kWandLength}, kWandColour}};
         line_pass_.draw(view, room_from(*wand), ray);
     }
+    if (footprint == render::Footprint::surface)
+        cells_.compute_corners();
     cell_pass_.draw(view, placement, cells_, footprint, appearance_);
 }
 

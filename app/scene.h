@@ -23,6 +23,9 @@ class Scene {
 
     const render::UploadCount& uploaded() const { return cells_.count(); }
 
+    /// That the shown cells can be drawn with: a very large set has no room for its surface.
+    render::Footprint best_footprint() const;
+
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
 
     /// @param wand drawn as a ray when given

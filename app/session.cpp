@@ -177,8 +177,9 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     if (live && !log_.frames().empty())
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool changed = now != drawn_;
-    const bool measure = quality_.choose(
-        state_, changed, live ? Choosing::by_measurement : Choosing::by_pace, report);
+    const bool measure =
+        quality_.choose(state_, changed, live ? Choosing::by_measurement : Choosing::by_pace,
+                        scene_.best_footprint(), report);
     now.footprint = report.footprint;
     report.redrawn = now != drawn_ || measure;
 }

@@ -55,9 +55,13 @@ SurfacePicture SurfaceTest::draw(CellPass& pass, const VertexField& field,
     gl_.ClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, &kFar);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
 
-    const index::CellSetPtr set = active_cells(field.values(), field.query());
-    const CornerBuffers corners(gl_, field, *set);
-    pass.draw(views, placement, showing(gl_, set), Footprint::surface, appearance, corners.data());
+    CellBuffers cells(gl_, field.values().grid);
+    const index::ExtractionPtr active =
+        Extractions(field.values()).active(field.query().step, {field.query().isovalue});
+    while (cells.shown() != active) // a transfer goes as fast as the GPU takes it
+        cells.upload(active, std::size_t{1} << 30);
+    cells.compute_corners();
+    pass.draw(views, placement, cells, Footprint::surface, appearance);
 
     SurfacePicture picture{.size = target_size, .depths = {}, .normals = {}};
     picture.depths.resize(std::size_t(target_size.x) * target_size.y);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/cell_pass.h"
-#include "tests/render/corner_buffers.h"
+#include "tests/render/extractions.h"
 #include "tests/render/gl_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,13 +1,11 @@
 // Finite differences and trilinear interpolation.
 #include "tests/render/vertex_field.h"
 
-#include "index/scan.h"
 #include "tests/index/test_field.h"
 
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <memory>
 
 namespace isochron::render {
 
@@ -52,14 +50,6 @@ double VertexField::value(glm::ivec3 cell, glm::dvec3 local) const {
 
 glm::dvec3 VertexField::gradient(glm::ivec3 cell, glm::dvec3 local) const {
     return trilinear(local, [&](int corner) { return gradient(cell + corner_of_cell(corner)); });
-}
-
-index::CellSetPtr active_cells(const index::StepValues& values, index::Query query) {
-    auto set = std::make_shared<index::CellSet>();
-    set->query = query;
-    index::scan(values, query, set->ids);
-    index::shade_cells(values, *set);
-    return set;
 }
 
 } // namespace isochron::render

@@ -1,7 +1,8 @@
 // A step's values, and what is between them: what the pictures of surfaces are compared with.
 #pragma once
 
-#include "index/cell_set.h"
+#include "index/query.h"
+#include "index/step_values.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -44,8 +45,5 @@ class VertexField {
 inline glm::ivec3 corner_of_cell(int corner) {
     return {corner & 1, corner >> 1 & 1, corner >> 2};
 }
-
-/// The active cells, with positions and normals.
-index::CellSetPtr active_cells(const index::StepValues& values, index::Query query);
 
 } // namespace isochron::render

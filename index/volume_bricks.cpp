@@ -6,6 +6,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace isochron::index {
 namespace {
@@ -17,6 +18,14 @@ std::array<std::uint32_t, 2> inner(std::uint32_t cell) {
 /// Of these and their outer neighbours.
 std::array<std::uint32_t, 2> outer(std::uint32_t cell, std::uint32_t vertices) {
     return {(cell == 0 ? 0 : cell - 1) / kBrickEdge, std::min(cell + 2, vertices - 1) / kBrickEdge};
+}
+
+/// Rows of a brick that lies within the grid, as they are stored: a row at a time, of known size.
+template <std::size_t kRow>
+void copy_rows(const std::byte* from, std::size_t row, std::size_t slice, std::byte* out) {
+    for (std::uint32_t z = 0; z < kBrickEdge; ++z)
+        for (std::uint32_t y = 0; y < kBrickEdge; ++y, out += kRow)
+            std::memcpy(out, from + z * slice + y * row, kRow);
 }
 
 } // namespace
@@ -74,6 +83,17 @@ void BrickGatherer::copy(const std::byte* first, BrickId brick, const BrickLevel
                                           brick / tiles[0] % tiles[1] * kBrickEdge,
                                           brick / tiles[0] / tiles[1] * kBrickEdge};
     const std::size_t stored = size_of(values_.stored()), held = size_of(values_.held());
+    const bool inside =
+        at[0] + kBrickEdge <= n[0] && at[1] + kBrickEdge <= n[1] && at[2] + kBrickEdge <= n[2];
+    if (inside && values_.stored() == values_.held()) {
+        const std::size_t row = n[0] * stored, slice = n[1] * row;
+        const std::byte* from = first + at[2] * slice + at[1] * row + at[0] * stored;
+        switch (stored) {
+        case 1: return copy_rows<kBrickEdge>(from, row, slice, out);
+        case 2: return copy_rows<2 * kBrickEdge>(from, row, slice, out);
+        default: return copy_rows<4 * kBrickEdge>(from, row, slice, out);
+        }
+    }
     const std::uint32_t width = std::min(kBrickEdge, n[0] - at[0]);
     for (std::uint32_t z = at[2]; z < std::min(at[2] + kBrickEdge, n[2]); ++z)
         for (std::uint32_t y = at[1]; y < std::min(at[1] + kBrickEdge, n[1]); ++y) {

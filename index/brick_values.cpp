@@ -11,12 +11,14 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// 2^-e such that `largest` times it is between 1 and 2, as far as f32 has such powers.
+/// 2^-e such that `largest` times it is between 1/2 and 1, or a little more at the end of the
+/// type's range: neither the power nor half of it is a denormal number.
+template <class Real>
 double power_to_one(double largest) {
-    constexpr int kMost = 126;
+    constexpr int kMost = std::numeric_limits<Real>::max_exponent - 3;
     if (!(largest > 0) || !std::isfinite(largest))
         return 1.0;
-    return std::ldexp(1.0, std::clamp(-std::ilogb(largest), -kMost, kMost));
+    return std::ldexp(0.5, std::clamp(-std::ilogb(largest), -kMost, kMost));
 }
 
 /// To the nearest f32, never to an infinity.
@@ -47,12 +49,12 @@ BrickValues::BrickValues(ValueType type, Scaling scaling, double low, double hig
     if (converts()) {
         held_ = ValueType::f32;
         middle_ = 0.5 * low + 0.5 * high;
-        to_units_ = power_to_one(half) * 0.5;
+        to_units_ = power_to_one<double>(half);
         half_in_units = half * to_units_;
     } else {
         const double a = std::abs((low - scaling.intercept) / scaling.slope);
         const double b = std::abs((high - scaling.intercept) / scaling.slope);
-        const double unit = power_to_one(std::max(a, b)) * 0.5;
+        const double unit = power_to_one<float>(std::max(a, b));
         factor_ = static_cast<float>(scaling.slope < 0 ? -unit : unit);
         half_in_units = std::abs(half / scaling.slope) * unit;
     }

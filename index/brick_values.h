@@ -25,8 +25,8 @@ struct BrickLevels {
 /// nearest; where that would cross an isovalue, to the last f32 on its own side instead. Isovalues
 /// that f32 cannot tell apart get neighbouring levels, so that this can always be done.
 ///
-/// *Brick units* are `held * factor`: in the order of the scaled values, at most about 1 in size
-/// over the whole data set.
+/// *Brick units* are `held * factor`: in the order of the scaled values, at most about 1 (4 at the
+/// end of floating point's range) in size over the whole data set.
 class BrickValues {
   public:
     /// @param low, high range of the finite scaled values of the data set

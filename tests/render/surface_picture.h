@@ -4,6 +4,7 @@
 #include "render/cell_pass.h"
 #include "tests/render/extractions.h"
 #include "tests/render/gl_test.h"
+#include "tests/render/vertex_field.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -32,6 +32,7 @@ struct BuildArguments {
     std::vector<double> spacing, origin;
     index::BuildOptions build;
     std::string tiers;
+    std::optional<std::string> color, color_component, color_unit;
     bool quiet = false, append = false, refer = false;
 };
 
@@ -49,6 +50,15 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
         read.type = index::value_type_from_name(arguments.type);
     read.spacing = vector_of(arguments.spacing);
     read.origin = vector_of(arguments.origin);
+    return read;
+}
+
+/// Of the second array: the same files, and all that was said of them, but another array.
+index::ReadOptions color_options(const BuildArguments& arguments) {
+    index::ReadOptions read = read_options(arguments);
+    read.array = arguments.color;
+    read.component = arguments.color_component;
+    read.value_unit = arguments.color_unit;
     return read;
 }
 
@@ -96,16 +106,23 @@ void build_with(index::Team& team, const BuildArguments& arguments, const Cancel
     index::BuildOptions options = arguments.build;
     if (!arguments.tiers.empty())
         options.tiers = tiers_of(arguments.tiers);
-    std::unique_ptr<index::VolumeSeries> series;
+    options.color_array = arguments.color;
+    options.color_component = arguments.color_component;
+    std::unique_ptr<index::VolumeSeries> series, colors;
     team.together([&] {
         const std::vector<fs::path> files = expand_patterns(arguments.files);
         refuse_input_as_output(files, arguments.out);
         if (arguments.refer)
             options.referral = referral_to(files, arguments);
         series = index::open_series(files, read_options(arguments));
-        if (arguments.append)
-            series = index::append_to(index::IndexFile::open(arguments.out), arguments.out.string(),
-                                      std::move(series));
+        if (arguments.color)
+            colors = index::open_series(files, color_options(arguments));
+        if (arguments.append) {
+            const auto held = index::IndexFile::open(arguments.out);
+            series = index::append_to(held, arguments.out.string(), std::move(series));
+            colors = index::append_colors_to(held, arguments.out.string(), std::move(colors));
+        }
+        options.color = colors.get();
     });
     if (!series) { // nothing to append
         if (reports)
@@ -175,6 +192,20 @@ void add_reading_options(CLI::App& command, BuildArguments& arguments) {
     command.add_option("--time-unit", read.time_unit, "Unit of times, such as s")->group("Reading");
     command.add_option("--value-unit", read.value_unit, "Unit of the values, such as K")
         ->group("Reading");
+
+    const char* colors = "Colours";
+    CLI::Option* color = command
+                             .add_option("--colour", arguments.color,
+                                         "A second array of the files to colour surfaces by")
+                             ->group(colors);
+    command
+        .add_option("--colour-component", arguments.color_component,
+                    "Its component, where it is a vector array: a number from 0, or magnitude")
+        ->needs(color)
+        ->group(colors);
+    command.add_option("--colour-unit", arguments.color_unit, "Unit of its values")
+        ->needs(color)
+        ->group(colors);
 
     const char* raw = "Headerless raw files";
     command.add_option("--dims", arguments.dims, "Vertices along each axis, x fastest")

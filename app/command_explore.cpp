@@ -63,7 +63,7 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     if (options.isovalue && !std::isfinite(*options.isovalue))
         throw UsageError(
             fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
-    state.isovalue = options.isovalue.value_or(state.isovalue);
+    state.set_isovalue(options.isovalue.value_or(state.isovalue()));
     state.step = options.step.value_or(state.step);
     state.panel = !options.no_panel;
     if (options.stereo)

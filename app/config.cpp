@@ -1,8 +1,10 @@
 // Reading of the TOML configuration: the only file that knows its keys.
 #include "app/config.h"
 
+#include "app/explorer_state.h"
 #include "app/shipped_configs.h"
 #include "app/toml_reader.h"
+#include "render/colour_map.h"
 #include "stereo/screen.h"
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace isochron::app {
@@ -47,6 +50,72 @@ void read_quality(TomlReader& reader, Config& config) {
     config.stillness.settle = interaction::Seconds(settle_ms / 1e3);
 }
 
+void check_color(TomlReader& reader, std::string_view key, const glm::vec3& color) {
+    for (int channel = 0; channel < 3; ++channel)
+        if (color[channel] < 0 || color[channel] > 1)
+            reader.fail(key, fmt::format("expected sRGB from 0 to 1, got {}", color[channel]));
+}
+
+void read_surface(TomlReader& reader, std::vector<ConfiguredSurface>& surfaces) {
+    const auto& palette = render::surface_palette();
+    ConfiguredSurface& surface = surfaces.emplace_back(
+        ConfiguredSurface{std::nullopt, kFirstQuantile, palette[surfaces.size() % palette.size()]});
+    double isovalue = 0;
+    constexpr double kMost = std::numeric_limits<double>::max();
+    reader.number("isovalue", -kMost, kMost, isovalue);
+    if (reader.has("isovalue") && reader.has("quantile"))
+        reader.fail("quantile", "a surface has either an isovalue or a quantile");
+    if (reader.has("isovalue"))
+        surface.isovalue = isovalue;
+    reader.number("quantile", 0.0, 1.0, surface.quantile);
+    reader.vector("colour", surface.color);
+    check_color(reader, "colour", surface.color);
+    reader.number("opacity", 0.0, 1.0, surface.opacity);
+}
+
+void read_surfaces(TomlReader& reader, Config& config) {
+    reader.tables("surfaces", [&](TomlReader& inner) { read_surface(inner, config.surfaces); });
+    if (config.surfaces.size() > interaction::kMostIsosurfaces)
+        reader.fail("surfaces", fmt::format("expected at most {}, got {}",
+                                            interaction::kMostIsosurfaces, config.surfaces.size()));
+}
+
+void read_colouring(TomlReader& reader, interaction::Coloring& coloring) {
+    const auto words = [](const auto& names) {
+        return std::vector<std::string>(names.begin(), names.end());
+    };
+    reader.word("by", words(interaction::kColorByNames), [&](const std::string& word) {
+        coloring.by =
+            static_cast<interaction::ColorBy>(std::ranges::find(interaction::kColorByNames, word) -
+                                              interaction::kColorByNames.begin());
+    });
+    reader.word("map", words(render::kColorMapNames),
+                [&](const std::string& word) { coloring.map = word; });
+    glm::dvec2 range(0.0);
+    reader.vector("range", range);
+    if (!reader.has("range"))
+        return;
+    if (!(range.x < range.y))
+        reader.fail("range",
+                    fmt::format("expected two ascending numbers, got {} and {}", range.x, range.y));
+    coloring.range = {range.x, range.y};
+}
+
+void read_lighting(TomlReader& reader, render::CellAppearance& look) {
+    constexpr double kBrightest = 4.0;
+    reader.number("ambient", 0.0, kBrightest, look.ambient);
+    reader.number("head_light", 0.0, kBrightest, look.head_light);
+    reader.number("key_light", 0.0, kBrightest, look.key_light);
+    reader.vector("key_direction", look.key_direction);
+    if (glm::length(look.key_direction) < 1e-6f)
+        reader.fail("key_direction", "expected a direction towards the light, got 0 0 0");
+    reader.number("ground", 0.0, 1.0, look.ground);
+    reader.number("reflectance", 0.0, 1.0, look.reflectance);
+    reader.number("shininess", 1.0, 1000.0, look.shininess);
+    reader.number("outline", 0.0, 1.0, look.outline);
+    reader.number("depth_cue", 0.0, 1.0, look.depth_cue);
+}
+
 void read_rendering(TomlReader& reader, Config& config) {
     reader.word("context", {"glfw", "egl", "osmesa"}, [&](const std::string& word) {
         config.context = *stereo::context_kind_from_name(word);
@@ -58,11 +127,14 @@ void read_rendering(TomlReader& reader, Config& config) {
     reader.number("far", 1.0, 1e5, config.installation.far_plane);
     reader.vector("background", config.background);
     reader.vector("surface_colour", config.surface_colour);
-    for (auto [key, colour] : {std::pair{"background", config.background},
-                               std::pair{"surface_colour", config.surface_colour}})
-        for (int channel = 0; channel < 3; ++channel)
-            if (colour[channel] < 0 || colour[channel] > 1)
-                reader.fail(key, fmt::format("expected sRGB from 0 to 1, got {}", colour[channel]));
+    check_color(reader, "background", config.background);
+    check_color(reader, "surface_colour", config.surface_colour);
+    reader.integer("samples", 0, 64, config.samples);
+    reader.word("blending", {"auto", "linear", "display"}, [&](const std::string& word) {
+        config.blending = word == "auto"     ? Blending::automatic
+                          : word == "linear" ? Blending::linear
+                                             : Blending::display;
+    });
     reader.flag("bounding_box", config.bounding_box);
     reader.flag("wand_ray", config.wand_ray);
 }
@@ -83,6 +155,9 @@ void read_root(TomlReader& reader, Config& config) {
     read_comfort(reader, config.comfort, config.grid);
     reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
     reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });
+    reader.table("lighting", [&](TomlReader& inner) { read_lighting(inner, config.appearance); });
+    reader.table("colouring", [&](TomlReader& inner) { read_colouring(inner, config.coloring); });
+    read_surfaces(reader, config);
     reader.table("placement", [&](TomlReader& inner) { read_placement(inner, config.placement); });
 }
 

@@ -13,8 +13,21 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
+
+/// An isosurface to start with. Where its value does not come from the data, it is a quantile.
+struct ConfiguredSurface {
+    std::optional<double> isovalue;
+    double quantile; ///< of all values, 0 to 1
+    glm::vec3 color; ///< sRGB
+    float opacity = 1.0f;
+};
+
+/// How colours blend: `linear` as light does, `display` in display values, which is faster on
+/// software GL; `automatic` takes that there, and linear light elsewhere.
+enum class Blending : std::uint8_t { automatic, linear, display };
 
 struct Config {
     std::string name; ///< file name for messages; empty for the built-in defaults
@@ -39,7 +52,12 @@ struct Config {
     int upload_kilobytes_per_frame = 4096;         ///< cells sent to the GPU per frame at most
     glm::vec3 background{0.055f, 0.063f, 0.078f};  ///< sRGB
     glm::vec3 surface_colour{0.94f, 0.86f, 0.70f}; ///< sRGB
-    bool bounding_box = true;
+    std::vector<ConfiguredSurface> surfaces;       ///< none: one of surface_colour
+    interaction::Coloring coloring;
+    render::CellAppearance appearance; ///< light and material
+    Blending blending = Blending::automatic;
+    int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
+    bool bounding_box = true; ///< with ticks and numbers
     bool wand_ray = true;
 };
 

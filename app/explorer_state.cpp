@@ -1,10 +1,24 @@
 // Everything a user can set while exploring.
 #include "app/explorer_state.h"
 
+#include "render/colour_map.h"
+
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace isochron::app {
+namespace {
+
+bool holds(const std::vector<interaction::Isosurface>& surfaces) {
+    return !surfaces.empty() && surfaces.size() <= interaction::kMostIsosurfaces &&
+           std::ranges::all_of(surfaces, [](const interaction::Isosurface& surface) {
+               return std::isfinite(surface.isovalue) && surface.opacity >= 0 &&
+                      surface.opacity <= 1;
+           });
+}
+
+} // namespace
 
 bool ExplorerState::apply(const interaction::Commands& commands, std::size_t steps) {
     bool taken = true;
@@ -14,8 +28,21 @@ bool ExplorerState::apply(const interaction::Commands& commands, std::size_t ste
         else
             taken = false;
     };
+    if (commands.isosurfaces && holds(*commands.isosurfaces)) {
+        isosurfaces = *commands.isosurfaces;
+        picked = std::min(picked, static_cast<std::uint32_t>(isosurfaces.size() - 1));
+    } else if (commands.isosurfaces) {
+        taken = false;
+    }
+    if (commands.picked)
+        set(picked, *commands.picked, *commands.picked < isosurfaces.size());
     if (commands.isovalue)
-        set(isovalue, *commands.isovalue, std::isfinite(*commands.isovalue));
+        set(isosurfaces[picked].isovalue, *commands.isovalue, std::isfinite(*commands.isovalue));
+    if (commands.coloring)
+        set(coloring, *commands.coloring,
+            render::color_map_from_name(commands.coloring->map).has_value());
+    if (commands.axes)
+        axes = *commands.axes;
     if (commands.step)
         set(step, *commands.step, *commands.step < steps);
     if (commands.playback)
@@ -44,9 +71,20 @@ bool ExplorerState::apply(const interaction::Commands& commands, std::size_t ste
     return taken;
 }
 
+index::SurfacesQuery ExplorerState::surfaces() const {
+    index::SurfacesQuery query{step, {}};
+    for (const interaction::Isosurface& surface : isosurfaces)
+        query.isovalues.push_back(surface.isovalue);
+    return query;
+}
+
 interaction::Commands ExplorerState::as_commands() const {
     interaction::Commands all;
-    all.isovalue = isovalue;
+    all.isosurfaces = isosurfaces;
+    all.picked = picked;
+    all.isovalue = isovalue();
+    all.coloring = coloring;
+    all.axes = axes;
     all.step = step;
     all.playback = playback;
     all.room_from_physical = room_from_physical;
@@ -59,13 +97,13 @@ interaction::Commands ExplorerState::as_commands() const {
     return all;
 }
 
-double first_isovalue(const index::IndexStats& stats) {
+double quantile(const index::IndexStats& stats, double share) {
     const auto& bins = stats.histogram;
     const auto total = std::accumulate(bins.begin(), bins.end(), std::uint64_t{0});
     std::uint64_t below = 0;
     for (std::size_t bin = 0; bin < bins.size(); ++bin) {
         below += bins[bin];
-        if (static_cast<double>(below) >= 0.95 * static_cast<double>(total))
+        if (static_cast<double>(below) >= share * static_cast<double>(total))
             return std::lerp(stats.low, stats.high,
                              (static_cast<double>(bin) + 0.5) / static_cast<double>(bins.size()));
     }

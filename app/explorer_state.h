@@ -8,7 +8,10 @@
 namespace isochron::app {
 
 struct ExplorerState {
-    double isovalue = 0;
+    std::vector<interaction::Isosurface> isosurfaces{{}}; ///< 1 to kMostIsosurfaces
+    std::uint32_t picked = 0;                             ///< the one that the isovalue moves
+    interaction::Coloring coloring;
+    bool axes = true; ///< the box with its ticks and numbers
     std::uint32_t step = 0;
     interaction::PlaybackState playback;
     interaction::Similarity room_from_physical;
@@ -19,6 +22,9 @@ struct ExplorerState {
     bool grid = false; ///< of the floor
     std::vector<interaction::Viewpoint> views;
 
+    double isovalue() const { return isosurfaces[picked].isovalue; }
+    void set_isovalue(double isovalue) { isosurfaces[picked].isovalue = isovalue; }
+
     /// Sets what the commands carry. A value that cannot be held (a step beyond the series, an
     /// unknown stereo mode, a number that is not finite) leaves the state as it was.
     /// @return false when something was refused
@@ -27,12 +33,16 @@ struct ExplorerState {
     /// Commands that set every field.
     interaction::Commands as_commands() const;
 
-    index::SurfacesQuery surfaces() const { return {step, {isovalue}}; }
+    /// The step and every surface's isovalue, in the order of `isosurfaces`.
+    index::SurfacesQuery surfaces() const;
     bool operator==(const ExplorerState&) const = default;
 };
 
-/// A first isovalue: the 95 % quantile of all values, where surfaces of interest tend to enclose a
-/// small part of the volume.
-double first_isovalue(const index::IndexStats& stats);
+/// The value that this share of all values does not exceed, to the width of a histogram's bin.
+/// @param share 0 to 1
+double quantile(const index::IndexStats& stats, double share);
+
+/// Where surfaces of interest tend to enclose a small part of the volume.
+constexpr double kFirstQuantile = 0.95;
 
 } // namespace isochron::app

@@ -113,6 +113,8 @@ std::string sizes(const index::IndexFile& file) {
     for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
         if (const auto tier = static_cast<index::Tier>(i); file.plan().tiers.has(tier))
             text += fmt::format(", {} {}", index::kTierNames[i], bytes(stats.bytes_of(tier)));
+    if (stats.color_bytes > 0)
+        text += fmt::format(", colours {}", bytes(stats.color_bytes));
     return text;
 }
 
@@ -148,6 +150,10 @@ std::string as_text(const IndexReport& report) {
              fmt::format("{} * stored + {}", info.scaling.slope, info.scaling.intercept));
     line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
     line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
+    if (const index::ColorArray* color = file.color())
+        line("colours", fmt::format("{}, {}, {} to {}{}, {} NaN", color->array,
+                                    index::name_of(color->type), color->low, color->high,
+                                    with_space(color->value_unit), grouped(color->nan_values)));
     line("file",
          fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
     for (const std::string& reason : file.plan().reasons)
@@ -220,6 +226,14 @@ std::string as_json(const IndexReport& report) {
     for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
         if (file.plan().tiers.has(static_cast<index::Tier>(i)))
             j["tiers"].push_back(index::kTierNames[i]);
+    if (const index::ColorArray* color = file.color())
+        j["colour"] = {{"array", color->array},
+                       {"value_unit", color->value_unit},
+                       {"type", index::name_of(color->type)},
+                       {"low", color->low},
+                       {"high", color->high},
+                       {"nan_values", color->nan_values},
+                       {"bytes", stats.color_bytes}};
     if (file.referral()) {
         j["refers_to"] = nlohmann::ordered_json::array();
         for (const std::filesystem::path& source : file.referral()->files)

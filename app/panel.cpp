@@ -2,6 +2,7 @@
 #include "app/panel.h"
 
 #include "app/config.h"
+#include "app/panel_colours.h"
 #include "app/placement.h"
 
 #include <fmt/format.h>
@@ -35,6 +36,11 @@ void note(const std::string& line, const ImVec4& colour) {
 }
 
 /// Histogram of all values on a logarithmic scale; pressing or dragging picks an isovalue.
+/// The picked surface among those shown, which may have been fewer.
+std::size_t shown_surface(const PanelModel& model) {
+    return std::min<std::size_t>(model.asked.picked, model.frame.shown->isovalues.size() - 1);
+}
+
 void histogram(const PanelModel& model, Commands& commands) {
     const auto& bins = model.stats.histogram;
     const ImVec2 size(ImGui::GetContentRegionAvail().x, 64.0f);
@@ -63,8 +69,8 @@ void histogram(const PanelModel& model, Commands& commands) {
         list->AddLine({x, corner.y}, {x, corner.y + size.y}, colour, 2.0f);
     };
     if (model.frame.shown)
-        mark(model.frame.shown->isovalues.front(), kShownColour);
-    mark(model.asked.isovalue, kAskedColour);
+        mark(model.frame.shown->isovalues[shown_surface(model)], kShownColour);
+    mark(model.asked.isovalue(), kAskedColour);
     const double pointed = std::lerp(
         low, high, std::clamp((ImGui::GetIO().MousePos.x - corner.x) / size.x, 0.0f, 1.0f));
     if (ImGui::IsItemActive() && half_span > 0)
@@ -84,7 +90,7 @@ std::string slider_format(const std::string& unit) {
 void isovalue_section(const PanelModel& model, Commands& commands) {
     histogram(model, commands);
     ImGui::SetNextItemWidth(-1.0f);
-    double value = model.asked.isovalue;
+    double value = model.asked.isovalue();
     // Beyond half of the doubles' range ImGui gives up.
     constexpr double kMost = std::numeric_limits<double>::max() / 2;
     const double low = std::clamp(model.stats.low, -kMost, kMost);
@@ -94,9 +100,10 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
         commands.isovalue = value;
     const auto& shown = model.frame.shown;
     note(fmt::format("isovalue: asked {}   shown {}",
-                     with_unit(model.asked.isovalue, model.info.value_unit),
-                     shown ? with_unit(shown->isovalues.front(), model.info.value_unit)
-                           : "nothing yet"),
+                     with_unit(model.asked.isovalue(), model.info.value_unit),
+                     shown
+                         ? with_unit(shown->isovalues[shown_surface(model)], model.info.value_unit)
+                         : "nothing yet"),
          kDim);
 }
 
@@ -252,6 +259,9 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
     ImGui::Begin(("Isochron: " + model.info.array + "###panel").c_str(), nullptr,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings);
     isovalue_section(model, commands);
+    surfaces_section(model, commands);
+    ImGui::Separator();
+    colouring_section(model, commands);
     ImGui::Separator();
     time_section(model, commands);
     ImGui::Separator();

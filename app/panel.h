@@ -6,6 +6,7 @@
 #include "index/cell_set.h"
 #include "interaction/commands.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct PanelModel {
     const index::SeriesInfo& info;
     const index::IndexStats& stats;
     const ExplorerState& asked;
+    bool second_array = false;           ///< there is one to colour by
+    std::array<double, 2> whole_range{}; ///< of what is coloured by
     const FrameReport& frame;
     TimeSummary frame_times; ///< of the last frames
     double frames_per_second = 0;

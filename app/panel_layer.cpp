@@ -1,13 +1,13 @@
 // Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
 #include "app/panel_layer.h"
 
+#include "app/font.h"
 #include "render/shader.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
 #include <utility>
 #include <variant>
 
@@ -16,7 +16,6 @@ namespace {
 
 using namespace interaction;
 
-constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float kFontPixels = 15.0f;
 
 /// Keys that ImGui's text fields and sliders understand, with ours.
@@ -143,14 +142,7 @@ PanelLayer::~PanelLayer() {
 
 void PanelLayer::make_font_texture() {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-    // Latin, Greek, punctuation and superscripts, letter-like signs, mathematics: what units need.
-    static constexpr ImWchar kGlyphs[]{0x20,   0xff,   0x370,  0x3ff,  0x2010, 0x209f,
-                                       0x2100, 0x214f, 0x2190, 0x22ff, 0};
-    // The built-in bitmap font is readable but small; a desktop nearly always has this one.
-    if (std::filesystem::exists(kFontFile))
-        fonts.AddFontFromFileTTF(kFontFile, kFontPixels, nullptr, kGlyphs);
-    else
-        fonts.AddFontDefault();
+    add_font(fonts, kFontPixels);
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     fonts.GetTexDataAsRGBA32(&pixels, &width, &height);

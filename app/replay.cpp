@@ -29,6 +29,8 @@ std::vector<std::string> differences(const Commands& a, const Commands& b) {
         if (!(left == right))
             names.emplace_back(name);
     };
+    compare("isosurfaces", a.isosurfaces, b.isosurfaces);
+    compare("picked", a.picked, b.picked);
     compare("isovalue", a.isovalue, b.isovalue);
     compare("step", a.step, b.step);
     compare("playback", a.playback, b.playback);
@@ -39,6 +41,8 @@ std::vector<std::string> differences(const Commands& a, const Commands& b) {
     compare("panel", a.panel, b.panel);
     compare("grid", a.grid, b.grid);
     compare("views", a.views, b.views);
+    compare("axes", a.axes, b.axes);
+    compare("coloring", a.coloring, b.coloring);
     compare("screenshot", a.screenshot, b.screenshot);
     compare("quit", a.quit, b.quit);
     compare("stamps", a.stamps, b.stamps);

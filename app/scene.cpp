@@ -1,5 +1,8 @@
-// What one eye sees: the cells, the volume's box, the wand and what lies on the floor.
+// What one eye sees: the cells, the volume's box, the legend, the wand and what lies on the floor.
 #include "app/scene.h"
+
+#include "app/font.h"
+#include "render/driver.h"
 
 #include <array>
 
@@ -9,14 +12,20 @@ namespace {
 constexpr float kWandLength = 1.2f; // metres
 constexpr glm::vec4 kBoxColour(0.45f, 0.50f, 0.56f, 0.55f);
 constexpr glm::vec4 kWandColour(1.0f, 0.77f, 0.36f, 0.9f);
+constexpr float kFontPixels = 32.0f; ///< of glyphs, which are shown smaller
+
+bool blends_light(const render::Gl& gl, Blending blending) {
+    return blending == Blending::automatic ? !render::draws_in_software(gl)
+                                           : blending == Blending::linear;
+}
 
 } // namespace
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
-    : grid_(info.grid), bounding_box_(config.bounding_box),
-      upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame), cells_(gl, info.grid),
-      cell_pass_(gl), line_pass_(gl) {
-    appearance_.color = config.surface_colour;
+    : gl_(gl), info_(info), upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame),
+      appearance_(config.appearance), cells_(gl, info.grid), cell_pass_(gl), line_pass_(gl),
+      text_pass_(gl, room_font(kFontPixels)) {
+    appearance_.linear_light = blends_light(gl, config.blending);
 }
 
 void Scene::upload(const index::ExtractionPtr& newest) {
@@ -28,12 +37,41 @@ render::Footprint Scene::best_footprint() const {
                                                   : render::Footprint::gaussian;
 }
 
+void Scene::look(const ExplorerState& state, const interaction::Pose& head,
+                 const std::optional<ColorScale>& scale) {
+    surfaces_ = state.isosurfaces;
+    for (std::size_t i = 0; i < surfaces_.size(); ++i)
+        appearance_.surfaces[i] = {surfaces_[i].color, surfaces_[i].opacity};
+    if (scale && (!scale_ || scale_->map != scale->map))
+        map_.emplace(render::color_map_texture(gl_, scale->map));
+    scale_ = scale;
+    appearance_.values.reset();
+    if (scale) {
+        const auto share = [&](double value) {
+            const double half = scale->whole[1] / 2 - scale->whole[0] / 2;
+            return half > 0 ? static_cast<float>((value / 2 - scale->whole[0] / 2) / half) : 0.0f;
+        };
+        appearance_.values = {
+            .map = map_->name(), .low = share(scale->range[0]), .high = share(scale->range[1])};
+    }
+    box_ = state.axes;
+    axes_ =
+        box_ ? axes_for(info_, render::Placement::of(info_.grid, matrix(state.room_from_physical)),
+                        head)
+             : Axes{};
+}
+
 void Scene::draw(const render::View& view, const interaction::Similarity& room_from_physical,
                  render::Footprint footprint, const std::optional<interaction::Pose>& wand) {
-    const auto placement = render::Placement::of(grid_, matrix(room_from_physical));
-    if (bounding_box_) {
-        const auto box = render::box_lines(placement.extent, kBoxColour);
-        line_pass_.draw(view, placement.room_from_index, box);
+    const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
+    if (box_) {
+        std::vector<render::Line> lines = render::box_lines(placement.extent, kBoxColour);
+        lines.insert(lines.end(), axes_.ticks.begin(), axes_.ticks.end());
+        line_pass_.draw(view, placement.room_from_index, lines);
+        std::vector<render::ScreenQuad> quads;
+        for (const render::Label& label : axes_.labels)
+            text_pass_.set(label, text_height(view.size), quads);
+        text_pass_.draw(view, placement.room_from_index, quads);
     }
     if (!guides_.empty())
         line_pass_.draw(view, glm::mat4(1.0f), guides_);
@@ -44,6 +82,9 @@ void Scene::draw(const render::View& view, const interaction::Similarity& room_f
     if (footprint == render::Footprint::surface)
         cells_.compute_corners();
     cell_pass_.draw(view, placement, cells_, footprint, appearance_);
+    text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
+                    legend_quads({surfaces_, info_.value_unit, scale_}, text_pass_, view.size),
+                    render::TextPass::Depth::none);
 }
 
 } // namespace isochron::app

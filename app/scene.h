@@ -1,14 +1,20 @@
-// What one eye sees: the cells, the volume's box, the wand and what lies on the floor.
+// What one eye sees: the cells, the volume's box with its numbers, the legend, the wand and the
+// floor.
 #pragma once
 
+#include "app/axes.h"
 #include "app/config.h"
+#include "app/explorer_state.h"
 #include "app/guides.h"
+#include "app/legend.h"
 #include "index/volume_series.h"
 #include "render/cell_buffers.h"
 #include "render/cell_pass.h"
 #include "render/line_pass.h"
+#include "render/text_pass.h"
 #include "render/view.h"
 
+#include <array>
 #include <optional>
 
 namespace isochron::app {
@@ -28,19 +34,32 @@ class Scene {
 
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
 
+    /// What is the same for all eyes of the frames to come: colours, and the edges of the box that
+    /// carry numbers.
+    /// @param head whose view they are chosen for
+    /// @param scale of the values that colours stand for; nothing when they tell surfaces apart
+    void look(const ExplorerState& state, const interaction::Pose& head,
+              const std::optional<ColorScale>& scale);
+
     /// @param wand drawn as a ray when given
     void draw(const render::View& view, const interaction::Similarity& room_from_physical,
               render::Footprint footprint, const std::optional<interaction::Pose>& wand);
 
   private:
-    const index::Grid grid_;
-    const bool bounding_box_;
+    const render::Gl& gl_;
+    const index::SeriesInfo& info_;
     const std::size_t upload_bytes_; ///< per frame
+    bool box_ = true;
+    Axes axes_;
+    std::vector<interaction::Isosurface> surfaces_;
+    std::optional<ColorScale> scale_;
+    std::optional<render::Texture> map_; ///< the last that was needed
     render::CellAppearance appearance_;
     render::CellBuffers cells_;
     render::CellPass cell_pass_;
     render::LinePass line_pass_;
     std::vector<render::Line> guides_;
+    render::TextPass text_pass_;
 };
 
 } // namespace isochron::app

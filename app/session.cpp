@@ -2,6 +2,7 @@
 #include "app/session.h"
 
 #include "interaction/navigator.h"
+#include "render/driver.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>
@@ -31,13 +32,37 @@ class StopWatch {
     Clock::time_point last_ = Clock::now();
 };
 
+std::vector<interaction::Isosurface> first_surfaces(const Config& config,
+                                                    const index::IndexStats& stats) {
+    std::vector<interaction::Isosurface> surfaces;
+    for (const ConfiguredSurface& surface : config.surfaces)
+        surfaces.push_back({surface.isovalue.value_or(quantile(stats, surface.quantile)),
+                            surface.color, surface.opacity});
+    if (surfaces.empty())
+        surfaces.push_back({quantile(stats, kFirstQuantile), config.surface_colour, 1.0f});
+    return surfaces;
+}
+
+/// @throws render::Error when this GL has fewer
+int samples_of(const Config& config, const render::Gl& gl) {
+    constexpr int kOnGpu = 4;
+    if (config.samples == 0)
+        return render::draws_in_software(gl) ? 1 : std::min(kOnGpu, render::max_samples(gl));
+    if (config.samples > render::max_samples(gl))
+        throw render::Error(fmt::format("rendering.samples: expected 0 to {} with this GL, got {}",
+                                        render::max_samples(gl), config.samples));
+    return config.samples;
+}
+
 ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     ExplorerState state;
-    state.isovalue = first_isovalue(file.stats());
     state.room_from_physical = place(file.info(), config.placement);
     state.quality = config.quality;
     state.grid = config.grid;
     state.eye_separation = config.installation.viewers.front().eye_separation;
+    state.isosurfaces = first_surfaces(config, file.stats());
+    state.coloring = config.coloring;
+    state.axes = config.bounding_box;
     state.stereo = config.installation.windows.front().stereo;
     return state;
 }
@@ -64,7 +89,8 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       quality_(gl_, config_, windows_.first().refresh_rate()) {
     const stereo::DisplayOptions options{.near_plane = config_.installation.near_plane,
                                          .far_plane = config_.installation.far_plane,
-                                         .background = config_.background};
+                                         .background = config_.background,
+                                         .samples = samples_of(config_, gl_)};
     for (std::size_t i = 0; i < windows_.count(); ++i)
         displays_.emplace_back(gl_, windows_.drawing(), windows_[i],
                                config_.installation.windows[i], options);
@@ -76,7 +102,12 @@ Session::~Session() = default;
 
 interaction::ControlContext Session::control_context() const {
     interaction::ControlContext context;
-    context.isovalue = state_.isovalue;
+    context.isovalue = state_.isovalue();
+    context.isosurfaces = static_cast<std::uint32_t>(state_.isosurfaces.size());
+    context.picked = state_.picked;
+    context.coloring = state_.coloring;
+    context.axes = state_.axes;
+    context.has_second_array = file_->color() != nullptr;
     context.low = file_->stats().low;
     context.high = file_->stats().high;
     context.step = state_.step;
@@ -168,6 +199,9 @@ Session::Picture Session::picture(const interaction::InputState& input) const {
             .stereo = state_.stereo,
             .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
             .cells = scene_.shown(),
+            .isosurfaces = state_.isosurfaces,
+            .scale = color_scale(state_, *file_),
+            .axes = state_.axes,
             .windows = window_sizes()};
 }
 
@@ -195,6 +229,7 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     if (report.redrawn) {
         quality_.begin(log_.next());
         scene_.set_guides(now.guides);
+        scene_.look(state_, now.viewers.front().head, now.scale);
     }
     for (std::size_t i = 0; i < displays_.size(); ++i) {
         // The panel lies over one window.
@@ -227,9 +262,12 @@ void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
     if (std::exchange(panel_drawn_, true))
         return panel_.draw_again(size);
     const auto times = log_.stage(&FrameReport::total, kShownFrames);
+    const auto scale = color_scale(state_, *file_);
     const PanelModel model{.info = file_->info(),
                            .stats = file_->stats(),
                            .asked = state_,
+                           .second_array = file_->color() != nullptr,
+                           .whole_range = scale ? scale->whole : std::array{0.0, 0.0},
                            .frame = report,
                            .frame_times = times,
                            .frames_per_second = log_.frames_per_second(kShownFrames),

@@ -91,6 +91,9 @@ class Session {
         stereo::StereoMode stereo{};
         render::Footprint footprint{};
         index::ExtractionPtr cells;
+        std::vector<interaction::Isosurface> isosurfaces;
+        std::optional<ColorScale> scale;
+        bool axes = true;
         std::vector<glm::ivec2> windows;
         bool operator==(const Picture&) const = default;
     };

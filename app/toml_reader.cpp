@@ -136,11 +136,17 @@ std::vector<double> TomlReader::numbers(std::string_view key, const toml::node& 
     return values;
 }
 
-void TomlReader::vector(std::string_view key, glm::vec2& into) {
+void TomlReader::vector(std::string_view key, glm::dvec2& into) {
     if (const toml::node* node = get(key)) {
         const auto v = numbers(key, *node, 2);
-        into = glm::vec2(v[0], v[1]);
+        into = {v[0], v[1]};
     }
+}
+
+void TomlReader::vector(std::string_view key, glm::vec2& into) {
+    glm::dvec2 wide(into);
+    vector(key, wide);
+    into = glm::vec2(wide);
 }
 
 void TomlReader::vector(std::string_view key, glm::vec3& into) {

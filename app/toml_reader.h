@@ -38,6 +38,7 @@ class TomlReader {
     void flag(std::string_view key, bool& into);
     void text(std::string_view key, std::string& into);
     void vector(std::string_view key, glm::vec2& into);
+    void vector(std::string_view key, glm::dvec2& into);
     void vector(std::string_view key, glm::vec3& into);
     /// An array of at most `longest` numbers in [low, high].
     void list(std::string_view key, double low, double high, std::size_t longest,

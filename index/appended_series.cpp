@@ -10,23 +10,28 @@
 namespace isochron::index {
 namespace {
 
+/// One step of what the index holds.
+using Load = LoadedStep (IndexFile::*)(std::uint32_t) const;
+
 class AppendedSeries final : public VolumeSeries {
   public:
-    AppendedSeries(std::shared_ptr<const IndexFile> index, std::unique_ptr<VolumeSeries> all)
-        : index_(std::move(index)), all_(std::move(all)) {}
+    AppendedSeries(std::shared_ptr<const IndexFile> index, std::unique_ptr<VolumeSeries> all,
+                   Load load)
+        : index_(std::move(index)), all_(std::move(all)), load_(load) {}
 
     const SeriesInfo& info() const override { return all_->info(); }
 
     void read(std::size_t step, std::span<std::byte> out) override {
         if (step >= index_->info().steps())
             return all_->read(step, out);
-        const LoadedStep held = index_->load(static_cast<std::uint32_t>(step));
+        const LoadedStep held = ((*index_).*load_)(static_cast<std::uint32_t>(step));
         std::memcpy(out.data(), held.values.step_bytes(step).data(), out.size());
     }
 
   private:
     std::shared_ptr<const IndexFile> index_;
     std::unique_ptr<VolumeSeries> all_;
+    Load load_;
 };
 
 template <class T>
@@ -52,7 +57,26 @@ std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
                            held.sources.empty() ? "?" : held.sources.back()));
     if (given.steps() == held.steps())
         return nullptr;
-    return std::make_unique<AppendedSeries>(std::move(index), std::move(all));
+    return std::make_unique<AppendedSeries>(std::move(index), std::move(all), &IndexFile::load);
+}
+
+std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> index,
+                                               const std::string& name,
+                                               std::unique_ptr<VolumeSeries> all) {
+    const ColorArray* held = index->color();
+    const std::string given = all ? all->info().array : "";
+    if ((held ? held->array : "") != given)
+        throw Error(fmt::format("{}: cannot be appended to: it holds {}, {} given", name,
+                                held ? "the colours " + held->array : "no colours",
+                                all ? "the colours " + given : "none"));
+    if (!all)
+        return nullptr;
+    if (held->type != all->info().type || held->scaling != all->info().scaling)
+        throw Error(fmt::format("{}: cannot be appended to: its colours {} differ in type or "
+                                "scaling",
+                                name, given));
+    return std::make_unique<AppendedSeries>(std::move(index), std::move(all),
+                                            &IndexFile::load_color);
 }
 
 } // namespace isochron::index

@@ -47,13 +47,16 @@ FileHeader checked_header(const std::string& name, std::span<const std::byte> fi
         throw Error(fmt::format("{}: {}: {} bytes, the header says {}", name,
                                 file.size() < header.file_bytes ? "truncated" : "wrong size",
                                 file.size(), header.file_bytes));
-    for (std::size_t i = 0; i < header.sections.size(); ++i) {
-        const Section& section = header.sections[i];
+    const auto expect_inside = [&](const Section& section, const char* called) {
         if (section.offset % kPartAlignment || section.offset < kSectionAlignment ||
             section.offset > file.size() || section.bytes > file.size() - section.offset)
-            throw Error(fmt::format("{}: damaged header: section {} lies outside the file", name,
-                                    kSectionNames[i]));
-    }
+            throw Error(
+                fmt::format("{}: damaged header: section {} lies outside the file", name, called));
+    };
+    for (std::size_t i = 0; i < header.sections.size(); ++i)
+        expect_inside(header.sections[i], kSectionNames[i]);
+    if (header.colors.bytes > 0)
+        expect_inside(header.colors, "colours");
     return header;
 }
 

@@ -63,13 +63,17 @@ struct FileHeader {
     std::uint64_t content_hash = 0;
     std::array<Section, kSectionNames.size()> sections{};
     std::uint64_t checksum = 0; ///< XXH3 of the 4096 header bytes with this field 0
+    /// Behind what every index has, since few have it: the array to colour by, in an otherwise
+    /// empty stretch between sections; all zero when there is none. The checksum is that of its
+    /// table of checksums.
+    Section colors{};
 
     Section& section(SectionKind kind) { return sections[static_cast<std::size_t>(kind)]; }
     const Section& section(SectionKind kind) const {
         return sections[static_cast<std::size_t>(kind)];
     }
 };
-static_assert(sizeof(FileHeader) == 32 + kSectionNames.size() * 24 + 8);
+static_assert(sizeof(FileHeader) == 32 + kSectionNames.size() * 24 + 8 + 24);
 
 constexpr std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
     return (value + alignment - 1) / alignment * alignment;

@@ -2,6 +2,8 @@
 #include "index/index_build.h"
 
 #include "index/bricks.h"
+#include "index/color_array.h"
+#include "index/color_pass.h"
 #include "index/error.h"
 #include "index/file_layout.h"
 #include "index/mapped_file.h"
@@ -121,6 +123,7 @@ class Build {
         });
         write_bricks();
         write_cells();
+        write_colors();
         team_.together([&] {
             if (team_.rank() == 0)
                 write_rest();
@@ -203,6 +206,20 @@ class Build {
         append_checksums(units.checksums);
     }
 
+    void write_colors() {
+        if (!options_.color)
+            return;
+        Section& section = header_.colors;
+        section.offset = align_up(end_, kSectionAlignment);
+        section.bytes =
+            ColorSection::bytes(metadata_.info, options_.color->info().type, !options_.referral);
+        end_ = section.offset + section.bytes;
+        metadata_.color = read_colors(*options_.color, *file_, section.offset, !options_.referral,
+                                      team_, progress_, section.checksum);
+        metadata_.color->chosen_array = options_.color_array;
+        metadata_.color->chosen_component = options_.color_component;
+    }
+
     void append_checksums(const std::vector<std::uint64_t>& more) {
         checksums_.insert(checksums_.end(), more.begin(), more.end());
     }
@@ -253,6 +270,8 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
         check_limits(info);
         if (options.tiers)
             check_tiers(info.grid, *options.tiers);
+        if (options.color)
+            expect_colors_of(options.color->info(), info);
     } catch (const Error& error) {
         throw Error(fmt::format("{}: {}", info.sources.empty() ? "series" : info.sources.front(),
                                 error.what()));

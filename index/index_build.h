@@ -15,6 +15,10 @@ struct BuildOptions {
     unsigned threads = 0; ///< 0 for as many as there are processors
     /// When set the file refers to these instead of carrying a copy of the values.
     std::optional<Referral> referral = {};
+    /// Carried to colour surfaces by: another array of the same files. Outlives the build.
+    VolumeSeries* color = nullptr;
+    /// What picks it in the files, for an index that refers to them.
+    std::optional<std::string> color_array = {}, color_component = {};
 };
 
 /// Reads a series once and writes NAME.isochron under a temporary name, then renames it.

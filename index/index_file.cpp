@@ -3,6 +3,7 @@
 
 #include "index/bricks.h"
 #include "index/chunking.h"
+#include "index/color_array.h"
 #include "index/error.h"
 #include "index/file_layout.h"
 #include "index/mapped_file.h"
@@ -47,7 +48,9 @@ class MappedIndex : public IndexFile {
                 path, metadata_.info, *metadata_.referral,
                 std::vector<std::uint64_t>(checksums().begin(),
                                            checksums().begin() + std::ptrdiff_t(steps())));
+        set_colors(path);
         IndexStats& stats = metadata_.stats;
+        stats.color_bytes = header_.colors.bytes;
         stats.file_bytes = header_.file_bytes;
         stats.volume_bytes = header_.section(SectionKind::volume).bytes;
         stats.bricks_bytes = header_.section(SectionKind::bricks).bytes;
@@ -83,6 +86,11 @@ class MappedIndex : public IndexFile {
         const auto bytes = section(SectionKind::bricks).subspan(step * brick_stride_, brick_bytes_);
         return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
     }
+
+    const ColorArray* color() const override {
+        return metadata_.color ? &*metadata_.color : nullptr;
+    }
+    LoadedStep load_color(std::uint32_t step) const override { return colors_->load(step); }
 
     const CellTier* cells() const override { return cells_ ? &*cells_ : nullptr; }
 
@@ -128,6 +136,10 @@ class MappedIndex : public IndexFile {
             cells_->verify();
         if (metadata_.plan.tiers.has(Tier::tree))
             check(SectionKind::tree);
+        for (std::uint32_t step = 0; colors_ && step < steps(); ++step)
+            if (!colors_->matches(step))
+                throw damaged(
+                    fmt::format("the checksum of the colours of step {} does not match", step));
         check_gaps();
     }
 
@@ -183,6 +195,9 @@ class MappedIndex : public IndexFile {
         for (const SectionKind kind : {SectionKind::tree, SectionKind::directory,
                                        SectionKind::checksums, SectionKind::metadata})
             use(kind, 0, header_.section(kind).bytes);
+        if (colors_)
+            for (const auto& [offset, bytes] : colors_->parts())
+                used.emplace_back(header_.colors.offset + offset, bytes);
         std::sort(used.begin(), used.end());
         std::uint64_t end = 0;
         for (const auto& [offset, bytes] : used) {
@@ -258,12 +273,31 @@ class MappedIndex : public IndexFile {
         cells_.emplace(Chunking(grid), static_cast<std::uint32_t>(steps()), cells, deltas);
     }
 
+    void set_colors(const std::filesystem::path& path) {
+        const Section& section = header_.colors;
+        if (metadata_.color.has_value() != (section.bytes > 0))
+            throw damaged(metadata_.color ? "no section of colours" : "colours of no array");
+        if (!metadata_.color)
+            return;
+        const auto bytes = file_.bytes().subspan(section.offset, section.bytes);
+        const std::uint64_t table = steps() * sizeof(std::uint64_t);
+        if (bytes.size() < table || checksum_of(bytes.first(table)) != section.checksum)
+            throw damaged("the checksum of the table of colours does not match");
+        try {
+            colors_ = std::make_unique<ColorSection>(bytes, path, metadata_.info, *metadata_.color,
+                                                     metadata_.referral);
+        } catch (const Error& error) {
+            throw damaged(error.what());
+        }
+    }
+
     std::string name_;
     MappedFile file_;
     FileHeader header_;
     Metadata metadata_;
     StepValues values_; ///< unless it refers to its sources
     std::unique_ptr<StepSource> source_;
+    std::unique_ptr<ColorSection> colors_;
     std::uint64_t brick_bytes_ = 0, brick_stride_ = 0;
     std::span<const UnitEntry> directory_;
     std::optional<CellTier> cells_;

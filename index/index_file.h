@@ -22,10 +22,22 @@ struct IndexStats {
     std::uint64_t nan_values = 0;         ///< vertex-steps that are NaN
     std::vector<std::uint64_t> histogram; ///< kHistogramBins equal bins over [low, high], all steps
     std::uint64_t file_bytes = 0, volume_bytes = 0, bricks_bytes = 0, cells_bytes = 0,
-                  deltas_bytes = 0, tree_bytes = 0;
+                  deltas_bytes = 0, tree_bytes = 0, color_bytes = 0;
     std::uint64_t cell_entries = 0; ///< stored (cell, extremes, time node) of the tier cells
 
     std::uint64_t bytes_of(Tier tier) const;
+};
+
+/// A second array of the same grid and times, which surfaces may be coloured by.
+struct ColorArray {
+    std::string array; ///< its name, with its component
+    std::string value_unit;
+    ValueType type = ValueType::f32;
+    Scaling scaling;
+    double low = 0, high = 0; ///< range of the finite scaled values, over all steps
+    std::uint64_t nan_values = 0;
+    /// What picks it in the files: `ReadOptions::array` and `component`.
+    std::optional<std::string> chosen_array = {}, chosen_component = {};
 };
 
 /// Where the values are when the file has no copy of them.
@@ -61,6 +73,11 @@ class IndexFile {
     /// One step; decoded from its source where the file refers to it: not for the thread that
     /// draws. @throws Error when a source cannot be read or is not as it was
     virtual LoadedStep load(std::uint32_t step) const = 0;
+
+    /// Null when the index carries no array to colour by.
+    virtual const ColorArray* color() const = 0;
+    /// One step of it, as `load`. There must be one.
+    virtual LoadedStep load_color(std::uint32_t step) const = 0;
 
     // Null or empty where the plan does without them.
     virtual std::span<const std::uint8_t> bricks(std::uint32_t step) const = 0;

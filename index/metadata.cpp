@@ -191,6 +191,40 @@ Referral referral_of(const json& j) {
     return referral;
 }
 
+json json_of(const ColorArray& color) {
+    json j{{"array", color.array},
+           {"value_unit", color.value_unit},
+           {"type", name_of(color.type)},
+           {"slope", color.scaling.slope},
+           {"intercept", color.scaling.intercept},
+           {"low", color.low},
+           {"high", color.high},
+           {"nan_values", color.nan_values}};
+    put_optional(j, "chosen_array", color.chosen_array);
+    put_optional(j, "chosen_component", color.chosen_component);
+    return j;
+}
+
+ColorArray color_of(const json& j) {
+    ColorArray color;
+    j.at("array").get_to(color.array);
+    j.at("value_unit").get_to(color.value_unit);
+    const auto type = value_type_from_name(j.at("type").get<std::string>());
+    if (!type)
+        throw Error("unknown type of colours");
+    color.type = *type;
+    j.at("slope").get_to(color.scaling.slope);
+    j.at("intercept").get_to(color.scaling.intercept);
+    j.at("low").get_to(color.low);
+    j.at("high").get_to(color.high);
+    if (!(color.low <= color.high) || !std::isfinite(color.low) || !std::isfinite(color.high))
+        throw Error(fmt::format("colours from {} to {}", color.low, color.high));
+    color.nan_values = whole<std::uint64_t>(j.at("nan_values"));
+    get_optional(j, "chosen_array", color.chosen_array);
+    get_optional(j, "chosen_component", color.chosen_component);
+    return color;
+}
+
 } // namespace
 
 void check_limits(const SeriesInfo& info) {
@@ -255,6 +289,8 @@ std::string to_json(const Metadata& metadata) {
     };
     if (metadata.referral)
         j["referral"] = json_of(*metadata.referral);
+    if (metadata.color)
+        j["color"] = json_of(*metadata.color);
     // File names may be any bytes; JSON may not.
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -278,6 +314,8 @@ Metadata metadata_from_json(std::string_view text) try {
     metadata.tree.max_variation = whole<std::uint32_t>(tree.at("max_variation"));
     if (j.contains("referral"))
         metadata.referral = referral_of(j.at("referral"));
+    if (j.contains("color"))
+        metadata.color = color_of(j.at("color"));
     return metadata;
 } catch (const json::exception& error) {
     throw Error(error.what());

@@ -16,6 +16,7 @@ struct Metadata {
     std::optional<LevelMap> levels = {}; ///< always set once the values are known
     ThiOptions tree = {};
     std::optional<Referral> referral = {};
+    std::optional<ColorArray> color = {};
 };
 
 /// Same metadata, same text: keys are sorted, numbers round-trip.

@@ -19,6 +19,18 @@ void for_each_scaled(ValueType type, Scaling scaling, std::span<const std::byte>
 
 } // namespace
 
+ValueRange agreed_range(const ValueRange& mine, Team& team) {
+    ValueRange all;
+    for (const ValueRange& range : team.gather_values(mine)) {
+        all.low = std::min(all.low, range.low);
+        all.high = std::max(all.high, range.high);
+        all.nan_values += range.nan_values;
+    }
+    if (all.low > all.high)
+        all.low = all.high = 0;
+    return all;
+}
+
 void add_range(ValueType type, Scaling scaling, std::span<const std::byte> stored, double& low,
                double& high, std::uint64_t& nan_values) {
     double least = low, greatest = high;

@@ -2,8 +2,20 @@
 #pragma once
 
 #include "index/index_file.h"
+#include "index/team.h"
+
+#include <limits>
 
 namespace isochron::index {
+
+/// Of the finite scaled values seen so far; `low` is above `high` while there are none.
+struct ValueRange {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    std::uint64_t nan_values = 0;
+};
+
+/// What all members of a team have seen together; 0 to 0 where none saw a finite value.
+ValueRange agreed_range(const ValueRange& mine, Team& team);
 
 /// Extends the range by one step's finite scaled values and counts its NaN. Call with `low` =
 /// infinity and `high` = -infinity at first.

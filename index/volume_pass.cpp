@@ -9,15 +9,9 @@
 
 #include <algorithm>
 #include <future>
-#include <limits>
 
 namespace isochron::index {
 namespace {
-
-struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    std::uint64_t nan_values = 0;
-};
 
 /// What one member has seen of its steps.
 class Observer {
@@ -35,14 +29,7 @@ class Observer {
     }
 
     VolumeFindings agreed(Team& team) {
-        Range all;
-        for (const Range& range : team.gather_values(range_)) {
-            all.low = std::min(all.low, range.low);
-            all.high = std::max(all.high, range.high);
-            all.nan_values += range.nan_values;
-        }
-        if (all.low > all.high)
-            all.low = all.high = 0; // no finite value at all
+        const ValueRange all = agreed_range(range_, team);
         LevelChooser chooser(info_.type);
         const std::vector<std::uint64_t> seen = chooser_.state();
         for (const auto& bytes : team.gather(std::as_bytes(std::span(seen)))) {
@@ -56,7 +43,7 @@ class Observer {
     const SeriesInfo& info_;
     NewFile& file_;
     std::uint64_t offset_;
-    Range range_;
+    ValueRange range_;
     LevelChooser chooser_;
     std::vector<std::uint64_t> checksums_;
 };

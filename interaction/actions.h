@@ -55,6 +55,9 @@ enum class Action : std::uint8_t {
     save_view,
     next_view,
     grid,
+    axes,
+    next_surface,
+    next_coloring,
     count
 };
 
@@ -132,7 +135,8 @@ std::span<const ControlLine> control_lines();
 constexpr std::uint64_t quiet_actions() {
     return bit(Action::shift) | bit(Action::control) | bit(Action::quality_auto) |
            bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::screenshot) |
-           bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) | bit(Action::save_view);
+           bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) | bit(Action::save_view) |
+           bit(Action::axes) | bit(Action::next_surface);
 }
 
 } // namespace isochron::interaction

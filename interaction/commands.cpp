@@ -17,6 +17,11 @@ bool Commands::empty() const {
 }
 
 void merge(Commands& into, const Commands& later) {
+    // A list that comes later has its isovalues itself.
+    if (later.isosurfaces || later.picked)
+        into.isovalue.reset();
+    override_with(into.isosurfaces, later.isosurfaces);
+    override_with(into.picked, later.picked);
     override_with(into.isovalue, later.isovalue);
     override_with(into.step, later.step);
     override_with(into.playback, later.playback);
@@ -27,6 +32,8 @@ void merge(Commands& into, const Commands& later) {
     override_with(into.panel, later.panel);
     override_with(into.grid, later.grid);
     override_with(into.views, later.views);
+    override_with(into.axes, later.axes);
+    override_with(into.coloring, later.coloring);
     into.screenshot = into.screenshot || later.screenshot;
     into.quit = into.quit || later.quit;
     into.stamps.insert(into.stamps.end(), later.stamps.begin(), later.stamps.end());

@@ -3,9 +3,14 @@
 
 #include "interaction/pose.h"
 
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace isochron::interaction {
@@ -33,8 +38,37 @@ struct Viewpoint {
 };
 inline constexpr std::size_t kMostViews = 64;
 
+inline constexpr std::size_t kMostIsosurfaces = 8;
+
+/// One of the surfaces that are shown together.
+struct Isosurface {
+    double isovalue = 0;
+    glm::vec3 color{0.94f, 0.86f, 0.70f}; ///< sRGB, 0 to 1
+    float opacity = 1.0f;                 ///< 0 to 1
+    bool operator==(const Isosurface&) const = default;
+};
+
+/// What the colours on the surfaces say.
+enum class ColorBy : std::uint8_t {
+    surface,       ///< which surface it is: `surface`
+    value,         ///< the second array that the index carries: `value`
+    first_crossing ///< when a surface of this isovalue first came by: `first_crossing`
+};
+inline constexpr std::array<std::string_view, 3> kColorByNames{"surface", "value",
+                                                               "first_crossing"};
+
+struct Coloring {
+    ColorBy by = ColorBy::surface;
+    std::string map = "lagoon"; ///< a colour map's name
+    /// Values at the ends of the map, ascending; all that occur in the series when there is none.
+    std::optional<std::array<double, 2>> range;
+    bool operator==(const Coloring&) const = default;
+};
+
 /// Absolute results, not increments: applying them again changes nothing.
 struct Commands {
+    std::optional<std::vector<Isosurface>> isosurfaces; ///< all of them, 1 to kMostIsosurfaces
+    std::optional<std::uint32_t> picked; ///< the surface that `isovalue` moves, counted from 0
     std::optional<double> isovalue;
     std::optional<std::uint32_t> step;
     std::optional<PlaybackState> playback;
@@ -45,6 +79,8 @@ struct Commands {
     std::optional<bool> panel;                   ///< panel shown
     std::optional<bool> grid;                    ///< floor grid shown
     std::optional<std::vector<Viewpoint>> views; ///< all saved ones, at most kMostViews
+    std::optional<bool> axes;                    ///< the box, its ticks and numbers shown
+    std::optional<Coloring> coloring;
     bool screenshot = false;
     bool quit = false;
     std::vector<std::string> stamps; ///< named moments of a recording

@@ -79,10 +79,69 @@ QualityMode quality_from(const json& value) {
     return static_cast<QualityMode>(found - kQualityNames.begin());
 }
 
+json isosurfaces_json(const std::vector<Isosurface>& surfaces) {
+    json result = json::array();
+    for (const Isosurface& surface : surfaces)
+        result.push_back({{"isovalue", surface.isovalue},
+                          {"color", {surface.color.x, surface.color.y, surface.color.z}},
+                          {"opacity", surface.opacity}});
+    return result;
+}
+
+float share(const json& value, std::string_view where) {
+    return static_cast<float>(number(value, where, 0.0, 1.0));
+}
+
+std::vector<Isosurface> isosurfaces_from(const json& value) {
+    std::vector<Isosurface> surfaces;
+    for (const json& one : list(value, "isosurfaces", 1, kMostIsosurfaces)) {
+        Members members(one, "isosurface");
+        Isosurface& surface = surfaces.emplace_back();
+        surface.isovalue = number(members.at("isovalue"), "isovalue");
+        const json& color = list(members.at("color"), "color", 3, 3);
+        for (int channel = 0; channel < 3; ++channel)
+            surface.color[channel] = share(color[channel], "color");
+        surface.opacity = share(members.at("opacity"), "opacity");
+        members.done({"isovalue", "color", "opacity"});
+    }
+    return surfaces;
+}
+
+json coloring_json(const Coloring& coloring) {
+    json result{{"by", kColorByNames[static_cast<std::size_t>(coloring.by)]},
+                {"map", coloring.map}};
+    if (coloring.range)
+        result["range"] = *coloring.range;
+    return result;
+}
+
+Coloring coloring_from(const json& value) {
+    Members members(value, "coloring");
+    Coloring coloring;
+    const json& by = members.at("by");
+    const auto found = std::ranges::find(kColorByNames, text(by, "by"));
+    if (found == kColorByNames.end())
+        fail("by", "surface, value or first_crossing", by);
+    coloring.by = static_cast<ColorBy>(found - kColorByNames.begin());
+    coloring.map = text(members.at("map"), "map", kLongestName);
+    if (const json* range = members.find("range")) {
+        list(*range, "range", 2, 2);
+        coloring.range = {number((*range)[0], "range"), number((*range)[1], "range")};
+        if (!((*coloring.range)[0] < (*coloring.range)[1]))
+            fail("range", "two ascending numbers", *range);
+    }
+    members.done({"by", "map", "range"});
+    return coloring;
+}
+
 } // namespace
 
 json commands_json(const Commands& commands) {
     json result = json::object();
+    if (commands.isosurfaces)
+        result["isosurfaces"] = isosurfaces_json(*commands.isosurfaces);
+    if (commands.picked)
+        result["picked"] = *commands.picked;
     if (commands.isovalue)
         result["isovalue"] = *commands.isovalue;
     if (commands.step)
@@ -106,6 +165,10 @@ json commands_json(const Commands& commands) {
         result["grid"] = *commands.grid;
     if (commands.views)
         result["views"] = views_json(*commands.views);
+    if (commands.axes)
+        result["axes"] = *commands.axes;
+    if (commands.coloring)
+        result["coloring"] = coloring_json(*commands.coloring);
     if (commands.screenshot)
         result["screenshot"] = true;
     if (commands.quit)
@@ -118,6 +181,11 @@ json commands_json(const Commands& commands) {
 Commands commands_from(const json& value, std::string_view where) {
     Members members(value, where);
     Commands commands;
+    if (const json* found = members.find("isosurfaces"))
+        commands.isosurfaces = isosurfaces_from(*found);
+    if (const json* found = members.find("picked"))
+        commands.picked =
+            static_cast<std::uint32_t>(natural(*found, "picked", kMostIsosurfaces - 1));
     if (const json* found = members.find("isovalue"))
         commands.isovalue = number(*found, "isovalue");
     if (const json* found = members.find("step"))
@@ -140,6 +208,10 @@ Commands commands_from(const json& value, std::string_view where) {
         commands.grid = boolean(*found, "grid");
     if (const json* found = members.find("views"))
         commands.views = views_from(*found);
+    if (const json* found = members.find("axes"))
+        commands.axes = boolean(*found, "axes");
+    if (const json* found = members.find("coloring"))
+        commands.coloring = coloring_from(*found);
     if (const json* found = members.find("screenshot"))
         commands.screenshot = boolean(*found, "screenshot");
     if (const json* found = members.find("quit"))
@@ -147,8 +219,9 @@ Commands commands_from(const json& value, std::string_view where) {
     if (const json* found = members.find("stamps"))
         for (const json& stamp : list(*found, "stamps", 0, kMostStamps))
             commands.stamps.push_back(text(stamp, "stamps", kLongestName));
-    members.done({"isovalue", "step", "playback", "room_from_physical", "quality", "eye_separation",
-                  "stereo", "panel", "grid", "views", "screenshot", "quit", "stamps"});
+    members.done({"isosurfaces", "picked", "isovalue", "step", "playback", "room_from_physical",
+                  "quality", "eye_separation", "stereo", "panel", "grid", "views", "axes",
+                  "coloring", "screenshot", "quit", "stamps"});
     return commands;
 }
 

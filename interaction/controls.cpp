@@ -41,6 +41,14 @@ struct Repeat {
     }
 };
 
+/// The next thing to colour by. A range belongs to what is coloured by, so it goes.
+Coloring after(const Coloring& coloring, bool has_second_array) {
+    const auto next =
+        static_cast<ColorBy>((static_cast<std::size_t>(coloring.by) + 1) % kColorByNames.size());
+    const bool skipped = next == ColorBy::value && !has_second_array;
+    return {skipped ? ColorBy::first_crossing : next, coloring.map, std::nullopt};
+}
+
 } // namespace
 
 struct Controls::State {
@@ -154,6 +162,12 @@ struct Controls::State {
             const bool wraps = found == modes.end() || found + 1 == modes.end();
             commands.stereo = wraps ? modes.front() : *(found + 1);
         }
+        if (pressed(now, Action::axes))
+            commands.axes = !context.axes;
+        if (pressed(now, Action::next_surface) && context.isosurfaces > 1)
+            commands.picked = (context.picked + 1) % context.isosurfaces;
+        if (pressed(now, Action::next_coloring))
+            commands.coloring = after(context.coloring, context.has_second_array);
         if (pressed(now, Action::panel))
             commands.panel = !context.panel;
         if (pressed(now, Action::grid))

@@ -25,7 +25,11 @@ struct ControlContext {
     std::string stereo;
     bool panel = true;
     bool grid = false;
-    std::vector<Viewpoint> const* views = nullptr;          ///< saved so far; may be null
+    std::vector<Viewpoint> const* views = nullptr; ///< saved so far; may be null
+    bool axes = true;
+    std::uint32_t isosurfaces = 1, picked = 0; ///< how many there are, and the one that is moved
+    Coloring coloring;
+    bool has_second_array = false;                          ///< something to colour by
     std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
 };
 

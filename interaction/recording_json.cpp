@@ -223,6 +223,14 @@ void require_finite(const RecordedFrame& frame) {
             require(std::isfinite(valuator), device.name);
     }
     for (const Commands* commands : {&frame.commands, &frame.from_panel}) {
+        for (const Isosurface& surface : commands->isosurfaces.value_or(std::vector<Isosurface>()))
+            require(std::isfinite(surface.isovalue) && std::isfinite(surface.opacity) &&
+                        std::isfinite(surface.color.x + surface.color.y + surface.color.z),
+                    "isosurfaces");
+        require(!commands->coloring || !commands->coloring->range ||
+                    (std::isfinite((*commands->coloring->range)[0]) &&
+                     std::isfinite((*commands->coloring->range)[1])),
+                "coloring");
         require(!commands->isovalue || std::isfinite(*commands->isovalue), "isovalue");
         require(!commands->room_from_physical || is_valid(*commands->room_from_physical),
                 "room_from_physical");

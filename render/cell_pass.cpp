@@ -2,6 +2,7 @@
 #include "render/cell_pass.h"
 
 #include "render/shader.h"
+#include "render/srgb.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -25,21 +26,25 @@ struct EyeBlock {
     glm::vec4 clip_per_pixel;
     glm::vec4 viewport;
     glm::vec4 depth_cue;
+    glm::vec4 key_light;
+    glm::vec4 up;
 };
 struct Frame {
     std::array<EyeBlock, 2> eyes;
-    glm::vec4 color;
+    std::array<glm::vec4, kMaxSurfaces> surfaces;
+    glm::vec4 no_value;
     glm::vec4 light;
+    glm::vec4 material;
+    glm::vec2 color_range;
+    std::int32_t colored;
+    std::int32_t linear_light;
     float radius;
     std::int32_t ordered;
     std::int32_t soft_near_eye;
     float padding = 0.0f;
 };
-static_assert(sizeof(Frame) == 2 * (3 * 64 + 7 * 16) + 3 * 16);
-
-glm::vec3 linear_light(const glm::vec3& display) {
-    return {std::pow(display.x, 2.2f), std::pow(display.y, 2.2f), std::pow(display.z, 2.2f)};
-}
+static_assert(sizeof(Frame) == 2 * (3 * 64 + 9 * 16) + (kMaxSurfaces + 5) * 16);
+constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
 
 /// The depth cue runs from the near to the far end of the volume's bounding sphere.
 glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, float strength) {
@@ -55,7 +60,8 @@ glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, fl
     return {near, 1.0f / std::max(far - near, 1e-6f), strength, 0.0f};
 }
 
-EyeBlock eye_block(const View& view, const Placement& placement, float depth_cue_strength) {
+EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance) {
+    const glm::mat3 eye_from_room(view.eye_from_room);
     const glm::mat4 eye_from_index = view.eye_from_room * placement.room_from_index;
     const bool parallel = view.clip_from_eye[3][3] == 1.0f;
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
@@ -80,8 +86,54 @@ EyeBlock eye_block(const View& view, const Placement& placement, float depth_cue
                         (parallel ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1)),
         .clip_per_pixel = glm::vec4(1.0f / half_size, 0.0f, 0.0f),
         .viewport = glm::vec4(view.corner, view.size),
-        .depth_cue = depth_cue(eye_from_index, placement.extent, depth_cue_strength),
+        .depth_cue = depth_cue(eye_from_index, placement.extent, appearance.depth_cue),
+        .key_light = glm::vec4(glm::normalize(eye_from_room * appearance.key_direction), 0.0f),
+        .up = glm::vec4(eye_from_room * glm::vec3(0, 1, 0), 0.0f),
     };
+}
+
+/// The part of the block that is the same for every eye.
+Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
+               bool blended) {
+    const bool gaussian = footprint == Footprint::gaussian;
+    Frame frame{
+        .eyes = {},
+        .surfaces = {},
+        .no_value = {},
+        .light = {look.ambient, look.head_light, look.key_light, 0.0f},
+        .material = {look.reflectance, look.shininess, look.ground, look.outline},
+        .color_range = {},
+        .colored = look.values.has_value(),
+        .linear_light = blended && look.linear_light,
+        .radius = 0.5f * (gaussian ? shapes.gaussian_diameter : shapes.quad_diameter),
+        .ordered = blended,
+        .soft_near_eye = gaussian,
+    };
+    for (std::size_t i = 0; i < kMaxSurfaces; ++i) {
+        const auto& [color, opacity] = look.surfaces[i];
+        frame.surfaces[i] =
+            glm::vec4(linear_from_srgb(color),
+                      gaussian ? splat_opacity(opacity, shapes.gaussian_sigma) : opacity);
+    }
+    if (look.values) {
+        const float width = std::max(look.values->high - look.values->low, 1e-6f);
+        frame.no_value = glm::vec4(linear_from_srgb(look.values->no_value), 1.0f);
+        frame.color_range = {1.0f / width, -look.values->low / width};
+    }
+    return frame;
+}
+
+/// The dilogarithm of 0 to 1, for the larger half by Euler's reflection.
+float dilogarithm(float x) {
+    constexpr float kOfOne = std::numbers::pi_v<float> * std::numbers::pi_v<float> / 6.0f;
+    if (x >= 1.0f)
+        return kOfOne;
+    if (x > 0.5f)
+        return kOfOne - std::log(x) * std::log1p(-x) - dilogarithm(1.0f - x);
+    float sum = 0.0f, power = x;
+    for (int k = 1; k <= 20; ++k, power *= x)
+        sum += power / static_cast<float>(k * k);
+    return sum;
 }
 
 } // namespace
@@ -93,6 +145,20 @@ const char* name_of(Footprint footprint) {
     case Footprint::surface: break;
     }
     return "surface";
+}
+
+float splat_opacity(float surface_opacity, float sigma) {
+    if (surface_opacity >= 1.0f)
+        return 1.0f;
+    constexpr float kCellsPerArea = 1.5f; // mean of |nx| + |ny| + |nz| over all directions
+    const float depth = -std::log1p(-surface_opacity) /
+                        (kCellsPerArea * 2.0f * std::numbers::pi_v<float> * sigma * sigma);
+    float low = 0.0f, high = 1.0f;
+    for (int halving = 0; halving < 20; ++halving) {
+        const float middle = 0.5f * (low + high);
+        (dilogarithm(middle) < depth ? low : high) = middle;
+    }
+    return high;
 }
 
 CellPass::Programs CellPass::programs(std::string_view fragment_shader) const {
@@ -131,22 +197,18 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
                             const CellBuffers& cells, Footprint footprint,
                             const CellAppearance& appearance) {
     const bool gaussian = footprint == Footprint::gaussian;
-    const bool blended = gaussian || (footprint == Footprint::surface && appearance.opacity < 1.0f);
-    Frame frame{
-        .eyes = {},
-        .color = glm::vec4(linear_light(appearance.color), appearance.opacity),
-        .light = {appearance.ambient, appearance.diffuse, appearance.specular,
-                  appearance.shininess},
-        .radius = 0.5f * (gaussian ? shapes_.gaussian_diameter : shapes_.quad_diameter),
-        .ordered = blended,
-        .soft_near_eye = gaussian,
-    };
+    const bool transparent =
+        std::ranges::any_of(appearance.surfaces, [](const SurfaceAppearance& surface) {
+            return surface.opacity < 1.0f;
+        });
+    const bool blended = gaussian || (footprint == Footprint::surface && transparent);
+    Frame frame = frame_of(appearance, shapes_, footprint, blended);
     const glm::ivec3 extent(placement.extent);
     const glm::mat3 axes(placement.room_from_index);
     const glm::vec3 spacing(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i];
-        frame.eyes[i] = eye_block(view, placement, appearance.depth_cue);
+        frame.eyes[i] = eye_block(view, placement, appearance);
         const glm::vec2 corner(view.corner), size(view.size);
         gl_->ViewportIndexedf(static_cast<GLuint>(i), corner.x, corner.y, size.x, size.y);
         if (blended)
@@ -157,6 +219,11 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
     gl_->BindTextureUnit(0, cells.texture());
+    if (appearance.values)
+        gl_->BindTextureUnit(kColorMapUnit, appearance.values->map);
+    // Display values go into the target as they are.
+    if (!frame.linear_light)
+        gl_->Disable(GL_FRAMEBUFFER_SRGB);
 
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
@@ -176,6 +243,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         gl_->UseProgram((views.size() == 2 ? *programs.two : programs.one).name());
         quads_.draw(cells.size(), static_cast<int>(views.size()));
     }
+    gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);
     gl_->UseProgram(0);

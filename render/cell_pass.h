@@ -8,6 +8,7 @@
 #include "render/surface_pass.h"
 #include "render/view.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -38,16 +39,46 @@ struct FootprintShapes {
     float gaussian_sigma = 0.7f;
 };
 
-struct CellAppearance {
+/// How one isosurface looks.
+struct SurfaceAppearance {
     glm::vec3 color{0.97f, 0.88f, 0.70f}; ///< as a display shows it (sRGB), 0 to 1
-    float opacity = 1.0f;                 ///< of a surface or the middle of a splat, 0 to 1
-    float ambient = 0.05f;
-    float diffuse = 0.95f;   ///< head light, both sides
-    float specular = 0.22f;  ///< added in white
-    float shininess = 24.0f; ///< exponent of the highlight
+    float opacity = 1.0f;                 ///< of the surface seen face-on, 0 to 1
+};
+
+/// Isosurfaces that are drawn at a time: what the style of a cell can number.
+constexpr std::size_t kMaxSurfaces = 8;
+
+/// Colours by value: cells carry the value's place in its whole range (`index::CellPoint`).
+struct ValueColors {
+    GLuint map = 0;                       ///< GL_TEXTURE_1D in linear light, from low to high
+    float low = 0.0f, high = 1.0f;        ///< ends of the map, as fractions of the whole range
+    glm::vec3 no_value{0.5f, 0.5f, 0.5f}; ///< sRGB, where there is none
+};
+
+struct CellAppearance {
+    std::array<SurfaceAppearance, kMaxSurfaces> surfaces;
+    std::optional<ValueColors> values; ///< instead of the surfaces' colours
+
+    float ambient = 0.15f;
+    float head_light = 0.50f;                   ///< from the eye
+    float key_light = 0.50f;                    ///< from a direction that stands still in the room
+    glm::vec3 key_direction{-0.5f, 0.8f, 0.6f}; ///< towards the key light, room frame, any length
+    float ground = 0.5f;       ///< ambient light from below, as a share of that from above
+    float reflectance = 0.04f; ///< mirrored at normal incidence: 0.04 is that of most non-metals
+    float shininess = 40.0f;   ///< exponent of the highlight
+    float outline = 0.35f;     ///< how much darker the surface is where it turns away, 0 to 1
     /// How much darker the far end of the volume is than its near end, 0 to 1.
     float depth_cue = 0.45f;
+    /// Splats blend as light does. Without it they blend in display values, which on software GL
+    /// takes two thirds of the time. Opaque quads look the same either way.
+    bool linear_light = true;
 };
+
+/// Opacity of the middle of a Gaussian splat, such that the splats of a surface, about 1.5 cells
+/// for each unit of its area, let 1 - `surface_opacity` of the light through: their optical depths
+/// add up to 1.5 * 2 pi sigma^2 Li2(alpha), Li2 the dilogarithm.
+/// @param sigma of the splats, voxels
+float splat_opacity(float surface_opacity, float sigma);
 
 class CellPass {
   public:
@@ -58,7 +89,8 @@ class CellPass {
     /// where the driver can; nothing where there are none. Quads and opaque surfaces test and write
     /// depth; splats and surfaces of less opacity test it only, and blend over what is there with
     /// pre-multiplied alpha. Surfaces are drawn from the corners that the cells have computed.
-    /// Leaves depth test and depth writes on, blending and culling off, and the viewport undefined.
+    /// Leaves depth test, depth writes and GL_FRAMEBUFFER_SRGB on, blending and culling off, and
+    /// the viewport undefined.
     void draw(std::span<const View> views, const Placement& placement, const CellBuffers& cells,
               Footprint footprint, const CellAppearance& appearance = {});
     void draw(const View& view, const Placement& placement, const CellBuffers& cells,

@@ -39,6 +39,15 @@ void FramebufferKind::destroy(const Gl& gl, GLuint name) {
     gl.DeleteFramebuffers(1, &name);
 }
 
+GLuint RenderbufferKind::create(const Gl& gl) {
+    GLuint name = 0;
+    gl.CreateRenderbuffers(1, &name);
+    return name;
+}
+void RenderbufferKind::destroy(const Gl& gl, GLuint name) {
+    gl.DeleteRenderbuffers(1, &name);
+}
+
 GLuint ProgramKind::create(const Gl& gl) {
     return gl.CreateProgram();
 }

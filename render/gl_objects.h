@@ -23,6 +23,10 @@ struct FramebufferKind {
     static GLuint create(const Gl& gl);
     static void destroy(const Gl& gl, GLuint name);
 };
+struct RenderbufferKind {
+    static GLuint create(const Gl& gl);
+    static void destroy(const Gl& gl, GLuint name);
+};
 struct ProgramKind {
     static GLuint create(const Gl& gl);
     static void destroy(const Gl& gl, GLuint name);
@@ -63,6 +67,7 @@ using Buffer = GlObject<BufferKind>;
 using VertexArray = GlObject<VertexArrayKind>;
 using Texture = GlObject<TextureKind>; ///< `Texture(gl, GL_TEXTURE_2D)`
 using Framebuffer = GlObject<FramebufferKind>;
+using Renderbuffer = GlObject<RenderbufferKind>;
 using Program = GlObject<ProgramKind>;
 using Query = GlObject<QueryKind>; ///< `Query(gl, GL_TIMESTAMP)`
 

@@ -1,15 +1,21 @@
 // Allocation, clearing and reading of an offscreen target.
 #include "render/render_target.h"
 
+#include "render/driver.h"
+#include "render/srgb.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace isochron::render {
 
-RenderTarget::RenderTarget(const Gl& gl, glm::ivec2 size)
-    : gl_(&gl), size_(size), color_(gl, GL_TEXTURE_2D), depth_(gl, GL_TEXTURE_2D),
-      framebuffer_(gl) {
+RenderTarget::RenderTarget(const Gl& gl, glm::ivec2 size, int samples)
+    : gl_(&gl), size_(size), samples_(samples), color_(gl, GL_TEXTURE_2D),
+      depth_(gl, GL_TEXTURE_2D), framebuffer_(gl) {
+    if (samples < 1 || samples > max_samples(gl))
+        throw Error(fmt::format("render target: {} samples for each pixel, this GL has 1 to {}",
+                                samples, max_samples(gl)));
     allocate();
 }
 
@@ -29,32 +35,64 @@ void RenderTarget::allocate() {
     if (size_.x < 1 || size_.y < 1 || size_.x > limit || size_.y > limit)
         throw Error(fmt::format("render target: {}x{} pixels, each side must be 1 to {}", size_.x,
                                 size_.y, limit));
-    gl_->TextureStorage2D(color_.name(), 1, GL_RGBA8, size_.x, size_.y);
+    gl_->TextureStorage2D(color_.name(), 1, GL_SRGB8_ALPHA8, size_.x, size_.y);
     gl_->TextureParameteri(color_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_->TextureParameteri(color_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl_->TextureParameteri(color_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl_->TextureStorage2D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, size_.x, size_.y);
     gl_->NamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, color_.name(), 0);
+    if (samples_ > 1)
+        return allocate_samples();
+    gl_->TextureStorage2D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, size_.x, size_.y);
     gl_->NamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
-    const GLenum status = gl_->CheckNamedFramebufferStatus(framebuffer_.name(), GL_FRAMEBUFFER);
+    expect_complete(framebuffer_.name());
+}
+
+void RenderTarget::allocate_samples() {
+    many_.emplace(*gl_);
+    const GLuint framebuffer = many_->framebuffer.name();
+    gl_->NamedRenderbufferStorageMultisample(many_->color.name(), samples_, GL_SRGB8_ALPHA8,
+                                             size_.x, size_.y);
+    gl_->NamedRenderbufferStorageMultisample(many_->depth.name(), samples_, GL_DEPTH_COMPONENT32F,
+                                             size_.x, size_.y);
+    gl_->NamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                      many_->color.name());
+    gl_->NamedFramebufferRenderbuffer(framebuffer, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                                      many_->depth.name());
+    expect_complete(framebuffer);
+}
+
+void RenderTarget::expect_complete(GLuint framebuffer) const {
+    const GLenum status = gl_->CheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw Error(fmt::format("render target: {}x{} pixels, framebuffer status {:#x}, expected "
-                                "complete",
-                                size_.x, size_.y, status));
+        throw Error(fmt::format("render target: {}x{} pixels of {} samples, framebuffer status "
+                                "{:#x}, expected complete",
+                                size_.x, size_.y, samples_, status));
 }
 
 void RenderTarget::bind() const {
-    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, drawn());
+    gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Viewport(0, 0, size_.x, size_.y);
 }
 
 void RenderTarget::clear(glm::vec4 color) const {
     const GLfloat far = 1.0f;
+    const glm::vec4 light(linear_from_srgb(glm::vec3(color)), color.w);
+    gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Disable(GL_SCISSOR_TEST);
     gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl_->DepthMask(GL_TRUE);
-    gl_->ClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, &color.x);
-    gl_->ClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &far);
+    gl_->ClearNamedFramebufferfv(drawn(), GL_COLOR, 0, &light.x);
+    gl_->ClearNamedFramebufferfv(drawn(), GL_DEPTH, 0, &far);
+}
+
+void RenderTarget::resolve() const {
+    if (!many_)
+        return;
+    gl_->Enable(GL_FRAMEBUFFER_SRGB);
+    gl_->Disable(GL_SCISSOR_TEST);
+    gl_->BlitNamedFramebuffer(many_->framebuffer.name(), framebuffer_.name(), 0, 0, size_.x,
+                              size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 Image RenderTarget::read() const {

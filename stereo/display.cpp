@@ -52,12 +52,13 @@ void Display::draw(std::span<const Viewpoint> viewers, StereoMode mode, const Sc
             if (target)
                 target->resize(pixels);
             else
-                target.emplace(*gl_, pixels);
+                target.emplace(*gl_, pixels, options_.samples);
             target->clear(glm::vec4(options_.background, 1.0f));
             target->bind();
             scene(view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
                           options_.near_plane, options_.far_plane, pixels),
                   eye);
+            target->resolve();
         }
         targets_[i] = std::move(drawn); // eyes no longer shown give their memory back
     }

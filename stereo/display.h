@@ -29,6 +29,7 @@ namespace isochron::stereo {
 struct DisplayOptions {
     float near_plane = 0.05f, far_plane = 50.0f; ///< [m] along a screen's normal
     glm::vec3 background{0.0f};                  ///< sRGB, 0 to 1
+    int samples = 1; ///< of each pixel of an eye, resolved before eyes are composed
 };
 
 /// Where a viewer's eyes are in one frame.

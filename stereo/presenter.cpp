@@ -45,6 +45,7 @@ void Presenter::present(const render::RenderTarget& picture, const render::Rende
         return;
     hand_over_to(window_);
     gl_.Disable(GL_SCISSOR_TEST);
+    gl_.Disable(GL_FRAMEBUFFER_SRGB); // a window takes display values as they are
     if (right && window_.has_stereo_buffers()) {
         copy(picture, GL_BACK_LEFT);
         copy(*right, GL_BACK_RIGHT);

@@ -15,6 +15,7 @@ layout(binding = 2) uniform usamplerBuffer order_of_other_eye;
 
 #include "frame.glsl"
 #include "lighting.glsl"
+#include "appearance.glsl"
 
 out vec2 disc;
 flat out vec4 shaded;
@@ -61,7 +62,14 @@ void main() {
     vec4 centre = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
 
     disc = corner;
-    shaded = vec4(shade((EYE(eye_from_index) * centre).xyz, unpack_normal(cell.z)), color.a);
+    uint style = cell.y >> 16;
+    vec3 lit = shade((EYE(eye_from_index) * centre).xyz, unpack_normal(cell.z), base_color(style));
+    shaded = vec4(written(lit), surfaces[style & 7u].a);
+
+    if (!ordered && shaded.a < sieve(cell)) {
+        gl_Position = vec4(0, 0, -2, 1);
+        return;
+    }
 
     vec4 p = to_pixels(centre);
     float rr = radius * radius;

@@ -14,12 +14,19 @@ struct Eye {
     vec4 clip_per_pixel;    // xy
     vec4 viewport;          // corner and size in the target, pixels
     vec4 depth_cue;         // distance [m] where it starts, 1 / its length, strength
+    vec4 key_light;         // direction towards it, eye space
+    vec4 up;                // of the room, eye space
 };
 
 layout(std140, binding = 0) uniform Frame {
     Eye eyes[2];
-    vec4 color;         // linear light; a: opacity
-    vec4 light;         // ambient, diffuse, specular, shininess
+    vec4 surfaces[8];   // linear light; a: opacity of a cell
+    vec4 no_value;      // colour where there is no value to colour by, linear light
+    vec4 light;         // strengths of the ambient light, the head light and the key light
+    vec4 material;      // reflectance, shininess, floor's share of the ambient light, outline
+    vec2 color_range;   // coordinate = x value + y
+    bool colored;       // by a value rather than by surface
+    bool linear_light;  // what is written: light, or the display's values
     float radius;       // of the footprint, in voxels
     bool ordered;       // draw through `order`
     bool soft_near_eye; // fade what comes so near that it would veil the whole view

@@ -1,17 +1,41 @@
-// Light on a surface; needs frame.glsl.
+// Light on a surface, in linear light; needs frame.glsl.
+//
+// A head light shows what the viewer looks at, a key light that stands still in the room tells the
+// turning of the head from the turning of the surface. Both shine on either side. Diffuse light and
+// the normalised highlight of Blinn and Phong share what Schlick's reflectance F splits between
+// them, so that no more light leaves than arrives: base (1 - F) + F (s + 8) / 8 (n.h)^s.
 
-// The colour that a display shows of a point of the surface.
+#include "srgb.glsl"
+
+vec3 reflected(vec3 n, vec3 to_eye, vec3 to_light, vec3 base) {
+    float falling = max(dot(n, to_light), 0.0);
+    vec3 halfway = normalize(to_eye + to_light);
+    float grazing = 1.0 - max(dot(halfway, to_eye), 0.0);
+    float grazing2 = grazing * grazing;
+    float mirrored = material.x + (1.0 - material.x) * grazing2 * grazing2 * grazing;
+    float highlight = (material.y + 8.0) / 8.0 * pow(max(dot(n, halfway), 0.0), material.y);
+    return falling * (base * (1.0 - mirrored) + mirrored * highlight);
+}
+
+// The light that a point of the surface sends to the eye.
 // @param at position, eye space [m]
 // @param normal in physical space, of any length; zero where there is none
-vec3 shade(vec3 at, vec3 normal) {
+// @param base its colour, linear light
+vec3 shade(vec3 at, vec3 normal, vec3 base) {
     float distance_to_eye = length(at);
-    vec3 to_light = EYE(eye_in_index).w == 0.0 ? vec3(0, 0, 1) : -at / max(distance_to_eye, 1e-6);
+    vec3 to_eye = EYE(eye_in_index).w == 0.0 ? vec3(0, 0, 1) : -at / max(distance_to_eye, 1e-6);
     vec3 n = mat3(EYE(eye_from_physical)) * normal;
     // Without a normal a cell faces the viewer; with one, both its sides are lit.
-    float facing = dot(n, n) > 0.0 ? abs(dot(normalize(n), to_light)) : 1.0;
-    vec3 lit = color.rgb * (light.x + light.y * facing) + light.z * pow(facing, light.w);
+    n = dot(n, n) > 0.0 ? normalize(n) : to_eye;
+    float facing = dot(n, to_eye);
+    n = facing < 0.0 ? -n : n;
+
+    vec3 lit = light.y * reflected(n, to_eye, to_eye, base);
+    lit += light.z * reflected(n, to_eye, EYE(key_light).xyz, base);
+    // The sky gives more than the floor: upper and lower sides differ where no light falls.
+    lit += light.x * base * mix(material.z, 1.0, 0.5 + 0.5 * dot(n, EYE(up).xyz));
+    // Where the surface turns away, its outline.
+    lit *= 1.0 - material.w * (1.0 - smoothstep(0.0, 0.5, abs(facing)));
     vec4 cue = EYE(depth_cue);
-    float far = clamp((distance_to_eye - cue.x) * cue.y, 0.0, 1.0);
-    lit *= 1.0 - cue.z * far;
-    return pow(clamp(lit, 0.0, 1.0), vec3(1.0 / 2.2)); // targets hold display values
+    return lit * (1.0 - cue.z * clamp((distance_to_eye - cue.x) * cue.y, 0.0, 1.0));
 }

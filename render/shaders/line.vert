@@ -1,6 +1,8 @@
 #version 450 core
 // Widens a line segment to a screen-space quad.
 
+#include "srgb.glsl"
+
 layout(binding = 0) uniform samplerBuffer segments; // from, to, colour
 
 layout(std140, binding = 0) uniform Frame {
@@ -19,6 +21,7 @@ void main() {
     vec4 a = clip_from_model * vec4(texelFetch(segments, segment).xyz, 1.0);
     vec4 b = clip_from_model * vec4(texelFetch(segments, segment + 1).xyz, 1.0);
     color = texelFetch(segments, segment + 2);
+    color.rgb = linear_from_srgb(color.rgb);
 
     // Cut at the near plane here, since a point behind the eye has no place on the screen.
     float near_a = a.z + a.w, near_b = b.z + b.w;

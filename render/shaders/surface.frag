@@ -7,6 +7,7 @@
 
 #include "frame.glsl"
 #include "lighting.glsl"
+#include "appearance.glsl"
 #include "surface.glsl"
 
 out vec4 result;
@@ -100,7 +101,7 @@ float depth_at(Ray ray, float s) {
 
 vec3 light_at(Ray ray, float s) {
     vec3 p = ray.middle + s * ray.half_chord;
-    return shade(centre_in_eye + mat3(EYE(eye_from_index)) * p, gradient(p));
+    return written(shade(centre_in_eye + mat3(EYE(eye_from_index)) * p, gradient(p), base.rgb));
 }
 
 void main() {
@@ -123,10 +124,10 @@ void main() {
     bool to_third = second != third, to_second = first != second;
     vec4 behind = vec4(0);
     if (to_third && (first || second))
-        behind = vec4(light_at(ray, root_between(k, turns.y, 1.0, f2, f3)), 1.0) * color.a;
+        behind = vec4(light_at(ray, root_between(k, turns.y, 1.0, f2, f3)), 1.0) * base.a;
     if (to_second && first)
-        behind = vec4(light_at(ray, root_between(k, turns.x, turns.y, f1, f2)), 1.0) * color.a +
-                 behind * (1.0 - color.a);
-    result = result * color.a + behind * (1.0 - color.a);
+        behind = vec4(light_at(ray, root_between(k, turns.x, turns.y, f1, f2)), 1.0) * base.a +
+                 behind * (1.0 - base.a);
+    result = result * base.a + behind * (1.0 - base.a);
 #endif
 }

@@ -12,6 +12,8 @@ layout(binding = 3) uniform samplerBuffer corner_values;
 layout(binding = 4) uniform usamplerBuffer corner_gradients;
 
 #include "frame.glsl"
+#include "srgb.glsl"
+#include "appearance.glsl"
 #include "surface.glsl"
 
 const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
@@ -167,6 +169,8 @@ void main() {
     vec4 at = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
     centre = to_pixels(at);
     centre_in_eye = (EYE(eye_from_index) * at).xyz;
+    uint style = cell.y >> 16;
+    base = vec4(base_color(style), surfaces[style & 7u].a);
 
     vec4 low = texelFetch(corner_values, 2 * slot), high = texelFetch(corner_values, 2 * slot + 1);
     vec4 size = max(abs(low), abs(high));

@@ -1,6 +1,8 @@
 // Encoding and decoding of pictures with OpenImageIO, the one place that knows it.
 #include "stereo/image_module/image_module.h"
 
+#include "render/srgb.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -11,12 +13,8 @@
 namespace isochron::stereo::image_module {
 namespace {
 
-float linear_from_srgb(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-float srgb_from_linear(float v) {
-    return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
-}
+using render::linear_from_srgb;
+using render::srgb_from_linear;
 
 /// Error texts of OpenImageIO can run over several lines.
 std::string one_line(std::string text) {

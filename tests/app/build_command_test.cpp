@@ -134,5 +134,63 @@ TEST_F(CommandLine, AnInterruptedBuildEndsWithStatus130AndLeavesTheOldIndexAlone
     }
 }
 
+/// Steps of two arrays, `speed` and `heat`, as ascii legacy files `s0.vtk` ...
+void write_two_arrays(const test_support::TestFolder& folder, int steps) {
+    for (int t = 0; t < steps; ++t) {
+        std::string text = "# vtk DataFile Version 3.0\ntwo arrays\nASCII\n"
+                           "DATASET STRUCTURED_POINTS\nDIMENSIONS 6 5 4\nORIGIN 0 0 0\n"
+                           "SPACING 1 1 1\nPOINT_DATA 120\n";
+        for (const auto& [name, factor] : {std::pair{"speed", 1}, {"heat", -3}}) {
+            text += fmt::format("SCALARS {} float 1\nLOOKUP_TABLE default\n", name);
+            for (int i = 0; i < 120; ++i)
+                text += fmt::format("{}\n", factor * (i % 7 + t));
+        }
+        folder.write(fmt::format("s{}.vtk", t), text);
+    }
+}
+
+TEST_F(CommandLine, ColourCarriesASecondArrayThatInfoShowsAndVerifyChecks) {
+    write_two_arrays(folder, 3);
+    for (const bool refer : {false, true}) {
+        std::vector<std::string> build{"build", "s?.vtk", "--array",    "speed",         "--colour",
+                                       "heat",  "-o",     "c.isochron", "--colour-unit", "K"};
+        if (refer)
+            build.push_back("--refer");
+        const ChildResult built = isochron(build);
+        ASSERT_EQ(built.status, 0) << built.err;
+        const auto info = nlohmann::json::parse(isochron({"info", "c.isochron", "--json"}).out);
+        EXPECT_EQ(info.at("array"), "speed");
+        EXPECT_EQ(info.at("colour").at("array"), "heat");
+        EXPECT_EQ(info.at("colour").at("value_unit"), "K");
+        EXPECT_EQ(info.at("colour").at("low"), -24);
+        EXPECT_EQ(info.at("colour").at("high"), 0);
+        EXPECT_EQ(isochron({"verify", "c.isochron"}).status, 0);
+        EXPECT_THAT(isochron({"info", "c.isochron"}).out, HasSubstr("heat, f32, -24 to 0 K"));
+    }
+    // Of an index that refers to its files, verify reads the colours there.
+    std::string changed = folder.read("s1.vtk");
+    changed.replace(changed.rfind("-3"), 2, "-4");
+    folder.write("s1.vtk", changed);
+    expect_failure(isochron({"verify", "c.isochron"}), 1, "s1.vtk has changed");
+}
+
+TEST_F(CommandLine, ColoursAreAppendedWithTheRest) {
+    write_two_arrays(folder, 4);
+    const auto build = [&](const std::string& files, const std::vector<std::string>& more) {
+        std::vector<std::string> all{"build", files, "--array", "speed", "-o", "c.isochron"};
+        all.insert(all.end(), more.begin(), more.end());
+        return isochron(all);
+    };
+    ASSERT_EQ(build("s?.vtk", {"--colour", "heat"}).status, 0);
+    const std::string whole = folder.read("c.isochron");
+    std::filesystem::remove(folder.path() / "c.isochron");
+    ASSERT_EQ(build("s[01].vtk", {"--colour", "heat"}).status, 0);
+    expect_failure(build("s?.vtk", {"--append"}), 1, "it holds the colours heat, none given");
+    const ChildResult appended = build("s?.vtk", {"--append", "--colour", "heat"});
+    EXPECT_EQ(appended.status, 0) << appended.err;
+    EXPECT_EQ(folder.read("c.isochron"), whole);
+    expect_failure(build("s?.vtk", {"--colour", "cold"}), 1, "cold");
+}
+
 } // namespace
 } // namespace isochron::app

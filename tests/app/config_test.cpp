@@ -32,6 +32,54 @@ TEST(Config, EveryShippedFileIsValid) {
     EXPECT_GE(files, 3);
 }
 
+TEST(Config, LooksArrive) {
+    const Config config = parse_config(R"(
+[[surfaces]]
+isovalue = 2.5
+colour = [1.0, 0.5, 0.0]
+opacity = 0.5
+[[surfaces]]
+quantile = 0.5
+[rendering]
+samples = 2
+blending = "display"
+[lighting]
+key_direction = [0, 1, 0]
+reflectance = 0.1
+[colouring]
+by = "value"
+map = "polar"
+range = [0.1, 0.3]
+)",
+                                       "lab.toml");
+    ASSERT_EQ(config.surfaces.size(), 2u);
+    EXPECT_EQ(config.surfaces[0].isovalue, 2.5);
+    EXPECT_EQ(config.surfaces[0].color, glm::vec3(1.0f, 0.5f, 0.0f));
+    EXPECT_EQ(config.surfaces[0].opacity, 0.5f);
+    EXPECT_FALSE(config.surfaces[1].isovalue);
+    EXPECT_EQ(config.surfaces[1].quantile, 0.5);
+    EXPECT_NE(config.surfaces[1].color, config.surfaces[0].color);
+    EXPECT_EQ(config.samples, 2);
+    EXPECT_EQ(config.blending, Blending::display);
+    EXPECT_EQ(config.appearance.key_direction, glm::vec3(0, 1, 0));
+    EXPECT_FLOAT_EQ(config.appearance.reflectance, 0.1f);
+    EXPECT_EQ(config.coloring.by, interaction::ColorBy::value);
+    EXPECT_EQ(config.coloring.map, "polar");
+    EXPECT_EQ(config.coloring.range, (std::array{0.1, 0.3}));
+}
+
+TEST(Config, LooksThatCannotBeAreErrorsWithTheirPlace) {
+    EXPECT_THAT(error_of("[colouring]\nmap = \"rainbow\"\n"), HasSubstr("lab.toml:2"));
+    EXPECT_THAT(error_of("[colouring]\nrange = [2, 1]\n"), HasSubstr("ascending"));
+    EXPECT_THAT(error_of("[lighting]\nkey_direction = [0, 0, 0]\n"), HasSubstr("lab.toml:2"));
+    EXPECT_THAT(error_of("[[surfaces]]\nisovalue = 1\nquantile = 0.5\n"), HasSubstr("quantile"));
+    EXPECT_THAT(error_of("[[surfaces]]\ncolour = [0, 0, 2]\n"), HasSubstr("sRGB"));
+    std::string nine;
+    for (int i = 0; i < 9; ++i)
+        nine += "[[surfaces]]\nisovalue = 1\n";
+    EXPECT_THAT(error_of(nine), HasSubstr("at most 8, got 9"));
+}
+
 TEST(Config, ValuesArrive) {
     const Config config = parse_config(R"(
 [viewer]

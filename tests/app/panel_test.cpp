@@ -76,9 +76,9 @@ TEST_F(PanelTest, TakesValuesUpToTheGreatestOfADouble) {
     for (const auto& [low, high] : ranges) {
         stats_.low = low;
         stats_.high = high;
-        const double first = first_isovalue(stats_);
+        const double first = quantile(stats_, kFirstQuantile);
         EXPECT_TRUE(low <= first && first <= high) << low << " to " << high;
-        asked_.isovalue = first;
+        asked_.set_isovalue(first);
         const auto commands = press_on_histogram();
         EXPECT_EQ(commands.isovalue.has_value(), high / 2 > low / 2);
         EXPECT_TRUE(!commands.isovalue ||

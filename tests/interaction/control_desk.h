@@ -53,6 +53,12 @@ class Desk {
             context.grid = *commands.grid;
         if (commands.views)
             views = *commands.views;
+        if (commands.axes)
+            context.axes = *commands.axes;
+        if (commands.picked)
+            context.picked = *commands.picked;
+        if (commands.coloring)
+            context.coloring = *commands.coloring;
         return commands;
     }
     /// Presses keys for one frame and lets go for another.

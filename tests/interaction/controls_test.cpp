@@ -135,6 +135,24 @@ TEST(Controls, SwitchesReportOnlyChanges) {
     EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-2"});
 }
 
+TEST(Controls, LooksGoRoundByKeys) {
+    Desk desk;
+    EXPECT_EQ(desk.tap(bit(Action::axes)).axes, false);
+    EXPECT_EQ(desk.tap(bit(Action::axes)).axes, true);
+    EXPECT_TRUE(desk.tap(bit(Action::next_surface)).empty()); // there is but one
+    desk.context.isosurfaces = 3;
+    EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 1u);
+    EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 2u);
+    EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 0u);
+    desk.context.coloring = {ColorBy::surface, "dusk", std::array{1.0, 2.0}};
+    EXPECT_EQ(desk.tap(bit(Action::next_coloring)).coloring,
+              (Coloring{ColorBy::first_crossing, "dusk", {}}));
+    desk.tap(bit(Action::next_coloring));
+    desk.context.has_second_array = true;
+    EXPECT_EQ(desk.tap(bit(Action::next_coloring)).coloring,
+              (Coloring{ColorBy::value, "dusk", {}}));
+}
+
 TEST(Controls, EveryActionHasAKeyAndEveryKeyOneLineOfDocumentation) {
     std::set<Action> actions;
     std::set<Key> keys;

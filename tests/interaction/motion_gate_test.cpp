@@ -169,13 +169,15 @@ TEST(MotionGate, BetweenTheTwoLimitsThePaceStaysAsItWas) {
 }
 
 TEST(MotionGate, EveryPendingInputLeavesSettledAtOnce) {
-    Commands isovalue, step, volume, play;
+    Commands isovalue, surfaces, step, volume, play;
     isovalue.isovalue = 1.0;
+    surfaces.isosurfaces = std::vector<Isosurface>(2);
     step.step = 3;
     volume.room_from_physical = Similarity{};
     play.playback = PlaybackState{};
     const std::vector<std::pair<std::vector<DeviceState>, Commands>> inputs{
         {{head_at(kStanding)}, isovalue},
+        {{head_at(kStanding)}, surfaces},
         {{head_at(kStanding)}, step},
         {{head_at(kStanding)}, volume},
         {{head_at(kStanding)}, play},

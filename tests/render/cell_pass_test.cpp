@@ -1,6 +1,7 @@
 // The two renderers: depth, order, light, large sets, and how often they sort.
 #include "render/cell_pass.h"
 #include "render/render_target.h"
+#include "render/srgb.h"
 #include "tests/render/extractions.h"
 #include "tests/render/gl_test.h"
 
@@ -25,8 +26,10 @@ class CellPasses : public GlTest {
             glm::translate(glm::mat4(1.0f), glm::vec3(-0.5f, -0.5f, -20.0f)), glm::vec3(1, 1, -1));
         placement_.room_from_physical = glm::mat3(glm::scale(glm::mat4(1.0f), glm::vec3(1, 1, -1)));
         placement_.extent = glm::vec3(40.0f);
-        appearance_.depth_cue = 0.0f;
-        appearance_.specular = 0.0f;
+        // The head light alone, on something that mirrors nothing.
+        appearance_.depth_cue = appearance_.reflectance = 0.0f;
+        appearance_.key_light = appearance_.outline = appearance_.ambient = 0.0f;
+        appearance_.head_light = 1.0f;
         target_.bind();
         target_.clear({0, 0, 0, 0});
     }
@@ -109,19 +112,18 @@ TEST_P(CellPasses, BothSidesOfACellAreLitAlikeAndOneWithoutNormalFacesTheViewer)
     }
     EXPECT_NEAR(reds[0], reds[1], 1);
     EXPECT_NEAR(reds[0], reds[2], 1);
-    EXPECT_NEAR(reds[0], 255 * appearance_.color.x, 3); // full light gives the colour itself
+    EXPECT_NEAR(reds[0], 255 * appearance_.surfaces[0].color.x,
+                3); // full light gives the colour itself
 }
 
 TEST_P(CellPasses, LightFallsOffWithTheAngleOfTheNormal) {
-    appearance_.ambient = 0.0f;
-    appearance_.diffuse = 1.0f;
-    appearance_.color = glm::vec3(1.0f);
+    appearance_.surfaces[0].color = glm::vec3(1.0f);
     // A zero normal would face the viewer, so the angles stay below a right one.
     for (const float angle : {0.0f, 0.5f, 1.0f, 1.4f}) {
         target_.clear({0, 0, 0, 0});
         const glm::vec3 normal(std::sin(angle), 0.0f, std::cos(angle));
         draw(showing(gl_, cell_set({{0, 0, 3}}, packed_normal(normal))), Footprint::quad);
-        EXPECT_NEAR(red_in_the_middle(), 255 * std::pow(std::cos(angle), 1.0f / 2.2f), 2) << angle;
+        EXPECT_NEAR(red_in_the_middle(), 255 * srgb_from_linear(std::cos(angle)), 2) << angle;
     }
 }
 
@@ -129,7 +131,7 @@ TEST_P(CellPasses, NormalsTurnWithTheVolume) {
     const glm::mat4 quarter = glm::rotate(glm::mat4(1.0f), glm::radians(90.0f), glm::vec3(0, 1, 0));
     placement_.room_from_physical = glm::mat3(quarter) * placement_.room_from_physical;
     draw(showing(gl_, cell_set({{0, 0, 3}}, packed_normal(kEdgeOn))), Footprint::quad);
-    EXPECT_NEAR(red_in_the_middle(), 255 * appearance_.color.x, 3);
+    EXPECT_NEAR(red_in_the_middle(), 255 * appearance_.surfaces[0].color.x, 3);
 }
 
 TEST_P(CellPasses, EveryCellOfALargeSetIsDrawn) {

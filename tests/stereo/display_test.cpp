@@ -2,6 +2,7 @@
 #include "stereo/display.h"
 
 #include "render/shader.h"
+#include "render/srgb.h"
 #include "tests/support/image_compare.h"
 
 #include <gmock/gmock.h>
@@ -200,8 +201,9 @@ TEST_P(DisplayTest, WithoutSeparationBothEyesSeeTheSame) {
 void fill(const render::Gl& gl, Eye eye) {
     const std::map<Eye, glm::vec4> colors{
         {Eye::centre, {1, 1, 1, 1}}, {Eye::left, {1, 0.2, 0.4, 1}}, {Eye::right, {0.6, 0.8, 0, 1}}};
-    const glm::vec4 color = colors.at(eye);
-    gl.ClearColor(color.x, color.y, color.z, color.w);
+    // What shaders write, and clears fill in, is light.
+    const glm::vec3 light = render::linear_from_srgb(glm::vec3(colors.at(eye)));
+    gl.ClearColor(light.x, light.y, light.z, 1.0f);
     gl.Clear(GL_COLOR_BUFFER_BIT);
 }
 using Rgb = std::array<int, 3>;

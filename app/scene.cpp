@@ -26,6 +26,8 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       appearance_(config.appearance), cells_(gl, info.grid), cell_pass_(gl), line_pass_(gl),
       text_pass_(gl, room_font(kFontPixels)) {
     appearance_.linear_light = blends_light(gl, config.blending);
+    // How values are held depends on their type only, not on their range.
+    cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
 }
 
 void Scene::upload(const index::ExtractionPtr& newest) {

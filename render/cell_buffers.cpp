@@ -40,6 +40,16 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
     return cells;
 }
 
+void CellBuffers::prepare(index::ValueType held) {
+    bricks_.emplace(*gl_, grid_, held);
+    compute_.emplace(*gl_, grid_, held);
+    const index::Extraction none;
+    compute_->enter_pages(*bricks_);
+    compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, message_, points_);
+    compute_->fill_normals(none, *bricks_, points_);
+    compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_);
+}
+
 bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget) {
     const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
     std::size_t sent = 0;
@@ -63,10 +73,8 @@ void CellBuffers::begin(index::ExtractionPtr set) {
     if (set->cells() > points_.limit())
         throw Error(fmt::format("{} cells at step {}, this GL can draw at most {}", set->cells(),
                                 set->query.step, points_.limit()));
-    if (!bricks_) {
-        bricks_.emplace(*gl_, grid_, set->bricks.held);
-        compute_.emplace(*gl_, grid_, set->bricks.held);
-    }
+    if (!bricks_)
+        prepare(set->bricks.held);
     plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
     merged_ = false;
     words_sent_ = 0;

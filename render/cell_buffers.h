@@ -31,6 +31,11 @@ class CellBuffers {
     /// Cells that come with their normals, and never change: no set is shown.
     static CellBuffers of_points(const Gl& gl, std::span<const index::CellPoint> points);
 
+    /// Makes and runs once, over no cells, what the first set would have to be computed with:
+    /// compiling takes longer than a frame may. Without this the first upload does it.
+    /// @param held type of the values in the bricks of all sets
+    void prepare(index::ValueType held);
+
     /// Sends at most `byte_budget` bytes (at least StagingRing::kUnit), fewer where the GPU has not
     /// yet taken what was sent before; never waits for it. A set whose transfer has begun is
     /// finished before a newer one is taken, so that a stream of new sets cannot keep the picture
@@ -84,7 +89,7 @@ class CellBuffers {
     index::Grid grid_;
     StagingRing ring_;
     DeviceArray points_, message_, corner_values_, corner_gradients_;
-    std::optional<BrickPool> bricks_;    ///< made when the first set tells the type
+    std::optional<BrickPool> bricks_;    ///< made when the type is known
     std::optional<CellCompute> compute_; ///< likewise
     index::ExtractionPtr shown_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set

@@ -101,13 +101,16 @@ void CellCompute::bind(GLuint binding, const DeviceArray& array, std::size_t fir
 template <class Prepare>
 void CellCompute::run(const Program& program, std::size_t count, Prepare&& prepare) const {
     gl_->UseProgram(program.name());
-    for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
+    std::size_t begin = 0;
+    do { // once for nothing, too: drivers compile what runs
         const std::size_t end = std::min(begin + kAtOnce, count);
         gl_->ProgramUniform2ui(program.name(), 0, static_cast<GLuint>(begin),
                                static_cast<GLuint>(end));
         prepare(begin, end);
-        gl_->DispatchCompute(static_cast<GLuint>((end - begin + kGroup - 1) / kGroup), 1, 1);
-    }
+        const std::size_t groups = std::max((end - begin + kGroup - 1) / kGroup, std::size_t{1});
+        gl_->DispatchCompute(static_cast<GLuint>(groups), 1, 1);
+        begin = end;
+    } while (begin < count);
     gl_->UseProgram(0);
     gl_->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                        GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -149,8 +152,9 @@ void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& br
     use_volume(set, bricks);
     bind(0, points);
     run(corners_, set.cells(), [&](std::size_t begin, std::size_t end) {
-        bind(1, values, begin, end - begin);
-        bind(2, gradients, begin, end - begin);
+        const std::size_t cells = std::max(end - begin, std::size_t{1}); // no range is empty
+        bind(1, values, begin, cells);
+        bind(2, gradients, begin, cells);
     });
 }
 

@@ -226,6 +226,26 @@ TEST_P(CellUpload, BuffersMayMoveWhileASetIsOnItsWay) {
     expect_whole(moved);
 }
 
+int linked = 0;
+PFNGLLINKPROGRAMPROC real_link = nullptr;
+void APIENTRY counting_link(GLuint program) {
+    ++linked;
+    real_link(program);
+}
+
+TEST_P(CellUpload, WhatIsPreparedCompilesNothingWhenTheFirstSetComes) {
+    real_link = gl_.LinkProgram;
+    gl_.LinkProgram = counting_link;
+    CellBuffers buffers(gl_, field_.view().grid);
+    buffers.prepare(ValueType::u8);
+    EXPECT_EQ(buffers.size(), 0u);
+    linked = 0;
+    ASSERT_TRUE(buffers.upload(random_set(100), kEnough));
+    buffers.compute_corners();
+    EXPECT_EQ(linked, 0);
+    expect_whole(buffers);
+}
+
 GLenum APIENTRY never_passed(GLsync, GLbitfield, GLuint64) {
     return GL_TIMEOUT_EXPIRED;
 }

@@ -30,13 +30,13 @@ class Lights : public GlTest {
     }
     /// A wall of cells towards the viewer. @return its picture before black
     Image wall(Footprint footprint, std::uint16_t style = 0) {
-        auto set = std::make_shared<index::CellSet>();
+        std::vector<index::CellPoint> points;
         for (std::uint16_t y = 0; y < 16; ++y)
             for (std::uint16_t x = 0; x < 16; ++x)
-                set->points.push_back({x, y, 8, style, packed_normal({0, 0, 1})});
+                points.push_back({x, y, 8, style, packed_normal({0, 0, 1})});
         target_.bind();
         target_.clear({0, 0, 0, 0});
-        pass_.draw(view_, placement_, showing(gl_, set), footprint, look_);
+        pass_.draw(view_, placement_, showing(gl_, points), footprint, look_);
         return target_.read();
     }
     View view_;

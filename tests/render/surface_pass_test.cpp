@@ -28,13 +28,19 @@ class SurfacePasses : public SurfaceTest {
         views[1].size = {133, 149};
         return views;
     }
+    /// Written as it is, which a float target takes.
+    static CellAppearance of_opacity(float opacity) {
+        CellAppearance appearance;
+        appearance.surfaces[0].opacity = opacity;
+        return appearance;
+    }
     static constexpr glm::ivec2 kTarget{320, 180};
 };
 
 TEST_P(SurfacePasses, TwoViewsInOnePassLookAsInTwo) {
     const std::array<View, 2> views = two_views();
     for (const float opacity : {1.0f, 0.5f}) {
-        const CellAppearance appearance{.opacity = opacity};
+        const CellAppearance appearance = of_opacity(opacity);
         CellPass apart_pass = normals_pass();
         apart_pass.draw_views_apart();
         const SurfacePicture once = draw(field_, placement_, views, kTarget, appearance);
@@ -74,7 +80,7 @@ TEST_P(SurfacePasses, ATransparentSurfaceShowsEveryLayerFarToNear) {
     const View view = perspective_view({1.1f, 0.9f, 1.5f});
     constexpr float kOpacity = 0.4f;
     const SurfacePicture picture =
-        draw(field, placement, std::span(&view, 1), view.size, {.opacity = kOpacity});
+        draw(field, placement, std::span(&view, 1), view.size, of_opacity(kOpacity));
     const ReferenceRayCaster reference(field, view, placement);
     int seen = 0, wrong_alpha = 0, wrong_order = 0, within_a_cell = 0;
     for (int y = 0; y < view.size.y; ++y)

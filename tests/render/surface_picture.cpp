@@ -12,8 +12,13 @@ PFNGLSHADERSOURCEPROC plain_shader_source = nullptr;
 void APIENTRY source_with_normals(GLuint shader, GLsizei, const GLchar* const* text,
                                   const GLint* length) {
     std::string changed(*text, std::size_t(*length));
-    if (const std::size_t shade = changed.find("vec3 shade("); shade != std::string::npos)
-        changed.insert(changed.find('{', shade) + 1, " if (true) return normal;");
+    const auto give_back = [&](const char* function, const char* argument) {
+        if (const std::size_t begin = changed.find(function); begin != std::string::npos)
+            changed.insert(changed.find('{', begin) + 1,
+                           std::string(" if (true) return ") + argument + ';');
+    };
+    give_back("vec3 shade(", "normal");
+    give_back("vec3 written(", "light");
     const GLchar* data = changed.data();
     const auto size = static_cast<GLint>(changed.size());
     plain_shader_source(shader, 1, &data, &size);

@@ -1,6 +1,7 @@
 // The uniforms and GL state of a draw of cells.
 #include "render/cell_pass.h"
 
+#include "render/point_sprites.h"
 #include "render/shader.h"
 #include "render/srgb.h"
 
@@ -45,6 +46,12 @@ struct Frame {
 };
 static_assert(sizeof(Frame) == 2 * (3 * 64 + 9 * 16) + (kMaxSurfaces + 5) * 16);
 constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
+
+float largest_point(const Gl& gl) {
+    std::array<GLfloat, 2> range{};
+    gl.GetFloatv(GL_POINT_SIZE_RANGE, range.data());
+    return range[1];
+}
 
 /// The depth cue runs from the near to the far end of the volume's bounding sphere.
 glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, float strength) {
@@ -161,25 +168,34 @@ float splat_opacity(float surface_opacity, float sigma) {
     return high;
 }
 
-CellPass::Programs CellPass::programs(std::string_view fragment_shader) const {
+CellPass::Programs CellPass::programs(std::string_view fragment_shader,
+                                      const std::string& prelude) const {
     const std::vector sources{shader_file("cell.vert"), shader_file(fragment_shader)};
-    Programs programs{link_program(*gl_, sources), std::nullopt};
+    Programs programs{link_program(*gl_, sources, prelude), std::nullopt};
     if (two_views_at_once_)
-        programs.two = link_program(*gl_, sources, kTwoEyes);
+        programs.two = link_program(*gl_, sources, kTwoEyes + prelude);
     return programs;
+}
+
+CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragment_shader,
+                                                         const std::string& prelude) const {
+    return {programs(fragment_shader, prelude),
+            programs(fragment_shader, prelude + "#define POINTS\n")};
 }
 
 CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
     : gl_(&gl), shapes_(shapes),
       two_views_at_once_(has_extension(gl, "GL_ARB_shader_viewport_layer_array")),
-      quad_programs_(programs("cell_quad.frag")),
-      gaussian_programs_(programs("cell_gaussian.frag")), surface_(gl, two_views_at_once_),
-      quads_(gl), orders_(gl), frame_(gl) {
+      largest_point_(largest_point(gl)), quad_programs_(footprint_programs("cell_quad.frag", {})),
+      gaussian_programs_(footprint_programs("cell_gaussian.frag", "#define ROUND\n")),
+      surface_(gl, two_views_at_once_), quads_(gl), orders_(gl), frame_(gl) {
     const float sigmas = 0.5f * shapes.gaussian_diameter / shapes.gaussian_sigma;
     const float falloff = -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
-    gl.ProgramUniform1f(gaussian_programs_.one.name(), 0, falloff);
-    if (gaussian_programs_.two)
-        gl.ProgramUniform1f(gaussian_programs_.two->name(), 0, falloff);
+    for (const Programs* programs : {&gaussian_programs_.quads, &gaussian_programs_.points}) {
+        gl.ProgramUniform1f(programs->one.name(), 0, falloff);
+        if (programs->two)
+            gl.ProgramUniform1f(programs->two->name(), 0, falloff);
+    }
 }
 
 void CellPass::draw(std::span<const View> views, const Placement& placement,
@@ -236,17 +252,32 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     } else {
         gl_->Disable(GL_BLEND);
     }
-    if (footprint == Footprint::surface) {
+    if (footprint == Footprint::surface)
         surface_.draw(quads_, cells, blended, views.size());
-    } else {
-        const Programs& programs = gaussian ? gaussian_programs_ : quad_programs_;
-        gl_->UseProgram((views.size() == 2 ? *programs.two : programs.one).name());
-        quads_.draw(cells.size(), static_cast<int>(views.size()));
-    }
+    else
+        draw_footprints(views, placement, cells, gaussian ? gaussian_programs_ : quad_programs_,
+                        frame.radius, gaussian ? 1.0f : kReachOfRectangle);
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);
     gl_->UseProgram(0);
+}
+
+void CellPass::draw_footprints(std::span<const View> views, const Placement& placement,
+                               const CellBuffers& cells, const FootprintPrograms& footprint,
+                               float radius, float reach) {
+    const bool points = std::all_of(views.begin(), views.end(), [&](const View& view) {
+        return points_serve(view, placement, radius, reach, largest_point_);
+    });
+    const Programs& programs = points ? footprint.points : footprint.quads;
+    gl_->UseProgram((views.size() == 2 ? *programs.two : programs.one).name());
+    const int instances = static_cast<int>(views.size());
+    if (points) {
+        gl_->Enable(GL_PROGRAM_POINT_SIZE);
+        quads_.draw_points(cells.size(), instances);
+    } else {
+        quads_.draw(cells.size(), instances);
+    }
 }
 
 } // namespace isochron::render

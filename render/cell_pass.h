@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace isochron::render {
@@ -102,6 +103,8 @@ class CellPass {
     bool draws_two_views_at_once() const { return two_views_at_once_; }
     /// For comparisons: two passes although the driver could do with one.
     void draw_views_apart() { two_views_at_once_ = false; }
+    /// For comparisons: quads also where points would show the same faster.
+    void draw_without_points() { largest_point_ = 0.0f; }
 
     const OrderCache& orders() const { return orders_; }
 
@@ -111,16 +114,29 @@ class CellPass {
         Program one;
         std::optional<Program> two;
     };
-    Programs programs(std::string_view fragment_shader) const;
+    /// The same footprint drawn as quads and as points.
+    struct FootprintPrograms {
+        Programs quads, points;
+    };
+    Programs programs(std::string_view fragment_shader, const std::string& prelude) const;
+    FootprintPrograms footprint_programs(std::string_view fragment_shader,
+                                         const std::string& prelude) const;
     /// At most two, of which the second needs `Programs::two`.
     void draw_at_once(std::span<const View> views, const Placement& placement,
                       const CellBuffers& cells, Footprint footprint,
                       const CellAppearance& appearance);
 
+    /// Quads or points, whichever show the same faster.
+    /// @param reach of a footprint beyond its radius, see `points_serve`
+    void draw_footprints(std::span<const View> views, const Placement& placement,
+                         const CellBuffers& cells, const FootprintPrograms& footprint, float radius,
+                         float reach);
+
     const Gl* gl_;
     FootprintShapes shapes_;
     bool two_views_at_once_;
-    Programs quad_programs_, gaussian_programs_;
+    float largest_point_; ///< pixels; 0: no points
+    FootprintPrograms quad_programs_, gaussian_programs_;
     SurfacePass surface_;
     QuadIndices quads_;
     OrderCache orders_;

@@ -32,4 +32,10 @@ void QuadIndices::draw(std::size_t quads, int instances) const {
     gl_->BindVertexArray(0);
 }
 
+void QuadIndices::draw_points(std::size_t points, int instances) const {
+    gl_->BindVertexArray(vertex_array_.name());
+    gl_->DrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(points), instances);
+    gl_->BindVertexArray(0);
+}
+
 } // namespace isochron::render

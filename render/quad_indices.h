@@ -18,6 +18,9 @@ class QuadIndices {
     /// @param instances of every quad; those of one instance keep their order
     void draw(std::size_t quads, int instances = 1) const;
 
+    /// The same for shaders that place one point for each.
+    void draw_points(std::size_t points, int instances = 1) const;
+
   private:
     const Gl* gl_;
     VertexArray vertex_array_;

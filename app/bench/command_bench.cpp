@@ -1,4 +1,5 @@
 // `isochron bench`: measures the search structures against their rivals.
+#include "app/bench/commands.h"
 #include "app/bench/data_sets.h"
 #include "app/bench/isovalues.h"
 #include "app/bench/machine.h"
@@ -34,12 +35,6 @@ struct BenchArguments {
     bench::MeasureOptions measure;
     bool quick = false;
 };
-
-void write_text(const fs::path& path, const std::string& text) {
-    index::NewFile file(path);
-    file.write_at(0, std::as_bytes(std::span(text)));
-    file.commit();
-}
 
 void append(bench::Results& all, const bench::Results& more) {
     all.rows.insert(all.rows.end(), more.rows.begin(), more.rows.end());
@@ -98,7 +93,7 @@ void run_bench_index(BenchArguments arguments) {
         std::fflush(stdout);
         append(results, more);
         if (!arguments.json.empty())
-            write_text(arguments.json, bench::to_json_text(results));
+            bench::write_text(arguments.json, bench::to_json_text(results));
     };
     if (!arguments.file.empty())
         add([&](const index::Progress& progress) { return measure_file(arguments, progress); });
@@ -182,39 +177,59 @@ void add_bench_index(CLI::App& bench_command) {
     command->callback([arguments] { run_bench_index(*arguments); });
 }
 
-void run_bench_results(const fs::path& json, const fs::path& out) {
-    std::ifstream file(json, std::ios::binary);
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
     if (!file)
-        throw index::Error(fmt::format("{}: cannot be read", json.string()));
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    const std::string page =
-        bench::results_page(bench::results_from_json(text, json.string()), json.string());
-    if (out.empty())
+        throw index::Error(fmt::format("{}: cannot be read", path.string()));
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct ResultFiles {
+    fs::path index, render, artefacts, out;
+};
+
+void run_bench_results(const ResultFiles& files) {
+    const std::string page = bench::whole_page({.index = files.index.string(),
+                                                .render = files.render.string(),
+                                                .artefacts = files.artefacts.string()},
+                                               read_text);
+    if (files.out.empty())
         fmt::print("{}", page);
     else
-        write_text(out, page);
+        bench::write_text(files.out, page);
 }
 
 void add_bench_results(CLI::App& bench_command) {
-    struct Paths {
-        fs::path json, out;
-    };
-    auto paths = std::make_shared<Paths>();
+    auto files = std::make_shared<ResultFiles>();
     CLI::App* command = bench_command.add_subcommand(
-        "results", "Render what `bench index --json` wrote as a page next to the paper's tables.");
-    command->add_option("json", paths->json, "Results")->required()->type_name("FILE.json");
-    command->add_option("-o,--out", paths->out, "Markdown to write (default: print it)")
+        "results", "Render what the other benchmarks wrote as a page next to the paper's tables.");
+    command->add_option("json", files->index, "Results of `bench index --json`")
+        ->required()
+        ->type_name("FILE.json");
+    command->add_option("--render", files->render, "Results of `bench render --json`")
+        ->type_name("FILE.json");
+    command->add_option("--artefacts", files->artefacts, "Results of `bench artefacts --json`")
+        ->type_name("FILE.json");
+    command->add_option("-o,--out", files->out, "Markdown to write (default: print it)")
         ->type_name("FILE.md");
-    command->callback([paths] { run_bench_results(paths->json, paths->out); });
+    command->callback([files] { run_bench_results(*files); });
 }
 
 } // namespace
+
+void bench::write_text(const fs::path& path, const std::string& text) {
+    index::NewFile file(path);
+    file.write_at(0, std::as_bytes(std::span(text)));
+    file.commit();
+}
 
 void add_bench(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("bench", "Measure the program's own parts against their rivals.");
     command->require_subcommand(1);
     add_bench_index(*command);
+    bench::add_bench_render(*command);
+    bench::add_bench_artefacts(*command);
     add_bench_results(*command);
 }
 

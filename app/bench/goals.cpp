@@ -1,9 +1,8 @@
 // What the index is to reach, held against what was measured.
 #include "app/bench/goals.h"
 
-#include <fmt/format.h>
+#include "app/bench/goal.h"
 
-#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -11,18 +10,6 @@
 namespace isochron::app::bench {
 
 namespace {
-
-struct Goal {
-    std::string what;
-    std::string unit;   ///< behind every number
-    double goal, floor; ///< at most, or at least where `more` is better
-    bool more;
-    std::function<std::optional<double>(const Row&)> figure; ///< none where it is not about the row
-
-    bool reaches(double measured, double bound) const {
-        return more ? measured >= bound : measured <= bound;
-    }
-};
 
 using Figure = std::function<std::optional<double>(const Row&)>;
 
@@ -64,7 +51,7 @@ std::optional<double> incremental_gain(const Row& row) {
     return row.search_ids_us / *row.incremental_us;
 }
 
-std::vector<Goal> all_goals() {
+std::vector<Goal<Row>> all_goals() {
     const auto build = [](const Row& row) { return row.build_mcs_per_s; };
     return {
         {"false positives and negatives, all types, steps and isovalues", "", 0, 0, false,
@@ -107,32 +94,10 @@ std::vector<Goal> all_goals() {
     };
 }
 
-std::string line_of(const Goal& goal, const Results& results) {
-    std::vector<double> measured;
-    for (const Row& row : results.rows)
-        if (const auto figure = goal.figure(row))
-            measured.push_back(*figure);
-    std::string found = "-", verdict = "not measured";
-    if (!measured.empty()) {
-        const auto [low, high] = std::minmax_element(measured.begin(), measured.end());
-        const double worst = goal.more ? *low : *high;
-        found = *low == *high ? fmt::format("{:.3g}{}", *low, goal.unit)
-                              : fmt::format("{:.3g} to {:.3g}{}", *low, *high, goal.unit);
-        verdict = goal.reaches(worst, goal.goal)    ? "goal reached"
-                  : goal.reaches(worst, goal.floor) ? "above the floor"
-                                                    : "**below the floor**";
-    }
-    return fmt::format("| {} | {}{} | {}{} | {} | {} |\n", goal.what, goal.goal, goal.unit,
-                       goal.floor, goal.unit, found, verdict);
-}
-
 } // namespace
 
 std::string goals_table(const Results& results) {
-    std::string text = "| what | goal | floor | measured | |\n|---|---|---|---|---|\n";
-    for (const Goal& goal : all_goals())
-        text += line_of(goal, results);
-    return text;
+    return table_of(all_goals(), results.rows);
 }
 
 } // namespace isochron::app::bench

@@ -1,8 +1,10 @@
 // The page of results.
 #include "app/bench/results_page.h"
 
+#include "app/bench/artefact_page.h"
 #include "app/bench/goals.h"
 #include "app/bench/paper_tables.h"
+#include "app/bench/render_page.h"
 #include "app/bench/timing.h"
 #include "app/text.h"
 
@@ -155,13 +157,18 @@ std::string series_table(std::span<const Row> rows, std::span<const ErrorDetail>
 
 } // namespace
 
-std::string results_page(const Results& results, const std::string& source) {
+std::string results_page(const Results& results, const ResultPaths& paths) {
     const Header& header = results.header;
-    std::string text = fmt::format("# The index, measured\n\nMade from `{0}` by `isochron bench "
-                                   "results {0}`; not to be edited. "
-                                   "Measured on {1} with commit {2}, {3}, on {4}, {5} threads.\n\n",
-                                   source, header.date, header.commit, header.compiler,
-                                   header.processor, header.threads);
+    std::string command = paths.index;
+    if (!paths.render.empty())
+        command += " --render " + paths.render;
+    if (!paths.artefacts.empty())
+        command += " --artefacts " + paths.artefacts;
+    std::string text = fmt::format("# The index, measured\n\nMade from `{}` by `isochron bench "
+                                   "results {}`; not to be edited. "
+                                   "Measured on {} with commit {}, {}, on {}, {} threads.\n\n",
+                                   paths.index, command, header.date, header.commit,
+                                   header.compiler, header.processor, header.threads);
     text += kReading;
     text += "## Goals\n\nThe worst figure of all rows that a goal speaks of decides.\n\n" +
             goals_table(results) + "\n";
@@ -191,6 +198,18 @@ std::string results_page(const Results& results, const std::string& source) {
     }
     text.pop_back(); // one line end is enough
     return text;
+}
+
+std::string whole_page(const ResultPaths& paths,
+                       const std::function<std::string(const std::string&)>& read) {
+    std::string page = results_page(results_from_json(read(paths.index), paths.index), paths);
+    if (!paths.render.empty())
+        page += render_section(render_results_from_json(read(paths.render), paths.render),
+                               paths.render);
+    if (!paths.artefacts.empty())
+        page += artefact_section(artefacts_from_json(read(paths.artefacts), paths.artefacts),
+                                 paths.artefacts);
+    return page;
 }
 
 } // namespace isochron::app::bench

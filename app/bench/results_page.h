@@ -3,12 +3,22 @@
 
 #include "app/bench/rows.h"
 
+#include <functional>
 #include <string>
 
 namespace isochron::app::bench {
 
-/// Markdown; the same results give the same text.
-/// @param source the file that the results come from, as the page names it
-std::string results_page(const Results& results, const std::string& source);
+/// Files of results, as the page names them; empty: that part is left out.
+struct ResultPaths {
+    std::string index, render, artefacts;
+};
+
+/// All parts, as Markdown; the same results give the same text.
+/// @param read gives a file's text
+std::string whole_page(const ResultPaths& paths,
+                       const std::function<std::string(const std::string&)>& read);
+
+/// The part about the index, with the page's head.
+std::string results_page(const Results& results, const ResultPaths& paths);
 
 } // namespace isochron::app::bench

@@ -1,20 +1,13 @@
 // Rows of figures as JSON and as a table.
 #include "app/bench/rows.h"
 
+#include "app/bench/record_json.h"
 #include "app/text.h"
 #include "index/error.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <cmath>
 
 namespace isochron::app::bench {
-
-namespace {
-
-using nlohmann::json;
-using nlohmann::ordered_json;
 
 /// Calls `field(key, member)` for all figures of a row, in the order of the keys.
 template <class AnyRow, class Field>
@@ -60,61 +53,7 @@ void each_field(AnyDetail& detail, Field&& field) requires
     field("normal_error_p99", detail.normal_error_p99);
 }
 
-template <class AnyHeader, class Field>
-void each_field(AnyHeader& header,
-                Field&& field) requires std::is_same_v<std::remove_const_t<AnyHeader>, Header> {
-    field("commit", header.commit);
-    field("processor", header.processor);
-    field("threads", header.threads);
-    field("compiler", header.compiler);
-    field("date", header.date);
-}
-
-/// Five digits: more is noise.
-ordered_json to_number(double value) {
-    if (value == 0 || !std::isfinite(value))
-        return value;
-    const double digits = 4 - std::floor(std::log10(std::abs(value)));
-    return digits > 0 ? std::round(value * std::pow(10.0, digits)) / std::pow(10.0, digits)
-                      : std::round(value);
-}
-
-template <class Value>
-ordered_json to_value(const Value& value) {
-    if constexpr (std::is_floating_point_v<Value>)
-        return to_number(value);
-    else
-        return value;
-}
-
-template <class Value>
-ordered_json to_value(const std::optional<Value>& value) {
-    return value ? to_value(*value) : ordered_json(nullptr);
-}
-
-template <class Value>
-void from_value(const json& value, Value& out) {
-    value.get_to(out);
-}
-
-template <class Value>
-void from_value(const json& value, std::optional<Value>& out) {
-    out = value.is_null() ? std::nullopt : std::optional<Value>(value.get<Value>());
-}
-
-template <class Record>
-ordered_json record_to_json(const Record& record) {
-    ordered_json j = ordered_json::object();
-    each_field(record, [&](const char* key, const auto& value) { j[key] = to_value(value); });
-    return j;
-}
-
-template <class Record>
-Record record_from_json(const json& j) {
-    Record record;
-    each_field(record, [&](const char* key, auto& value) { from_value(j.at(key), value); });
-    return record;
-}
+namespace {
 
 std::string number(double value) {
     return value >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
@@ -150,20 +89,7 @@ ordered_json to_json(const Results& results) {
 }
 
 std::string to_json_text(const Results& results) {
-    const ordered_json j = to_json(results);
-    std::string text = "{";
-    for (const auto& [part, value] : j.items()) {
-        text += fmt::format("{}\n\"{}\": ", text.size() > 1 ? "," : "", part);
-        if (!value.is_array()) {
-            text += value.dump();
-            continue;
-        }
-        text += "[";
-        for (std::size_t i = 0; i < value.size(); ++i)
-            text += (i ? ",\n" : "\n") + value[i].dump();
-        text += "\n]";
-    }
-    return text + "\n}\n";
+    return json_text(to_json(results));
 }
 
 Results results_from_json(const std::string& text, const std::string& name) {

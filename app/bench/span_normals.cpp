@@ -18,32 +18,39 @@ namespace isochron::app::bench {
 using index::CellId;
 using index::TimeNode;
 
+std::vector<SpanCells> span_cells(const index::StepValues& values, const index::ThiTree& tree,
+                                  const index::Query& query) {
+    const index::KeyMap keys(values.type, values.scaling);
+    index::ThiTree::Cursor cursor; // says at which depth each cell was found
+    tree.search_incremental(cursor, query.step, keys.threshold(query.isovalue));
+    std::vector<SpanCells> spans;
+    TimeNode node = TimeNode::root(tree.steps());
+    std::size_t begin = 0;
+    for (const std::size_t end : cursor.reached) {
+        SpanCells& span = spans.emplace_back();
+        span.middle = node.first + node.steps() / 2;
+        span.cells.assign(cursor.cells.begin() + static_cast<std::ptrdiff_t>(begin),
+                          cursor.cells.begin() + static_cast<std::ptrdiff_t>(end));
+        index::keep_active(values, query, span.cells);
+        begin = end;
+        if (!node.is_leaf())
+            node = node.towards(query.step);
+    }
+    return spans;
+}
+
 NormalError normal_error(const index::StepValues& values, const index::ThiTree& tree,
                          double isovalue) {
-    const std::uint64_t threshold = index::KeyMap(values.type, values.scaling).threshold(isovalue);
     std::vector<double> angles;
-    for (std::uint32_t step = 0; step < values.steps; ++step) {
-        index::ThiTree::Cursor cursor; // says at which depth each cell was found
-        tree.search_incremental(cursor, step, threshold);
-        TimeNode node = TimeNode::root(tree.steps());
-        std::size_t begin = 0;
-        for (const std::size_t end : cursor.reached) {
-            std::vector<CellId> cells(cursor.cells.begin() + static_cast<std::ptrdiff_t>(begin),
-                                      cursor.cells.begin() + static_cast<std::ptrdiff_t>(end));
-            index::keep_active(values, {step, isovalue}, cells);
-            const std::uint32_t middle = node.first + node.steps() / 2;
-            for (const CellId cell : cells) {
+    for (std::uint32_t step = 0; step < values.steps; ++step)
+        for (const SpanCells& span : span_cells(values, tree, {step, isovalue}))
+            for (const CellId cell : span.cells) {
                 const glm::dvec3 now = index::cell_normal(values, step, cell),
-                                 stored = index::cell_normal(values, middle, cell);
+                                 stored = index::cell_normal(values, span.middle, cell);
                 if (now != glm::dvec3(0) && stored != glm::dvec3(0))
                     angles.push_back(
                         glm::degrees(std::acos(std::clamp(glm::dot(now, stored), -1.0, 1.0))));
             }
-            begin = end;
-            if (!node.is_leaf())
-                node = node.towards(step);
-        }
-    }
     if (angles.empty())
         return {};
     const auto p99 = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() * 99 / 100);

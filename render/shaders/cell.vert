@@ -1,13 +1,12 @@
 #version 450 core
-// Places one quad per cell so that it just encloses the projection of the cell's ellipsoid, and
-// shades it from the head.
+// Places one quad (or, with POINTS, one point) per cell so that it just encloses the projection of
+// the cell's ellipsoid, and shades it from the head.
 //
 // The paper (Vrolijk, Botha and Post 2004, section 5) projects the voxel sphere as a quadric,
 // Q' = M^-T Q M^-1, with the conic C = c A - b b^T for its outline, and draws the rectangle on the
 // conic's principal axes. The dual of that conic needs no inverse: for the sphere of radius r about
 // c, C* = r^2 K - p p^T with p = M c and K = M M^T (rows x, y and w; K without translation). It
-// holds for every frustum, off-axis and parallel too, and for any spacing. Any ellipse is an affine
-// picture of the unit disc, so `disc` is exactly 1 on the outline.
+// holds for every frustum, off-axis and parallel too, and for any spacing.
 
 layout(binding = 0) uniform usamplerBuffer cells;
 layout(binding = 1) uniform usamplerBuffer order; // of the first eye
@@ -16,11 +15,13 @@ layout(binding = 2) uniform usamplerBuffer order_of_other_eye;
 #include "frame.glsl"
 #include "lighting.glsl"
 #include "appearance.glsl"
+#include "footprint.glsl"
 
-out vec2 disc;
 flat out vec4 shaded;
 
+#ifndef POINTS
 const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
+#endif
 
 vec4 to_pixels(vec4 p) {
     return vec4(dot(EYE(row_x), p), dot(EYE(row_y), p), dot(EYE(row_z), p), dot(EYE(row_w), p));
@@ -53,15 +54,18 @@ vec3 unpack_normal(uint word) {
 }
 
 void main() {
+#ifdef POINTS
+    int slot = gl_VertexID;
+#else
     int slot = gl_VertexID >> 2;
-    vec2 corner = kCorners[gl_VertexID & 3];
+    disc = kCorners[gl_VertexID & 3];
+#endif
     start_eye();
     if (ordered)
         slot = int((EYE_INDEX == 0 ? texelFetch(order, slot) : texelFetch(order_of_other_eye, slot)).x);
     uvec3 cell = texelFetch(cells, slot).xyz;
     vec4 centre = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
 
-    disc = corner;
     uint style = cell.y >> 16;
     vec3 lit = shade((EYE(eye_from_index) * centre).xyz, unpack_normal(cell.z), base_color(style));
     shaded = vec4(written(lit), surfaces[style & 7u].a);
@@ -88,7 +92,24 @@ void main() {
         vec2 shift = -k * vec2(dot(a, EYE(row_w).xyz), dot(b, EYE(row_w).xyz));
         mat2 axes = half_axes(shift.x * shift.x + k * dot(a, a), shift.x * shift.y + k * dot(a, b),
                               shift.y * shift.y + k * dot(b, b));
-        gl_Position = vec4((m + shift + axes * corner) * EYE(clip_per_pixel).xy * p.w, p.z, p.w);
+        vec2 at = m + shift;
+#ifdef POINTS
+        // The square holds the ellipse, or the rectangle on its axes.
+        vec2 u = abs(axes[0]), v = abs(axes[1]);
+#ifdef ROUND
+        vec2 reach = sqrt(u * u + v * v);
+#else
+        vec2 reach = u + v;
+#endif
+        float half_size = max(reach.x, reach.y);
+        mat2 from_point = half_size * inverse(axes);
+        disc_from_point = vec4(from_point[0], from_point[1]);
+        gl_PointSize = 2.0 * half_size;
+#else
+        at += axes * disc;
+#endif
+        gl_Position = vec4(at * EYE(clip_per_pixel).xy * p.w, p.z, p.w);
+#ifndef POINTS // which serve only where no cell comes that near
     } else if (EYE(eye_in_index).w == 0.0 || eye_distance2 <= rr) {
         gl_Position = vec4(0, 0, -2, 1); // around the eye: nothing to see from inside
     } else {
@@ -100,8 +121,9 @@ void main() {
         vec3 least = v.x <= v.y && v.x <= v.z ? vec3(1, 0, 0) : v.y <= v.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
         vec3 e1 = normalize(cross(from_centre, least));
         vec3 e2 = normalize(cross(from_centre, e1));
-        vec3 at = centre.xyz + along * from_centre + size * (corner.x * e1 + corner.y * e2);
+        vec3 at = centre.xyz + along * from_centre + size * (disc.x * e1 + disc.y * e2);
         vec4 q = to_pixels(vec4(at, 1.0));
         gl_Position = vec4(q.xy * EYE(clip_per_pixel).xy, q.zw);
+#endif
     }
 }

@@ -5,12 +5,14 @@
 
 layout(location = 0) uniform float falloff; // log2 of the opacity on the outline, negative
 
-in vec2 disc;
+#include "footprint.glsl"
+
 flat in vec4 shaded;
 out vec4 result;
 
 void main() {
-    float outwards = dot(disc, disc);
+    vec2 at = position_on_disc();
+    float outwards = dot(at, at);
     float alpha = outwards < 1.0 ? shaded.a * exp2(falloff * outwards) : 0.0;
     result = vec4(shaded.rgb * alpha, alpha);
 }

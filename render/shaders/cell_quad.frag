@@ -1,9 +1,16 @@
 #version 450 core
 // A fast quad: one flat colour, corners and all.
 
+#include "footprint.glsl"
+
 flat in vec4 shaded;
 out vec4 result;
 
 void main() {
+#ifdef POINTS
+    vec2 at = abs(position_on_disc());
+    if (max(at.x, at.y) > 1.0)
+        discard;
+#endif
     result = vec4(shaded.rgb, 1.0);
 }

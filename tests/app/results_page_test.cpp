@@ -1,11 +1,16 @@
 // The page of results is the one that the committed figures give, and says what they say.
+#include "app/bench/artefacts.h"
 #include "app/bench/goals.h"
+#include "app/bench/render_goals.h"
+#include "app/bench/render_page.h"
 #include "app/bench/results_page.h"
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 namespace isochron::app::bench {
 namespace {
@@ -19,12 +24,28 @@ std::string read(const std::string& path) {
 }
 
 TEST(ResultsPage, IsTheOneOfTheCommittedFigures) {
-    const std::string source = "docs/results/index.json";
-    const Results results = results_from_json(read(source), source);
-    EXPECT_EQ(results_page(results, source), read("docs/RESULTS.md"))
-        << "make it again: isochron bench results " << source << " -o docs/RESULTS.md";
-    EXPECT_FALSE(results.header.commit.empty());
-    EXPECT_FALSE(results.header.processor.empty());
+    const ResultPaths paths{.index = "docs/results/index.json",
+                            .render = "docs/results/render.json",
+                            .artefacts = "docs/results/artefacts.json"};
+    EXPECT_EQ(whole_page(paths, read), read("docs/RESULTS.md"))
+        << "make it again: isochron bench results " << paths.index << " --render " << paths.render
+        << " --artefacts " << paths.artefacts << " -o docs/RESULTS.md";
+    for (const Header& header : {results_from_json(read(paths.index), "").header,
+                                 render_results_from_json(read(paths.render), "").header,
+                                 artefacts_from_json(read(paths.artefacts), "").header}) {
+        EXPECT_FALSE(header.commit.empty());
+        EXPECT_FALSE(header.processor.empty());
+    }
+}
+
+TEST(ResultsPage, ShowsOnlyPicturesThatAreThere) {
+    const std::string page = read("docs/RESULTS.md");
+    const std::regex picture(R"(!\[[^\]]*\]\(([^)]+)\))");
+    int shown = 0;
+    for (std::sregex_iterator i(page.begin(), page.end(), picture), end; i != end; ++i, ++shown)
+        EXPECT_TRUE(std::filesystem::exists(std::string(SOURCE_ROOT) + "/docs/" + (*i)[1].str()))
+            << (*i)[1];
+    EXPECT_GE(shown, 3);
 }
 
 Row row_of(const std::string& structure, const std::string& data, const std::string& type) {
@@ -51,7 +72,8 @@ TEST(ResultsPage, PutsThePublishedFiguresNextToOurs) {
     row.sweep_ms = 0.08;
     Results results = results_of({row});
     results.details[0].percent_at_isovalue = 10.6;
-    const std::string page = results_page(results, "a.json");
+    const std::string page =
+        results_page(results, {.index = "a.json", .render = {}, .artefacts = {}});
     EXPECT_THAT(page, HasSubstr("commit 0123abcd, some compiler, on some processor"));
     // Table 1 and Table 2 share this setting; others were not measured.
     EXPECT_THAT(page, HasSubstr("| 64 | 2 | 25 | paper | 37.2 | 1.3 | 2140 | 740 | 2.90 |\n"
@@ -91,6 +113,54 @@ TEST(Goals, LetOnlyThePublishedStructureHaveFalsePositives) {
     cells.false_negatives = 1;
     EXPECT_THAT(goals_table(results_of({thi, cells})),
                 HasSubstr("| 0 | 0 | 1 | **below the floor** |"));
+}
+
+RenderRow render_row(const std::string& footprint, double fps) {
+    RenderRow row;
+    row.data = "sphere";
+    row.footprint = footprint;
+    row.size = 512;
+    row.threads = 2;
+    row.fps = fps;
+    row.p99_over_static = 1.4;
+    return row;
+}
+
+TEST(RenderPage, PutsTheRatesNextToThePaper) {
+    RenderRow one_core = render_row("quad", 300.4);
+    one_core.threads = 1;
+    const std::string page = render_section(
+        {{"0123abcd", "p", "c", "d", 2}, {render_row("quad", 612.4), one_core}}, "b.json");
+    EXPECT_THAT(page, HasSubstr("| fast | paper, GeForce 4 | 250.85 | 284.42 |\n"
+                                "| | here, software GL, 1 core | 300 | - |\n"
+                                "| | here, software GL, 2 cores | 612 | - |\n"));
+    EXPECT_THAT(page, HasSubstr("| sphere | quad | 512^2 | 2 |"));
+}
+
+TEST(RenderGoals, SpeakOfTwoCoresAndOnePicture) {
+    RenderRow row = render_row("quad", 500);
+    const auto table = [&] { return render_goals_table({row}); };
+    EXPECT_THAT(table(), HasSubstr("| 600 fps | 250 fps | 500 fps | above the floor |"));
+    row.draw_ms = 2;
+    row.quads_ms = 2.8;
+    row.bare_fps = 500;
+    EXPECT_THAT(table(), HasSubstr("as points where they serve, against bare quads, 512^2 | 1.1x | "
+                                   "1.3x | 1x | goal reached |"));
+    EXPECT_THAT(table(), HasSubstr("never as points, against bare quads, 512^2 | 1.1x | 1.3x | "
+                                   "1.4x | **below the floor** |"));
+    EXPECT_THAT(table(), HasSubstr("| 1.3x | 2x | 1.4x | above the floor |"));
+    row.threads = 1;
+    EXPECT_THAT(table(), HasSubstr("fast quads, sphere, 512^2 | 600 fps | 250 fps | - |"));
+}
+
+TEST(RenderGoals, CompareASurfaceWithSplatsOfTheSamePicture) {
+    RenderRow surface = render_row("surface", 90), splats = render_row("gaussian", 100);
+    surface.size = splats.size = 1024;
+    surface.draw_ms = 6;
+    splats.draw_ms = 10;
+    EXPECT_THAT(render_goals_table({splats, surface}),
+                HasSubstr("| 0.7x | 1.3x | 0.6x | goal reached |"));
+    EXPECT_THAT(render_goals_table({surface}), HasSubstr("| 0.7x | 1.3x | - | not measured |"));
 }
 
 } // namespace

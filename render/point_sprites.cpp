@@ -1,0 +1,65 @@
+// Bounds over all cells that a volume could have.
+#include "render/point_sprites.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace isochron::render {
+
+namespace {
+
+/// Beyond it the square around an ellipse is mostly empty.
+constexpr float kMostUneven = 2.0f;
+/// As in cell.vert: nearer to the eye's plane the outline is drawn in another way.
+constexpr float kLeastDepth = 0.1f;
+
+bool nearly_even(const glm::mat3& axes) {
+    const auto [low, high] =
+        std::minmax({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+    return high <= kMostUneven * low;
+}
+
+} // namespace
+
+bool points_serve(const View& view, const Placement& placement, float radius, float reach,
+                  float largest_point) {
+    if (!nearly_even(glm::mat3(placement.room_from_index)))
+        return false;
+    const glm::mat4 clip_from_index =
+        view.clip_from_eye * view.eye_from_room * placement.room_from_index;
+    // The frustum is convex: where the corners of a box are inside, all of it is.
+    const glm::vec3 low(0.5f - reach * radius);
+    const glm::vec3 high = placement.extent - low;
+    float nearest = std::numeric_limits<float>::max();
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at =
+            glm::mix(low, high, glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2));
+        const glm::vec4 p = clip_from_index * glm::vec4(at, 1.0f);
+        if (p.w <= 0.0f || std::abs(p.x) > p.w || std::abs(p.y) > p.w)
+            return false;
+        nearest = std::min(nearest, p.w);
+    }
+    // The bounds of cell.vert's terms, for the nearest cell in any direction of the view.
+    const auto row = [&](int i) {
+        return glm::length(
+            glm::vec3(clip_from_index[0][i], clip_from_index[1][i], clip_from_index[2][i]));
+    };
+    const float tilt = row(3);
+    const float distance = nearest + reach * radius * tilt;
+    const float d = distance * distance - radius * radius * tilt * tilt;
+    if (d <= kLeastDepth * distance * distance)
+        return false;
+    const float k = radius * radius / d;
+    const glm::vec2 sides = 0.5f * glm::vec2(view.size) * glm::vec2(row(0) + tilt, row(1) + tilt);
+    const float half_size =
+        std::numbers::sqrt2_v<float> * glm::length(sides) * std::sqrt(k * (1.0f + k * tilt * tilt));
+    return 2.0f * half_size <= largest_point;
+}
+
+} // namespace isochron::render

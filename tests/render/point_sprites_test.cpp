@@ -1,0 +1,136 @@
+// Points and quads show the same, and points are taken only where they can.
+#include "render/point_sprites.h"
+
+#include "render/cell_pass.h"
+#include "render/render_target.h"
+#include "tests/render/gl_test.h"
+#include "tests/render/outline_oracle.h"
+#include "tests/render/random_views.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace isochron::render {
+namespace {
+
+constexpr float kLargest = 255.0f;
+
+/// A view of a whole volume, from outside, from within or past it; now and then parallel.
+Scene random_volume(std::mt19937& random) {
+    auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    Scene scene;
+    scene.view.size = {uniform(100, 400), uniform(100, 400)};
+    const glm::dvec3 extent(std::floor(uniform(2, 40)), std::floor(uniform(2, 40)),
+                            std::floor(uniform(2, 40)));
+    const glm::dvec3 spacing(uniform(1, 1.8), uniform(1, 1.8), uniform(1, 1.8));
+    const double radius = 0.5 * glm::length(extent * spacing);
+    const glm::dvec3 axis = glm::normalize(
+        glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + glm::dvec3(0.01));
+    scene.placement.extent = glm::vec3(extent);
+    scene.placement.room_from_index =
+        glm::mat4(glm::translate(glm::dmat4(1.0), glm::dvec3(uniform(-0.3, 0.3), uniform(-0.3, 0.3),
+                                                             -uniform(0.5, 4.0))) *
+                  glm::rotate(glm::dmat4(1.0), uniform(0, 6), axis) *
+                  glm::scale(glm::dmat4(1.0), spacing / radius) *
+                  glm::translate(glm::dmat4(1.0), -0.5 * extent));
+    const double right = uniform(0.02, 0.06), left = -uniform(0.02, 0.06),
+                 top = uniform(0.02, 0.06), bottom = -uniform(0.02, 0.06);
+    scene.view.clip_from_eye =
+        random() % 4 ? glm::mat4(glm::frustum(left, right, bottom, top, 0.05, 20.0))
+                     : glm::mat4(glm::ortho(40 * left, 40 * right, 40 * bottom, 40 * top, -9., 9.));
+    return scene;
+}
+
+TEST(PointSprites, ServeOnlyWhereNoFootprintCrossesAnEdgeOrIsTooLarge) {
+    std::mt19937 random(test_seed());
+    int served = 0, refused = 0;
+    for (int round = 0; round < 2000; ++round) {
+        Scene scene = random_volume(random);
+        const double radius = round % 2 ? 0.8 : 2.0;
+        const bool rectangle = round % 2;
+        if (!points_serve(scene.view, scene.placement, static_cast<float>(radius),
+                          rectangle ? kReachOfRectangle : 1.0f, kLargest)) {
+            ++refused;
+            continue;
+        }
+        ++served;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 last = glm::dvec3(scene.placement.extent) - 1.0;
+            const glm::dvec3 cell = last * glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2);
+            const Ellipse ellipse = paper_ellipse(scene.pixel_from_index(), cell + 0.5, radius);
+            const glm::dvec2 half = 0.5 * glm::dvec2(scene.view.size);
+            // Half sides of the upright box around the rectangle, or around the ellipse.
+            const glm::dvec2 a = glm::abs(ellipse.major), b = glm::abs(ellipse.minor);
+            const glm::dvec2 reach = rectangle ? a + b : glm::sqrt(a * a + b * b);
+            for (const glm::dvec2& at : {ellipse.centre + reach, ellipse.centre - reach}) {
+                ASSERT_LE(std::abs(at.x), half.x + 0.5) << "round " << round;
+                ASSERT_LE(std::abs(at.y), half.y + 0.5) << "round " << round;
+            }
+            ASSERT_LE(2 * glm::length(ellipse.major), double(kLargest)) << "round " << round;
+        }
+    }
+    EXPECT_GT(served, 200);
+    EXPECT_GT(refused, 200);
+}
+
+TEST(PointSprites, DoNotServeFlatCells) {
+    Scene scene;
+    scene.view.size = {200, 200};
+    scene.view.clip_from_eye = glm::ortho(-30.0f, 30.0f, -30.0f, 30.0f, -100.0f, 100.0f);
+    scene.placement.extent = glm::vec3(10.0f);
+    EXPECT_TRUE(points_serve(scene.view, scene.placement, 2.0f, kReachOfRectangle, kLargest));
+    EXPECT_FALSE(points_serve(scene.view, scene.placement, 2.0f, 1.0f, 5.0f));
+    scene.placement.room_from_index = glm::scale(glm::mat4(1.0f), glm::vec3(1.0f, 1.0f, 2.5f));
+    EXPECT_FALSE(points_serve(scene.view, scene.placement, 2.0f, kReachOfRectangle, kLargest));
+}
+
+class PointPasses : public GlTest {};
+
+TEST_P(PointPasses, ShowWhatQuadsShow) {
+    CellPass as_points(gl_), as_quads(gl_);
+    as_quads.draw_without_points();
+    int compared = 0;
+    for (int round = 0; compared < 12; ++round) {
+        ASSERT_LT(round, 1000);
+        const Scene scene = random_volume(random_);
+        if (!points_serve(scene.view, scene.placement, 2.0f, kReachOfRectangle, kLargest))
+            continue;
+        ++compared;
+        const glm::ivec3 last = glm::ivec3(scene.placement.extent) - 1;
+        std::vector<glm::ivec3> cells;
+        for (int i = 0; i < 12; ++i)
+            cells.push_back(glm::ivec3(random_() % (last.x + 1), random_() % (last.y + 1),
+                                       random_() % (last.z + 1)));
+        const CellBuffers buffers = showing(gl_, cell_set(cells, packed_normal({0.6f, 0, 0.8f})));
+        RenderTarget target(gl_, scene.view.size);
+        for (const Footprint footprint : {Footprint::quad, Footprint::gaussian}) {
+            std::array<Image, 2> images;
+            for (CellPass* pass : {&as_points, &as_quads}) {
+                target.bind();
+                target.clear({0, 0, 0, 0});
+                pass->draw(scene.view, scene.placement, buffers, footprint);
+                images[pass == &as_quads] = target.read();
+            }
+            // A rectangle's edge may fall on the other side of a pixel's middle, in rare pixels.
+            std::size_t different = 0, drawn = 0;
+            for (std::size_t i = 0; i < images[0].rgba.size(); i += 4) {
+                int most = 0;
+                for (std::size_t c = i; c < i + 4; ++c)
+                    most = std::max(most, std::abs(images[0].rgba[c] - images[1].rgba[c]));
+                different += most > 4;
+                drawn += images[1].rgba[i + 3] > 0;
+            }
+            EXPECT_GT(drawn, 20u);
+            EXPECT_LE(different, 4 + drawn / 200) << "round " << round;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, PointPasses, both_contexts(), context_name);
+
+} // namespace
+} // namespace isochron::render

@@ -113,23 +113,24 @@ class ValueBatch {
   public:
     using Maker = NormalMaker<float>;
 
-    explicit ValueBatch(const Grid& grid) {
-        const std::ptrdiff_t row = grid.vertices[0], slice = row * grid.vertices[1];
-        rows_ = {0,      row,          slice,     row + slice,     // of the cell
-                 -row,   -row + slice, 2 * row,   2 * row + slice, // below and above in y
-                 -slice, -slice + row, 2 * slice, 2 * slice + row};
-    }
+    explicit ValueBatch(const Grid& grid)
+        : row_(grid.vertices[0]), slice_(row_ * std::ptrdiff_t{grid.vertices[1]}) {}
 
     /// @param v the cell's first vertex
     HWY_INLINE void set(std::size_t slot, const T* v) {
-        for (std::size_t row = 0; row < kRows; ++row)
-            if constexpr (sizeof(T) == 1)
-                take(row, slot, v + rows_[row] - 1);
-            else if (row < kInner) {
-                take(row, slot, v + rows_[row] - 1);
-                take(kRows + row, slot, v + rows_[row] + 1);
-            } else
-                take(row, slot, v + rows_[row]);
+        const T *next = v + slice_, *below = v - slice_, *above = next + slice_;
+        take_inner(0, slot, v);
+        take_inner(1, slot, v + row_);
+        take_inner(2, slot, next);
+        take_inner(3, slot, next + row_);
+        take_outer(4, slot, v - row_);
+        take_outer(5, slot, next - row_);
+        take_outer(6, slot, v + 2 * row_);
+        take_outer(7, slot, next + 2 * row_);
+        take_outer(8, slot, below);
+        take_outer(9, slot, below + row_);
+        take_outer(10, slot, above);
+        take_outer(11, slot, above + row_);
     }
 
     HWY_INLINE void make(const Maker& maker, std::size_t slot, std::uint32_t* out) const {
@@ -152,6 +153,16 @@ class ValueBatch {
     using Ints = hn::Rebind<std::int32_t, typename Maker::D>;
     using V = hn::Vec<Ints>;
 
+    /// Two vertices with their neighbours along x.
+    HWY_INLINE void take_inner(std::size_t row, std::size_t slot, const T* v) {
+        take(row, slot, v - 1);
+        if constexpr (sizeof(T) == 2)
+            take(kRows + row, slot, v + 1);
+    }
+    /// Two vertices, where bytes make words as above.
+    HWY_INLINE void take_outer(std::size_t row, std::size_t slot, const T* v) {
+        take(row, slot, sizeof(T) == 1 ? v - 1 : v);
+    }
     HWY_INLINE void take(std::size_t word, std::size_t slot, const T* from) {
         std::memcpy(&words_[word][slot], from, sizeof(std::int32_t));
     }
@@ -201,7 +212,7 @@ class ValueBatch {
                        hn::Add(across(row, slot), across(row + 1, slot)));
     }
 
-    std::array<std::ptrdiff_t, kRows> rows_;
+    std::ptrdiff_t row_, slice_;
     std::array<std::array<std::int32_t, kBatch>, kWords> words_{};
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -76,29 +77,44 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     Shader<DifferenceBatch> exact({}, matrix);
     using Batch = ValueBatch<std::conditional_t<kSmall, T, std::uint8_t>>;
     Shader<Batch> fast(Batch(values.grid), matrix);
-    const std::uint32_t width = values.grid.cells()[0];
+    const auto [width, height, depth] = values.grid.cells();
+    const std::size_t row_size = values.grid.vertices[0];
+    const std::size_t slice_size = row_size * values.grid.vertices[1];
+    const T* const volume = values.step<T>(set.query.step).data();
+    const bool float_is_enough = kSmall && smallest >= kFloatIsEnough;
     CellWalk walk(values.grid);
-    CellDifferences<T> row(values, set.query.step, 0, 0);
-    bool inner = false;
-    CellPoint point{};
-    for (std::size_t i = 0; i < set.ids.size(); ++i) {
+    // The current row:
+    std::uint32_t y = 0, z = 0, inner_width = 0; // cells from the second on that `fast` takes
+    const T* of_row = volume;
+    std::optional<CellDifferences<T>> differences;
+
+    const std::size_t count = set.ids.size();
+    const CellId* const ids = set.ids.data();
+    CellPoint* const points = set.points.data();
+    for (std::size_t i = 0; i < count; ++i) {
         if (i % 4096 == 0 && stop.stop_requested())
             return false;
-        if (walk.to(set.ids[i])) {
-            point.y = static_cast<std::uint16_t>(walk.y());
-            point.z = static_cast<std::uint16_t>(walk.z());
-            set.rows.push_back({point.y, point.z, static_cast<std::uint32_t>(i)});
-            row = CellDifferences<T>(values, set.query.step, point.y, point.z);
-            inner = kSmall && smallest >= kFloatIsEnough && !row.border();
+        if (walk.to(ids[i])) {
+            y = walk.y();
+            z = walk.z();
+            set.rows.push_back({static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z),
+                                static_cast<std::uint32_t>(i)});
+            of_row = volume + z * slice_size + y * row_size;
+            const bool border = y == 0 || y + 1 == height || z == 0 || z + 1 == depth;
+            inner_width = float_is_enough && !border && width > 2 ? width - 2 : 0;
+            differences.reset();
         }
-        point.x = static_cast<std::uint16_t>(walk.x());
-        set.points[i] = point;
+        const std::uint32_t x = walk.x();
+        points[i] = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                     static_cast<std::uint16_t>(z), 0, 0};
         if constexpr (kSmall)
-            if (inner && point.x > 0 && point.x + 1u < width) {
-                fast.add(row.first() + point.x, set.points[i]);
+            if (x - 1u < inner_width) { // not so for x = 0 either: the numbers are unsigned
+                fast.add(of_row + x, points[i]);
                 continue;
             }
-        exact.add(row(point.x), set.points[i]);
+        if (!differences)
+            differences.emplace(values, set.query.step, y, z);
+        exact.add((*differences)(x), points[i]);
     }
     fast.finish();
     exact.finish();
@@ -123,6 +139,7 @@ HWY_EXPORT(shade_step);
 bool shade_cells(const StepValues& values, CellSet& set, const std::stop_token& stop) {
     set.points.resize(set.ids.size());
     set.rows.clear();
+    set.rows.reserve(set.ids.size() / 2);
     return HWY_DYNAMIC_DISPATCH(shade_step)(values, set, stop);
 }
 

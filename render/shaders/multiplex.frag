@@ -1,5 +1,6 @@
 #version 450 core
-// Two eyes' pictures in one: by colour, or by the parity of rows and columns of the window.
+// Two eyes' pictures in one: by colour, or by the parity of rows and columns of the window. The
+// textures give light and the target takes it.
 
 layout(binding = 0) uniform sampler2D left_eye;
 layout(binding = 1) uniform sampler2D right_eye;
@@ -19,14 +20,6 @@ const mat3 dubois_right = mat3(
     -0.032, 0.761, -0.093,
     -0.007, 0.009, 1.234);
 
-// IEC 61966-2-1 (sRGB).
-vec3 linear_from_srgb(vec3 c) {
-    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
-}
-vec3 srgb_from_linear(vec3 c) {
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
-}
-
 void main() {
     ivec2 window_pixel = ivec2(gl_FragCoord.xy);
     ivec2 pixel = window_pixel - corner;
@@ -39,8 +32,7 @@ void main() {
         both = vec3(left.r, right.gb);
         break;
     case 1:
-        vec3 sum = dubois_left * linear_from_srgb(left) + dubois_right * linear_from_srgb(right);
-        both = srgb_from_linear(clamp(sum, 0.0, 1.0));
+        both = clamp(dubois_left * left + dubois_right * right, 0.0, 1.0);
         break;
     default:
         int count = mode == 2 ? row : mode == 3 ? column : row + column;

@@ -4,7 +4,9 @@
 layout(binding = 0) uniform samplerBuffer triangles; // three corners, colour
 uniform mat4 eye_from_model;
 uniform mat4 clip_from_eye;
-flat out vec3 color;
+flat out vec3 color; // light
+
+#include "srgb.glsl"
 
 void main() {
     int first = gl_VertexID / 3 * 4;
@@ -15,6 +17,6 @@ void main() {
     vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     float size = length(normal) * length(middle);
     float facing = size > 0.0 ? max(0.0, dot(normal, -middle) / size) : 0.0;
-    color = texelFetch(triangles, first + 3).rgb * (0.3 + 0.7 * facing);
+    color = linear_from_srgb(texelFetch(triangles, first + 3).rgb * (0.3 + 0.7 * facing));
     gl_Position = clip_from_eye * vec4(corners[gl_VertexID % 3], 1.0);
 }

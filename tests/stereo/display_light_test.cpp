@@ -48,7 +48,7 @@ TEST_P(DisplayLight, HalfTheLightIsHalfTheLightInEveryModeAndWithSeveralSamples)
             });
             // A quarter into the window is the left eye's picture, or a place in everybody's.
             const Image window = display.read_window();
-            const bool stacked = mode == StereoMode::top_bottom;
+            const bool stacked = upright(mode) == StereoMode::top_bottom;
             const int y = stacked ? window.height / 4 : window.height / 2;
             for (const int x : {window.width / 4, window.width * 3 / 4})
                 for (int channel = 0; channel < 3; ++channel)

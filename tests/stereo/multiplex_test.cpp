@@ -44,12 +44,14 @@ class MultiplexTest : public testing::TestWithParam<ContextKind> {
             const auto at = [&](const char* name) { return gl_.GetUniformLocation(program, name); };
             gl_.Disable(GL_DEPTH_TEST);
             gl_.Disable(GL_BLEND);
+            gl_.Disable(GL_FRAMEBUFFER_SRGB); // the pattern is made of display values
             gl_.UseProgram(program);
             gl_.ProgramUniform1i(program, at("viewport"), static_cast<GLint>(drawn++ / eyes));
             gl_.ProgramUniform1f(program, at("blue"), eye == Eye::left ? 40.0f : 200.0f);
             gl_.ProgramUniform1i(program, at("height"), view.size.y);
             gl_.BindVertexArray(no_attributes_.name());
             gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+            gl_.Enable(GL_FRAMEBUFFER_SRGB);
         });
         return display.read_window();
     }

@@ -24,7 +24,6 @@ struct AxisTaps {
         high_weight = last ? 1.0 : 0.5;
         next = step;
     }
-    bool border() const { return below == 0 || above == next; }
     /// Sum of the differences at the cell's two vertices of one edge along this axis.
     template <class T>
     double operator()(const T* edge) const {
@@ -44,11 +43,6 @@ class CellDifferences {
           slice_(std::ptrdiff_t{nx_} * values.grid.vertices[1]),
           dy_(y, values.grid.vertices[1], row_), dz_(z, values.grid.vertices[2], slice_),
           first_(values.step<T>(step).data() + y * row_ + z * slice_) {}
-
-    /// The first vertex of the row's first cell.
-    const T* first() const { return first_; }
-    /// Whether all cells of the row lie at the border of the grid.
-    bool border() const { return dy_.border() || dz_.border(); }
 
     /// Four times the mean of the eight vertices' differences along every axis, in index space.
     glm::dvec3 operator()(std::uint32_t x) const {

@@ -39,14 +39,33 @@ HWY_INLINE std::uint64_t same(const Extremes& a, const Extremes& b, std::size_t 
     return word;
 }
 
-void join_spans(const Extremes& a, const Extremes& b, std::uint64_t* left, std::uint64_t* right,
-                std::uint64_t* joined, std::size_t words) {
+/// The bits of the 64 cells from `i` on that are active at some isovalue.
+HWY_INLINE std::uint64_t active(const Extremes& extremes, std::size_t i) {
+    constexpr Bytes d;
+    std::uint64_t word = 0;
+    for (std::size_t at = 0; at < kWordBits; at += hn::Lanes(d)) {
+        std::uint64_t bits = 0;
+        hn::StoreMaskBits(d,
+                          hn::Lt(hn::LoadU(d, extremes.low.data() + i + at),
+                                 hn::LoadU(d, extremes.high.data() + i + at)),
+                          reinterpret_cast<std::uint8_t*>(&bits));
+        word |= bits << at;
+    }
+    return word;
+}
+
+std::size_t join_spans(const Extremes& a, const Extremes& b, std::uint64_t* left,
+                       std::uint64_t* right, std::uint64_t* joined, std::size_t words) {
+    std::size_t count = 0;
     for (std::size_t word = 0; word < words; ++word) {
         const std::uint64_t both = left[word] & right[word];
         joined[word] = both ? both & same(a, b, word * kWordBits) : 0;
         left[word] &= ~joined[word];
         right[word] &= ~joined[word];
+        if (joined[word])
+            count += hwy::PopCount(joined[word] & active(a, word * kWordBits));
     }
+    return count;
 }
 
 void find_changes(const Extremes& a, const Extremes& b, std::uint64_t* changed, std::size_t words) {
@@ -179,10 +198,10 @@ CellEntries::CellEntries() {
     }
 }
 
-void join_spans(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& left,
-                CellBits& right, CellBits& joined) {
-    HWY_DYNAMIC_DISPATCH(join_spans)
-    (a, b, left.data(), right.data(), joined.data(), joined.size());
+std::size_t join_spans(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& left,
+                       CellBits& right, CellBits& joined) {
+    return HWY_DYNAMIC_DISPATCH(join_spans)(a, b, left.data(), right.data(), joined.data(),
+                                            joined.size());
 }
 
 void find_changes(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& changed) {

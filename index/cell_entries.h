@@ -37,9 +37,10 @@ using CellBits = std::vector<std::uint64_t>;
 
 /// Finds the cells of which two neighbouring spans of time, each constant in the chosen cells, make
 /// one constant span, and takes them out of both.
-/// @param a, b extremes at any step of the two spans
-void join_spans(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& left,
-                CellBits& right, CellBits& joined);
+/// @param a, b extremes at any step of the two spans @return how many of the
+///   cells are active at any isovalue at all
+std::size_t join_spans(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& left,
+                       CellBits& right, CellBits& joined);
 
 /// Sets the bits of the cells whose extremes differ.
 void find_changes(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& changed);

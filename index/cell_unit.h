@@ -124,7 +124,8 @@ constexpr std::uint32_t epoch_count(std::size_t steps) {
 }
 
 /// The cells of one chunk at the steps of one epoch, which count from 0 here. A cell is an entry of
-/// the highest time nodes over whose span its extremes are constant.
+/// the highest time nodes over whose span its extremes are constant, but for spans over which those
+/// of only a few cells are: these are entries of the nodes below.
 ///
 /// Of a lossless map an entry's levels are the ranks from `low` to `high - 1`: level k lies between
 /// rank k and rank k + 1. Of a lossy map they are `low` to `high`: level k is rank k, at which a

@@ -14,6 +14,10 @@ namespace {
 
 using Extremes = ChunkRanks::Extremes;
 
+/// Cells that are worth a table of their own: the directory of one with fewer takes about as many
+/// bytes as to store them twice, and every search at every step of its span has to go through it.
+constexpr std::size_t kFewest = 512;
+
 /// The head and the references of a unit that is being built.
 class UnitBytes {
   public:
@@ -75,10 +79,21 @@ struct CellUnitBuilder::Cells {
         auto& [left_bits, right_bits] = bits[node.depth];
         visit(left, left_bits);
         visit(right, right_bits);
-        join_spans(ranks.at(first + left.first), ranks.at(first + right.first), left_bits,
-                   right_bits, constant);
+        const std::size_t joined =
+            join_spans(ranks.at(first + left.first), ranks.at(first + right.first), left_bits,
+                       right_bits, constant);
+        if (joined < kFewest)
+            part(left_bits, right_bits, constant);
         store(left, left_bits);
         store(right, right_bits);
+    }
+
+    static void part(CellBits& left, CellBits& right, CellBits& joined) {
+        for (std::size_t word = 0; word < joined.size(); ++word) {
+            left[word] |= joined[word];
+            right[word] |= joined[word];
+            joined[word] = 0;
+        }
     }
 
     void store(const TimeNode& node, const CellBits& chosen) {

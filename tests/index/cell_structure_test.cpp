@@ -1,38 +1,69 @@
-// What cells store: an entry at the highest time node over which a cell is constant, in few bytes.
+// What cells store: entries at the highest time nodes over which cells are constant, in few bytes.
 #include "cell_series.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace isochron::index {
 namespace {
 
-/// Entries of every time node, by the definition: cell by cell, node by node.
-std::vector<std::uint32_t> expected_entries(const ChunkRanks& ranks) {
-    std::vector<std::uint32_t> counts(TimeNode::count(ranks.steps()));
-    const auto constant = [&](const TimeNode& node, std::uint32_t cell) {
-        for (std::uint32_t t = node.first; t <= node.last; ++t)
-            if (ranks.at(t).low[cell] != ranks.at(node.first).low[cell] ||
-                ranks.at(t).high[cell] != ranks.at(node.first).high[cell])
-                return false;
-        return true;
-    };
-    const auto visit = [&](auto&& self, const TimeNode& node, std::uint32_t cell) -> void {
-        if (constant(node, cell))
-            counts[node.number] += ranks.at(node.first).low[cell] < ranks.at(node.first).high[cell];
-        else {
-            self(self, node.left(), cell);
-            self(self, node.right(), cell);
-        }
-    };
-    for (std::uint32_t cell = 0; cell < ranks.cells(); ++cell)
-        visit(visit, TimeNode::root(ranks.steps()), cell);
-    return counts;
-}
+/// Entries of every time node, by the definition: cell by cell, from the steps up. A node at which
+/// fewer than 512 would be entries leaves them to those below.
+struct ExpectedEntries {
+    const ChunkRanks& ranks;
+    std::vector<std::uint32_t> counts;
 
-TEST(CellUnit, StoresACellAtTheHighestNodesOverWhichItIsConstant) {
+    explicit ExpectedEntries(const ChunkRanks& of)
+        : ranks(of), counts(TimeNode::count(of.steps())) {
+        count(TimeNode::root(ranks.steps()), visit(TimeNode::root(ranks.steps())));
+    }
+
+  private:
+    using Cells = std::vector<std::uint32_t>;
+
+    bool active(const TimeNode& node, std::uint32_t cell) const {
+        return ranks.at(node.first).low[cell] < ranks.at(node.first).high[cell];
+    }
+    bool alike(const TimeNode& a, const TimeNode& b, std::uint32_t cell) const {
+        return ranks.at(a.first).low[cell] == ranks.at(b.first).low[cell] &&
+               ranks.at(a.first).high[cell] == ranks.at(b.first).high[cell];
+    }
+    void count(const TimeNode& node, const Cells& cells) {
+        for (const std::uint32_t cell : cells)
+            counts[node.number] += active(node, cell);
+    }
+    /// The cells that may be entries of the node or of one above, ascending.
+    Cells visit(const TimeNode& node) {
+        Cells cells;
+        if (node.is_leaf()) {
+            cells.resize(ranks.cells());
+            std::iota(cells.begin(), cells.end(), 0u);
+            return cells;
+        }
+        const TimeNode left = node.left(), right = node.right();
+        const Cells in_left = visit(left), in_right = visit(right);
+        std::set_intersection(in_left.begin(), in_left.end(), in_right.begin(), in_right.end(),
+                              std::back_inserter(cells));
+        std::erase_if(cells, [&](std::uint32_t cell) { return !alike(left, right, cell); });
+        if (std::count_if(cells.begin(), cells.end(),
+                          [&](std::uint32_t cell) { return active(node, cell); }) < 512)
+            cells.clear();
+        for (const auto& [child, all] : {std::pair(left, in_left), std::pair(right, in_right)}) {
+            Cells rest;
+            std::set_difference(all.begin(), all.end(), cells.begin(), cells.end(),
+                                std::back_inserter(rest));
+            count(child, rest);
+        }
+        return cells;
+    }
+};
+
+TEST(CellUnit, StoresACellAtTheHighestNodesOverWhichItAndEnoughOthersAreConstant) {
     for (const std::size_t steps : {1, 6, 19}) {
         const TestField field({45, 40, 41}, steps, ValueType::u8, moving_sphere);
         const LevelMap levels = LevelMap::of_type(ValueType::u8);
@@ -40,7 +71,7 @@ TEST(CellUnit, StoresACellAtTheHighestNodesOverWhichItIsConstant) {
         ChunkRanks ranks(field.view(), levels);
         for (std::uint32_t chunk = 0; chunk < Chunking(field.view().grid).count(); ++chunk) {
             ranks.compute(chunk, 0, static_cast<std::uint32_t>(steps));
-            EXPECT_EQ(CellUnit(series.cells[chunk], 0).entries(), expected_entries(ranks));
+            EXPECT_EQ(CellUnit(series.cells[chunk], 0).entries(), ExpectedEntries(ranks).counts);
         }
     }
 }

@@ -105,17 +105,17 @@ class Build {
     void run() {
         team_.together([&] { refuse_foreign_file(out_); });
         read_steps();
-        std::optional<MappedFile> written;
-        team_.together([&] { written.emplace(volume_file().temporary()); });
+        team_.together([&] { written_.emplace(volume_file().temporary()); });
         const SeriesInfo& info = metadata_.info;
         values_ = {.grid = info.grid,
                    .type = info.type,
                    .scaling = info.scaling,
                    .steps = info.steps(),
-                   .first = written->bytes().data() + volume_offset(),
+                   .first = written_->bytes().data() + volume_offset(),
                    .stride = step_stride(info.step_bytes())};
         IndexStats& stats = metadata_.stats;
-        stats.histogram = count_values(values_, stats.low, stats.high, threads_, team_, progress_);
+        stats.histogram =
+            count_values(values_, *written_, stats.low, stats.high, threads_, team_, progress_);
         team_.together([&] {
             metadata_.plan = plan_tiers(values_, *metadata_.levels, options_.tiers);
             if (options_.with_tree)
@@ -183,6 +183,7 @@ class Build {
                     std::vector<std::uint8_t> step(stride); // its padding is zero
                     const auto extremes = std::span(step).first(bricks.bytes_per_step());
                     build_bricks(values_, *metadata_.levels, first + item, extremes);
+                    written_->let_go(values_.step_bytes(first + item));
                     checksums[item] = checksum_of(std::as_bytes(extremes));
                     file_->write_at(section.offset + (first + item) * stride,
                                     std::as_bytes(std::span(step)));
@@ -197,7 +198,7 @@ class Build {
             return;
         Section& section = begin(SectionKind::units);
         UnitFindings units = write_units(
-            values_, *metadata_.levels, has(Tier::deltas), *file_, section.offset,
+            values_, *written_, *metadata_.levels, has(Tier::deltas), *file_, section.offset,
             out_.string() + fmt::format(".units{}", team_.rank()), threads_, team_, progress_);
         section.bytes = units.bytes;
         end_ = section.offset + section.bytes;
@@ -255,6 +256,7 @@ class Build {
     std::optional<TeamFile> scratch_; ///< never gets its name
     Metadata metadata_;
     FileHeader header_;
+    std::optional<MappedFile> written_; ///< the volume, once it is complete
     StepValues values_;
     std::vector<UnitEntry> directory_;
     std::vector<std::uint64_t> checksums_;

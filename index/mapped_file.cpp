@@ -10,11 +10,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
 
 namespace isochron::index {
+namespace {
+
+/// Whole pages; nothing depends on whether the system follows the advice.
+void advise(std::span<const std::byte> part, int advice) {
+    const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+    const auto begin = reinterpret_cast<std::uintptr_t>(part.data()) / page * page;
+    const auto end = reinterpret_cast<std::uintptr_t>(part.data() + part.size());
+    ::madvise(reinterpret_cast<void*>(begin), end - begin, advice);
+}
+
+} // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
     // Non-blocking, so that a pipe without a writer is refused below instead of waited for.
@@ -47,11 +59,13 @@ MappedFile::~MappedFile() {
 }
 
 void MappedFile::expect_scattered_reads(std::span<const std::byte> part) const {
-    const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-    const auto begin = reinterpret_cast<std::uintptr_t>(part.data()) / page * page;
-    const auto end = reinterpret_cast<std::uintptr_t>(part.data() + part.size());
-    // Only advice: without it reads are larger.
-    ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_RANDOM);
+    advise(part, MADV_RANDOM); // without it reads are larger
+}
+
+void MappedFile::let_go(std::span<const std::byte> part) const {
+    assert(part.data() >= bytes_.data() &&
+           part.data() + part.size() <= bytes_.data() + bytes_.size());
+    advise(part, MADV_DONTNEED); // of a shared mapping: the file and its cache stay as they are
 }
 
 } // namespace isochron::index

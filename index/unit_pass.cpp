@@ -40,16 +40,20 @@ void copy(const std::filesystem::path& from, std::uint64_t bytes, NewFile& to,
         return;
     const MappedFile spilled(from);
     constexpr std::uint64_t kPiece = 16 << 20;
-    for (std::uint64_t at = 0; at < spilled.bytes().size(); at += kPiece)
-        to.write_at(offset + at,
-                    spilled.bytes().subspan(at, std::min(kPiece, spilled.bytes().size() - at)));
+    for (std::uint64_t at = 0; at < spilled.bytes().size(); at += kPiece) {
+        const auto piece =
+            spilled.bytes().subspan(at, std::min(kPiece, spilled.bytes().size() - at));
+        to.write_at(offset + at, piece);
+        spilled.let_go(piece);
+    }
 }
 
 } // namespace
 
-UnitFindings write_units(const StepValues& values, const LevelMap& levels, bool deltas,
-                         NewFile& file, std::uint64_t offset, const std::filesystem::path& spill,
-                         unsigned threads, Team& team, const Progress& progress) {
+UnitFindings write_units(const StepValues& values, const MappedFile& volume, const LevelMap& levels,
+                         bool deltas, NewFile& file, std::uint64_t offset,
+                         const std::filesystem::path& spill, unsigned threads, Team& team,
+                         const Progress& progress) {
     const Chunking chunking(values.grid);
     const std::size_t units = std::size_t{epoch_count(values.steps)} * chunking.count();
     const auto [first, last] = team.share(units);
@@ -79,6 +83,7 @@ UnitFindings write_units(const StepValues& values, const LevelMap& levels, bool 
                              builders[worker].build(chunk, epoch, deltas, batch[item]);
                          },
                          {});
+            volume.let_go(volume.bytes());
             for (std::size_t item = 0; item < count; ++item) {
                 const UnitBytes& unit = batch[item];
                 const std::uint64_t cells_at = parts.append(unit.cells);

@@ -4,6 +4,7 @@
 #include "index/cell_tier.h"
 #include "index/file_layout.h"
 #include "index/level_map.h"
+#include "index/mapped_file.h"
 #include "index/new_file.h"
 #include "index/progress.h"
 #include "index/step_values.h"
@@ -23,9 +24,11 @@ struct UnitFindings {
 
 /// Builds each member's share of the units, as many at a time as there are threads, and writes them
 /// to the file one behind the other, in their order.
+/// @param volume where the values lie; what has been read of it is let go
 /// @param spill name for a member's own temporary file
-UnitFindings write_units(const StepValues& values, const LevelMap& levels, bool deltas,
-                         NewFile& file, std::uint64_t offset, const std::filesystem::path& spill,
-                         unsigned threads, Team& team, const Progress& progress);
+UnitFindings write_units(const StepValues& values, const MappedFile& volume, const LevelMap& levels,
+                         bool deltas, NewFile& file, std::uint64_t offset,
+                         const std::filesystem::path& spill, unsigned threads, Team& team,
+                         const Progress& progress);
 
 } // namespace isochron::index

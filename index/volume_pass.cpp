@@ -77,8 +77,10 @@ VolumeFindings read_volume(VolumeSeries& series, NewFile& file, std::uint64_t of
     return observer.agreed(team);
 }
 
-std::vector<std::uint64_t> count_values(const StepValues& values, double low, double high,
-                                        unsigned threads, Team& team, const Progress& progress) {
+std::vector<std::uint64_t> count_values(const StepValues& values, const MappedFile& volume,
+                                        double low, double high, unsigned threads, Team& team,
+                                        const Progress& progress) {
+    constexpr std::size_t kPiece = 16 << 20;
     using Bins = std::array<std::uint64_t, kHistogramBins>;
     std::vector<Bins> counted(threads, Bins{});
     const auto [first, last] = team.share(values.steps);
@@ -86,8 +88,12 @@ std::vector<std::uint64_t> count_values(const StepValues& values, double low, do
         parallel_for(
             last - first, threads,
             [&](std::size_t item, unsigned worker) {
-                add_histogram(values.type, values.scaling, values.step_bytes(first + item), low,
-                              high, counted[worker]);
+                const std::span<const std::byte> step = values.step_bytes(first + item);
+                for (std::size_t at = 0; at < step.size(); at += kPiece) {
+                    const auto piece = step.subspan(at, std::min(kPiece, step.size() - at));
+                    add_histogram(values.type, values.scaling, piece, low, high, counted[worker]);
+                    volume.let_go(piece);
+                }
             },
             phase_of(progress, "counting"));
     });

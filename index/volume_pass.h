@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/index_file.h"
+#include "index/mapped_file.h"
 #include "index/new_file.h"
 #include "index/progress.h"
 #include "index/team.h"
@@ -24,7 +25,9 @@ VolumeFindings read_volume(VolumeSeries& series, NewFile& file, std::uint64_t of
                            const Progress& progress);
 
 /// Counts all finite scaled values into kHistogramBins equal bins.
-std::vector<std::uint64_t> count_values(const StepValues& values, double low, double high,
-                                        unsigned threads, Team& team, const Progress& progress);
+/// @param volume where the values lie; what has been read of it is let go
+std::vector<std::uint64_t> count_values(const StepValues& values, const MappedFile& volume,
+                                        double low, double high, unsigned threads, Team& team,
+                                        const Progress& progress);
 
 } // namespace isochron::index

@@ -173,7 +173,7 @@ CellPass::Programs CellPass::programs(std::string_view fragment_shader,
     const std::vector sources{shader_file("cell.vert"), shader_file(fragment_shader)};
     Programs programs{link_program(*gl_, sources, prelude), std::nullopt};
     if (two_views_at_once_)
-        programs.two = link_program(*gl_, sources, kTwoEyes + prelude);
+        programs.two = link_program(*gl_, sources, std::string(kTwoEyes) + prelude);
     return programs;
 }
 

@@ -96,7 +96,7 @@ TEST_F(BenchCommand, MeasuresAGivenIndex) {
 TEST_F(BenchCommand, SaysWhatIsWrong) {
     for (const auto& [arguments, status, what] :
          std::vector<std::tuple<std::vector<std::string>, int, std::string>>{
-             {{"bench"}, 2, "expected index, results"},
+             {{"bench"}, 2, "expected index, render, artefacts, results"},
              {{"bench", "index", "no.isochron"}, 1, "no.isochron"},
              {{"bench", "index", "--data", "cube"}, 2, "cube"},
              {{"bench", "index", "--lattice", "0"}, 2, "lattice"},

@@ -3,6 +3,7 @@
 #include "session_fixture.h"
 
 #include "app/room_view.h"
+#include "render/srgb.h"
 #include "stereo/windows.h"
 #include "tests/support/image_compare.h"
 
@@ -57,10 +58,11 @@ INSTANTIATE_TEST_SUITE_P(, CaveTest,
 std::optional<double> row_of_light(const Image& image, int column) {
     double sum = 0, weight = 0;
     for (int y = 0; y < image.height; ++y) {
-        sum += image.at(column, y)[0] * (y + 0.5);
-        weight += image.at(column, y)[0];
+        const double light = render::linear_from_srgb(float(image.at(column, y)[0]) / 255.0f);
+        sum += light * (y + 0.5);
+        weight += light;
     }
-    return weight > 100 ? std::optional(sum / weight) : std::nullopt;
+    return weight > 0.4 ? std::optional(sum / weight) : std::nullopt;
 }
 
 /// The edges of a cube that stands in the corner between front and right wall cross from one wall

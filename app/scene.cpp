@@ -24,7 +24,7 @@ bool blends_light(const render::Gl& gl, Blending blending) {
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : gl_(gl), info_(info), upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame),
       appearance_(config.appearance), cells_(gl, info.grid), cell_pass_(gl), line_pass_(gl),
-      text_pass_(gl, room_font(kFontPixels)) {
+      text_pass_(gl, room_font(kFontPixels)), veil_pass_(gl) {
     appearance_.linear_light = blends_light(gl, config.blending);
     // How values are held depends on their type only, not on their range.
     cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
@@ -84,6 +84,7 @@ void Scene::draw(const render::View& view, const interaction::Similarity& room_f
     if (footprint == render::Footprint::surface)
         cells_.compute_corners();
     cell_pass_.draw(view, placement, cells_, footprint, appearance_);
+    veil_pass_.draw(view, veil_);
     text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
                     legend_quads({surfaces_, info_.value_unit, scale_}, text_pass_, view.size),
                     render::TextPass::Depth::none);

@@ -12,6 +12,7 @@
 #include "render/cell_pass.h"
 #include "render/line_pass.h"
 #include "render/text_pass.h"
+#include "render/veil_pass.h"
 #include "render/view.h"
 
 #include <array>
@@ -33,6 +34,7 @@ class Scene {
     render::Footprint best_footprint() const;
 
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
+    void set_veil(const render::Veil& veil) { veil_ = veil; }
 
     /// What is the same for all eyes of the frames to come: colours, and the edges of the box that
     /// carry numbers.
@@ -60,6 +62,8 @@ class Scene {
     render::LinePass line_pass_;
     std::vector<render::Line> guides_;
     render::TextPass text_pass_;
+    render::VeilPass veil_pass_;
+    render::Veil veil_;
 };
 
 } // namespace isochron::app

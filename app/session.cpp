@@ -190,11 +190,14 @@ std::vector<glm::ivec2> Session::window_sizes() const {
 }
 
 /// With the footprint that was drawn last.
-Session::Picture Session::picture(const interaction::InputState& input) const {
+Session::Picture Session::picture(const interaction::InputState& input,
+                                  const FrameReport& report) const {
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
     return {.viewers = viewpoints(input),
             .wand = wand ? wand->pose : std::nullopt,
             .guides = {state_.grid, interaction::teleport_target(input)},
+            .veil = {static_cast<float>(report.comfort.fade),
+                     static_cast<float>(report.comfort.vignette)},
             .room_from_physical = state_.room_from_physical,
             .stereo = state_.stereo,
             .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
@@ -229,6 +232,7 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     if (report.redrawn) {
         quality_.begin(log_.next());
         scene_.set_guides(now.guides);
+        scene_.set_veil(now.veil);
         scene_.look(state_, now.viewers.front().head, now.scale);
     }
     for (std::size_t i = 0; i < displays_.size(); ++i) {
@@ -319,7 +323,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     request_cells();
     take_newest_cells(waiting, report);
     report.pace = gate_.update(input, commands, state_.quality);
-    Picture now = picture(input);
+    Picture now = picture(input, report);
     choose_quality(now, waiting, report);
 
     StopWatch stages;

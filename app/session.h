@@ -87,6 +87,7 @@ class Session {
         std::vector<stereo::Viewpoint> viewers;
         std::optional<interaction::Pose> wand;
         Guides guides;
+        render::Veil veil;
         interaction::Similarity room_from_physical;
         stereo::StereoMode stereo{};
         render::Footprint footprint{};
@@ -101,7 +102,7 @@ class Session {
     interaction::ControlContext control_context() const;
     void request_cells();
     void take_newest_cells(Waiting waiting, FrameReport& report);
-    Picture picture(const interaction::InputState& input) const;
+    Picture picture(const interaction::InputState& input, const FrameReport& report) const;
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
     bool captures(const FrameReport& report);
     std::vector<stereo::Viewpoint> viewpoints(const interaction::InputState& input) const;

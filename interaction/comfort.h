@@ -7,7 +7,7 @@
 namespace isochron::interaction {
 
 struct ComfortOptions {
-    bool vignette = true;
+    bool vignette = false;         ///< for pictures that the head carries
     double vignette_speed = 0.5;   ///< [m/s] of the volume past the viewer from which it closes
     double vignette_full = 2.0;    ///< [m/s] at which it is closed
     double vignette_turn = 0.5;    ///< [rad/s] and

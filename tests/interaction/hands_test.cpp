@@ -250,7 +250,7 @@ class Seat {
     }
 
   private:
-    Comfort comfort_{ComfortOptions{}};
+    Comfort comfort_{ComfortOptions{.vignette = true}};
     Seconds now_{0};
 };
 

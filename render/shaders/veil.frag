@@ -1,0 +1,12 @@
+#version 450 core
+// Darkness over a picture: all of it, or what lies off its middle.
+
+layout(location = 0) uniform vec4 viewport; // corner and size in the target, pixels
+layout(location = 1) uniform vec2 strength; // of the whole and of the rim, 0 to 1
+out vec4 color;
+
+void main() {
+    vec2 at = 2.0 * (gl_FragCoord.xy - viewport.xy) / viewport.zw - 1.0;
+    float rim = strength.y * smoothstep(0.3, 0.8, length(at) / sqrt(2.0));
+    color = vec4(0.0, 0.0, 0.0, 1.0 - (1.0 - strength.x) * (1.0 - rim));
+}

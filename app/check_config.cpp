@@ -1,6 +1,7 @@
 // Lists an installation and judges it.
 #include "app/check_config.h"
 
+#include "app/tracker_setup.h"
 #include "stereo/screen.h"
 
 #include <fmt/format.h>
@@ -209,11 +210,6 @@ std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer&
             : fmt::format("; pixels {:.2f} x {:.2f} mm", millimetres.x, millimetres.y));
 }
 
-/// Every device that the installation reads, a line each.
-std::vector<std::string> device_lines(const Config&) {
-    return {"head, wand, mouse, keys, gamepad: mouse, keyboard and gamepad of the desktop"};
-}
-
 } // namespace
 
 std::vector<ConfigProblem> problems_of(const Config& config) {
@@ -245,8 +241,8 @@ std::string describe(const Config& config) {
         last = &window;
         text += describe_viewport(place, installation.viewers[place.viewport.viewer]);
     }
-    for (const std::string& line : device_lines(config))
-        text += fmt::format("device {}\n", line);
+    for (const std::string& line : describe_devices(config))
+        text += fmt::format("devices: {}\n", line);
     return text;
 }
 
@@ -257,6 +253,8 @@ void check_config(const std::filesystem::path& path) {
     const std::vector<ConfigProblem> problems = problems_of(config);
     for (const ConfigProblem& problem : problems)
         fmt::print(stderr, "{}\n", line_of(problem, config));
+    for (const std::string& warning : device_warnings(config))
+        fmt::print(stderr, "{}: warning: {}\n", path.string(), warning);
     const auto wrong = std::ranges::count(problems, true, &ConfigProblem::wrong);
     if (wrong > 0)
         throw ConfigError(fmt::format("{}: {} {} wrong", path.string(), wrong,

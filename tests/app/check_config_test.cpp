@@ -127,7 +127,7 @@ TEST(CheckConfig, TheDescriptionHoldsEveryPartAndItsMeasures) {
           "1200 x 1200 pixels at 360, 0; for guide",
           "3.00 x 3.00 m, fixed in the room, corners square, faces the viewer, 1.70 m from the "
           "viewer; pixels 2.50 x 2.50 mm",
-          "device head"})
+          "devices: mouse and keyboard: head"})
         EXPECT_THAT(text, HasSubstr(part));
     const std::string mirrored =
         describe(parse_config(window_with("lower_left = [1, 1, -1]\nupper_left = [1, 3, -1]\n"

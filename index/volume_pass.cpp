@@ -48,6 +48,8 @@ class Observer {
     std::vector<std::uint64_t> checksums_;
 };
 
+constexpr std::size_t kReadAhead = 64 << 20; ///< [bytes] of a step
+
 } // namespace
 
 VolumeFindings read_volume(VolumeSeries& series, NewFile& file, std::uint64_t offset, Team& team,
@@ -58,12 +60,16 @@ VolumeFindings read_volume(VolumeSeries& series, NewFile& file, std::uint64_t of
     team.together([&] {
         const auto [first, last] = team.share(info.steps());
         std::array<std::vector<std::byte>, 2> buffers; // their padding stays zero
-        std::future<void> looking;                     // its end is waited for when this is left
+        // Large steps are not read ahead: with a reader that decodes there would be three of them.
+        const std::size_t steps_at_once = stride <= kReadAhead ? 2 : 1;
+        std::future<void> looking; // its end is waited for when this is left
         for (std::size_t t = first; t < last; ++t) {
             if (progress)
                 progress("reading",
                          static_cast<double>(t - first) / static_cast<double>(last - first));
-            std::vector<std::byte>& step = buffers[t % 2];
+            std::vector<std::byte>& step = buffers[t % steps_at_once];
+            if (steps_at_once == 1 && looking.valid())
+                looking.get();
             step.resize(stride);
             series.read(t, std::span(step).first(info.step_bytes()));
             if (looking.valid())

@@ -19,8 +19,8 @@ struct VolumeFindings {
     LevelMap levels;
 };
 
-/// Reads each member's share of the steps, one ahead of what is worked on, and writes them to the
-/// file, step after step, each padded to `step_stride`.
+/// Reads each member's share of the steps, small ones one ahead of what is worked on, and writes
+/// them to the file, step after step, each padded to `step_stride`.
 VolumeFindings read_volume(VolumeSeries& series, NewFile& file, std::uint64_t offset, Team& team,
                            const Progress& progress);
 

@@ -55,9 +55,16 @@ inline Commands showing(const interaction::Similarity& placement) {
     return commands;
 }
 
+/// What would else depend on whether a GPU draws.
+inline void draw_as_in_software(Config& config) {
+    config.samples = 1;
+    config.blending = Blending::display;
+}
+
 /// A session before a screen that stands a little aside of the viewer.
 inline Config one_window(StereoMode mode, glm::ivec2 size = kPicture) {
     Config config = small_config(mode);
+    draw_as_in_software(config);
     stereo::Window& window = config.installation.windows.front();
     window.size = size;
     stereo::Screen& screen = window.viewports.front().screen;

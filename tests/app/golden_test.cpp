@@ -113,6 +113,7 @@ TEST_P(GoldenPictures, AxesWithNumbersToEitherEye) {
 TEST_P(GoldenPictures, EveryWallOfACaveToEitherEye) {
     constexpr glm::ivec2 kWall(96, 96);
     Config config = read_config("cave4");
+    draw_as_in_software(config);
     config.settled_footprint = Footprint::surface;
     for (stereo::Window& window : config.installation.windows) {
         window.size = kWall;

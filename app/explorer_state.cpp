@@ -73,6 +73,13 @@ bool ExplorerState::apply(const interaction::Commands& commands, std::size_t ste
 
 index::SurfacesQuery ExplorerState::surfaces() const {
     index::SurfacesQuery query{step, {}};
+    switch (coloring.by) {
+    case interaction::ColorBy::surface: break;
+    case interaction::ColorBy::value: query.coloring = index::CellColoring::value; break;
+    case interaction::ColorBy::first_crossing:
+        query.coloring = index::CellColoring::first_crossing;
+        break;
+    }
     for (const interaction::Isosurface& surface : isosurfaces)
         query.isovalues.push_back(surface.isovalue);
     return query;

@@ -33,7 +33,7 @@ struct ExplorerState {
     /// Commands that set every field.
     interaction::Commands as_commands() const;
 
-    /// The step and every surface's isovalue, in the order of `isosurfaces`.
+    /// The step, every surface's isovalue, in the order of `isosurfaces`, and what colours them.
     index::SurfacesQuery surfaces() const;
     bool operator==(const ExplorerState&) const = default;
 };

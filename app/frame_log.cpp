@@ -38,6 +38,8 @@ nlohmann::json query_json(const index::SurfacesQuery& query) {
     nlohmann::json json{{"step", query.step}, {"isovalue", query.isovalues.front()}};
     if (query.isovalues.size() > 1)
         json["more_isovalues"] = std::vector(query.isovalues.begin() + 1, query.isovalues.end());
+    if (query.coloring != index::CellColoring::none)
+        json["coloring"] = index::kCellColoringNames[static_cast<std::size_t>(query.coloring)];
     return json;
 }
 
@@ -46,7 +48,8 @@ nlohmann::json upload_json(const render::UploadCount& count) {
             {"ids", count.ids},
             {"whole_ids", count.whole_ids},
             {"id_bytes", count.id_bytes},
-            {"brick_bytes", count.brick_bytes}};
+            {"brick_bytes", count.brick_bytes},
+            {"color_bytes", count.color_bytes}};
 }
 
 nlohmann::json summary_json(const TimeSummary& summary) {

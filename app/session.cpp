@@ -189,6 +189,15 @@ std::vector<glm::ivec2> Session::window_sizes() const {
     return sizes;
 }
 
+/// Nothing as long as the cells that are drawn are not coloured by what they are to be: their
+/// coordinates would say something else.
+std::optional<ColorScale> Session::shown_scale() const {
+    const index::ExtractionPtr& shown = scene_.shown();
+    if (!shown || shown->query.coloring != state_.surfaces().coloring)
+        return std::nullopt;
+    return color_scale(state_, *file_);
+}
+
 /// With the footprint that was drawn last.
 Session::Picture Session::picture(const interaction::InputState& input,
                                   const FrameReport& report) const {
@@ -203,7 +212,7 @@ Session::Picture Session::picture(const interaction::InputState& input,
             .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
             .cells = scene_.shown(),
             .isosurfaces = state_.isosurfaces,
-            .scale = color_scale(state_, *file_),
+            .scale = shown_scale(),
             .axes = state_.axes,
             .windows = window_sizes()};
 }

@@ -102,6 +102,7 @@ class Session {
     interaction::ControlContext control_context() const;
     void request_cells();
     void take_newest_cells(Waiting waiting, FrameReport& report);
+    std::optional<ColorScale> shown_scale() const;
     Picture picture(const interaction::InputState& input, const FrameReport& report) const;
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
     bool captures(const FrameReport& report);

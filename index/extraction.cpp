@@ -1,7 +1,8 @@
-// Searches for every surface, then copies the bricks that their cells need.
+// Searches for every surface, copies the bricks that their cells need and colours the cells.
 #include "index/extraction.h"
 
 #include "index/error.h"
+#include "index/surface_colors.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ class Extracting {
         : file_(std::move(file)), method_(method),
           values_(file_->info().type, file_->info().scaling, file_->stats().low,
                   file_->stats().high),
-          gatherer_(file_->info().grid, values_) {}
+          gatherer_(file_->info().grid, values_), colors_(file_, method) {}
 
     ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
         const std::size_t count = query.isovalues.size();
@@ -32,24 +33,25 @@ class Extracting {
                 return nullptr;
             result->surfaces.push_back(*set);
         }
-        return gather(*result, stop) ? result : nullptr;
+        return fill(*result, stop) ? result : nullptr;
     }
 
   private:
-    bool gather(Extraction& result, const std::stop_token& stop) {
+    /// Adds the bricks and the colours. @return false when stopped
+    bool fill(Extraction& result, const std::stop_token& stop) {
         const auto started = std::chrono::steady_clock::now();
         const BrickLevels levels = values_.levels(result.query.isovalues);
         result.levels = levels.units;
         result.bricks = gatherer_.none();
-        bool whole = true;
-        if (result.cells() > 0) { // else there is no need to load, which may decode a file
-            const LoadedStep loaded = file_->load(result.query.step);
-            for (const CellSet& surface : result.surfaces)
-                gatherer_.need(surface.ids);
-            whole = gatherer_.gather(loaded.values, result.query.step, levels, result.bricks, stop);
-        }
+        if (result.cells() == 0) // no need to load, which may decode a file
+            return true;
+        const LoadedStep loaded = file_->load(result.query.step);
+        for (const CellSet& surface : result.surfaces)
+            gatherer_.need(surface.ids);
+        if (!gatherer_.gather(loaded.values, result.query.step, levels, result.bricks, stop))
+            return false;
         result.gather_time = std::chrono::steady_clock::now() - started;
-        return whole;
+        return colors_.fill(result.query, result.surfaces, loaded.values, result.colors, stop);
     }
 
     std::shared_ptr<const IndexFile> file_;
@@ -57,6 +59,7 @@ class Extracting {
     std::vector<Search> searches_; ///< by surface
     BrickValues values_;
     BrickGatherer gatherer_;
+    SurfaceColors colors_;
 };
 
 template <class Sum, class Of>

@@ -19,7 +19,10 @@ struct Extraction {
     SurfacesQuery query;
     std::vector<CellSet> surfaces; ///< one for each isovalue: ids without points and rows
     std::vector<float> levels;     ///< of the isovalues, in brick units: see BrickLevels
-    VolumeBricks bricks;           ///< of the step, for all surfaces
+    /// Coordinates of the cells, surface after surface in the order of ids; empty where none were
+    /// asked for, and where the index has no second array to colour by.
+    std::vector<std::uint16_t> colors;
+    VolumeBricks bricks; ///< of the step, for all surfaces
     std::chrono::nanoseconds gather_time{0};
 
     std::size_t cells() const; ///< of all surfaces: one that is active in two counts twice

@@ -13,7 +13,7 @@ namespace {
 
 /// Bitwise, so that a NaN equals itself: otherwise asking for one again would be something new.
 bool same(const SurfacesQuery& a, const SurfacesQuery& b) {
-    return a.step == b.step &&
+    return a.step == b.step && a.coloring == b.coloring &&
            std::ranges::equal(a.isovalues, b.isovalues, {}, std::bit_cast<std::uint64_t, double>,
                               std::bit_cast<std::uint64_t, double>);
 }
@@ -58,7 +58,11 @@ struct Extractor::State {
 
     explicit State(Extract e) : extract(std::move(e)) {}
 
-    SurfacesQuery prefetched_query() const { return {*wanted->next_step, wanted->query.isovalues}; }
+    SurfacesQuery prefetched_query() const {
+        SurfacesQuery query = wanted->query;
+        query.step = *wanted->next_step;
+        return query;
+    }
 
     bool prefetch_wanted() const {
         return wanted && wanted->next_step && !prefetch_done && !recent.find(prefetched_query());

@@ -24,10 +24,19 @@ struct Query {
 /// Isosurfaces that are shown together.
 constexpr std::size_t kMostSurfaces = 8;
 
+/// What cells carry colour coordinates of (index/cell_colors.h).
+enum class CellColoring : std::uint8_t {
+    none,
+    value,         ///< the second array on the surface
+    first_crossing ///< the time at which a surface of the isovalue first passed through the cell
+};
+constexpr std::array<std::string_view, 3> kCellColoringNames{"none", "value", "first_crossing"};
+
 /// The isosurfaces of 1 to kMostSurfaces isovalues at one step.
 struct SurfacesQuery {
     std::uint32_t step = 0;
     std::vector<double> isovalues; ///< a surface is known by its place in this list
+    CellColoring coloring = CellColoring::none;
 
     Query surface(std::size_t i) const { return {step, isovalues[i]}; }
     bool operator==(const SurfacesQuery&) const = default;

@@ -22,6 +22,7 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
     : gl_(&gl), grid_(grid), ring_(gl, rounded_to_units(staging_bytes)),
       points_(gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole),
       message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
+      styles_(gl, "coloured cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       corner_values_(gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none),
       corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none) {}
 
@@ -46,6 +47,7 @@ void CellBuffers::prepare(index::ValueType held) {
     const index::Extraction none;
     compute_->enter_pages(*bricks_);
     compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, message_, points_);
+    compute_->set_styles(none, styles_, points_);
     compute_->fill_normals(none, *bricks_, points_);
     compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_);
 }
@@ -77,7 +79,7 @@ void CellBuffers::begin(index::ExtractionPtr set) {
         prepare(set->bricks.held);
     plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
     merged_ = false;
-    words_sent_ = 0;
+    words_sent_ = styles_sent_ = 0;
     bricks_->begin(set->bricks);
     arriving_ = std::move(set);
 }
@@ -92,7 +94,7 @@ bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
         sent += part;
         count_.brick_bytes += part;
     }
-    return bricks_->complete() && send_message(bytes, sent);
+    return bricks_->complete() && send_message(bytes, sent) && send_styles(bytes, sent);
 }
 
 bool CellBuffers::send_message(std::size_t bytes, std::size_t& sent) {
@@ -115,11 +117,37 @@ bool CellBuffers::send_message(std::size_t bytes, std::size_t& sent) {
     return plan_->done();
 }
 
+/// Styles of cells that stay change, too: they are sent whole, in the order of slots.
+bool CellBuffers::send_styles(std::size_t bytes, std::size_t& sent) {
+    constexpr std::size_t kStyle = sizeof(CellPlace::style);
+    if (arriving_->colors.empty())
+        return true;
+    const std::span<const CellPlace> places = plan_->slots().places;
+    styles_.reserve((places.size() * kStyle + kWord - 1) / kWord, DeviceArray::Contents::dropped);
+    while (styles_sent_ < places.size()) {
+        const auto rest = places.subspan(styles_sent_);
+        const std::size_t most = std::min(bytes - sent, rest.size() * kStyle);
+        const std::span<std::byte> room = ring_.room(most);
+        const std::size_t count = std::min(room.size(), most) / kStyle;
+        if (count == 0)
+            return false;
+        std::ranges::transform(rest.first(count), reinterpret_cast<std::uint16_t*>(room.data()),
+                               &CellPlace::style);
+        ring_.copy(count * kStyle, styles_.buffer(), styles_sent_ * kStyle);
+        styles_sent_ += count;
+        sent += count * kStyle;
+        count_.color_bytes += count * kStyle;
+    }
+    return true;
+}
+
 void CellBuffers::show() {
     const std::size_t cells = arriving_->cells();
     points_.reserve(cells, DeviceArray::Contents::kept);
     compute_->enter_pages(*bricks_);
     compute_->place_cells(*plan_, *arriving_, message_, points_);
+    if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))
+        compute_->set_styles(*arriving_, styles_, points_);
     compute_->fill_normals(*arriving_, *bricks_, points_);
     bricks_->show();
     ++count_.sets;

@@ -83,12 +83,13 @@ class CellBuffers {
     void begin(index::ExtractionPtr set);
     bool send_on(std::size_t bytes, std::size_t& sent);
     bool send_message(std::size_t bytes, std::size_t& sent);
+    bool send_styles(std::size_t bytes, std::size_t& sent);
     void show();
 
     const Gl* gl_;
     index::Grid grid_;
     StagingRing ring_;
-    DeviceArray points_, message_, corner_values_, corner_gradients_;
+    DeviceArray points_, message_, styles_, corner_values_, corner_gradients_;
     std::optional<BrickPool> bricks_;    ///< made when the type is known
     std::optional<CellCompute> compute_; ///< likewise
     index::ExtractionPtr shown_;
@@ -99,7 +100,7 @@ class CellBuffers {
     index::ExtractionPtr arriving_;
     std::unique_ptr<SlotPlan> plan_;
     bool merged_ = false;
-    std::size_t words_sent_ = 0;
+    std::size_t words_sent_ = 0, styles_sent_ = 0;
 };
 
 } // namespace isochron::render

@@ -67,6 +67,7 @@ float gradient_scale(float range) {
 CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType held)
     : gl_(&gl), grid_(grid), pages_(link_program(gl, {shader_file("brick_pages.comp")})),
       places_(link_program(gl, {shader_file("cell_places.comp")})),
+      styles_(link_program(gl, {shader_file("cell_styles.comp")})),
       normals_(link_program(gl, {shader_file("cell_normals.comp")}, sampler_of(held))),
       corners_(link_program(gl, {shader_file("cell_corners.comp")}, sampler_of(held))),
       volume_(gl) {}
@@ -137,6 +138,14 @@ void CellCompute::place_cells(const SlotPlan& plan, const index::Extraction& set
     bind(0, points);
     bind(1, message);
     run(places_, plan.ids(), [](std::size_t, std::size_t) {});
+}
+
+void CellCompute::set_styles(const index::Extraction& set, const DeviceArray& styles,
+                             const DeviceArray& points) const {
+    gl_->ProgramUniform1i(styles_.name(), 2, !set.colors.empty());
+    bind(0, points);
+    bind(1, styles);
+    run(styles_, set.cells(), [](std::size_t, std::size_t) {});
 }
 
 void CellCompute::fill_normals(const index::Extraction& set, const BrickPool& bricks,

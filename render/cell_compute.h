@@ -24,6 +24,11 @@ class CellCompute {
     void place_cells(const SlotPlan& plan, const index::Extraction& set, const DeviceArray& message,
                      const DeviceArray& points) const;
 
+    /// Gives every point of the set its style. @param styles by slot, two to a word; without
+    /// colours in the set they are not read, and what points had before is taken away
+    void set_styles(const index::Extraction& set, const DeviceArray& styles,
+                    const DeviceArray& points) const;
+
     /// Writes the normals of all points. @param set whose bricks the pool holds
     void fill_normals(const index::Extraction& set, const BrickPool& bricks,
                       const DeviceArray& points) const;
@@ -44,7 +49,7 @@ class CellCompute {
 
     const Gl* gl_;
     index::Grid grid_;
-    Program pages_, places_, normals_, corners_;
+    Program pages_, places_, styles_, normals_, corners_;
     Buffer volume_;
 };
 

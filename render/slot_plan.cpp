@@ -24,6 +24,11 @@ void SlotPlan::next_surface() {
     walk_ = index::CellWalk(grid_);
 }
 
+std::uint16_t SlotPlan::style_of(std::size_t rank) const {
+    const unsigned color = to_->colors.empty() ? 0 : to_->colors[rank];
+    return static_cast<std::uint16_t>(surface_ | color << kColorShift);
+}
+
 bool SlotPlan::merge(std::size_t cells) {
     const std::size_t surfaces =
         std::max(to_->surfaces.size(), from_ ? from_->surfaces.size() : std::size_t{0});
@@ -79,9 +84,9 @@ std::size_t SlotPlan::message(std::span<std::uint32_t> out, std::size_t& cells) 
             if (sent)
                 out[written++] = ids[new_at_];
             walk_.to(ids[new_at_]);
-            next_.places[slot] = {
-                static_cast<std::uint16_t>(walk_.x()), static_cast<std::uint16_t>(walk_.y()),
-                static_cast<std::uint16_t>(walk_.z()), static_cast<std::uint16_t>(surface_)};
+            next_.places[slot] = {static_cast<std::uint16_t>(walk_.x()),
+                                  static_cast<std::uint16_t>(walk_.y()),
+                                  static_cast<std::uint16_t>(walk_.z()), style_of(new_rank_)};
         }
     return written;
 }

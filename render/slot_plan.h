@@ -11,7 +11,11 @@
 
 namespace isochron::render {
 
+constexpr unsigned kColorShift = 3;
+
 /// The first two words of an index::CellPoint.
+/// A style is the number of the surface and, from bit kColorShift on, the colour coordinate (0
+/// where the set has no colours).
 struct CellPlace {
     std::uint16_t x = 0, y = 0, z = 0, style = 0;
     bool operator==(const CellPlace&) const = default;
@@ -56,6 +60,8 @@ class SlotPlan {
     /// Whether every cell has its slot and every word is written.
     bool done() const { return surface_ == to_->surfaces.size(); }
 
+    /// Once done: what `take` gives.
+    const Slots& slots() const { return next_; }
     /// Once done: the slots of the new set.
     Slots take() { return std::move(next_); }
 
@@ -63,6 +69,8 @@ class SlotPlan {
     static constexpr std::uint32_t kNoSlot = ~0u;
 
     std::span<const index::CellId> ids_of(const index::Extraction* set) const;
+    /// Of a cell of the surface where the walk is.
+    std::uint16_t style_of(std::size_t rank) const;
     void find_free_slots();
     void next_surface();
 

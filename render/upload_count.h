@@ -11,6 +11,7 @@ struct UploadCount {
     std::uint64_t whole_ids = 0;   ///< that they have: to send them whole
     std::uint64_t id_bytes = 0;    ///< ids, with their slots where differences are sent
     std::uint64_t brick_bytes = 0; ///< bricks of the volume with their pages
+    std::uint64_t color_bytes = 0; ///< colour coordinates
 
     UploadCount& operator+=(const UploadCount& other) {
         sets += other.sets;
@@ -18,12 +19,17 @@ struct UploadCount {
         whole_ids += other.whole_ids;
         id_bytes += other.id_bytes;
         brick_bytes += other.brick_bytes;
+        color_bytes += other.color_bytes;
         return *this;
     }
     /// @param before an earlier count of the same
     UploadCount since(const UploadCount& before) const {
-        return {sets - before.sets, ids - before.ids, whole_ids - before.whole_ids,
-                id_bytes - before.id_bytes, brick_bytes - before.brick_bytes};
+        return {sets - before.sets,
+                ids - before.ids,
+                whole_ids - before.whole_ids,
+                id_bytes - before.id_bytes,
+                brick_bytes - before.brick_bytes,
+                color_bytes - before.color_bytes};
     }
     bool operator==(const UploadCount&) const = default;
 };

@@ -1,4 +1,5 @@
 // Extractions: the cells of every surface, and all of the volume that they need.
+#include "index/cell_colors.h"
 #include "index/error.h"
 #include "index/extractor.h"
 #include "index/index_build.h"
@@ -76,6 +77,107 @@ TEST(Extraction, HasTheCellsOfEverySurfaceAndExactlyTheBricksTheyNeed) {
                 EXPECT_EQ(found->bricks.bytes.size(), bricks.size() * found->bricks.brick_bytes());
             }
     }
+}
+
+/// A volume, another array of other values, and the index of both.
+class ColoredExtraction : public testing::Test {
+  protected:
+    static constexpr std::uint32_t kSteps = 4;
+    ColoredExtraction() {
+        MemorySeries volume(volume_.view()), colors(colors_.view());
+        for (MemorySeries* series : {&volume, &colors})
+            series->info().times = kTimes;
+        build_index(volume, folder_.path() / "a.isochron", {.color = &colors});
+        file_ = IndexFile::open(folder_.path() / "a.isochron");
+    }
+
+    /// By brute force: the search for the earliest step is a search through all of them.
+    std::vector<std::uint16_t> first_crossings_of(const SurfacesQuery& query) const {
+        std::vector<std::uint16_t> colors;
+        for (const double isovalue : query.isovalues) {
+            std::vector<std::vector<CellId>> active;
+            for (std::uint32_t step = 0; step < kSteps; ++step)
+                active.push_back(BruteForce(volume_.view(), step).active(isovalue));
+            for (const CellId id : active[query.step]) {
+                std::size_t first = 0;
+                while (!std::ranges::binary_search(active[first], id))
+                    ++first;
+                colors.push_back(color_coordinate(kTimes[first], kTimes.front(), kTimes.back()));
+            }
+        }
+        return colors;
+    }
+    std::vector<std::uint16_t> values_of(const SurfacesQuery& query) const {
+        const auto sorted = sorted_values(colors_.view());
+        std::vector<std::uint16_t> colors;
+        for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
+            const auto cells = BruteForce(volume_.view(), query.step).active(query.isovalues[i]);
+            std::vector<std::uint16_t> part(cells.size());
+            color_cells(volume_.view(), colors_.view(), query.surface(i), cells, sorted.front(),
+                        sorted.back(), part);
+            colors.insert(colors.end(), part.begin(), part.end());
+        }
+        return colors;
+    }
+
+    inline static const std::vector<double> kTimes{2, 3, 7, 12};
+    TestFolder folder_;
+    std::mt19937 random_{test_seed()};
+    TestField volume_{{21, 15, 12}, kSteps, ValueType::f32, turbulence(random_)};
+    TestField colors_{
+        {21, 15, 12}, kSteps, ValueType::i16, scaled(turbulence(random_), 900, 40), {0.5, 10}};
+    std::shared_ptr<const IndexFile> file_;
+};
+
+TEST_F(ColoredExtraction, HasTheColoursOfBruteForceForEverySurface) {
+    const Extract extract = extract_from(file_);
+    for (int round = 0; round < 40; ++round) {
+        SurfacesQuery query{std::uint32_t(random_() % kSteps), {}};
+        for (auto n = 1 + random_() % 3; n > 0; --n) // one of them has no cells
+            query.isovalues.push_back(std::array{-0.2, 0.0, 0.1, 0.4, 9.0}[random_() % 5]);
+        query.coloring = CellColoring(random_() % 3);
+        const ExtractionPtr found = extract(query, {});
+        ASSERT_TRUE(found);
+        EXPECT_EQ(found->query, query);
+        switch (query.coloring) {
+        case CellColoring::none: EXPECT_TRUE(found->colors.empty()); break;
+        case CellColoring::value: EXPECT_EQ(found->colors, values_of(query)); break;
+        case CellColoring::first_crossing:
+            EXPECT_EQ(found->colors, first_crossings_of(query));
+            break;
+        }
+    }
+}
+
+TEST_F(ColoredExtraction, AChangeOfColoringIsANewQueryAlsoForThePrefetch) {
+    Extractor extractor(extract_from(file_));
+    for (const CellColoring coloring :
+         {CellColoring::none, CellColoring::value, CellColoring::first_crossing}) {
+        for (const std::uint32_t step : {0u, 1u}) {
+            const SurfacesQuery query{step, {0.1}, coloring};
+            extractor.request({.query = query, .next_step = step + 1});
+            extractor.wait();
+            EXPECT_EQ(extractor.newest()->query, query);
+        }
+    }
+}
+
+TEST_F(ColoredExtraction, AStoppedSweepGivesNothingAndTheNextIsWhole) {
+    const Extract extract = extract_from(file_);
+    const SurfacesQuery query{1, {0.0, 0.4}, CellColoring::first_crossing};
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_EQ(extract(query, stop.get_token()), nullptr);
+    EXPECT_EQ(extract(query, {})->colors, first_crossings_of(query));
+}
+
+TEST(Extraction, WithoutASecondArrayThereAreNoValuesToColourBy) {
+    const TestFolder folder;
+    const TestField field({9, 9, 9}, 1, ValueType::u8, moving_sphere);
+    const Extract extract = extract_from(indexed(folder, field.view()));
+    const auto found = extract({0, {100.0}, CellColoring::value}, {});
+    ASSERT_GT(found->cells(), 0u);
+    EXPECT_TRUE(found->colors.empty());
 }
 
 TEST(Extraction, BricksHoldTheVolumeByteForByteAndZerosBeyondIt) {

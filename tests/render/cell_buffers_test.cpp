@@ -1,4 +1,5 @@
 // Transfer of cell sets: differences only, within the budget, never half a set, never starved.
+#include "index/cell_colors.h"
 #include "tests/render/extractions.h"
 #include "tests/render/gl_test.h"
 
@@ -40,7 +41,7 @@ class CellUpload : public GlTest {
         return all;
     }
     /// What is drawn, from GPU memory.
-    std::vector<Cell> drawn(const CellBuffers& buffers) {
+    std::vector<index::CellPoint> drawn_points(const CellBuffers& buffers) {
         gl_.BindTextureUnit(0, buffers.texture());
         gl_.ActiveTexture(GL_TEXTURE0);
         GLint buffer = 0;
@@ -49,6 +50,10 @@ class CellUpload : public GlTest {
         if (!points.empty())
             gl_.GetNamedBufferSubData(GLuint(buffer), 0,
                                       GLsizeiptr(points.size() * sizeof points[0]), points.data());
+        return points;
+    }
+    std::vector<Cell> drawn(const CellBuffers& buffers) {
+        const auto points = drawn_points(buffers);
         std::vector<Cell> all;
         for (std::size_t slot = 0; slot < points.size(); ++slot) {
             const index::CellPoint& p = points[slot];
@@ -59,9 +64,31 @@ class CellUpload : public GlTest {
         std::ranges::sort(all);
         return all;
     }
+    /// Each drawn cell with its colour coordinate against those of the set.
+    void expect_colors(const CellBuffers& buffers) {
+        const index::Extraction& set = *buffers.shown();
+        const auto points = drawn_points(buffers);
+        ASSERT_EQ(points.size(), set.cells());
+        std::size_t rank = 0;
+        for (unsigned s = 0; s < set.surfaces.size(); ++s)
+            for (std::size_t i = 0; i < set.surfaces[s].ids.size(); ++i, ++rank) {
+                const unsigned style = points[buffers.slots().slot_of_rank[rank]].style;
+                ASSERT_EQ(style & 7u, s);
+                ASSERT_EQ(style >> 3, set.colors.empty() ? 0u : set.colors[rank]);
+            }
+    }
     void expect_whole(const CellBuffers& buffers) {
         ASSERT_TRUE(buffers.shown());
         EXPECT_EQ(drawn(buffers), cells_of(*buffers.shown()));
+    }
+    /// The set with colours of its own, among them the first, the last, and none.
+    index::ExtractionPtr colored(const index::ExtractionPtr& set) {
+        auto with = std::make_shared<index::Extraction>(*set);
+        for (std::size_t i = 0; i < with->cells(); ++i)
+            with->colors.push_back(std::array<std::uint16_t, 4>{
+                0, index::kColorSteps, index::kNoColor,
+                std::uint16_t(random_() % index::kColorSteps)}[random_() % 4]);
+        return with;
     }
     std::vector<CellId> random_ids(std::size_t count) {
         std::set<CellId> ids;
@@ -195,6 +222,48 @@ TEST_P(CellUpload, CountsTheIdsAndTheBytesThatAreSent) {
     ASSERT_EQ(second->bricks.ids.size(), bricks);
     buffers.upload(second, kEnough);
     EXPECT_EQ(buffers.count(), (UploadCount{2, 410, 800, 1680, bricks * brick}));
+}
+
+TEST_P(CellUpload, ColoursOnOffAndChangedAreThoseOfTheSetWithAnyBudget) {
+    CellBuffers buffers(gl_, field_.view().grid, 512);
+    const auto set = extractions_.of_cells(0, {random_ids(301), {}, random_ids(90)});
+    const auto other = extractions_.of_cells(1, {random_ids(295), random_ids(7)});
+    std::vector<index::ExtractionPtr> sets{set, colored(set), colored(set), other, colored(other)};
+    for (int i = 0; i < 20; ++i) { // a few cells more or less each time, then anything
+        const auto& from = sets[random_() % sets.size()];
+        auto ids = from->surfaces[0].ids;
+        ids.erase(ids.begin() + std::ptrdiff_t(random_() % ids.size()));
+        const auto next = extractions_.of_cells(0, {ids, random_ids(random_() % 5)});
+        sets.push_back(random_() % 3 ? colored(next) : next);
+    }
+    for (const auto& next : sets) {
+        const auto before = buffers.shown();
+        int frames = 0;
+        bool changed = false;
+        while (!changed) {
+            ASSERT_LT(++frames, 20'000);
+            copied_bytes = 0;
+            const std::size_t budget = random_() % 3 ? 16 + random_() % 3000 : 0;
+            changed = buffers.upload(next, budget);
+            EXPECT_LE(copied_bytes, std::max(budget, StagingRing::kUnit));
+            if (!changed && before && frames % 16 == 0)
+                expect_colors(buffers); // the old ones, all of them
+        }
+        ASSERT_EQ(buffers.shown(), next);
+        expect_whole(buffers);
+        expect_colors(buffers);
+    }
+}
+
+TEST_P(CellUpload, ColoursAreCountedApartFromIds) {
+    CellBuffers buffers(gl_, field_.view().grid);
+    const auto set = extractions_.of_cells(0, {random_ids(401)});
+    buffers.upload(set, kEnough);
+    const UploadCount before = buffers.count();
+    copied_bytes = 0;
+    buffers.upload(colored(set), kEnough);
+    EXPECT_EQ(buffers.count().since(before), (UploadCount{1, 0, 401, 0, 0, 802}));
+    EXPECT_EQ(copied_bytes, 802u);
 }
 
 TEST_P(CellUpload, AnEmptySetReplacesAFullOneAndAFullOneAnEmptyOne) {

@@ -26,10 +26,10 @@ class AlongX final : public index::VolumeSeries {
     index::SeriesInfo info_;
 };
 
-/// How much of a picture shows the ends of the map `lagoon`, from violet over green to yellow.
+/// How much of a picture shows the ends of the map `polar`, blue over light grey to red.
 struct Ends {
-    std::size_t violet = 0, yellow = 0;
-    double violet_x = 0, yellow_x = 0; ///< where they are, on average, in pixels
+    std::size_t blue = 0, red = 0;
+    double blue_x = 0, red_x = 0; ///< where they are, on average, in pixels
 };
 
 Ends ends_in(const render::Image& image) {
@@ -37,19 +37,17 @@ Ends ends_in(const render::Image& image) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const std::uint8_t* pixel = image.at(x, y);
-            const int red = pixel[0], green = pixel[1], blue = pixel[2];
-            if (std::memcmp(pixel, image.at(0, 0), 3) == 0)
-                continue;
-            if (green > 80 && 2 * green > 3 * blue && 4 * red > 3 * green) {
-                ++found.yellow;
-                found.yellow_x += x;
-            } else if (blue > green + 10 && red > green + 10) {
-                ++found.violet;
-                found.violet_x += x;
+            const int excess = pixel[0] - pixel[2];
+            if (excess > 25) {
+                ++found.red;
+                found.red_x += x;
+            } else if (excess < -25) {
+                ++found.blue;
+                found.blue_x += x;
             }
         }
-    found.violet_x /= static_cast<double>(std::max(found.violet, std::size_t{1}));
-    found.yellow_x /= static_cast<double>(std::max(found.yellow, std::size_t{1}));
+    found.blue_x /= static_cast<double>(std::max(found.blue, std::size_t{1}));
+    found.red_x /= static_cast<double>(std::max(found.red, std::size_t{1}));
     return found;
 }
 
@@ -69,7 +67,7 @@ class SessionColors : public SessionTest {
     }
     static Commands colored(ColorBy by, std::uint32_t step) {
         Commands commands;
-        commands.coloring = interaction::Coloring{.by = by, .map = "lagoon", .range = {}};
+        commands.coloring = interaction::Coloring{.by = by, .map = "polar", .range = {}};
         commands.isovalue = 9.0;
         commands.step = step;
         return commands;
@@ -91,24 +89,26 @@ INSTANTIATE_TEST_SUITE_P(Contexts, SessionColors,
 
 TEST_P(SessionColors, BySecondArrayRunThroughTheMapAlongIt) {
     Session session(without_box(), file_, *context_);
-    render::Image image = picture(session, colored(ColorBy::value, 2));
+    Commands commands = colored(ColorBy::value, 2);
+    commands.coloring->range = {7, 21}; // where the sphere is
+    render::Image image = picture(session, commands);
     for (int frame = 0; frame < 30; ++frame) { // in quads, and at rest in surfaces
         const Ends ends = ends_in(image);
-        ASSERT_GT(ends.violet, 30u) << "frame " << frame;
-        ASSERT_GT(ends.yellow, 5u) << "frame " << frame;
-        ASSERT_LT(ends.violet_x, ends.yellow_x - 5) << "frame " << frame;
+        ASSERT_GT(ends.blue, 30u) << "frame " << frame;
+        ASSERT_GT(ends.red, 30u) << "frame " << frame;
+        ASSERT_LT(ends.blue_x, ends.red_x - 5) << "frame " << frame;
         image = picture(session, {});
     }
     EXPECT_EQ(session.log().frames().back().footprint, render::kBestFootprint);
 }
 
-TEST_P(SessionColors, ByFirstCrossingAreVioletAtFirstAndYellowAtLast) {
+TEST_P(SessionColors, ByFirstCrossingAreBlueAtFirstAndRedAtLast) {
     Session session(without_box(), file_, *context_);
     const Ends first = ends_in(picture(session, colored(ColorBy::first_crossing, 0)));
     const Ends last = ends_in(picture(session, colored(ColorBy::first_crossing, kSteps - 1)));
-    EXPECT_GT(first.violet, 300u);
-    EXPECT_EQ(first.yellow, 0u);
-    EXPECT_GT(last.yellow, 200u);
+    EXPECT_GT(first.blue, 300u);
+    EXPECT_EQ(first.red, 0u);
+    EXPECT_GT(last.red, 200u);
 }
 
 TEST_P(SessionColors, TellSurfacesApartUntilTheWorkerHasTheCoordinates) {

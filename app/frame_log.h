@@ -20,8 +20,8 @@ namespace isochron::app {
 
 /// One frame, stage after stage in the order of the frame.
 struct FrameReport {
-    interaction::Seconds time{0}; ///< session time of the frame
-    index::SurfacesQuery asked;
+    interaction::Seconds time{0};              ///< session time of the frame
+    index::SurfacesQuery asked{0, {0.0}};      ///< at least one isovalue
     std::optional<index::SurfacesQuery> shown; ///< of the cells drawn; empty before the first set
     interaction::Pace pace = interaction::Pace::moving;
     render::Footprint footprint = render::Footprint::quad;

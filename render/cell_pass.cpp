@@ -3,6 +3,7 @@
 
 #include "render/point_sprites.h"
 #include "render/shader.h"
+#include "render/soft_edges.h"
 #include "render/srgb.h"
 
 #include <glm/geometric.hpp>
@@ -246,9 +247,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     gl_->DepthMask(blended ? GL_FALSE : GL_TRUE);
     gl_->Disable(GL_CULL_FACE); // a mirrored volume turns every quad over
     if (blended) {
-        gl_->Enable(GL_BLEND);
-        gl_->BlendEquation(GL_FUNC_ADD);
-        gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+        blend_over(*gl_);
     } else {
         gl_->Disable(GL_BLEND);
     }

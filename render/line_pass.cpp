@@ -2,6 +2,7 @@
 #include "render/line_pass.h"
 
 #include "render/shader.h"
+#include "render/soft_edges.h"
 
 namespace isochron::render {
 
@@ -48,21 +49,13 @@ void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::spa
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
     gl_->Disable(GL_CULL_FACE);
-    gl_->Enable(GL_BLEND);
-    gl_->BlendEquation(GL_FUNC_ADD);
-    gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    blend_over(*gl_);
     gl_->UseProgram(program_.name());
-    // First the colours, then the depth of the core alone, where the line is all there is: a soft
-    // edge that wrote depth would keep what is drawn later from showing through it.
-    for (const bool depth_only : {false, true}) {
+    draw_colors_then_depth(*gl_, true, [&](bool depth_only) {
         frame.size.w = depth_only ? 1.0f : 0.0f;
         gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
-        gl_->DepthMask(depth_only ? GL_TRUE : GL_FALSE);
-        const GLboolean colors = depth_only ? GL_FALSE : GL_TRUE;
-        gl_->ColorMask(colors, colors, colors, colors);
         quads_.draw(lines.size());
-    }
-    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    });
     gl_->Disable(GL_BLEND);
     gl_->UseProgram(0);
 }

@@ -2,6 +2,7 @@
 #include "render/picture_pass.h"
 
 #include "render/shader.h"
+#include "render/soft_edges.h"
 
 namespace isochron::render {
 
@@ -24,9 +25,7 @@ void PicturePass::draw(const View& view, const std::array<glm::vec3, 4>& corners
     gl.DepthFunc(GL_LESS);
     gl.DepthMask(opacity < 1.0f ? GL_FALSE : GL_TRUE);
     gl.Disable(GL_CULL_FACE);
-    gl.Enable(GL_BLEND);
-    gl.BlendEquation(GL_FUNC_ADD);
-    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    blend_over(gl);
     gl.BindVertexArray(no_attributes_.name());
     gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     gl.Disable(GL_BLEND);

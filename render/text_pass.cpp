@@ -2,6 +2,7 @@
 #include "render/text_pass.h"
 
 #include "render/shader.h"
+#include "render/soft_edges.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -76,24 +77,14 @@ void TextPass::draw(const View& view, const glm::mat4& room_from_model,
     (tested ? gl_->Enable : gl_->Disable)(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LEQUAL);
     gl_->Disable(GL_CULL_FACE);
-    gl_->Enable(GL_BLEND);
-    gl_->BlendEquation(GL_FUNC_ADD);
-    gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    blend_over(*gl_);
     gl_->UseProgram(program_.name());
-    // As lines do: first all colours, then the depth of the cores alone.
-    for (const bool depth_only : {false, true}) {
-        if (depth_only && !tested)
-            continue;
+    draw_colors_then_depth(*gl_, tested, [&](bool depth_only) {
         constexpr float kCore = 0.5f;
         frame.size.w = depth_only ? kCore : 0.0f;
         gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
-        gl_->DepthMask(depth_only ? GL_TRUE : GL_FALSE);
-        const GLboolean colors = depth_only ? GL_FALSE : GL_TRUE;
-        gl_->ColorMask(colors, colors, colors, colors);
         quads_.draw(quads.size());
-    }
-    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    gl_->DepthMask(GL_TRUE);
+    });
     gl_->DepthFunc(GL_LESS);
     gl_->Enable(GL_DEPTH_TEST);
     gl_->Disable(GL_BLEND);

@@ -2,6 +2,7 @@
 #include "render/veil_pass.h"
 
 #include "render/shader.h"
+#include "render/soft_edges.h"
 
 namespace isochron::render {
 
@@ -18,9 +19,7 @@ void VeilPass::draw(const View& view, const Veil& veil) const {
     gl_->ProgramUniform4f(program_.name(), 0, corner.x, corner.y, size.x, size.y);
     gl_->ProgramUniform2f(program_.name(), 1, veil.whole, veil.rim);
     gl_->Disable(GL_DEPTH_TEST);
-    gl_->Enable(GL_BLEND);
-    gl_->BlendEquation(GL_FUNC_ADD);
-    gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    blend_over(*gl_);
     gl_->UseProgram(program_.name());
     gl_->BindVertexArray(no_attributes_.name());
     gl_->DrawArrays(GL_TRIANGLES, 0, 3);

@@ -2,6 +2,7 @@
 #include "app/bench/bare_quads.h"
 
 #include "render/shader.h"
+#include "render/soft_edges.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -87,9 +88,7 @@ void BareQuads::draw(std::span<const render::View> views, bool blended) const {
     gl_->DepthFunc(GL_LESS);
     gl_->DepthMask(blended ? GL_FALSE : GL_TRUE);
     if (blended) {
-        gl_->Enable(GL_BLEND);
-        gl_->BlendEquation(GL_FUNC_ADD);
-        gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+        render::blend_over(*gl_);
         gl_->ProgramUniform4f(program_.name(), 0, 0.2f, 0.2f, 0.15f, 0.25f);
     } else {
         gl_->Disable(GL_BLEND);

@@ -1,6 +1,7 @@
 // Configuration files: what is shipped is valid, and what is wrong is named with its place.
 #include "app/config.h"
 #include "app/toml_reader.h"
+#include "tests/app/config_error.h"
 #include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>
@@ -12,15 +13,6 @@ namespace isochron::app {
 namespace {
 
 using testing::HasSubstr;
-
-std::string error_of(const std::string& text) {
-    try {
-        parse_config(text, "lab.toml");
-    } catch (const ConfigError& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 TEST(Config, EveryShippedFileIsValid) {
     int files = 0;

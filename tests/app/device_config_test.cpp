@@ -2,6 +2,7 @@
 #include "app/device_tracking.h"
 #include "app/tracker_setup.h"
 #include "interaction/recording.h"
+#include "tests/app/config_error.h"
 
 #include <glm/trigonometric.hpp>
 #include <gmock/gmock.h>
@@ -113,15 +114,6 @@ TEST(DeviceConfig, EveryValueArrives) {
     EXPECT_FALSE(config.comfort.fade_when_lost);
     EXPECT_NEAR(config.comfort.vignette_turn, 1.5707963, 1e-6);
     EXPECT_EQ(config.comfort.vignette_fade, Seconds(0.25));
-}
-
-std::string error_of(const std::string& text) {
-    try {
-        parse_config(text, "lab.toml");
-    } catch (const ConfigError& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 TEST(DeviceConfig, WhatIsWrongIsNamedWithItsPlace) {

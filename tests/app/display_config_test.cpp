@@ -2,6 +2,7 @@
 #include "app/config.h"
 #include "app/display_config_text.h"
 #include "app/shipped_configs.h"
+#include "tests/app/config_error.h"
 #include "tests/support/test_seed.h"
 
 #include <gmock/gmock.h>
@@ -13,15 +14,6 @@ namespace isochron::app {
 namespace {
 
 using testing::HasSubstr;
-
-std::string error_of(const std::string& text) {
-    try {
-        parse_config(text, "lab.toml");
-    } catch (const ConfigError& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 const std::string kTwoViewers = R"(
 [[viewers]]

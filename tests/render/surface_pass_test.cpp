@@ -28,7 +28,6 @@ class SurfacePasses : public SurfaceTest {
         views[1].size = {133, 149};
         return views;
     }
-    /// Written as it is, which a float target takes.
     static CellAppearance of_opacity(float opacity) {
         CellAppearance appearance;
         appearance.surfaces[0].opacity = opacity;

@@ -18,6 +18,8 @@ class SurfacePass {
 
     /// Draws with the frame, cells, orders and viewports that CellPass has bound, and its depth and
     /// blend state. Writes the depth of the surface, whatever GL's depth range makes of its box.
+    /// In a multisampled target every sample has a ray of its own: no side of a triangle is an edge
+    /// of the surface, which only the rays tell.
     /// @param blended several layers within a cell are blended far to near, pre-multiplied
     /// @param cells whose corners are computed
     /// @param views 1 or 2
@@ -25,8 +27,11 @@ class SurfacePass {
               std::size_t views) const;
 
   private:
+    /// [blended][views - 1]
+    using Programs = std::array<std::array<std::optional<Program>, 2>, 2>;
+
     const Gl* gl_;
-    std::array<std::array<std::optional<Program>, 2>, 2> programs_; ///< [blended][views - 1]
+    std::array<Programs, 2> programs_; ///< for a ray each pixel, and each sample
 };
 
 } // namespace isochron::render

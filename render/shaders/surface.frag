@@ -22,9 +22,18 @@ struct Ray {
     float along_middle, along_half; // how far along the ray, from the plane of the cell's centre
 };
 
+// Where in the target this invocation looks, in pixels.
+vec2 sight() {
+#ifdef EACH_SAMPLE
+    return floor(gl_FragCoord.xy) + gl_SamplePosition;
+#else
+    return gl_FragCoord.xy;
+#endif
+}
+
 Ray ray_in_cell() {
     vec4 viewport = EYE(viewport);
-    vec2 pixel = gl_FragCoord.xy - viewport.xy - 0.5 * viewport.zw;
+    vec2 pixel = sight() - viewport.xy - 0.5 * viewport.zw;
     float perspective = EYE(eye_in_index).w;
     vec3 right = EYE(ray_right).xyz, up = EYE(ray_up).xyz;
     vec4 ahead = EYE(ray_ahead);

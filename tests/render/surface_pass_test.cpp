@@ -1,4 +1,6 @@
 // Surfaces in several views, transparent ones, and normals across the borders of cells.
+#include "render/driver.h"
+#include "render/render_target.h"
 #include "tests/index/test_field.h"
 #include "tests/render/surface_agreement.h"
 
@@ -69,6 +71,49 @@ TEST_P(SurfacePasses, EveryViewportShowsWhatItsEyeSeesAndNothingIsDrawnBeside) {
         hit += agreement.hit;
     }
     EXPECT_NEAR(covered, hit, 4 + 1e-4 * hit);
+}
+
+TEST_P(SurfacePasses, EverySampleOfAPixelHasARayOfItsOwn) {
+    const int samples = std::min(4, max_samples(gl_));
+    ASSERT_GE(samples, 4) << "a GL 4.5 has as many";
+    CellBuffers cells(gl_, field_.values().grid);
+    const index::ExtractionPtr active =
+        Extractions(field_.values()).active(field_.query().step, {field_.query().isovalue});
+    while (cells.shown() != active)
+        cells.upload(active, std::size_t{1} << 30);
+    cells.compute_corners();
+    CellPass pass(gl_);
+    constexpr int kFiner = 4;
+    // How much of a pixel the surface covers is its alpha.
+    const auto coverage = [&](int finer, int of_pixel) {
+        View view = perspective_view({-0.3f, 0.4f, 2.0f});
+        view.size *= finer;
+        const RenderTarget target(gl_, view.size, of_pixel);
+        target.bind();
+        target.clear(glm::vec4(0.0f));
+        pass.draw(std::span(&view, 1), placement_, cells, Footprint::surface);
+        target.resolve();
+        return target.read();
+    };
+    const Image fine = coverage(kFiner, 1), one = coverage(1, 1), many = coverage(1, samples);
+    double error_of_one = 0, error_of_many = 0;
+    int edges = 0;
+    for (int y = 0; y < one.height; ++y)
+        for (int x = 0; x < one.width; ++x) {
+            double truth = 0;
+            for (int v = 0; v < kFiner; ++v)
+                for (int u = 0; u < kFiner; ++u)
+                    truth += fine.at(x * kFiner + u, y * kFiner + v)[3] / 255.0;
+            truth /= kFiner * kFiner;
+            if (truth < 0.1 || truth > 0.9)
+                continue;
+            ++edges;
+            error_of_one += std::abs(one.at(x, y)[3] / 255.0 - truth);
+            error_of_many += std::abs(many.at(x, y)[3] / 255.0 - truth);
+        }
+    EXPECT_GT(edges, 300);
+    EXPECT_GT(error_of_one / edges, 0.2); // it is there or not
+    EXPECT_LT(error_of_many / edges, 0.1);
 }
 
 TEST_P(SurfacePasses, ATransparentSurfaceShowsEveryLayerFarToNear) {

@@ -82,7 +82,9 @@ void RoomView::draw(const std::deque<stereo::Display>& displays,
     const std::vector<Wall> walls = walls_of(displays, viewers);
     display_.draw(
         camera && camera->pose ? *camera->pose : start_, 0.0f, stereo::StereoMode::mono,
-        [&](const render::View& view, stereo::Eye) { draw_room(view, walls, viewers, wand); },
+        [&](std::span<const render::View> views) {
+            draw_room(views.front(), walls, viewers, wand);
+        },
         overlay);
 }
 
@@ -92,11 +94,12 @@ std::vector<RoomView::Wall> RoomView::walls_of(const std::deque<stereo::Display>
     for (const stereo::Display& display : displays)
         for (std::size_t i = 0; i < display.window().viewports.size(); ++i) {
             const stereo::Viewport& viewport = display.window().viewports[i];
-            const render::RenderTarget& picture =
-                display.eye_target(stereo::eyes_of(display.mode()).front(), i);
+            // The only eye of a mode in `shown`, which has the target to itself.
+            const stereo::EyePicture picture =
+                display.eye_picture(stereo::eyes_of(display.mode()).front(), i);
             walls.push_back(
-                {corners_in_room(viewport.screen, viewers[viewport.viewer].head, picture.size()),
-                 picture.color_texture(), viewport.viewer});
+                {corners_in_room(viewport.screen, viewers[viewport.viewer].head, picture.size),
+                 picture.target->color_texture(), viewport.viewer});
         }
     return walls;
 }

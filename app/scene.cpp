@@ -1,4 +1,4 @@
-// What one eye sees: the cells, the volume's box, the legend, the wand and what lies on the floor.
+// What the eyes see: the cells, the volume's box, the legend, the wand and what lies on the floor.
 #include "app/scene.h"
 
 #include "app/font.h"
@@ -63,9 +63,21 @@ void Scene::look(const ExplorerState& state, const interaction::Pose& head,
              : Axes{};
 }
 
-void Scene::draw(const render::View& view, const interaction::Similarity& room_from_physical,
-                 render::Footprint footprint, const std::optional<interaction::Pose>& wand) {
+void Scene::draw(std::span<const render::View> views,
+                 const interaction::Similarity& room_from_physical, render::Footprint footprint,
+                 const std::optional<interaction::Pose>& wand) {
     const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
+    for (const render::View& view : views)
+        draw_around_cells(view, placement, wand);
+    if (footprint == render::Footprint::surface)
+        cells_.compute_corners();
+    cell_pass_.draw(views, placement, cells_, footprint, appearance_);
+    for (const render::View& view : views)
+        draw_over_cells(view);
+}
+
+void Scene::draw_around_cells(const render::View& view, const render::Placement& placement,
+                              const std::optional<interaction::Pose>& wand) {
     if (box_) {
         std::vector<render::Line> lines = render::box_lines(placement.extent, kBoxColour);
         lines.insert(lines.end(), axes_.ticks.begin(), axes_.ticks.end());
@@ -81,9 +93,9 @@ void Scene::draw(const render::View& view, const interaction::Similarity& room_f
         const std::array ray{render::Line{{0, 0, 0}, {0, 0, -kWandLength}, kWandColour}};
         line_pass_.draw(view, room_from(*wand), ray);
     }
-    if (footprint == render::Footprint::surface)
-        cells_.compute_corners();
-    cell_pass_.draw(view, placement, cells_, footprint, appearance_);
+}
+
+void Scene::draw_over_cells(const render::View& view) {
     veil_pass_.draw(view, veil_);
     text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
                     legend_quads({surfaces_, info_.value_unit, scale_}, text_pass_, view.size),

@@ -1,4 +1,4 @@
-// What one eye sees: the cells, the volume's box with its numbers, the legend, the wand and the
+// What the eyes see: the cells, the volume's box with its numbers, the legend, the wand and the
 // floor.
 #pragma once
 
@@ -17,6 +17,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 namespace isochron::app {
 
@@ -43,11 +44,18 @@ class Scene {
     void look(const ExplorerState& state, const interaction::Pose& head,
               const std::optional<ColorScale>& scale);
 
+    /// Draws into the views' viewports of the bound framebuffer, the cells of two views in one pass
+    /// where the driver can.
     /// @param wand drawn as a ray when given
-    void draw(const render::View& view, const interaction::Similarity& room_from_physical,
-              render::Footprint footprint, const std::optional<interaction::Pose>& wand);
+    void draw(std::span<const render::View> views,
+              const interaction::Similarity& room_from_physical, render::Footprint footprint,
+              const std::optional<interaction::Pose>& wand);
 
   private:
+    void draw_around_cells(const render::View& view, const render::Placement& placement,
+                           const std::optional<interaction::Pose>& wand);
+    void draw_over_cells(const render::View& view);
+
     const render::Gl& gl_;
     const index::SeriesInfo& info_;
     const std::size_t upload_bytes_; ///< per frame

@@ -255,9 +255,10 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
         const stereo::StereoMode mode = mode_of(window, config_.installation, now.stereo);
         displays_[i].draw(
             now.viewers, room_ ? RoomView::shown(mode) : mode,
-            [&](const render::View& view, stereo::Eye) {
-                quality_.viewed(view);
-                scene_.draw(view, now.room_from_physical, now.footprint, now.wand);
+            [&](std::span<const render::View> views) {
+                for (const render::View& view : views)
+                    quality_.viewed(view);
+                scene_.draw(views, now.room_from_physical, now.footprint, now.wand);
             },
             overlay);
     }

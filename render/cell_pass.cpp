@@ -5,6 +5,7 @@
 #include "render/shader.h"
 #include "render/soft_edges.h"
 #include "render/srgb.h"
+#include "render/viewport.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -226,8 +227,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i];
         frame.eyes[i] = eye_block(view, placement, appearance);
-        const glm::vec2 corner(view.corner), size(view.size);
-        gl_->ViewportIndexedf(static_cast<GLuint>(i), corner.x, corner.y, size.x, size.y);
+        set_viewport(*gl_, view, static_cast<GLuint>(i));
         if (blended)
             gl_->BindTextureUnit(
                 static_cast<GLuint>(1 + i),

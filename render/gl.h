@@ -46,6 +46,7 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLSCISSORPROC, Scissor)                                                                         \
     ENTRY(PFNGLVIEWPORTPROC, Viewport)                                                                       \
     ENTRY(PFNGLVIEWPORTINDEXEDFPROC, ViewportIndexedf)                                                       \
+    ENTRY(PFNGLSCISSORINDEXEDPROC, ScissorIndexed)                                                           \
     ENTRY(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                 \
     ENTRY(PFNGLCLEARCOLORPROC, ClearColor)                                                                   \
     ENTRY(PFNGLCLEARDEPTHPROC, ClearDepth)                                                                   \
@@ -115,7 +116,7 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLTEXTUREBUFFERRANGEPROC, TextureBufferRange)                                                   \
     ENTRY(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                                     \
     ENTRY(PFNGLTEXTUREPARAMETERFPROC, TextureParameterf)                                                     \
-    ENTRY(PFNGLGETTEXTUREIMAGEPROC, GetTextureImage)                                                         \
+    ENTRY(PFNGLGETTEXTURESUBIMAGEPROC, GetTextureSubImage)                                                   \
     ENTRY(PFNGLGENERATETEXTUREMIPMAPPROC, GenerateTextureMipmap)                                             \
     ENTRY(PFNGLCREATESAMPLERSPROC, CreateSamplers)                                                           \
     ENTRY(PFNGLDELETESAMPLERSPROC, DeleteSamplers)                                                           \

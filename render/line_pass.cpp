@@ -3,6 +3,7 @@
 
 #include "render/shader.h"
 #include "render/soft_edges.h"
+#include "render/viewport.h"
 
 namespace isochron::render {
 
@@ -46,6 +47,7 @@ void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::spa
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
     gl_->BindTextureUnit(0, texture_.name());
 
+    set_viewport(*gl_, view);
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
     gl_->Disable(GL_CULL_FACE);

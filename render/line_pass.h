@@ -27,9 +27,10 @@ class LinePass {
     /// @throws Error when a shader does not compile
     explicit LinePass(const Gl& gl);
 
-    /// Draws into the bound framebuffer, `width` pixels wide at any distance, with soft edges;
-    /// tests depth and writes that of the lines' core. Draw lines before splats, which do not write
-    /// any. Leaves depth test and depth writes on, blending and culling off.
+    /// Draws into the view's viewport of the bound framebuffer, `width` pixels wide at any
+    /// distance, with soft edges; tests depth and writes that of the lines' core. Draw lines before
+    /// splats, which do not write any. Leaves depth test and depth writes on, blending and culling
+    /// off.
     void draw(const View& view, const glm::mat4& room_from_model, std::span<const Line> lines,
               float width = 1.5f);
 

@@ -3,6 +3,7 @@
 
 #include "render/shader.h"
 #include "render/soft_edges.h"
+#include "render/viewport.h"
 
 namespace isochron::render {
 
@@ -15,6 +16,7 @@ void PicturePass::draw(const View& view, const std::array<glm::vec3, 4>& corners
     const Gl& gl = program_.gl();
     const GLuint program = program_.name();
     const glm::mat4 clip_from_room = view.clip_from_eye * view.eye_from_room;
+    set_viewport(gl, view);
     gl.UseProgram(program);
     gl.ProgramUniformMatrix4fv(program, gl.GetUniformLocation(program, "clip_from_room"), 1,
                                GL_FALSE, &clip_from_room[0][0]);

@@ -15,8 +15,8 @@ class PicturePass {
     /// @throws Error when a shader does not compile
     explicit PicturePass(const Gl& gl);
 
-    /// Draws into the bound framebuffer; tests depth, and writes it where `opacity` is 1. Leaves
-    /// depth test and depth writes on, blending and culling off.
+    /// Draws into the view's viewport of the bound framebuffer; tests depth, and writes it where
+    /// `opacity` is 1. Leaves depth test and depth writes on, blending and culling off.
     /// @param corners in the room: lower left, upper left, upper right, lower right
     /// @param texture 2D, colours meant for the display, its first row at the bottom
     /// @param opacity 0 to 1

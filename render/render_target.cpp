@@ -95,17 +95,18 @@ void RenderTarget::resolve() const {
                               size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-Image RenderTarget::read() const {
-    Image image{size_.x, size_.y, std::vector<std::uint8_t>(std::size_t{4} * size_.x * size_.y)};
+Image RenderTarget::read(glm::ivec2 corner, glm::ivec2 size) const {
+    Image image{size.x, size.y, std::vector<std::uint8_t>(std::size_t{4} * size.x * size.y)};
     gl_->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_->GetTextureImage(color_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                         static_cast<GLsizei>(image.rgba.size()), image.rgba.data());
+    gl_->GetTextureSubImage(color_.name(), 0, corner.x, corner.y, 0, size.x, size.y, 1, GL_RGBA,
+                            GL_UNSIGNED_BYTE, static_cast<GLsizei>(image.rgba.size()),
+                            image.rgba.data());
     // GL's first row is the bottom one.
-    const std::size_t row = std::size_t{4} * size_.x;
-    for (int y = 0; y < size_.y / 2; ++y)
+    const std::size_t row = std::size_t{4} * size.x;
+    for (int y = 0; y < size.y / 2; ++y)
         std::swap_ranges(image.rgba.begin() + y * row, image.rgba.begin() + (y + 1) * row,
-                         image.rgba.begin() + (size_.y - 1 - y) * row);
+                         image.rgba.begin() + (size.y - 1 - y) * row);
     return image;
 }
 

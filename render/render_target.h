@@ -48,7 +48,9 @@ class RenderTarget {
     void resolve() const;
 
     /// Waits for the GPU and reads the display values that were resolved last.
-    Image read() const;
+    Image read() const { return read({0, 0}, size_); }
+    /// A part of them. @param corner its lower left, pixels
+    Image read(glm::ivec2 corner, glm::ivec2 size) const;
 
   private:
     /// What is drawn into where pixels have several samples.

@@ -2,6 +2,7 @@
 #include "render/solid_pass.h"
 
 #include "render/shader.h"
+#include "render/viewport.h"
 
 #include <glm/gtc/constants.hpp>
 #include <glm/vec4.hpp>
@@ -87,6 +88,7 @@ void SolidPass::draw(const View& view, const glm::mat4& room_from_model,
     };
     matrix("eye_from_model", view.eye_from_room * room_from_model);
     matrix("clip_from_eye", view.clip_from_eye);
+    set_viewport(gl, view);
     gl.UseProgram(program);
     gl.BindTextureUnit(0, texture_.name());
     gl.Enable(GL_DEPTH_TEST);

@@ -30,8 +30,9 @@ class SolidPass {
     /// @throws Error when a shader does not compile
     explicit SolidPass(const Gl& gl);
 
-    /// Draws into the bound framebuffer, opaque, each facet as bright as it faces the eye; tests
-    /// and writes depth. Leaves depth test and depth writes on, blending and culling off.
+    /// Draws into the view's viewport of the bound framebuffer, opaque, each facet as bright as it
+    /// faces the eye; tests and writes depth. Leaves depth test and depth writes on, blending and
+    /// culling off.
     void draw(const View& view, const glm::mat4& room_from_model,
               std::span<const Triangle> triangles);
 

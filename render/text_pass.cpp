@@ -3,6 +3,7 @@
 
 #include "render/shader.h"
 #include "render/soft_edges.h"
+#include "render/viewport.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -73,6 +74,7 @@ void TextPass::draw(const View& view, const glm::mat4& room_from_model,
     gl_->BindTextureUnit(0, buffer_texture_.name());
     gl_->BindTextureUnit(1, glyphs_.name());
 
+    set_viewport(*gl_, view);
     const bool tested = depth == Depth::tested;
     (tested ? gl_->Enable : gl_->Disable)(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LEQUAL);

@@ -58,10 +58,10 @@ class TextPass {
         tested, ///< and written, of the characters' cores: draw text before splats
         none    ///< over everything
     };
-    /// Draws into the bound framebuffer. Each quad has the depth of what it is fastened to and is
-    /// parallel to the screen, so that both eyes see one upright text at that depth. Nothing is
-    /// moved to whole pixels: that would move it in depth. What is behind the eye is left out.
-    /// Leaves depth test and depth writes on, blending and culling off.
+    /// Draws into the view's viewport of the bound framebuffer. Each quad has the depth of what it
+    /// is fastened to and is parallel to the screen, so that both eyes see one upright text at that
+    /// depth. Nothing is moved to whole pixels: that would move it in depth. What is behind the eye
+    /// is left out. Leaves depth test and depth writes on, blending and culling off.
     void draw(const View& view, const glm::mat4& room_from_model, std::span<const ScreenQuad> quads,
               Depth depth = Depth::tested);
 

@@ -3,6 +3,7 @@
 
 #include "render/shader.h"
 #include "render/soft_edges.h"
+#include "render/viewport.h"
 
 namespace isochron::render {
 
@@ -15,7 +16,7 @@ void VeilPass::draw(const View& view, const Veil& veil) const {
     if (veil == Veil{})
         return;
     const glm::vec2 corner(view.corner), size(view.size);
-    gl_->ViewportIndexedf(0, corner.x, corner.y, size.x, size.y);
+    set_viewport(*gl_, view);
     gl_->ProgramUniform4f(program_.name(), 0, corner.x, corner.y, size.x, size.y);
     gl_->ProgramUniform2f(program_.name(), 1, veil.whole, veil.rim);
     gl_->Disable(GL_DEPTH_TEST);

@@ -1,11 +1,14 @@
 // Targets of the eyes, their place in the window, and the composition.
 #include "stereo/display.h"
 
+#include "render/viewport.h"
+
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace isochron::stereo {
@@ -13,6 +16,13 @@ namespace {
 
 glm::ivec2 at_least_one(glm::ivec2 size) {
     return glm::max(size, glm::ivec2(1));
+}
+
+/// Where the eye of that number has its picture in the target of its viewport: beside the other
+/// one, or above it where that keeps the target farther from the largest that GL can make.
+glm::ivec2 corner_in_target(std::size_t number, glm::ivec2 size) {
+    const glm::ivec2 next = size.x > size.y ? glm::ivec2(0, size.y) : glm::ivec2(size.x, 0);
+    return static_cast<int>(number) * next;
 }
 
 constexpr glm::vec4 kBlack{0.0f, 0.0f, 0.0f, 1.0f};
@@ -40,29 +50,34 @@ void Display::draw(std::span<const Viewpoint> viewers, StereoMode mode, const Sc
         right_buffer_->resize(size);
     else
         right_buffer_.emplace(*gl_, size);
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
-        const Viewport& viewport = window_.viewports[i];
-        const Viewpoint& viewer = viewers[viewport.viewer];
-        EyeTargets drawn;
-        for (const Eye eye : eyes_of(mode)) {
-            const glm::ivec2 pixels = region_of(viewport, place_of(eye, mode)).size;
-            const auto slot = static_cast<std::size_t>(eye);
-            std::optional<render::RenderTarget>& target = drawn[slot];
-            target = std::exchange(targets_[i][slot], std::nullopt);
-            if (target)
-                target->resize(pixels);
-            else
-                target.emplace(*gl_, pixels, options_.samples);
-            target->clear(glm::vec4(options_.background, 1.0f));
-            target->bind();
-            scene(view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
-                          options_.near_plane, options_.far_plane, pixels),
-                  eye);
-            target->resolve();
-        }
-        targets_[i] = std::move(drawn); // eyes no longer shown give their memory back
-    }
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+        draw_viewport(i, viewers[window_.viewports[i].viewer], scene);
     compose(overlay);
+}
+
+void Display::draw_viewport(std::size_t number, const Viewpoint& viewer, const Scene& scene) {
+    const Viewport& viewport = window_.viewports[number];
+    std::vector<render::View> views;
+    for (const Eye eye : eyes_of(mode_)) {
+        const glm::ivec2 size = region_of(viewport, place_of(eye, mode_)).size;
+        views.push_back(view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
+                                options_.near_plane, options_.far_plane, size));
+        views.back().corner = corner_in_target(views.size() - 1, size);
+    }
+    std::optional<render::RenderTarget>& target = targets_[number];
+    const glm::ivec2 whole = views.back().corner + views.back().size;
+    if (target)
+        target->resize(whole);
+    else
+        target.emplace(*gl_, whole, options_.samples);
+    target->clear(glm::vec4(options_.background, 1.0f));
+    target->bind();
+    gl_->Enable(GL_SCISSOR_TEST);
+    for (std::size_t i = 0; i < views.size(); ++i)
+        set_viewport(*gl_, views[i], static_cast<GLuint>(i));
+    scene(views);
+    gl_->Disable(GL_SCISSOR_TEST);
+    target->resolve();
 }
 
 void Display::draw_overlay_again(const Overlay& overlay) {
@@ -133,10 +148,11 @@ void Display::compose_into(const render::RenderTarget& target, Eye buffer) const
         for (const Eye place : right_buffer_ ? std::vector{buffer} : eyes_of(mode_)) {
             const Region region = region_of(viewport, place);
             const glm::ivec2 end = region.corner + region.size;
-            gl_->BlitNamedFramebuffer(shown_at(place, i).framebuffer(), target.framebuffer(), 0, 0,
-                                      region.size.x, region.size.y, region.corner.x,
-                                      region.corner.y, end.x, end.y, GL_COLOR_BUFFER_BIT,
-                                      GL_NEAREST);
+            const EyePicture eye = shown_at(place, i);
+            const glm::ivec2 from = eye.corner, to = eye.corner + eye.size;
+            gl_->BlitNamedFramebuffer(eye.target->framebuffer(), target.framebuffer(), from.x,
+                                      from.y, to.x, to.y, region.corner.x, region.corner.y, end.x,
+                                      end.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
         }
     }
 }
@@ -145,24 +161,27 @@ void Display::present() {
     presenter_.present(composed_, right_buffer_ ? &*right_buffer_ : nullptr);
 }
 
-const render::RenderTarget& Display::shown_at(Eye place, std::size_t viewport) const {
-    return eye_target(place_of(place, mode_), viewport);
+EyePicture Display::shown_at(Eye place, std::size_t viewport) const {
+    return eye_picture(place_of(place, mode_), viewport);
 }
 
-const render::RenderTarget& Display::eye_target(Eye eye, std::size_t viewport) const {
+EyePicture Display::eye_picture(Eye eye, std::size_t viewport) const {
     if (viewport >= targets_.size())
         throw render::Error(fmt::format("window {}: viewport {} asked for, there are {}",
                                         window_.name, viewport, targets_.size()));
-    const auto& target = targets_[viewport][static_cast<std::size_t>(eye)];
-    if (!target)
+    const std::vector<Eye> drawn = eyes_of(mode_);
+    const auto found = std::ranges::find(drawn, eye);
+    if (found == drawn.end() || !targets_[viewport])
         throw render::Error(fmt::format("window {}: the {} eye's picture asked for, mode {} does "
                                         "not draw it",
                                         window_.name, name_of(eye), stereo::name_of(mode_)));
-    return *target;
+    const glm::ivec2 size = region_of(window_.viewports[viewport], place_of(eye, mode_)).size;
+    const auto number = static_cast<std::size_t>(found - drawn.begin());
+    return {&*targets_[viewport], corner_in_target(number, size), size};
 }
 
 glm::ivec2 Display::eye_size(std::size_t viewport) const {
-    return eye_target(eyes_of(mode_).front(), viewport).size();
+    return eye_picture(eyes_of(mode_).front(), viewport).size;
 }
 
 render::Image Display::read_right_buffer() const {
@@ -173,7 +192,8 @@ render::Image Display::read_right_buffer() const {
 }
 
 render::Image Display::read_eye(Eye eye, std::size_t viewport) const {
-    return eye_target(eye, viewport).read();
+    const EyePicture picture = eye_picture(eye, viewport);
+    return picture.target->read(picture.corner, picture.size);
 }
 
 } // namespace isochron::stereo

@@ -2,7 +2,7 @@
 //
 //     Display display(gl, *context, installation.windows.front(), {});
 //     display.draw(head, 0.063f, StereoMode::side_by_side,
-//                  [&](const render::View& view, Eye) { pass.draw(view); }, draw_panel);
+//                  [&](std::span<const render::View> eyes) { pass.draw(eyes); }, draw_panel);
 //     display.present();
 #pragma once
 
@@ -17,7 +17,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -47,8 +46,11 @@ struct Viewpoint {
 /// `fit_aspect` screen takes the aspect of the half, so that shapes stay round on a monitor.
 class Display {
   public:
-    /// Draws one eye: the target is bound, cleared to the background, and its viewport set.
-    using Scene = std::function<void(const render::View&, Eye)>;
+    /// Draws all eyes of one viewport, in the order of `eyes_of`. Their pictures lie in one target,
+    /// so that a pass may draw them at once. It is bound and cleared to the background, and
+    /// viewport and scissor number i are those of the i-th view. Called once for each of the
+    /// window's viewports, in their order.
+    using Scene = std::function<void(std::span<const render::View>)>;
     /// Draws over the composed window (a panel), which is bound; gets its size in pixels. Called
     /// for each buffer of the window: twice in a quad-buffered one, where it must draw the same.
     using Overlay = std::function<void(glm::ivec2)>;
@@ -90,8 +92,8 @@ class Display {
     /// One eye's picture of a viewport at its own resolution, without the overlay.
     /// @throws render::Error when the frame drawn last did not show that eye
     render::Image read_eye(Eye eye, std::size_t viewport = 0) const;
-    /// The same picture where it lies. @throws as `read_eye`
-    const render::RenderTarget& eye_target(Eye eye, std::size_t viewport) const;
+    /// The same picture where it lies, until the next frame is drawn. @throws as `read_eye`
+    EyePicture eye_picture(Eye eye, std::size_t viewport) const;
     /// Pixels of each eye's picture of a viewport, as drawn last.
     glm::ivec2 eye_size(std::size_t viewport) const;
 
@@ -100,11 +102,11 @@ class Display {
     struct Region {
         glm::ivec2 corner, size;
     };
-    using EyeTargets = std::array<std::optional<render::RenderTarget>, 3>; ///< by Eye
 
     Region region_of(const Viewport& viewport, Eye place) const;
+    void draw_viewport(std::size_t number, const Viewpoint& viewer, const Scene& scene);
     /// The eye's picture to show in the place of `place`.
-    const render::RenderTarget& shown_at(Eye place, std::size_t viewport) const;
+    EyePicture shown_at(Eye place, std::size_t viewport) const;
     bool fills_window() const; ///< the eyes' regions leave no pixel of the window free
     void compose(const Overlay& overlay);
     void compose_into(const render::RenderTarget& target, Eye buffer) const;
@@ -118,7 +120,7 @@ class Display {
     StereoMode mode_ = StereoMode::mono; ///< of the frame drawn last
     render::RenderTarget composed_;
     std::optional<render::RenderTarget> right_buffer_; ///< while the window is quad-buffered
-    std::vector<EyeTargets> targets_;                  ///< by viewport
+    std::vector<std::optional<render::RenderTarget>> targets_; ///< by viewport, from its first draw
 };
 
 } // namespace isochron::stereo

@@ -34,8 +34,8 @@ bool Multiplex::shows(StereoMode mode) {
     return find(mode) != kShaderModes.end();
 }
 
-void Multiplex::draw(const render::RenderTarget& left, const render::RenderTarget& right,
-                     StereoMode mode, glm::ivec2 corner, int window_height) const {
+void Multiplex::draw(const EyePicture& left, const EyePicture& right, StereoMode mode,
+                     glm::ivec2 corner, int window_height) const {
     const render::Gl& gl = program_.gl();
     for (const GLenum capability : {GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST})
         gl.Disable(capability);
@@ -43,10 +43,14 @@ void Multiplex::draw(const render::RenderTarget& left, const render::RenderTarge
     const GLuint program = program_.name();
     gl.UseProgram(program);
     gl.ProgramUniform1i(program, gl.GetUniformLocation(program, "mode"), find(mode)->second);
-    gl.ProgramUniform2i(program, gl.GetUniformLocation(program, "corner"), corner.x, corner.y);
+    const auto place = [&](const char* name, glm::ivec2 at) {
+        gl.ProgramUniform2i(program, gl.GetUniformLocation(program, name), at.x, at.y);
+    };
+    place("left_from_window", left.corner - corner);
+    place("right_from_window", right.corner - corner);
     gl.ProgramUniform1i(program, gl.GetUniformLocation(program, "window_height"), window_height);
-    gl.BindTextureUnit(0, left.color_texture());
-    gl.BindTextureUnit(1, right.color_texture());
+    gl.BindTextureUnit(0, left.target->color_texture());
+    gl.BindTextureUnit(1, right.target->color_texture());
     gl.BindVertexArray(no_attributes_.name());
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -9,6 +9,12 @@
 
 namespace isochron::stereo {
 
+/// One eye's picture where it lies: pixels of a texture.
+struct EyePicture {
+    const render::RenderTarget* target;
+    glm::ivec2 corner, size; ///< in the target, pixels from its lower left
+};
+
 /// Red-cyan anaglyphs mix no channel: each filter sees exactly one eye's picture. Dubois' anaglyph
 /// is the least-squares projection of both pictures, in linear light, on what the glasses let
 /// through: E. Dubois, "A projection method to generate anaglyph stereo images", ICASSP 2001,
@@ -26,8 +32,8 @@ class Multiplex {
     /// and of the right eye, of the viewport's size
     /// @param corner of the viewport in the bound target, pixels from its lower left
     /// @param window_height of the bound target: rows are counted from its top
-    void draw(const render::RenderTarget& left, const render::RenderTarget& right, StereoMode mode,
-              glm::ivec2 corner, int window_height) const;
+    void draw(const EyePicture& left, const EyePicture& right, StereoMode mode, glm::ivec2 corner,
+              int window_height) const;
 
   private:
     render::Program program_;

@@ -5,8 +5,8 @@
 layout(binding = 0) uniform sampler2D left_eye;
 layout(binding = 1) uniform sampler2D right_eye;
 uniform int mode;          // as in multiplex.cpp
-uniform ivec2 corner;      // of the viewport in the window, pixels from the lower left
-uniform int window_height; // pixels
+uniform ivec2 left_from_window, right_from_window; // from a pixel of the window to the eye's
+uniform int window_height;                         // pixels
 out vec4 color;
 
 // E. Dubois, "Conversion of a stereo pair to anaglyph with the least-squares projection method",
@@ -22,9 +22,8 @@ const mat3 dubois_right = mat3(
 
 void main() {
     ivec2 window_pixel = ivec2(gl_FragCoord.xy);
-    ivec2 pixel = window_pixel - corner;
-    vec3 left = texelFetch(left_eye, pixel, 0).rgb;
-    vec3 right = texelFetch(right_eye, pixel, 0).rgb;
+    vec3 left = texelFetch(left_eye, window_pixel + left_from_window, 0).rgb;
+    vec3 right = texelFetch(right_eye, window_pixel + right_from_window, 0).rgb;
     int row = window_height - 1 - window_pixel.y, column = window_pixel.x;
     vec3 both;
     switch (mode) {

@@ -88,10 +88,11 @@ TEST_P(CaveTest, ACubesEdgesCrossFromWallToWallWithoutAStepForAMovingHead) {
         for (const auto& edge : edges) {
             const render::Line line{edge[0], edge[1], glm::vec4(1)};
             for (const std::size_t wall : {0, 2})
-                walls[wall].draw(head, 0.065f, StereoMode::quadbuffer,
-                                 [&](const render::View& view, Eye) {
-                                     lines.draw(view, glm::mat4(1.0f), std::span(&line, 1), 3.0f);
-                                 });
+                walls[wall].draw(
+                    head, 0.065f, StereoMode::quadbuffer, [&](std::span<const render::View> eyes) {
+                        for (const render::View& view : eyes)
+                            lines.draw(view, glm::mat4(1.0f), std::span(&line, 1), 3.0f);
+                    });
             for (const Eye eye : {Eye::left, Eye::right}) {
                 // Where the plane of eye and edge cuts the common edge of the walls.
                 const glm::vec3 from = stereo::eye_position(head, eye, 0.065f);
@@ -187,11 +188,12 @@ TEST_P(CaveTest, TheRoomShowsEveryWallsPictureWhereTheWallIs) {
     const stereo::Viewpoint viewer{{{0.0f, 1.7f, 0.0f}, {1, 0, 0, 0}}, 0.06f};
     const auto paint = [&](std::size_t wall, glm::vec3 upper, glm::vec3 lower) {
         walls[wall].draw(std::span(&viewer, 1), StereoMode::left,
-                         [&](const render::View& view, Eye) {
+                         [&](std::span<const render::View> eyes) {
+                             const glm::ivec2 wall_size = eyes.front().size;
                              gl_.ClearColor(upper.x, upper.y, upper.z, 1);
                              gl_.Clear(GL_COLOR_BUFFER_BIT);
                              gl_.Enable(GL_SCISSOR_TEST);
-                             gl_.Scissor(0, 0, view.size.x, view.size.y / 2);
+                             gl_.Scissor(0, 0, wall_size.x, wall_size.y / 2);
                              gl_.ClearColor(lower.x, lower.y, lower.z, 1);
                              gl_.Clear(GL_COLOR_BUFFER_BIT);
                              gl_.Disable(GL_SCISSOR_TEST);

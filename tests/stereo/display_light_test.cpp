@@ -4,6 +4,7 @@
 #include "render/line_pass.h"
 #include "render/shader.h"
 #include "render/srgb.h"
+#include "tests/stereo/each_eye.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ TEST_P(DisplayLight, HalfTheLightIsHalfTheLightInEveryModeAndWithSeveralSamples)
         render::LinePass lines(gl_);
         for (const StereoMode mode : all_stereo_modes()) {
             // Half opaque white over black, at the middle of every eye's screen.
-            display.draw(kHead, 0.0f, mode, [&](const render::View& view, Eye) {
+            draw_each_eye(gl_, display, kHead, 0.0f, mode, [&](const render::View& view, Eye) {
                 const std::array line{render::Line{
                     {-5.0f, 1.55f, -1.0f}, {5.0f, 1.55f, -1.0f}, {1.0f, 1.0f, 1.0f, 0.5f}}};
                 lines.draw(view, glm::mat4(1.0f), line, 80.0f);
@@ -65,7 +66,7 @@ TEST_P(DisplayLight, SeveralSamplesSmoothEdgesInLight) {
         render::link_program(gl_, {{"edge.vert", kEdgeVertex}, {"edge.frag", kEdgeFragment}});
     const render::VertexArray none(gl_);
     for (const StereoMode mode : all_stereo_modes()) {
-        display.draw(kHead, 0.0f, mode, [&](const render::View&, Eye) {
+        draw_each_eye(gl_, display, kHead, 0.0f, mode, [&](const render::View&, Eye) {
             gl_.Disable(GL_DEPTH_TEST);
             gl_.UseProgram(triangle.name());
             gl_.BindVertexArray(none.name());

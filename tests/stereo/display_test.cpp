@@ -3,6 +3,7 @@
 
 #include "render/shader.h"
 #include "render/srgb.h"
+#include "tests/stereo/each_eye.h"
 #include "tests/support/image_compare.h"
 
 #include <gmock/gmock.h>
@@ -43,10 +44,11 @@ constexpr std::string_view kDotFragment = R"(#version 450 core
 uniform mat4 clip_from_room;
 uniform vec3 point;
 uniform vec2 size;
+uniform vec2 corner;
 out vec4 color;
 void main() {
     const vec4 clip = clip_from_room * vec4(point, 1.0);
-    const vec2 from_dot = gl_FragCoord.xy - (0.5 * clip.xy / clip.w + 0.5) * size;
+    const vec2 from_dot = gl_FragCoord.xy - corner - (0.5 * clip.xy / clip.w + 0.5) * size;
     color = vec4(vec3(exp(-dot(from_dot, from_dot) / 18.0)), 1.0);
 }
 )";
@@ -71,6 +73,8 @@ class Dot {
                             point.z);
         gl.ProgramUniform2f(program, gl.GetUniformLocation(program, "size"),
                             static_cast<float>(view.size.x), static_cast<float>(view.size.y));
+        gl.ProgramUniform2f(program, gl.GetUniformLocation(program, "corner"),
+                            static_cast<float>(view.corner.x), static_cast<float>(view.corner.y));
         gl.BindVertexArray(no_attributes_.name());
         gl.DrawArrays(GL_TRIANGLES, 0, 3);
     }
@@ -126,8 +130,8 @@ class DisplayTest : public testing::TestWithParam<ContextKind> {
     /// of the picture's width: crossed disparity is positive.
     double crossed_disparity(Display& display, StereoMode mode, glm::vec3 point, float separation) {
         const auto draw = [&](StereoMode shown) {
-            display.draw(kHead, separation, shown,
-                         [&](const render::View& view, Eye) { dot_.draw(view, point); });
+            draw_each_eye(gl_, display, kHead, separation, shown,
+                          [&](const render::View& view, Eye) { dot_.draw(view, point); });
             return display.read_window();
         };
         if (mode == StereoMode::left || mode == StereoMode::right) {
@@ -188,7 +192,7 @@ TEST_P(DisplayTest, DisparityOfAFittedScreenFollowsItsFittedWidth) {
 TEST_P(DisplayTest, WithoutSeparationBothEyesSeeTheSame) {
     Display display = display_of({});
     for (const StereoMode mode : {StereoMode::side_by_side, StereoMode::top_bottom}) {
-        display.draw(kHead, 0.0f, mode, [&](const render::View& view, Eye) {
+        draw_each_eye(gl_, display, kHead, 0.0f, mode, [&](const render::View& view, Eye) {
             dot_.draw(view, {0.3f, 1.7f, -2.0f});
         });
         const auto [left, right] = cut_eyes(display.read_window(), mode);
@@ -217,8 +221,8 @@ Rgb rgb(const Image& image, int x, int y) {
 TEST_P(DisplayTest, EachEyeLandsWhereTheModeSays) {
     Display display = display_of({});
     const auto corners = [&](StereoMode mode) -> std::array<Rgb, 4> {
-        display.draw(kHead, kSeparation, mode,
-                     [&](const render::View&, Eye eye) { fill(gl_, eye); });
+        draw_each_eye(gl_, display, kHead, kSeparation, mode,
+                      [&](const render::View&, Eye eye) { fill(gl_, eye); });
         const Image window = display.read_window();
         EXPECT_EQ(window.width, kSize.x);
         EXPECT_EQ(window.height, kSize.y);
@@ -240,10 +244,10 @@ TEST_P(DisplayTest, TheAnaglyphHoldsTheLeftPictureInRedAndTheRightOneInGreenAndB
     window.viewports.front().position = {0.25f, 0.1f}; // its corner is not the window's
     window.viewports.front().size = {0.5f, 0.5f};
     Display display = display_of(window);
-    display.draw(kHead, kSeparation, StereoMode::anaglyph_red_cyan,
-                 [&](const render::View& view, Eye) {
-                     dot_.draw(view, {0.1f, 1.5f, -3.0f});
-                 });
+    draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::anaglyph_red_cyan,
+                  [&](const render::View& view, Eye) {
+                      dot_.draw(view, {0.1f, 1.5f, -3.0f});
+                  });
     const Image left = display.read_eye(Eye::left), right = display.read_eye(Eye::right);
     const Image both = part(display.read_window(), 200, 240, 400, 300);
     EXPECT_NE(left.rgba, right.rgba);
@@ -265,12 +269,13 @@ TEST_P(DisplayTest, DrawsEachEyeOfEachViewportOnceAndTheOverlayOnceOverAll) {
     for (const StereoMode mode : all_stereo_modes()) {
         std::vector<Eye> eyes;
         int overlays = 0;
-        display.draw(
-            kHead, kSeparation, mode,
+        draw_each_eye(
+            gl_, display, kHead, kSeparation, mode,
             [&](const render::View& view, Eye eye) {
                 eyes.push_back(eye);
                 GLint viewport[4];
                 gl_.GetIntegerv(GL_VIEWPORT, viewport);
+                EXPECT_EQ(glm::ivec2(viewport[0], viewport[1]), view.corner);
                 EXPECT_EQ(glm::ivec2(viewport[2], viewport[3]), view.size);
                 fill(gl_, eye);
             },
@@ -298,8 +303,8 @@ TEST_P(DisplayTest, NothingOfAnEarlierFrameRemains) {
     Display display = display_of({});
     const auto draw = [&](glm::ivec2 size, const Display::Overlay& overlay) {
         context_.size = size;
-        display.draw(
-            kHead, kSeparation, StereoMode::side_by_side,
+        draw_each_eye(
+            gl_, display, kHead, kSeparation, StereoMode::side_by_side,
             [&](const render::View&, Eye eye) { fill(gl_, eye); }, overlay);
         return display.read_window();
     };
@@ -319,11 +324,11 @@ TEST_P(DisplayTest, FollowsTheSizeOfTheWindowAndDrawsNothingWhenMinimised) {
     Display display = display_of({});
     int drawn = 0;
     const auto draw = [&] {
-        display.draw(kHead, kSeparation, StereoMode::side_by_side,
-                     [&](const render::View&, Eye eye) {
-                         ++drawn;
-                         fill(gl_, eye);
-                     });
+        draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::side_by_side,
+                      [&](const render::View&, Eye eye) {
+                          ++drawn;
+                          fill(gl_, eye);
+                      });
         return display.read_window();
     };
     for (const glm::ivec2 size : {kSize, glm::ivec2(333, 97), glm::ivec2(2, 1), kSize}) {
@@ -349,7 +354,8 @@ TEST_P(DisplayTest, TheBackgroundIsSeenWhereNothingIsDrawn) {
     gl_.Enable(GL_SCISSOR_TEST); // what others leave behind does not matter
     gl_.Scissor(0, 0, 1, 1);
     gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    display.draw(kHead, kSeparation, StereoMode::anaglyph_red_cyan, [](const auto&, Eye) {});
+    draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::anaglyph_red_cyan,
+                  [](const auto&, Eye) {});
     const Image window = display.read_window();
     EXPECT_EQ(rgb(window, 0, 0), (Rgb{51, 102, 153}));
     EXPECT_EQ(rgb(window, kSize.x - 1, kSize.y - 1), (Rgb{51, 102, 153}));
@@ -358,8 +364,9 @@ TEST_P(DisplayTest, TheBackgroundIsSeenWhereNothingIsDrawn) {
 
 TEST_P(DisplayTest, AnEyeThatWasNotDrawnCannotBeRead) {
     Display display = display_of({});
-    display.draw(kHead, kSeparation, StereoMode::side_by_side, [](const auto&, Eye) {});
-    display.draw(kHead, kSeparation, StereoMode::mono, [](const auto&, Eye) {});
+    draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::side_by_side,
+                  [](const auto&, Eye) {});
+    draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::mono, [](const auto&, Eye) {});
     EXPECT_NO_THROW(display.read_eye(Eye::centre));
     EXPECT_THROW(display.read_eye(Eye::left), render::Error);
     EXPECT_THROW(display.read_eye(Eye::centre, 1), render::Error);

@@ -2,6 +2,7 @@
 #include "stereo/display.h"
 
 #include "render/shader.h"
+#include "tests/stereo/each_eye.h"
 
 #include <gtest/gtest.h>
 
@@ -25,9 +26,11 @@ constexpr std::string_view kFragment = R"(#version 450 core
 uniform int viewport;
 uniform float blue;
 uniform int height;
+uniform ivec2 corner; // of the viewport in the target
 out vec4 color;
 void main() {
-    int x = int(gl_FragCoord.x), y = height - 1 - int(gl_FragCoord.y);
+    ivec2 at = ivec2(gl_FragCoord.xy) - corner;
+    int x = at.x, y = height - 1 - at.y;
     color = vec4((37 * x + 11 * y) % 256 / 255.0, (5 * x + 53 * y + 90 * viewport) % 256 / 255.0,
                  blue / 255.0, 1.0);
 }
@@ -39,7 +42,7 @@ class MultiplexTest : public testing::TestWithParam<ContextKind> {
     Image draw(Display& display, StereoMode mode) {
         std::size_t drawn = 0;
         const std::size_t eyes = eyes_of(mode).size();
-        display.draw({}, 0.06f, mode, [&](const render::View& view, Eye eye) {
+        draw_each_eye(gl_, display, {}, 0.06f, mode, [&](const render::View& view, Eye eye) {
             const GLuint program = program_.name();
             const auto at = [&](const char* name) { return gl_.GetUniformLocation(program, name); };
             gl_.Disable(GL_DEPTH_TEST);
@@ -49,6 +52,7 @@ class MultiplexTest : public testing::TestWithParam<ContextKind> {
             gl_.ProgramUniform1i(program, at("viewport"), static_cast<GLint>(drawn++ / eyes));
             gl_.ProgramUniform1f(program, at("blue"), eye == Eye::left ? 40.0f : 200.0f);
             gl_.ProgramUniform1i(program, at("height"), view.size.y);
+            gl_.ProgramUniform2i(program, at("corner"), view.corner.x, view.corner.y);
             gl_.BindVertexArray(no_attributes_.name());
             gl_.DrawArrays(GL_TRIANGLES, 0, 3);
             gl_.Enable(GL_FRAMEBUFFER_SRGB);

@@ -1,5 +1,6 @@
 // Windows on an X server of the test's own: what is shown there, and what a user does to them.
 #include "stereo/display.h"
+#include "tests/stereo/each_eye.h"
 #include "tests/support/virtual_display.h"
 
 #include <gmock/gmock.h>
@@ -70,8 +71,8 @@ TEST_F(WindowTest, ShowsTheLeftEyeAtTheLeftAndTheOverlayAtTheTop) {
     const render::Gl gl(context->loader());
     Display display(gl, *context, {}, {});
     const auto draw = [&] {
-        display.draw(
-            {}, 0.06f, StereoMode::side_by_side,
+        draw_each_eye(
+            gl, display, {}, 0.06f, StereoMode::side_by_side,
             [&](const render::View&, Eye eye) {
                 gl.ClearColor(eye == Eye::left, eye == Eye::right, 0, 1);
                 gl.Clear(GL_COLOR_BUFFER_BIT);
@@ -149,8 +150,9 @@ TEST_F(WindowTest, ResizesAndAsksToClose) {
     screen_.resize_window("resized", 500, 300);
     EXPECT_TRUE(
         eventually(*context, [&] { return context->framebuffer_size() == glm::ivec2(500, 300); }));
-    display.draw({}, 0, StereoMode::mono,
-                 [](const render::View& view, Eye) { EXPECT_EQ(view.size, glm::ivec2(500, 300)); });
+    draw_each_eye(gl, display, {}, 0, StereoMode::mono, [](const render::View& view, Eye) {
+        EXPECT_EQ(view.size, glm::ivec2(500, 300));
+    });
     display.present();
     EXPECT_FALSE(context->should_close());
     screen_.close_window("resized");

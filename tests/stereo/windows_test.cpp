@@ -2,6 +2,7 @@
 #include "stereo/windows.h"
 
 #include "stereo/display.h"
+#include "tests/stereo/each_eye.h"
 #include "tests/support/virtual_display.h"
 
 #include <gmock/gmock.h>
@@ -52,10 +53,11 @@ TEST(Windows, EachShowsItsOwnPictureThatOneContextDrew) {
                               DisplayOptions{});
     const auto draw = [&](int green) {
         for (std::size_t i = 0; i < displays.size(); ++i)
-            displays[i].draw({}, 0.06f, StereoMode::side_by_side, [&](const auto&, Eye eye) {
-                gl.ClearColor(i == 0, float(green), eye == Eye::right, 1);
-                gl.Clear(GL_COLOR_BUFFER_BIT);
-            });
+            draw_each_eye(gl, displays[i], {}, 0.06f, StereoMode::side_by_side,
+                          [&](const auto&, Eye eye) {
+                              gl.ClearColor(i == 0, float(green), eye == Eye::right, 1);
+                              gl.Clear(GL_COLOR_BUFFER_BIT);
+                          });
         for (Display& display : displays)
             display.present();
     };

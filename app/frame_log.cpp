@@ -17,7 +17,7 @@ namespace isochron::app {
 namespace {
 
 using Stage = Milliseconds FrameReport::*;
-constexpr std::array<std::pair<const char*, Stage>, 7> kStages{{
+constexpr std::array<std::pair<const char*, Stage>, 8> kStages{{
     {"search", &FrameReport::search},
     {"gather", &FrameReport::gather},
     {"wait", &FrameReport::wait},
@@ -25,6 +25,13 @@ constexpr std::array<std::pair<const char*, Stage>, 7> kStages{{
     {"draw", &FrameReport::draw},
     {"present", &FrameReport::present},
     {"total", &FrameReport::total},
+    {"latency", &FrameReport::latency},
+}};
+/// Times that are not known of every frame.
+using Sometimes = std::optional<Milliseconds> FrameReport::*;
+constexpr std::array<std::pair<const char*, Sometimes>, 2> kSometimes{{
+    {"gpu", &FrameReport::gpu},
+    {"pose_age", &FrameReport::pose_age},
 }};
 
 constexpr std::array kFootprints{render::Footprint::quad, render::Footprint::gaussian,
@@ -90,11 +97,11 @@ void FrameLog::set_gpu(std::uint64_t frame, Milliseconds time) {
         frames_[frame - dropped_].gpu = time;
 }
 
-TimeSummary FrameLog::gpu() const {
+TimeSummary FrameLog::known(Sometimes time) const {
     std::vector<double> times;
     for (const FrameReport& frame : frames_)
-        if (frame.gpu)
-            times.push_back(frame.gpu->count());
+        if (frame.*time)
+            times.push_back((frame.*time)->count());
     return summarize(std::move(times));
 }
 
@@ -130,7 +137,8 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
     nlohmann::json report{{"program", kProgram}, {"context", context}, {"frames", frames_.size()}};
     for (const auto& [name, member] : kStages)
         report["milliseconds"][name] = summary_json(stage(member));
-    report["milliseconds"]["gpu"] = summary_json(gpu());
+    for (const auto& [name, member] : kSometimes)
+        report["milliseconds"][name] = summary_json(known(member));
     report["missed"] = missed();
     for (const render::Footprint footprint : kFootprints)
         report["footprints"][name_of(footprint)] = frames_with(footprint);
@@ -145,7 +153,6 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"reason", name_of(frame.reason)},
                            {"budget_ms", frame.budget.count()},
                            {"expected_ms", time_json(frame.expected)},
-                           {"gpu_ms", time_json(frame.gpu)},
                            {"missed", frame.missed},
                            {"redrawn", frame.redrawn},
                            {"cells", frame.cells},
@@ -154,6 +161,8 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"uploaded", upload_json(frame.uploaded)}};
         for (const auto& [name, member] : kStages)
             row[std::string(name) + "_ms"] = (frame.*member).count();
+        for (const auto& [name, member] : kSometimes)
+            row[std::string(name) + "_ms"] = time_json(frame.*member);
         if (frame.comfort != interaction::ComfortState{}) {
             row["fade"] = frame.comfort.fade;
             row["vignette"] = frame.comfort.vignette;
@@ -184,7 +193,8 @@ std::string FrameLog::table() const {
     };
     for (const auto& [name, member] : kStages)
         line(name, stage(member));
-    line("gpu", gpu());
+    for (const auto& [name, member] : kSometimes)
+        line(name, known(member));
     for (const render::Footprint footprint : kFootprints)
         text += fmt::format("  {:<14}{:>8} frames\n", name_of(footprint), frames_with(footprint));
     text += fmt::format("  {:<14}{:>8} refreshes of the display\n", "missed", missed());

@@ -40,6 +40,8 @@ struct FrameReport {
     Milliseconds search{0}, gather{0};    ///< on the worker, of the shown set: cells, bricks
     Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
+    std::optional<Milliseconds> pose_age; ///< of the oldest head's, when the views were made
+    Milliseconds latency{0};              ///< from the poll of the devices until all was submitted
     interaction::ComfortState comfort;
     std::vector<DeviceTracking> tracking; ///< empty where nothing is tracked
 };
@@ -64,8 +66,8 @@ class FrameLog {
     /// all of them).
     TimeSummary stage(Milliseconds FrameReport::*stage, std::size_t count = 0) const;
 
-    /// GPU times of all frames of which they are known.
-    TimeSummary gpu() const;
+    /// Times of all frames of which they are known.
+    TimeSummary known(std::optional<Milliseconds> FrameReport::*time) const;
     unsigned missed() const; ///< of all frames kept
     std::uint64_t frames_with(render::Footprint footprint) const;
 

@@ -21,6 +21,13 @@ Commands obeyed(Commands commands, const ReplayOptions& options) {
     return commands;
 }
 
+/// Views as they were recorded.
+Latch latch_of(const interaction::RecordedFrame& frame) {
+    if (frame.latched.devices.empty())
+        return {};
+    return [&frame] { return frame.latched; };
+}
+
 } // namespace
 
 std::vector<std::string> differences(const Commands& a, const Commands& b) {
@@ -74,7 +81,8 @@ std::vector<std::string> replay_fixed_step(Session& session,
                 different.push_back(fmt::format("frame {} at {:.3f} s: {}", number,
                                                 frame.input.time.count(), fmt::join(fields, ", ")));
         }
-        session.frame(frame.input, obeyed(frame.commands, options), Waiting::for_cells);
+        session.frame(frame.input, obeyed(frame.commands, options), Waiting::for_cells,
+                      latch_of(frame));
         done(number, frame);
     }
     return different;
@@ -82,20 +90,24 @@ std::vector<std::string> replay_fixed_step(Session& session,
 
 void replay_live(Session& session, const interaction::Recording& recording,
                  const ReplayOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
     const auto& frames = recording.frames;
+    const auto clock = [start = std::chrono::steady_clock::now(), &frames] {
+        return std::chrono::steady_clock::now() - start + frames.front().input.time;
+    };
+    session.set_clock(clock);
     interaction::ReplayInput devices(recording);
     while (!devices.finished() && !session.windows().should_close()) {
         session.windows().poll_events();
-        const interaction::Seconds now =
-            std::chrono::steady_clock::now() - start + frames.front().input.time;
+        const interaction::Seconds now = clock();
         Commands commands;
         std::size_t next = devices.frames_played();
         interaction::InputState input = devices.poll(now);
         for (; next < devices.frames_played(); ++next)
             interaction::merge(commands, obeyed(frames[next].commands, options));
         input.time = now;
-        session.frame(input, commands, Waiting::never);
+        session.frame(input, commands, Waiting::never, [&] {
+            return interaction::InputState{clock(), frames[next - 1].latched.devices};
+        });
     }
 }
 

@@ -2,7 +2,6 @@
 #include "app/session.h"
 
 #include "interaction/navigator.h"
-#include "render/driver.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>
@@ -43,17 +42,6 @@ std::vector<interaction::Isosurface> first_surfaces(const Config& config,
     return surfaces;
 }
 
-/// @throws render::Error when this GL has fewer
-int samples_of(const Config& config, const render::Gl& gl) {
-    constexpr int kOnGpu = 4;
-    if (config.samples == 0)
-        return render::draws_in_software(gl) ? 1 : std::min(kOnGpu, render::max_samples(gl));
-    if (config.samples > render::max_samples(gl))
-        throw render::Error(fmt::format("rendering.samples: expected 0 to {} with this GL, got {}",
-                                        render::max_samples(gl), config.samples));
-    return config.samples;
-}
-
 ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     ExplorerState state;
     state.room_from_physical = place(file.info(), config.placement);
@@ -67,16 +55,6 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     return state;
 }
 
-/// The modes that a key goes through: upright ones that the windows can show.
-std::vector<std::string> live_stereo_modes(const stereo::Windows& windows) {
-    std::vector<std::string> names;
-    for (const stereo::StereoMode mode : stereo::all_stereo_modes())
-        if (!stereo::is_inverted(mode) &&
-            (mode != stereo::StereoMode::quadbuffer || windows[0].has_stereo_buffers()))
-            names.emplace_back(stereo::name_of(mode));
-    return names;
-}
-
 } // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
@@ -85,15 +63,9 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
       gate_(config_.stillness), comfort_(config_.comfort),
       extractor_(extract ? std::move(extract) : index::extract_from(file_)),
-      scene_(gl_, file_->info(), config_), panel_(gl_), stereo_modes_(live_stereo_modes(windows_)),
+      scene_(gl_, file_->info(), config_), displays_(make_displays(gl_, windows_, config_)),
+      panel_(gl_), stereo_modes_(live_stereo_modes(windows_)),
       quality_(gl_, config_, windows_.first().refresh_rate()) {
-    const stereo::DisplayOptions options{.near_plane = config_.installation.near_plane,
-                                         .far_plane = config_.installation.far_plane,
-                                         .background = config_.background,
-                                         .samples = samples_of(config_, gl_)};
-    for (std::size_t i = 0; i < windows_.count(); ++i)
-        displays_.emplace_back(gl_, windows_.drawing(), windows_[i],
-                               config_.installation.windows[i], options);
     if (windows_.room())
         room_.emplace(gl_, *windows_.room(), config_.installation);
 }
@@ -171,17 +143,6 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     }
 }
 
-std::vector<stereo::Viewpoint> Session::viewpoints(const interaction::InputState& input) const {
-    std::vector<stereo::Viewpoint> found;
-    for (const stereo::Viewer& viewer : config_.installation.viewers) {
-        const interaction::DeviceState* head = input.find(viewer.head);
-        const interaction::Pose waiting{viewer.position, {1.0f, 0.0f, 0.0f, 0.0f}};
-        found.push_back({head && head->pose ? *head->pose : waiting,
-                         eye_separation_of(viewer, config_.installation, state_.eye_separation)});
-    }
-    return found;
-}
-
 std::vector<glm::ivec2> Session::window_sizes() const {
     std::vector<glm::ivec2> sizes;
     for (std::size_t i = 0; i < windows_.count(); ++i)
@@ -202,7 +163,7 @@ std::optional<ColorScale> Session::shown_scale() const {
 Session::Picture Session::picture(const interaction::InputState& input,
                                   const FrameReport& report) const {
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
-    return {.viewers = viewpoints(input),
+    return {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
             .wand = wand ? wand->pose : std::nullopt,
             .guides = {state_.grid, interaction::teleport_target(input)},
             .veil = {static_cast<float>(report.comfort.fade),
@@ -215,6 +176,17 @@ Session::Picture Session::picture(const interaction::InputState& input,
             .scale = shown_scale(),
             .axes = state_.axes,
             .windows = window_sizes()};
+}
+
+/// The devices that the views are made of, asked for as late as can be.
+interaction::InputState Session::seen(const interaction::InputState& input, const Latch& latch,
+                                      FrameReport& report) {
+    const interaction::InputState newest =
+        latch ? latch() : interaction::InputState{input.time, {}};
+    latched_ = viewers_heads(newest, config_.installation);
+    interaction::InputState seen = with_heads(input, latched_);
+    report.pose_age = pose_age(seen, newest.time, config_.installation);
+    return seen;
 }
 
 void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report) {
@@ -320,8 +292,8 @@ void Session::write_image(render::Image image, const std::filesystem::path& path
 }
 
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
-                                  Waiting waiting) {
-    StopWatch whole;
+                                  Waiting waiting, const Latch& latch) {
+    StopWatch whole, since_input;
     FrameReport report;
     report.time = input.time;
     report.tracking = tracking_of(input);
@@ -333,7 +305,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     request_cells();
     take_newest_cells(waiting, report);
     report.pace = gate_.update(input, commands, state_.quality);
-    Picture now = picture(input, report);
+    Picture now = picture(seen(input, latch, report), report);
     choose_quality(now, waiting, report);
 
     StopWatch stages;
@@ -345,6 +317,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     if (room_)
         room_->present();
     report.present = stages.lap();
+    report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     if (capture)
         take_screenshot();
     show_messages(pictures_.messages());

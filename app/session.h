@@ -10,15 +10,16 @@
 #include "app/background_work.h"
 #include "app/capture_wait.h"
 #include "app/config.h"
+#include "app/displays.h"
 #include "app/explorer_state.h"
 #include "app/frame_log.h"
 #include "app/frame_quality.h"
+#include "app/late_latch.h"
 #include "app/panel_layer.h"
 #include "app/room_view.h"
 #include "app/scene.h"
 #include "index/extractor.h"
 #include "interaction/controls.h"
-#include "stereo/display.h"
 #include "stereo/windows.h"
 
 #include <deque>
@@ -27,6 +28,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace isochron::app {
 
@@ -58,8 +60,15 @@ class Session {
     panel_events(std::span<const interaction::WindowEvent> events);
 
     /// One frame, from commands to presented picture.
+    /// @param latch tells where the heads are when the views are made; empty: as in `input`
     const FrameReport& frame(const interaction::InputState& input,
-                             const interaction::Commands& commands, Waiting waiting);
+                             const interaction::Commands& commands, Waiting waiting,
+                             const Latch& latch = {});
+    /// The heads that the last frame's latch stated, for its recording; may hold none.
+    const interaction::InputState& latched() const { return latched_; }
+    /// Session time as it goes on, for the latency from input to picture. Without it a frame's
+    /// input counts as polled when the frame begins.
+    void set_clock(std::function<interaction::Seconds()> clock) { clock_ = std::move(clock); }
 
     /// Where screenshots go and what they are called: `<folder>/<stem>_0001.png`.
     void set_screenshots(const std::filesystem::path& folder) { screenshot_folder_ = folder; }
@@ -104,9 +113,10 @@ class Session {
     void take_newest_cells(Waiting waiting, FrameReport& report);
     std::optional<ColorScale> shown_scale() const;
     Picture picture(const interaction::InputState& input, const FrameReport& report) const;
+    interaction::InputState seen(const interaction::InputState& input, const Latch& latch,
+                                 FrameReport& report);
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
     bool captures(const FrameReport& report);
-    std::vector<stereo::Viewpoint> viewpoints(const interaction::InputState& input) const;
     std::vector<glm::ivec2> window_sizes() const;
     void draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
                    FrameReport& report);
@@ -124,7 +134,7 @@ class Session {
     interaction::Comfort comfort_;
     index::Extractor extractor_;
     Scene scene_;
-    std::deque<stereo::Display> displays_; ///< by window; a display stays where it is made
+    std::deque<stereo::Display> displays_; ///< by window
     std::optional<RoomView> room_;
     std::optional<Picture> drawn_; ///< what the eyes saw last
     PanelLayer panel_;
@@ -132,6 +142,8 @@ class Session {
     const std::vector<std::string> stereo_modes_;
     const std::vector<std::string> documentation_ = interaction::Controls::documentation();
     interaction::Commands panel_commands_;
+    interaction::InputState latched_;
+    std::function<interaction::Seconds()> clock_;
     FrameLog log_;
     FrameQuality quality_;
     BackgroundWork pictures_;

@@ -44,6 +44,13 @@ InputState CompositeInput::poll(Seconds now) {
     return all;
 }
 
+InputState CompositeInput::latch(Seconds now) {
+    InputState all{now, {}};
+    for (const auto& source : sources_)
+        all = merged(std::move(all), source->latch(now));
+    return all;
+}
+
 std::vector<std::string> CompositeInput::status() const {
     std::vector<std::string> lines;
     for (const auto& source : sources_) {

@@ -12,7 +12,7 @@
 namespace isochron::interaction {
 namespace {
 
-/// Per poll. At 300 frames per second a display that shows 20 keeps up.
+/// Per poll or latch. At 300 frames per second a display that shows 20 keeps up.
 constexpr std::size_t kKept = 32;
 
 void add_body(TrackedDevice& device, const DTrackBody& body, Seconds measured,
@@ -85,18 +85,29 @@ struct DTrackInput::State {
         if (frame && sequence.accept(frame->counter, arrival))
             take(*frame, arrival);
     }
+
+    void receive(Seconds now) {
+        for (const Datagram& datagram : socket.take(kKept))
+            take(datagram, now);
+    }
 };
 
 DTrackInput::DTrackInput(const DTrackOptions& options) : state_(std::make_unique<State>(options)) {}
 DTrackInput::~DTrackInput() = default;
 
 InputState DTrackInput::poll(Seconds now) {
-    State& s = *state_;
-    for (const Datagram& datagram : s.socket.take(kKept))
-        s.take(datagram, now);
+    state_->receive(now);
     InputState input{now, {}};
-    for (State::Device& device : s.devices)
+    for (State::Device& device : state_->devices)
         input.devices.push_back(device.tracked.poll(now));
+    return input;
+}
+
+InputState DTrackInput::latch(Seconds now) {
+    state_->receive(now);
+    InputState input{now, {}};
+    for (const State::Device& device : state_->devices)
+        input.devices.push_back(device.tracked.latch(now));
     return input;
 }
 

@@ -32,6 +32,7 @@ class DTrackInput final : public TrackedInput {
     explicit DTrackInput(const DTrackOptions& options);
     ~DTrackInput() override;
     InputState poll(Seconds now) override;
+    InputState latch(Seconds now) override;
     /// `dtrack 127.0.0.1:5000: 3600 frames, 2 missing, 1 late, 0 malformed`, then its devices.
     std::vector<std::string> status() const override;
     /// Where it listens.

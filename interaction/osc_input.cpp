@@ -18,7 +18,7 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr std::size_t kKept = 512; ///< datagrams per poll; each may be one button
+constexpr std::size_t kKept = 512; ///< datagrams per poll or latch; each may be one button
 constexpr int kDeepest = 4;        ///< of bundles in bundles
 constexpr std::string_view kBundle("#bundle\0", 8);
 constexpr double kFraction = 4294967296.0; ///< of a second in a time tag
@@ -213,18 +213,29 @@ struct OscInput::State {
         else
             take_message(std::string(bytes), moment);
     }
+
+    void receive(Seconds now) {
+        for (const Datagram& datagram : socket.take(kKept))
+            take(datagram.bytes, {now - datagram.age, now - datagram.age, std::nullopt});
+    }
 };
 
 OscInput::OscInput(const OscOptions& options) : state_(std::make_unique<State>(options)) {}
 OscInput::~OscInput() = default;
 
 InputState OscInput::poll(Seconds now) {
-    State& s = *state_;
-    for (const Datagram& datagram : s.socket.take(kKept))
-        s.take(datagram.bytes, {now - datagram.age, now - datagram.age, std::nullopt});
+    state_->receive(now);
     InputState input{now, {}};
-    for (State::Device& device : s.devices)
+    for (State::Device& device : state_->devices)
         input.devices.push_back(device.tracked.poll(now));
+    return input;
+}
+
+InputState OscInput::latch(Seconds now) {
+    state_->receive(now);
+    InputState input{now, {}};
+    for (const State::Device& device : state_->devices)
+        input.devices.push_back(device.tracked.latch(now));
     return input;
 }
 

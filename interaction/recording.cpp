@@ -92,9 +92,11 @@ class LineReader {
 class Budget {
   public:
     void add(const RecordedFrame& frame) {
-        states_ += frame.input.devices.size();
-        for (const DeviceState& device : frame.input.devices)
-            valuators_ += device.valuators.size();
+        for (const InputState* input : {&frame.input, &frame.latched}) {
+            states_ += input->devices.size();
+            for (const DeviceState& device : input->devices)
+                valuators_ += device.valuators.size();
+        }
         if (++frames_ > kMostFrames || states_ > kMostStates || valuators_ > kMostValuators)
             throw Error(fmt::format("too long: {} frames are the most", kMostFrames));
     }

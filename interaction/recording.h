@@ -36,6 +36,8 @@ struct RecordedFrame {
     Commands from_panel; ///< the part of `commands` that no device explains
     /// What the cells were drawn with (`quad`, ...); a report, which no replay obeys. May be empty.
     std::string footprint;
+    /// Heads as they were right before drawing, for the views alone; no devices: as in `input`.
+    InputState latched;
     bool operator==(const RecordedFrame&) const = default;
 };
 
@@ -49,8 +51,9 @@ struct RecordedFrame {
 /// `devices` states all devices, `changed` only those that differ from the frame before, and
 /// neither means that all are as before. A device's `valid` (true), `buttons` (0) and `valuators`
 /// ([]) are left out at these values, what a tracker adds (`lost`, `velocity` [v, w], `measured`,
-/// `device_time`) where it has not been said; so are a frame's empty `commands` and `panel`, and a
-/// `footprint` that is as in the frame before. Numbers round-trip.
+/// `device_time`) where it has not been said; so are a frame's empty `commands` and `panel`, a
+/// `footprint` that is as in the frame before, and `latched` ({"t":..,"devices":[..]}) where the
+/// views were made of `devices`. Numbers round-trip.
 struct Recording {
     RecordingHeader header;
     std::vector<RecordedFrame> frames;

@@ -104,6 +104,34 @@ DeviceState device_from(const json& value) {
     return device;
 }
 
+/// All devices that a list states, each once.
+void add_devices(const json& value, InputState& input) {
+    for (const json& device : list(value, "devices", 0, kMostDevices)) {
+        input.devices.push_back(device_from(device));
+        if (input.find(input.devices.back().name) != &input.devices.back())
+            fail("devices", "every name once", json(input.devices.back().name));
+    }
+}
+
+json latched_json(const InputState& latched) {
+    json devices = json::array();
+    for (const DeviceState& device : latched.devices)
+        devices.push_back(device_json(device));
+    return {{"t", latched.time.count()}, {"devices", std::move(devices)}};
+}
+
+InputState latched_from(const json& value, Seconds polled) {
+    Members members(value, "latched");
+    InputState latched;
+    latched.time = Seconds(number(members.at("t"), "t"));
+    if (latched.time < polled)
+        throw Error(fmt::format("latched: time goes back from {} to {}", polled.count(),
+                                latched.time.count()));
+    add_devices(members.at("devices"), latched);
+    members.done({"t", "devices"});
+    return latched;
+}
+
 bool same_names(const std::vector<DeviceState>& a, const std::vector<DeviceState>& b) {
     return std::ranges::equal(a, b, {}, &DeviceState::name, &DeviceState::name);
 }
@@ -173,6 +201,8 @@ json to_json(const RecordedFrame& frame, const RecordedFrame* before) {
     add_commands(result, "panel", frame.from_panel);
     if (frame.footprint != (before ? before->footprint : ""))
         result["footprint"] = frame.footprint;
+    if (!frame.latched.devices.empty())
+        result["latched"] = latched_json(frame.latched);
     return result;
 }
 
@@ -185,11 +215,7 @@ RecordedFrame frame_from_json(const json& value, const RecordedFrame* before) {
                                 frame.input.time.count()));
     std::vector<DeviceState>& devices = frame.input.devices;
     if (const json* all = members.find("devices")) {
-        for (const json& device : list(*all, "devices", 0, kMostDevices)) {
-            devices.push_back(device_from(device));
-            if (frame.input.find(devices.back().name) != &devices.back())
-                fail("devices", "every name once", json(devices.back().name));
-        }
+        add_devices(*all, frame.input);
     } else if (before) {
         devices = before->input.devices;
     }
@@ -204,7 +230,9 @@ RecordedFrame frame_from_json(const json& value, const RecordedFrame* before) {
         frame.footprint = text(*found, "footprint", kLongestName);
     else if (before)
         frame.footprint = before->footprint;
-    members.done({"t", "devices", "changed", "commands", "panel", "footprint"});
+    if (const json* found = members.find("latched"))
+        frame.latched = latched_from(*found, frame.input.time);
+    members.done({"t", "devices", "changed", "commands", "panel", "footprint", "latched"});
     return frame;
 }
 
@@ -213,14 +241,16 @@ void require_finite(const RecordedFrame& frame) {
         if (!finite)
             throw Error(fmt::format("{}: expected finite numbers", what));
     };
-    require(std::isfinite(frame.input.time.count()), "t");
-    for (const DeviceState& device : frame.input.devices) {
-        require(!device.pose || is_finite(*device.pose), device.name);
-        require(!device.velocity || is_finite(*device.velocity), device.name);
-        for (const auto& time : {device.measured, device.device_time})
-            require(!time || std::isfinite(time->count()), device.name);
-        for (const float valuator : device.valuators)
-            require(std::isfinite(valuator), device.name);
+    for (const InputState* input : {&frame.input, &frame.latched}) {
+        require(std::isfinite(input->time.count()), "t");
+        for (const DeviceState& device : input->devices) {
+            require(!device.pose || is_finite(*device.pose), device.name);
+            require(!device.velocity || is_finite(*device.velocity), device.name);
+            for (const auto& time : {device.measured, device.device_time})
+                require(!time || std::isfinite(time->count()), device.name);
+            for (const float valuator : device.valuators)
+                require(std::isfinite(valuator), device.name);
+        }
     }
     for (const Commands* commands : {&frame.commands, &frame.from_panel}) {
         for (const Isosurface& surface : commands->isosurfaces.value_or(std::vector<Isosurface>()))

@@ -69,7 +69,7 @@ Velocity TrackedDevice::velocity() const {
     return {no_faster(told.linear, limits.fastest), no_faster(told.angular, limits.fastest_turn)};
 }
 
-void TrackedDevice::state_pose(DeviceState& state, Seconds now) const {
+void TrackedDevice::state_pose(DeviceState& state, Seconds now, Seconds display_delay) const {
     const Tracking tracking = filter_.tracking(now);
     state.pose_valid = tracking == Tracking::tracked;
     state.pose_lost = tracking == Tracking::lost;
@@ -86,7 +86,7 @@ void TrackedDevice::state_pose(DeviceState& state, Seconds now) const {
     if (!prediction.on)
         return;
     const Seconds age = std::max(now - last.time, Seconds(0));
-    const Seconds ahead = std::min(age + prediction.display_delay, prediction.limit);
+    const Seconds ahead = std::min(age + display_delay, prediction.limit);
     state.pose = extrapolated(last.pose, *state.velocity, trust(age, options_.limits) * ahead);
 }
 
@@ -117,8 +117,17 @@ DeviceState TrackedDevice::poll(Seconds now) {
     }
     DeviceState state{options_.name, std::nullopt, true, mapped_buttons(), mapped_valuators()};
     tapped_ = 0;
+    polled_ = now;
     if (options_.has_pose)
-        state_pose(state, now);
+        state_pose(state, now, options_.prediction.display_delay);
+    return state;
+}
+
+DeviceState TrackedDevice::latch(Seconds now) const {
+    DeviceState state{.name = options_.name, .pose = std::nullopt, .valuators = {}};
+    if (options_.has_pose)
+        state_pose(state, now,
+                   std::max(polled_ + options_.prediction.display_delay - now, Seconds(0)));
     return state;
 }
 

@@ -64,6 +64,9 @@ class TrackedDevice {
 
     /// State as of `now`. A button that was down at any time since the last poll is down.
     DeviceState poll(Seconds now);
+    /// Its pose alone, of what has come since too, for the time at which the picture of the last
+    /// poll's frame is seen. @param now not before the last poll
+    DeviceState latch(Seconds now) const;
 
     const PoseFilterCounts& counts() const { return filter_.counts(); }
     /// `  head: 3600 poses, 2 no poses, 0 late, 12 jumped, 1 moved on`.
@@ -71,7 +74,8 @@ class TrackedDevice {
 
   private:
     Velocity velocity() const;
-    void state_pose(DeviceState& state, Seconds now) const;
+    /// @param display_delay from now until the picture is seen
+    void state_pose(DeviceState& state, Seconds now, Seconds display_delay) const;
     std::uint64_t mapped_buttons() const;
     std::vector<float> mapped_valuators() const;
 
@@ -79,6 +83,7 @@ class TrackedDevice {
     PoseFilter filter_;
     PoseHistory history_;
     std::optional<Seconds> heard_;
+    Seconds polled_{0}; ///< last
     std::uint64_t buttons_ = 0, tapped_ = 0;
     std::vector<float> valuators_;
 };

@@ -48,6 +48,11 @@ class TrackedInput {
     virtual ~TrackedInput() = default;
     /// @param now session time of the frame, never decreasing
     virtual InputState poll(Seconds now) = 0;
+    /// Where things are with what has come since the last poll: asked right before drawing, for the
+    /// same display time. States poses only; buttons and valuators stay for the next poll. Devices
+    /// of which nothing can be learned between polls are left out.
+    /// @param now session time, not before that of the last poll
+    virtual InputState latch(Seconds now) { return {now, {}}; }
     /// What has been received and refused so far, a line per source; for people.
     virtual std::vector<std::string> status() const { return {}; }
 };

@@ -123,7 +123,7 @@ struct VrpnInput::State {
             return taken;
         }
 
-        DeviceState poll(Seconds now) {
+        void receive(Seconds now) {
             const Received taken = take();
             if (taken.connected)
                 tracked.heard(now);
@@ -133,12 +133,10 @@ struct VrpnInput::State {
                 tracked.add_pose(clock.session_time(sample.stamp, arrival), sample.pose,
                                  taken.velocity, sample.stamp);
             }
-            tracked.set_buttons(taken.buttons | taken.tapped);
+            tracked.set_buttons(taken.buttons | taken.tapped); // down in the next poll
+            tracked.set_buttons(taken.buttons);
             for (std::size_t i = 0; i < taken.valuator_count; ++i)
                 tracked.set_valuator(i, taken.valuators[i]);
-            DeviceState state = tracked.poll(now);
-            tracked.set_buttons(taken.buttons);
-            return state;
         }
     };
 
@@ -207,8 +205,19 @@ VrpnInput::~VrpnInput() = default;
 
 InputState VrpnInput::poll(Seconds now) {
     InputState input{now, {}};
-    for (const auto& source : state_->sources)
-        input.devices.push_back(source->poll(now));
+    for (const auto& source : state_->sources) {
+        source->receive(now);
+        input.devices.push_back(source->tracked.poll(now));
+    }
+    return input;
+}
+
+InputState VrpnInput::latch(Seconds now) {
+    InputState input{now, {}};
+    for (const auto& source : state_->sources) {
+        source->receive(now);
+        input.devices.push_back(source->tracked.latch(now));
+    }
     return input;
 }
 

@@ -25,6 +25,7 @@ class VrpnInput final : public TrackedInput {
     explicit VrpnInput(const VrpnOptions& options);
     ~VrpnInput() override;
     InputState poll(Seconds now) override;
+    InputState latch(Seconds now) override;
     /// `vrpn Tracker0@host: connected`, then the device.
     std::vector<std::string> status() const override;
 

@@ -35,7 +35,7 @@ TEST(FrameLog, GpuTimesReachTheirFramesLater) {
     EXPECT_EQ(log.frames()[1].gpu, Milliseconds(4));
     EXPECT_EQ(log.frames()[3].gpu, Milliseconds(8));
     EXPECT_EQ(log.frames()[4].gpu, std::nullopt);
-    EXPECT_EQ(log.gpu().worst, 8);
+    EXPECT_EQ(log.known(&FrameReport::gpu).worst, 8);
 }
 
 TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
@@ -48,6 +48,8 @@ TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
     FrameReport last = frame_with(Footprint::gaussian, QualityReason::over_budget);
     last.expected = Milliseconds(7.25);
     last.missed = 1;
+    last.pose_age = Milliseconds(3.5);
+    last.latency = Milliseconds(12.5);
     log.add(last);
     log.set_gpu(2, Milliseconds(6.5));
     log.write(folder.path() / "report.json", "a context");
@@ -65,6 +67,11 @@ TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
     EXPECT_EQ(rows[2]["budget_ms"], 11.1);
     EXPECT_EQ(rows[2]["expected_ms"], 7.25);
     EXPECT_EQ(rows[2]["gpu_ms"], 6.5);
+    EXPECT_TRUE(rows[1]["pose_age_ms"].is_null());
+    EXPECT_EQ(rows[2]["pose_age_ms"], 3.5);
+    EXPECT_EQ(rows[2]["latency_ms"], 12.5);
+    EXPECT_EQ(report["milliseconds"]["pose_age"]["worst"], 3.5);
+    EXPECT_EQ(report["milliseconds"]["latency"]["worst"], 12.5);
     EXPECT_THAT(log.table(), HasSubstr("missed"));
     EXPECT_THAT(log.table(), HasSubstr("gaussian             2 frames"));
 }

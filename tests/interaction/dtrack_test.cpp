@@ -159,6 +159,17 @@ TEST_P(DTrackTest, PosesButtonsAndTimesArrive) {
     expect_near(state.find("marker")->pose->position, {1, 2, 3}, 1e-6);
 }
 
+TEST_P(DTrackTest, ALatchTakesWhatCameSinceThePollAndLeavesItsButtons) {
+    send(dtrack_datagram(1, 100.0, {{0, {0.1, 1.7, 0}}}, {{{0, {0, 1, 0}}, 0, {}}}));
+    input.poll(Seconds(5));
+    send(dtrack_datagram(2, 100.01, {{0, {0.11, 1.7, 0}}}, {{{0, {0, 1, 0}}, 1, {}}}));
+    send(dtrack_datagram(3, 100.012, {{0, {0.12, 1.7, 0}}}, {{{0, {0, 1, 0}}, 0, {}}}));
+    const InputState latched = input.latch(Seconds(5.02));
+    expect_near(latched.find("head")->pose->position, {0.12, 1.7, 0}, 1e-6);
+    EXPECT_EQ(latched.find("wand")->buttons, 0u);
+    EXPECT_EQ(input.poll(Seconds(5.03)).find("wand")->buttons, 1u) << "pressed in between";
+}
+
 TEST_P(DTrackTest, AFlystickOutOfSightKeepsItsPoseAndItsButtons) {
     send(dtrack_datagram(1, 0.0, {}, {{{0, {0, 1, 0}}, 0, {}}}));
     input.poll(Seconds(0));

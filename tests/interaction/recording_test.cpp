@@ -135,6 +135,10 @@ Recording random_recording(unsigned seed, int frames) {
         frame.from_panel = random_commands(random);
         if (random() % 4 == 0)
             frame.footprint = random() % 2 ? "gaussian" : "quad";
+        frame.latched = {};
+        if (random() % 2)
+            frame.latched = {frame.input.time + Seconds(uniform(random, 0, 0.1)),
+                             {random_device(random, "head"), random_device(random, "head 2")}};
         recording.frames.push_back(frame);
     }
     return recording;
@@ -224,6 +228,8 @@ TEST_F(RecordingFile, ComplaintsNameFileAndLine) {
     EXPECT_EQ(complaint("{\"t\":0,\"comands\":{}}\n"),
               "walk.jsonl:2: frame: unknown key \"comands\"");
     EXPECT_EQ(complaint("[1]\n"), "walk.jsonl:2: frame: expected an object, got [1]");
+    EXPECT_EQ(complaint("{\"t\":2,\"latched\":{\"t\":1,\"devices\":[]}}\n"),
+              "walk.jsonl:2: latched: time goes back from 2 to 1");
     EXPECT_EQ(complaint("{\"t\":null}\n"), "walk.jsonl:2: t: expected a finite number, got null");
     EXPECT_THAT(complaint("{\"t\":NaN}\n"), HasSubstr("walk.jsonl:2: not JSON"));
     EXPECT_THAT(complaint("{\"t\":1e999}\n"), HasSubstr("walk.jsonl:2: a number is out of range"));

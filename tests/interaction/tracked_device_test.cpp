@@ -133,6 +133,41 @@ TEST(Prediction, AMadVelocityDoesNotThrowTheHeadAway) {
     EXPECT_LT(glm::length(state.pose->position - kStanding.position), 0.25);
 }
 
+/// What came after the poll counts, and the picture is seen no later for it.
+TEST(Latch, StatesTheNewestPoseForTheDisplayTimeOfThePoll) {
+    const DeviceOptions options = head_options();
+    TrackedDevice device(options);
+    constexpr float kSpeed = 2;
+    const auto at = [](double t) {
+        return Pose{{kSpeed * static_cast<float>(t), 0, 0}, {1, 0, 0, 0}};
+    };
+    for (int i = 0; i <= 20; ++i)
+        device.add_pose(Seconds(0.01 * i), at(0.01 * i));
+    const DeviceState polled = device.poll(Seconds(0.2));
+    device.add_pose(Seconds(0.208), at(0.208));
+    const DeviceState latched = device.latch(Seconds(0.21));
+    EXPECT_EQ(latched.measured, Seconds(0.208));
+    const double seen = 0.2 + options.prediction.display_delay.count();
+    EXPECT_NEAR(latched.pose->position.x, kSpeed * seen, 1e-4);
+    EXPECT_NEAR(latched.pose->position.x, polled.pose->position.x, 1e-4) << "it moves steadily";
+    // Long after the picture should have been seen, it is now that counts.
+    EXPECT_NEAR(device.latch(Seconds(0.24)).pose->position.x, kSpeed * 0.24, 1e-4);
+}
+
+TEST(Latch, LeavesWhatWasTappedToTheNextPoll) {
+    TrackedDevice device(head_options());
+    device.heard(Seconds(1));
+    device.set_buttons(1);
+    device.set_buttons(0);
+    device.set_valuator(0, 0.5f);
+    const DeviceState latched = device.latch(Seconds(1));
+    EXPECT_EQ(latched.buttons, 0u);
+    EXPECT_TRUE(latched.valuators.empty());
+    const DeviceState polled = device.poll(Seconds(1));
+    EXPECT_EQ(polled.buttons, 1u);
+    EXPECT_EQ(polled.valuators, std::vector<float>{0.5f});
+}
+
 /// Prediction must not make restless what stands still.
 TEST(Prediction, AStandingHeadStillSettles) {
     Random random(test_seed());

@@ -2,6 +2,7 @@
 #include "app/check_config.h"
 #include "app/commands.h"
 #include "app/file_patterns.h"
+#include "app/pattern_show.h"
 #include "app/positive_number.h"
 #include "app/session.h"
 #include "app/shipped_configs.h"
@@ -33,7 +34,7 @@ struct ExploreOptions {
     std::optional<std::uint32_t> step;
     std::vector<int> size;
     std::string screenshots = ".";
-    bool no_panel = false, emulate = false, list_devices = false;
+    bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
 };
 
 Config configure(const ExploreOptions& options) {
@@ -117,8 +118,20 @@ class Pacer {
     Clock::time_point next_ = Clock::now();
 };
 
+interaction::InputState poll_devices(interaction::CompositeInput& trackers,
+                                     interaction::DesktopEmulation& emulation,
+                                     const RoomCamera& camera, const ExploreOptions& options,
+                                     Seconds now) {
+    // What is tracked goes before what mouse and keyboard emulate.
+    interaction::InputState input = interaction::merged(trackers.poll(now), emulation.poll(now));
+    if (options.emulate)
+        input.devices.push_back({.name = kRoomCamera, .pose = camera.pose(), .valuators = {}});
+    return input;
+}
+
 stereo::Windows open(const ExploreOptions& options, const Config& config) {
-    const std::string title = fmt::format("Isochron: {}", *options.data);
+    const std::string title =
+        fmt::format("Isochron: {}", options.test_pattern ? "test pattern" : *options.data);
     const stereo::Installation& installation = config.installation;
     if (options.emulate) {
         stereo::ContextOptions room{.title = title, .vsync = config.vsync};
@@ -133,6 +146,35 @@ stereo::Windows open(const ExploreOptions& options, const Config& config) {
                         {.title = title, .vsync = config.vsync, .stereo = start});
 }
 
+/// Devices and windows as in a session, the pattern in the place of data.
+void show_test_pattern(const ExploreOptions& options, const Config& config) {
+    interaction::CompositeInput trackers;
+    open_trackers(config.devices, trackers);
+    PatternShow show(config, open(options, config));
+    if (options.stereo)
+        show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
+    interaction::DesktopEmulation emulation(emulation_for(config));
+    RoomCamera camera(config.installation);
+    Pacer pacer(config.frame_rate_limit);
+    const auto clock = [start = std::chrono::steady_clock::now()] {
+        return Seconds(std::chrono::steady_clock::now() - start);
+    };
+    for (bool running = true; running && !show.windows().should_close();) {
+        const auto events = show.windows().poll_events();
+        emulation.feed(options.emulate ? camera.feed(events) : events);
+        const Seconds now = clock();
+        const interaction::InputState input =
+            poll_devices(trackers, emulation, camera, options, now);
+        const interaction::Commands commands = show.commands_from(input);
+        show.obey(commands);
+        show.frame(input, [&] { return trackers.latch(clock()); });
+        running = !commands.quit && !(options.seconds && now.count() >= *options.seconds);
+        pacer.wait();
+    }
+    for (const std::string& line : trackers.status())
+        fmt::print(stderr, "{}\n", line);
+}
+
 void explore(const ExploreOptions& options) {
     if (options.check_config)
         return check_config(*options.check_config);
@@ -144,12 +186,16 @@ void explore(const ExploreOptions& options) {
             fmt::print("warning: {}\n", warning);
         return;
     }
-    if (!options.data)
+    if (!options.data && !options.test_pattern)
         throw UsageError("file is required: an index made by `isochron build`");
+    if (options.test_pattern && (options.record || options.report))
+        throw UsageError("--test-pattern does not go with --record or --report");
     for (const ConfigProblem& problem : problems_of(config))
         fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
     for (const std::string& warning : device_warnings(config))
         fmt::print(stderr, "isochron: warning: {}\n", warning);
+    if (options.test_pattern)
+        return show_test_pattern(options, config);
     interaction::CompositeInput trackers;
     open_trackers(config.devices, trackers);
     const auto file = index::IndexFile::open(*options.data);
@@ -171,23 +217,25 @@ void explore(const ExploreOptions& options) {
     interaction::DesktopEmulation emulation(emulation_for(config));
     RoomCamera camera(config.installation);
     Pacer pacer(config.frame_rate_limit);
-    const auto start = std::chrono::steady_clock::now();
+    const auto clock = [start = std::chrono::steady_clock::now()] {
+        return Seconds(std::chrono::steady_clock::now() - start);
+    };
+    session.set_clock(clock);
     for (bool running = true; running && !windows.should_close();) {
         const auto events = session.panel_events(windows.poll_events());
         emulation.feed(options.emulate ? camera.feed(events) : events);
-        const Seconds now = std::chrono::steady_clock::now() - start;
-        // What is tracked goes before what mouse and keyboard emulate.
-        interaction::InputState input =
-            interaction::merged(trackers.poll(now), emulation.poll(now));
-        if (options.emulate)
-            input.devices.push_back({.name = kRoomCamera, .pose = camera.pose(), .valuators = {}});
+        const Seconds now = clock();
+        const interaction::InputState input =
+            poll_devices(trackers, emulation, camera, options, now);
         interaction::Commands commands = session.commands_from(input);
         const interaction::Commands from_panel = session.take_panel_commands();
         interaction::merge(commands, from_panel);
-        const FrameReport& drawn = session.frame(input, commands, Waiting::never);
+        const FrameReport& drawn =
+            session.frame(input, commands, Waiting::never, [&] { return trackers.latch(clock()); });
         if (recorder)
             recording.post([recorder, frame = interaction::RecordedFrame{
-                                          input, commands, from_panel, name_of(drawn.footprint)}] {
+                                          input, commands, from_panel, name_of(drawn.footprint),
+                                          session.latched()}] {
                 recorder->append(frame);
                 return std::string();
             });
@@ -260,6 +308,10 @@ void add_explore(CLI::App& program) {
         ->check(positive_number());
     command->add_flag("--list-devices", options->list_devices,
                       "Say which devices the configuration names, and leave; needs no index");
+    command->add_flag(
+        "--test-pattern", options->test_pattern,
+        "Show a pattern instead of data: each eye's letter, each wall's name, a cross "
+        "at a known depth, the axes of every device; needs no index");
     command->add_flag("--no-panel", options->no_panel,
                       "Start with the panel hidden (Tab shows it)");
     command->footer(footer());

@@ -1,6 +1,7 @@
 // `isochron replay`: a recording becomes pictures and measurements, or plays again in a window.
 #include "app/commands.h"
 #include "app/file_patterns.h"
+#include "app/pattern_show.h"
 #include "app/picture_names.h"
 #include "app/positive_number.h"
 #include "app/progress_bar.h"
@@ -22,6 +23,7 @@ struct Options {
     std::optional<std::string> data, out, config, context, stereo, quality, footprint, report;
     std::size_t every = 0;
     bool stamps = false, from_devices = false, live = false, any_data = false, emulate = false;
+    bool test_pattern = false;
     std::string eyes = "window";
     std::string format = "png";
     std::vector<int> size;
@@ -71,7 +73,9 @@ std::shared_ptr<const index::IndexFile> open_data(const Options& options,
 }
 
 /// Writes the pictures of one frame under names that start with `stem`, and notes which.
-void write_pictures(Session& session, const Options& options, const PictureNames& names,
+/// @tparam Show a session, or a show of the test pattern
+template <class Show>
+void write_pictures(Show& session, const Options& options, const PictureNames& names,
                     const std::string& stem, std::vector<fs::path>& written) {
     const fs::path folder = *options.out;
     const auto write = [&](render::Image image, const std::string& suffix) {
@@ -124,6 +128,8 @@ void check(const Options& options) {
         throw UsageError("--out writes nothing without --every N or --stamps");
     if (options.live && (options.every > 0 || options.stamps || options.from_devices))
         throw UsageError("--live does not go with --every, --stamps or --from-devices");
+    if (options.test_pattern && (options.live || options.report || options.from_devices))
+        throw UsageError("--test-pattern does not go with --live, --report or --from-devices");
 }
 
 stereo::Windows open(const Options& options, const Config& config,
@@ -143,6 +149,39 @@ stereo::Windows open(const Options& options, const Config& config,
                              config.installation.windows.front().stereo)});
 }
 
+/// Of one frame, where the options ask for them.
+template <class Show>
+void write_pictures(Show& show, const Options& options, const PictureNames& names,
+                    std::size_t number, const interaction::RecordedFrame& frame,
+                    std::vector<fs::path>& written) {
+    if (options.every > 0 && number % options.every == 0)
+        write_pictures(show, options, names, fmt::format("frame_{:05}", number), written);
+    if (options.stamps)
+        for (const std::string& stamp : frame.commands.stamps)
+            write_pictures(show, options, names,
+                           fmt::format("stamp_{:05}_{}", number, file_name(stamp)), written);
+}
+
+/// The recorded heads and hands before the test pattern; needs no data.
+void run_test_pattern(const Options& options, const interaction::Recording& recording,
+                      const Config& config) {
+    PatternShow show(config, open(options, config, recording.header));
+    show.obey(recording.header.start);
+    const PictureNames names = picture_names(config.installation);
+    std::vector<fs::path> written;
+    for (std::size_t number = 0; number < recording.frames.size(); ++number) {
+        const interaction::RecordedFrame& frame = recording.frames[number];
+        show.obey(frame.commands);
+        if (options.stereo)
+            show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
+        show.frame(frame.input, [&frame] { return frame.latched; });
+        write_pictures(show, options, names, number, frame, written);
+    }
+    show.pictures().finish();
+    for (const fs::path& path : written)
+        fmt::print("wrote {}\n", path.string());
+}
+
 void run(const Options& options) {
     check(options);
     if (options.report)
@@ -151,6 +190,10 @@ void run(const Options& options) {
     if (!recording.note.empty())
         fmt::print(stderr, "note: {}\n", recording.note);
     const Config config = configure(options, recording.header);
+    if (options.out)
+        make_folder(*options.out);
+    if (options.test_pattern)
+        return run_test_pattern(options, recording, config);
     const auto file = open_data(options, recording.header);
     ReplayOptions replay{.from_devices = options.from_devices, .stereo = {}, .quality = {}};
     if (options.stereo)
@@ -160,8 +203,6 @@ void run(const Options& options) {
     const PictureNames names = picture_names(config.installation);
     Session session(config, file, open(options, config, recording.header));
     session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
-    if (options.out)
-        make_folder(*options.out);
 
     std::vector<std::string> different;
     std::vector<fs::path> written;
@@ -172,14 +213,7 @@ void run(const Options& options) {
         different = replay_fixed_step(
             session, recording, replay,
             [&](std::size_t number, const interaction::RecordedFrame& frame) {
-                if (options.every > 0 && number % options.every == 0)
-                    write_pictures(session, options, names, fmt::format("frame_{:05}", number),
-                                   written);
-                if (options.stamps)
-                    for (const std::string& stamp : frame.commands.stamps)
-                        write_pictures(session, options, names,
-                                       fmt::format("stamp_{:05}_{}", number, file_name(stamp)),
-                                       written);
+                write_pictures(session, options, names, number, frame, written);
                 bar.show("replaying", static_cast<double>(number + 1) /
                                           static_cast<double>(recording.frames.size()));
             });
@@ -249,6 +283,8 @@ void add_replay(CLI::App& program) {
                         "Write times and states of every frame to this JSON file");
     command->add_flag("--from-devices", options->from_devices,
                       "Recompute the commands from the recorded devices; differences are an error");
+    command->add_flag("--test-pattern", options->test_pattern,
+                      "Show the pattern that tells eyes, walls and trackers apart; needs no index");
     command->add_flag("--live", options->live,
                       "Play on the wall clock in a window; frames wait for nothing");
     command->callback([options] { run(*options); });

@@ -82,7 +82,7 @@ std::vector<std::vector<glm::vec2>> strokes_of(Eye eye) {
     case Eye::left: return {{{0.0f, 1.0f}, {0.0f, 0.0f}, {0.6f, 0.0f}}};
     case Eye::right:
         return {{{0.0f, 0.0f}, {0.0f, 1.0f}, {0.6f, 1.0f}, {0.6f, 0.48f}, {0.0f, 0.48f}},
-                {{0.28f, 0.42f}, {0.58f, -0.04f}}};
+                {{0.27f, 0.49f}, {0.58f, -0.04f}}};
     case Eye::centre: break;
     }
     return {{{0.6f, 1.0f}, {0.0f, 1.0f}, {0.0f, 0.0f}, {0.6f, 0.0f}}};
@@ -115,7 +115,7 @@ std::array<Line, 3> cross_lines(const PatternWall& wall) {
 
 std::vector<render::Label> wall_labels(const PatternWall& wall, Eye eye, glm::ivec2 pixels) {
     const glm::vec2 size = size_of(wall);
-    const glm::vec2 under(letter_place(eye).x, letter_place(eye).y - 0.62f * kLetterHeight);
+    const glm::vec2 under(letter_place(eye).x, letter_place(eye).y - 0.7f * kLetterHeight);
     const float apart = 1e3f * disparity_on(wall, cross_of(wall));
     return {
         {.text = wall.name, .at = on_wall(wall, {0.5f, 0.92f}), .color = kWhite},
@@ -159,8 +159,8 @@ void add_axes(const PatternWall& wall, const interaction::InputState& input,
             name += fmt::format(", {}", name_of(device.tracking()));
         labels.push_back({.text = name,
                           .at = pose.position,
-                          .anchor = {0.5f, 1.0f},
-                          .offset = {0.0f, -0.4f},
+                          .anchor = {0.0f, 1.0f},
+                          .offset = {0.3f, -0.3f},
                           .color = kText});
     }
 }

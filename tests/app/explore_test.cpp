@@ -165,6 +165,17 @@ TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheC
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("room")), {}), 1);
 }
 
+TEST_F(ExploreTest, TheTestPatternNeedsNoDataAndStopsAtTheKey) {
+    const Program program({"explore", "--test-pattern", "--size", "640", "480"});
+    const std::string title = "Isochron: test pattern";
+    screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", title});
+    screen_.xdotool({"search", "--name", title, "windowfocus", "mousemove", "--window", "%1", "200",
+                     "200", "key", "v", "key", "Escape"});
+    EXPECT_EQ(program.exit_status(), 0);
+    EXPECT_EQ(Program({"explore", "--test-pattern", "--record", file("walk.jsonl")}).exit_status(),
+              2);
+}
+
 TEST_F(ExploreTest, NothingThatIsReadIsEverOverwritten) {
     const auto size = std::filesystem::file_size(file("sphere.isochron"));
     for (const char* option : {"--record", "--report"})

@@ -68,6 +68,9 @@ std::span<const KeyLine> key_lines() {
         {"P or F12", "screenshot", {{letter('P'), screenshot}, {Key::f12, screenshot}}},
         {"M", "stamp this moment in the recording", {{letter('M'), stamp}}},
         {"Tab", "panel on, off", {{Key::tab, panel}}},
+        {"Y", "panel in the room, before you: on, off", {{letter('Y'), room_panel}}},
+        {"Enter", "pick the surface where the wand points", {{Key::enter, pick}}},
+        {"Insert", "read the data at the wand's tip", {{Key::insert, probe}}},
         {"Escape", "quit", {{Key::escape, quit}}},
         {"Shift, Ctrl",
          "Shift: walk and fly three times as fast; see also above",
@@ -80,7 +83,7 @@ std::span<const KeyLine> key_lines() {
 }
 
 std::span<const ControlLine> control_lines() {
-    static constexpr std::array<ControlLine, 22> kLines{{
+    static constexpr std::array<ControlLine, 25> kLines{{
         {"Left drag", "orbit: turn the volume about its centre"},
         {"Middle drag, or Shift + left", "move the volume"},
         {"Right drag", "look around"},
@@ -93,9 +96,12 @@ std::span<const ControlLine> control_lines() {
         {"Wand valuator 2", "scale, twice the size in 1 s"},
         {"Wand button 3 (hold)", "aim at the floor; letting go teleports there"},
         {"Wand buttons 4, 5", "recentre, next saved viewpoint"},
+        {"Wand buttons 6, 7, 8", "room panel, pick the surface, read the data at the tip"},
+        {"Wand on the room's panel", "button 1 clicks and drags, the title moves it, 2 scrolls"},
         {"Wand valuator 3", "fly where the wand points, or back"},
         {"Wand valuator 4", "turn by 30 degrees"},
         {"Both wands' button 1", "move, turn and scale the volume between two hands"},
+        {"Gamepad back", "panel in the room"},
         {"Gamepad thumb buttons", "recentre (left), next saved viewpoint (right)"},
         {"Gamepad left stick", "fly forward, back and sideways"},
         {"Gamepad right stick", "turn, rise and sink"},

@@ -58,6 +58,9 @@ enum class Action : std::uint8_t {
     axes,
     next_surface,
     next_coloring,
+    room_panel,
+    pick,
+    probe,
     count
 };
 
@@ -71,7 +74,16 @@ inline constexpr std::size_t kMouseWheel = 6;
 inline constexpr std::size_t kMouseValuators = 7;
 
 /// Bits of the device `wand`, and of `wand2`, the other hand's, of which only `grab` is read.
-enum class WandButton : std::uint8_t { grab, fly, teleport, recentre, next_view };
+enum class WandButton : std::uint8_t {
+    grab,
+    fly,
+    teleport,
+    recentre,
+    next_view,
+    room_panel,
+    pick,
+    probe
+};
 /// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rates of isovalue and scale,
 /// speed of flying where it points, and turning by steps, right positive.
 enum class WandValuator : std::uint8_t { isovalue, scale, fly, turn, count };
@@ -136,7 +148,8 @@ constexpr std::uint64_t quiet_actions() {
     return bit(Action::shift) | bit(Action::control) | bit(Action::quality_auto) |
            bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::screenshot) |
            bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) | bit(Action::save_view) |
-           bit(Action::axes) | bit(Action::next_surface);
+           bit(Action::axes) | bit(Action::next_surface) | bit(Action::room_panel) |
+           bit(Action::pick) | bit(Action::probe);
 }
 
 } // namespace isochron::interaction

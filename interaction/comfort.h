@@ -14,6 +14,9 @@ struct ComfortOptions {
     double vignette_turn_full = 2; ///< [rad/s] for turning
     Seconds vignette_fade{0.15};   ///< to close or open all the way
     bool fade_when_lost = true;
+    /// [m] from between the eyes: what is nearer than the first is not drawn, beyond the second
+    /// all; both 0: all, at any distance.
+    float near_gone = 0, near_whole = 0;
     Seconds lost_fade{0.5}; ///< from the full picture to darkness, once the head is lost
     bool operator==(const ComfortOptions&) const = default;
 };

@@ -34,9 +34,12 @@ void merge(Commands& into, const Commands& later) {
     override_with(into.views, later.views);
     override_with(into.axes, later.axes);
     override_with(into.coloring, later.coloring);
+    override_with(into.room_panel, later.room_panel);
+    override_with(into.mark, later.mark);
     into.screenshot = into.screenshot || later.screenshot;
     into.quit = into.quit || later.quit;
     into.stamps.insert(into.stamps.end(), later.stamps.begin(), later.stamps.end());
+    into.haptics.insert(into.haptics.end(), later.haptics.begin(), later.haptics.end());
 }
 
 } // namespace isochron::interaction

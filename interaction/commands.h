@@ -65,6 +65,35 @@ struct Coloring {
     bool operator==(const Coloring&) const = default;
 };
 
+/// The panel that stands in the room.
+struct RoomPanel {
+    bool shown = false;
+    Pose pose; ///< of its middle: +X to its right, +Y up, +Z towards who reads it
+    bool operator==(const RoomPanel&) const = default;
+};
+
+/// A place in the data that somebody picked, and what is there.
+struct MarkedPoint {
+    glm::dvec3 position{0.0}; ///< physical space
+    std::uint32_t step = 0;   ///< at which it was picked
+    double value = 0;         ///< of the data there
+    bool operator==(const MarkedPoint&) const = default;
+};
+/// The one place that is marked, or none.
+struct Mark {
+    std::optional<MarkedPoint> point;
+    bool operator==(const Mark&) const = default;
+};
+
+/// A buzz for a hand that holds a device which can.
+struct HapticPulse {
+    std::string hand = "wand"; ///< name of the device
+    double seconds = 0;        ///< 0 to kLongestPulse
+    float amplitude = 0;       ///< 0 to 1, the strongest that the device can
+    bool operator==(const HapticPulse&) const = default;
+};
+inline constexpr double kLongestPulse = 1.0; ///< [s]
+
 /// Absolute results, not increments: applying them again changes nothing.
 struct Commands {
     std::optional<std::vector<Isosurface>> isosurfaces; ///< all of them, 1 to kMostIsosurfaces
@@ -81,14 +110,17 @@ struct Commands {
     std::optional<std::vector<Viewpoint>> views; ///< all saved ones, at most kMostViews
     std::optional<bool> axes;                    ///< the box, its ticks and numbers shown
     std::optional<Coloring> coloring;
+    std::optional<RoomPanel> room_panel;
+    std::optional<Mark> mark;
     bool screenshot = false;
     bool quit = false;
-    std::vector<std::string> stamps; ///< named moments of a recording
+    std::vector<std::string> stamps;  ///< named moments of a recording
+    std::vector<HapticPulse> haptics; ///< to be played now, by whatever backend has the devices
     bool empty() const;
     bool operator==(const Commands&) const = default;
 };
 
-/// Fields set in `later` win; stamps are appended.
+/// Fields set in `later` win; stamps and haptics are appended.
 void merge(Commands& into, const Commands& later);
 
 } // namespace isochron::interaction

@@ -13,9 +13,15 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostStamps = 64;   ///< of one frame
+constexpr std::size_t kMostPulses = 64;   ///< likewise
 constexpr std::size_t kLongestName = 256; ///< [byte]
 
 constexpr std::array<std::string_view, 3> kQualityNames{"auto", "fast", "quality"};
+
+std::uint32_t step_from(const json& value) {
+    return static_cast<std::uint32_t>(
+        natural(value, "step", std::numeric_limits<std::uint32_t>::max()));
+}
 
 json similarity_json(const Similarity& similarity) {
     const glm::dvec3& t = similarity.translation;
@@ -134,6 +140,60 @@ Coloring coloring_from(const json& value) {
     return coloring;
 }
 
+json room_panel_json(const RoomPanel& panel) {
+    return {{"shown", panel.shown}, {"pose", pose_json(panel.pose)}};
+}
+
+RoomPanel room_panel_from(const json& value) {
+    Members members(value, "room_panel");
+    const RoomPanel panel{boolean(members.at("shown"), "shown"), pose_from(members.at("pose"))};
+    members.done({"shown", "pose"});
+    return panel;
+}
+
+/// No place is null.
+json mark_json(const Mark& mark) {
+    if (!mark.point)
+        return nullptr;
+    const glm::dvec3& p = mark.point->position;
+    return {
+        {"position", {p.x, p.y, p.z}}, {"step", mark.point->step}, {"value", mark.point->value}};
+}
+
+Mark mark_from(const json& value) {
+    if (value.is_null())
+        return {};
+    Members members(value, "mark");
+    MarkedPoint point;
+    const json& position = list(members.at("position"), "position", 3, 3);
+    for (int i = 0; i < 3; ++i)
+        point.position[i] = number(position[i], "position");
+    point.step = step_from(members.at("step"));
+    point.value = number(members.at("value"), "value");
+    members.done({"position", "step", "value"});
+    return {point};
+}
+
+json haptics_json(const std::vector<HapticPulse>& pulses) {
+    json result = json::array();
+    for (const HapticPulse& pulse : pulses)
+        result.push_back(
+            {{"hand", pulse.hand}, {"seconds", pulse.seconds}, {"amplitude", pulse.amplitude}});
+    return result;
+}
+
+std::vector<HapticPulse> haptics_from(const json& value) {
+    std::vector<HapticPulse> pulses;
+    for (const json& one : list(value, "haptics", 0, kMostPulses)) {
+        Members members(one, "haptics");
+        pulses.push_back({text(members.at("hand"), "hand", kLongestName),
+                          number(members.at("seconds"), "seconds", 0.0, kLongestPulse),
+                          share(members.at("amplitude"), "amplitude")});
+        members.done({"hand", "seconds", "amplitude"});
+    }
+    return pulses;
+}
+
 } // namespace
 
 json commands_json(const Commands& commands) {
@@ -169,12 +229,18 @@ json commands_json(const Commands& commands) {
         result["axes"] = *commands.axes;
     if (commands.coloring)
         result["coloring"] = coloring_json(*commands.coloring);
+    if (commands.room_panel)
+        result["room_panel"] = room_panel_json(*commands.room_panel);
+    if (commands.mark)
+        result["mark"] = mark_json(*commands.mark);
     if (commands.screenshot)
         result["screenshot"] = true;
     if (commands.quit)
         result["quit"] = true;
     if (!commands.stamps.empty())
         result["stamps"] = commands.stamps;
+    if (!commands.haptics.empty())
+        result["haptics"] = haptics_json(commands.haptics);
     return result;
 }
 
@@ -189,8 +255,7 @@ Commands commands_from(const json& value, std::string_view where) {
     if (const json* found = members.find("isovalue"))
         commands.isovalue = number(*found, "isovalue");
     if (const json* found = members.find("step"))
-        commands.step = static_cast<std::uint32_t>(
-            natural(*found, "step", std::numeric_limits<std::uint32_t>::max()));
+        commands.step = step_from(*found);
     if (const json* found = members.find("playback"))
         commands.playback = playback_from(*found);
     if (const json* found = members.find("room_from_physical"))
@@ -212,6 +277,10 @@ Commands commands_from(const json& value, std::string_view where) {
         commands.axes = boolean(*found, "axes");
     if (const json* found = members.find("coloring"))
         commands.coloring = coloring_from(*found);
+    if (const json* found = members.find("room_panel"))
+        commands.room_panel = room_panel_from(*found);
+    if (const json* found = members.find("mark"))
+        commands.mark = mark_from(*found);
     if (const json* found = members.find("screenshot"))
         commands.screenshot = boolean(*found, "screenshot");
     if (const json* found = members.find("quit"))
@@ -219,9 +288,13 @@ Commands commands_from(const json& value, std::string_view where) {
     if (const json* found = members.find("stamps"))
         for (const json& stamp : list(*found, "stamps", 0, kMostStamps))
             commands.stamps.push_back(text(stamp, "stamps", kLongestName));
-    members.done({"isosurfaces", "picked", "isovalue", "step", "playback", "room_from_physical",
-                  "quality", "eye_separation", "stereo", "panel", "grid", "views", "axes",
-                  "coloring", "screenshot", "quit", "stamps"});
+    if (const json* found = members.find("haptics"))
+        commands.haptics = haptics_from(*found);
+    members.done(
+        {"isosurfaces", "picked",         "isovalue",   "step",  "playback",   "room_from_physical",
+         "quality",     "eye_separation", "stereo",     "panel", "grid",       "views",
+         "axes",        "coloring",       "room_panel", "mark",  "screenshot", "quit",
+         "stamps",      "haptics"});
     return commands;
 }
 

@@ -4,6 +4,7 @@
 #include "interaction/actions.h"
 #include "interaction/navigator.h"
 #include "interaction/playback.h"
+#include "interaction/room_panel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ Coloring after(const Coloring& coloring, bool has_second_array) {
 } // namespace
 
 struct Controls::State {
-    std::uint64_t last_keys = 0, last_pad = 0;
+    std::uint64_t last_keys = 0, last_pad = 0, last_wand = 0;
     std::optional<Seconds> last_time;
     Repeat isovalue_up, isovalue_down, step_forward, step_back, eyes_apart, eyes_together;
     Navigator navigator;
@@ -64,6 +65,9 @@ struct Controls::State {
     }
     bool pressed(const Reading& now, GamepadButton button) const {
         return now.pad(button) && !(last_pad & bit(button));
+    }
+    bool pressed(const Reading& now, WandButton button) const {
+        return now.wand_button(button) && !(last_wand & bit(button));
     }
 
     double isovalue(const Reading& now, const ControlContext& context, Seconds time,
@@ -170,6 +174,9 @@ struct Controls::State {
             commands.coloring = after(context.coloring, context.has_second_array);
         if (pressed(now, Action::panel))
             commands.panel = !context.panel;
+        if (pressed(now, Action::room_panel) || pressed(now, WandButton::room_panel) ||
+            pressed(now, GamepadButton::back))
+            commands.room_panel = called(context.room_panel, now.viewer(), context.panel_distance);
         if (pressed(now, Action::grid))
             commands.grid = !context.grid;
         if (pressed(now, Action::save_view))
@@ -203,6 +210,7 @@ Commands Controls::update(const InputState& input, const ControlContext& context
 
     s.last_keys = Reading::buttons(now.keys);
     s.last_pad = Reading::buttons(now.gamepad);
+    s.last_wand = Reading::buttons(now.wand);
     return commands;
 }
 

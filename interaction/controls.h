@@ -24,6 +24,8 @@ struct ControlContext {
     float eye_separation = 0.063f;
     std::string stereo;
     bool panel = true;
+    RoomPanel room_panel;
+    float panel_distance = 0.65f; ///< [m] from the eyes to the room's panel, where it appears
     bool grid = false;
     std::vector<Viewpoint> const* views = nullptr; ///< saved so far; may be null
     bool axes = true;

@@ -77,6 +77,10 @@ struct DesktopEmulation::State {
     std::optional<MouseMoveEvent> cursor;
     std::uint64_t mouse_down = 0, mouse_tapped = 0;
     std::array<float, kMouseValuators> mouse{};
+    RoomPanel panel;
+    PanelSize panel_size;
+    bool presses_panel = false; ///< with the left button, since it went down there
+    bool tapped_panel = false;
     Gamepad gamepad;
 
     explicit State(const EmulationOptions& chosen) : options(chosen) { stand_at_start(); }
@@ -103,6 +107,11 @@ struct DesktopEmulation::State {
     void act(const TextEvent&) {}
     void act(const MouseButtonEvent& event) {
         const std::uint64_t mask = bit(event.button);
+        if (event.button == MouseButton::left && (presses_panel || (event.down && over_panel()))) {
+            presses_panel = event.down;
+            tapped_panel = tapped_panel || event.down;
+            return;
+        }
         mouse_down = event.down ? mouse_down | mask : mouse_down & ~mask;
         if (event.down)
             mouse_tapped |= mask;
@@ -128,6 +137,7 @@ struct DesktopEmulation::State {
         for (Switch& each : switches)
             each.held = 0;
         mouse_down = 0;
+        presses_panel = false;
         cursor.reset();
     }
     void act(const GamepadEvent& event) {
@@ -161,8 +171,22 @@ struct DesktopEmulation::State {
                                          glm::angleAxis(pitch, glm::vec3(1, 0, 0)))};
     }
 
-    /// Rests at the right below the head; its ray meets the cursor's at `kAimDistance`.
-    Pose wand(const Pose& head) const {
+    /// Where the cursor is on the panel's plane.
+    std::optional<PanelHit> on_panel() const {
+        if (!panel.shown || !cursor)
+            return std::nullopt;
+        const Pose from = head();
+        const glm::quat turn = glm::quatLookAt(cursor_ray(), glm::vec3(0.0f, 1.0f, 0.0f));
+        return hit_of({from.position, glm::normalize(from.orientation * turn)}, panel.pose,
+                      panel_size);
+    }
+    bool over_panel() const {
+        const auto hit = on_panel();
+        return hit && hit->inside();
+    }
+
+    /// Towards what the cursor is over, in the head's own frame, of length 1.
+    glm::vec3 cursor_ray() const {
         glm::vec2 aim(0.0f);
         if (cursor) {
             const float half = std::tan(options.vertical_fov / 2);
@@ -172,8 +196,16 @@ struct DesktopEmulation::State {
             aim.x = (std::clamp(cursor->x, 0.0f, 1.0f) * 2 - 1) * half * aspect;
             aim.y = (1 - std::clamp(cursor->y, 0.0f, 1.0f) * 2) * half;
         }
+        return glm::normalize(glm::vec3(aim, -1.0f));
+    }
+
+    /// Rests at the right below the head; its ray meets the cursor's at `kAimDistance`, or on the
+    /// panel.
+    Pose wand(const Pose& head) const {
         const glm::vec3 rest(kHand, -options.wand_reach);
-        const glm::vec3 target = kAimDistance * glm::normalize(glm::vec3(aim, -1.0f));
+        const auto hit = on_panel();
+        const bool on = hit && (presses_panel || hit->inside());
+        const glm::vec3 target = (on ? hit->distance : kAimDistance) * cursor_ray();
         const glm::quat turn =
             glm::quatLookAt(glm::normalize(target - rest), glm::vec3(0.0f, 1.0f, 0.0f));
         return {head.position + head.orientation * rest, glm::normalize(head.orientation * turn)};
@@ -183,6 +215,11 @@ struct DesktopEmulation::State {
 DesktopEmulation::DesktopEmulation(const EmulationOptions& options)
     : state_(std::make_unique<State>(options)) {}
 DesktopEmulation::~DesktopEmulation() = default;
+
+void DesktopEmulation::set_panel(const RoomPanel& panel, const PanelSize& size) {
+    state_->panel = panel;
+    state_->panel_size = size;
+}
 
 void DesktopEmulation::feed(std::span<const WindowEvent> events) {
     for (const WindowEvent& event : events)
@@ -209,7 +246,8 @@ InputState DesktopEmulation::poll(Seconds now) {
     InputState input{now, {}};
     input.devices.push_back({"head", head, true, 0, {}});
     const std::uint64_t wand_buttons =
-        (s.shown(grab) ? bit(WandButton::grab) : 0) | (s.shown(fly) ? bit(WandButton::fly) : 0);
+        (s.shown(grab) || s.presses_panel || s.tapped_panel ? bit(WandButton::grab) : 0) |
+        (s.shown(fly) ? bit(WandButton::fly) : 0);
     const float slow = s.shown(shift) ? 0.1f : 1.0f;
     input.devices.push_back({"wand",
                              s.wand(head),
@@ -227,6 +265,7 @@ InputState DesktopEmulation::poll(Seconds now) {
                                  s.gamepad.buttons | s.gamepad.tapped, s.gamepad.valuators});
     s.mouse.fill(0.0f);
     s.mouse_tapped = 0;
+    s.tapped_panel = false;
     s.gamepad.tapped = 0;
     return input;
 }

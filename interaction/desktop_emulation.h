@@ -1,6 +1,7 @@
 // Mouse and keyboard play a tracked head and a wand.
 #pragma once
 
+#include "interaction/room_panel.h"
 #include "interaction/tracked_input.h"
 #include "interaction/window_event.h"
 
@@ -32,6 +33,10 @@ class DesktopEmulation final : public TrackedInput {
     /// releases: pass those always, so that nothing stays down.
     void feed(std::span<const WindowEvent> events);
     InputState poll(Seconds now) override;
+
+    /// The panel that stands in the room, if any: where the cursor is over it, the wand points
+    /// right there, and the left button is the wand's first.
+    void set_panel(const RoomPanel& panel, const PanelSize& size);
 
   private:
     struct State;

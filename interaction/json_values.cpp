@@ -4,6 +4,7 @@
 #include "interaction/recording.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include <fmt/format.h>
@@ -93,6 +94,22 @@ const json& list(const json& value, std::string_view where, std::size_t least, s
                            : fmt::format("a list of {} to {}", least, most),
              value);
     return value;
+}
+
+json pose_json(const Pose& pose) {
+    const glm::vec3& p = pose.position;
+    const glm::quat& q = pose.orientation;
+    return {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
+}
+
+Pose pose_from(const json& value) {
+    list(value, "pose", 7, 7);
+    std::array<float, 7> v;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        v[i] = small_number(value[i], "pose");
+    const Pose pose{{v[0], v[1], v[2]}, glm::quat(v[6], v[3], v[4], v[5])};
+    require_unit(pose.orientation, "pose", value);
+    return pose;
 }
 
 } // namespace isochron::interaction

@@ -1,6 +1,8 @@
 // Values taken from JSON, each checked and named in the error when it is not what it should be.
 #pragma once
 
+#include "interaction/pose.h"
+
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 
@@ -48,6 +50,10 @@ std::string text(const nlohmann::json& value, std::string_view where,
 /// @return the value itself
 const nlohmann::json& list(const nlohmann::json& value, std::string_view where, std::size_t least,
                            std::size_t most);
+
+/// `[x, y, z, qx, qy, qz, qw]`.
+nlohmann::json pose_json(const Pose& pose);
+Pose pose_from(const nlohmann::json& value);
 
 template <typename Quaternion>
 void require_unit(const Quaternion& q, std::string_view where, const nlohmann::json& got) {

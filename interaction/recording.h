@@ -33,7 +33,7 @@ struct RecordingHeader {
 struct RecordedFrame {
     InputState input;    ///< devices as polled, with the frame's time
     Commands commands;   ///< what they and the panel led to
-    Commands from_panel; ///< the part of `commands` that no device explains
+    Commands from_panel; ///< the part of `commands` that no device alone explains; picks too
     /// What the cells were drawn with (`quad`, ...); a report, which no replay obeys. May be empty.
     std::string footprint;
     /// Heads as they were right before drawing, for the views alone; no devices: as in `input`.

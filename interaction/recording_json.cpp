@@ -23,22 +23,6 @@ constexpr std::size_t kMostDevices = 64;
 constexpr std::size_t kMostValuators = 64;
 constexpr std::size_t kLongestName = 256; ///< [byte]
 
-json pose_json(const Pose& pose) {
-    const glm::vec3& p = pose.position;
-    const glm::quat& q = pose.orientation;
-    return {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
-}
-
-Pose pose_from(const json& value) {
-    list(value, "pose", 7, 7);
-    std::array<float, 7> v;
-    for (std::size_t i = 0; i < v.size(); ++i)
-        v[i] = small_number(value[i], "pose");
-    const Pose pose{{v[0], v[1], v[2]}, glm::quat(v[6], v[3], v[4], v[5])};
-    require_unit(pose.orientation, "pose", value);
-    return pose;
-}
-
 json velocity_json(const Velocity& velocity) {
     const glm::dvec3& v = velocity.linear;
     const glm::dvec3& w = velocity.angular;
@@ -269,6 +253,13 @@ void require_finite(const RecordedFrame& frame) {
                 require(is_valid(view.room_from_physical), "views");
         require(!commands->eye_separation || std::isfinite(*commands->eye_separation),
                 "eye_separation");
+        require(!commands->room_panel || is_finite(commands->room_panel->pose), "room_panel");
+        require(!commands->mark || !commands->mark->point ||
+                    std::isfinite(commands->mark->point->value +
+                                  glm::dot(commands->mark->point->position, glm::dvec3(1.0))),
+                "mark");
+        for (const HapticPulse& pulse : commands->haptics)
+            require(std::isfinite(pulse.seconds) && std::isfinite(pulse.amplitude), "haptics");
         require(!commands->playback || std::isfinite(commands->playback->speed), "speed");
     }
 }

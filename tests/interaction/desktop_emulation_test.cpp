@@ -240,6 +240,48 @@ TEST(DesktopEmulation, AGamepadAppearsWithADeadZoneAndGoesAgain) {
     EXPECT_EQ(desk.poll({GamepadEvent{false, {}, 0}}).find("gamepad"), nullptr);
 }
 
+TEST(DesktopEmulation, OverThePanelInTheRoomTheCursorIsTheWandsAndTheLeftButtonItsFirst) {
+    const PanelSize size;
+    const Pose head{{0.0f, 1.6f, 0.0f}, {1, 0, 0, 0}};
+    const RoomPanel panel{true, ahead_of(head, 0.65f)};
+    DesktopEmulation emulation{EmulationOptions{}};
+    double now = 0;
+    const auto poll = [&](std::vector<WindowEvent> events) {
+        emulation.feed(events);
+        return emulation.poll(Seconds(now += 0.02));
+    };
+    const auto buttons = [](const InputState& input) { return input.find("wand")->buttons; };
+    const auto drags = [](const InputState& input) {
+        return input.find("mouse")->valuators[0] != 0;
+    };
+    const WindowEvent down = MouseButtonEvent{MouseButton::left, true},
+                      up = MouseButtonEvent{MouseButton::left, false};
+    // Straight ahead, where the panel's plane is.
+    const Pose ray = head;
+    const PanelHit expected = *hit_of(ray, panel.pose, size);
+    ASSERT_TRUE(expected.inside());
+    emulation.set_panel(panel, size);
+    InputState input = poll({cursor_at(0.5f, 0.5f)});
+    const auto hit = hit_of(pose_of(input, "wand"), panel.pose, size);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->at.x, expected.at.x, 1e-4);
+    EXPECT_NEAR(hit->at.y, expected.at.y, 1e-4);
+    EXPECT_EQ(buttons(poll({down})), bit(WandButton::grab));
+    input = poll({cursor_at(0.99f, 0.5f)});
+    EXPECT_EQ(buttons(input), bit(WandButton::grab)) << "dragged beside it";
+    EXPECT_EQ(input.find("mouse")->buttons, 0u);
+    EXPECT_FALSE(drags(input));
+    EXPECT_FALSE(hit_of(pose_of(input, "wand"), panel.pose, size)->inside());
+    EXPECT_EQ(buttons(poll({up})), 0u);
+    input = poll({down});
+    EXPECT_EQ(buttons(input), 0u);
+    EXPECT_EQ(input.find("mouse")->buttons, bit(MouseBit::left));
+    EXPECT_TRUE(drags(poll({cursor_at(0.5f, 0.5f)}))) << "what began in the world stays there";
+    EXPECT_EQ(buttons(poll({up, down, up})), bit(WandButton::grab)) << "a click between two polls";
+    emulation.set_panel({}, size);
+    EXPECT_EQ(buttons(poll({down})), 0u);
+}
+
 TEST(DesktopEmulation, AskingTwiceAtOneTimeMovesOnce) {
     DesktopEmulation emulation{EmulationOptions{}};
     emulation.poll(Seconds(0));

@@ -88,6 +88,14 @@ Commands random_commands(Random& random) {
     if (sometimes())
         commands.views = std::vector<Viewpoint>{{"zwölf", random_similarity(random)},
                                                 {"view-2", random_similarity(random)}};
+    if (sometimes())
+        commands.room_panel = RoomPanel{sometimes(), {{1e-30f, 2, -3}, random_rotation(random)}};
+    if (sometimes())
+        commands.mark = Mark{};
+    if (sometimes())
+        commands.mark = Mark{{{{uniform(random, -9, 9), 1e300, 0}, random(), 1e-300}}};
+    if (sometimes())
+        commands.haptics = {{"wand", 0.25, 0.5f}, {"zwölf", uniform(random, 0, 1), 1.0f}};
     commands.screenshot = sometimes();
     commands.quit = sometimes();
     if (sometimes())
@@ -173,6 +181,7 @@ TEST_F(RecordingFile, WritingAgainWhatWasReadGivesTheSameBytes) {
 
 TEST_F(RecordingFile, UnchangedDevicesTakeNoSpace) {
     Recording recording = random_recording(1, 1);
+    recording.frames[0].input.time = Seconds(0); // a time of few digits
     for (int i = 0; i < 1000; ++i) {
         RecordedFrame frame{recording.frames[0].input, {}, {}, "gaussian"};
         frame.input.time += Seconds(1 + i);

@@ -31,6 +31,7 @@ struct EyeBlock {
     glm::vec4 depth_cue;
     glm::vec4 key_light;
     glm::vec4 up;
+    glm::vec4 between_eyes;
 };
 struct Frame {
     std::array<EyeBlock, 2> eyes;
@@ -38,6 +39,7 @@ struct Frame {
     glm::vec4 no_value;
     glm::vec4 light;
     glm::vec4 material;
+    glm::vec4 near_fade;
     glm::vec2 color_range;
     std::int32_t colored;
     std::int32_t linear_light;
@@ -46,7 +48,7 @@ struct Frame {
     std::int32_t soft_near_eye;
     float padding = 0.0f;
 };
-static_assert(sizeof(Frame) == 2 * (3 * 64 + 9 * 16) + (kMaxSurfaces + 5) * 16);
+static_assert(sizeof(Frame) == 2 * (3 * 64 + 10 * 16) + (kMaxSurfaces + 6) * 16);
 constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
 
 float largest_point(const Gl& gl) {
@@ -98,7 +100,19 @@ EyeBlock eye_block(const View& view, const Placement& placement, const CellAppea
         .depth_cue = depth_cue(eye_from_index, placement.extent, appearance.depth_cue),
         .key_light = glm::vec4(glm::normalize(eye_from_room * appearance.key_direction), 0.0f),
         .up = glm::vec4(eye_from_room * glm::vec3(0, 1, 0), 0.0f),
+        .between_eyes =
+            appearance.near_fade
+                ? view.eye_from_room * glm::vec4(appearance.near_fade->between_eyes, 1.0f)
+                : glm::vec4(0.0f),
     };
+}
+
+/// @param spacing of the voxels in the room [m]
+glm::vec4 near_fade_of(const NearFade& fade, const glm::vec3& spacing) {
+    constexpr float kGrain = 0.0012f; // [m]: from 0.2 m a third of a degree
+    const float voxel = std::cbrt(spacing.x * spacing.y * spacing.z);
+    return {fade.gone, 1.0f / std::max(fade.whole - fade.gone, 1e-4f),
+            std::clamp(voxel / kGrain, 1.0f, 1024.0f), 0.0f};
 }
 
 /// The part of the block that is the same for every eye.
@@ -111,6 +125,7 @@ Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footpr
         .no_value = {},
         .light = {look.ambient, look.head_light, look.key_light, 0.0f},
         .material = {look.reflectance, look.shininess, look.ground, look.outline},
+        .near_fade = {-1.0f, 1.0f, 0.0f, 0.0f}, // all is whole at any distance
         .color_range = {},
         .colored = look.values.has_value(),
         .linear_light = blended && look.linear_light,
@@ -224,6 +239,8 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     const glm::ivec3 extent(placement.extent);
     const glm::mat3 axes(placement.room_from_index);
     const glm::vec3 spacing(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+    if (appearance.near_fade)
+        frame.near_fade = near_fade_of(*appearance.near_fade, spacing);
     for (std::size_t i = 0; i < views.size(); ++i) {
         const View& view = views[i];
         frame.eyes[i] = eye_block(view, placement, appearance);

@@ -56,6 +56,16 @@ struct ValueColors {
     glm::vec3 no_value{0.5f, 0.5f, 0.5f}; ///< sRGB, where there is none
 };
 
+/// What comes near to a viewer is left out little by little, so that nobody stands in a wall of it:
+/// splats and blended surfaces by opacity, quads and opaque surfaces by ever fewer cells and grains
+/// of them, chosen in the volume. Distances are from the middle between the eyes, so that both see
+/// the same.
+struct NearFade {
+    float gone = 0.15f,
+          whole = 0.35f; ///< [m] nearer than the one nothing is drawn, beyond the other all
+    glm::vec3 between_eyes{0.0f}; ///< room
+};
+
 struct CellAppearance {
     std::array<SurfaceAppearance, kMaxSurfaces> surfaces;
     std::optional<ValueColors> values; ///< instead of the surfaces' colours
@@ -70,6 +80,7 @@ struct CellAppearance {
     float outline = 0.35f;     ///< how much darker the surface is where it turns away, 0 to 1
     /// How much darker the far end of the volume is than its near end, 0 to 1.
     float depth_cue = 0.45f;
+    std::optional<NearFade> near_fade;
     /// Splats blend as light does. Without it they blend in display values, which on software GL
     /// takes two thirds of the time. Opaque quads look the same either way.
     bool linear_light = true;

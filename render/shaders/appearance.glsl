@@ -24,9 +24,24 @@ vec3 written(vec3 light) {
 }
 
 // Opaque quads let a share of the cells through instead of light: which ones is decided in the
-// volume, so that both eyes miss the same. @return 0 to 1, evenly spread
-float sieve(uvec3 cell) {
+// volume, so that both eyes miss the same.
+uint hash_of(uvec3 cell) {
     uint hash = (cell.x ^ (cell.y & 0xffffu) * 0x9e3779b9u) * 0x85ebca6bu;
-    hash = (hash ^ hash >> 15) * 0xc2b2ae35u;
-    return float(hash >> 8) / 16777216.0;
+    return (hash ^ hash >> 15) * 0xc2b2ae35u;
+}
+
+// @return 0 to 1, 1 left out, evenly spread
+float evenly(uint hash) { return float(hash >> 8) / 16777216.0; }
+
+// How much is left of what comes near to the viewer, 0 to 1. @param at eye space
+float near_share(vec3 at) {
+    return clamp((distance(at, EYE(between_eyes).xyz) - near_fade.x) * near_fade.y, 0.0, 1.0);
+}
+
+// Opaque surfaces near by let a share of their grains through, which are far smaller than cells.
+// @param place in the cell, voxels; cell its hash. @return as `evenly`
+float grain(vec3 place, uint cell) {
+    uvec3 at = uvec3(ivec3(floor((place + 0.5) * near_fade.z)));
+    uint hash = (at.x * 0x9e3779b9u ^ at.y * 0x85ebca6bu ^ at.z * 0xc2b2ae35u ^ cell) * 0x27d4eb2fu;
+    return evenly((hash ^ hash >> 15) * 0x2c1b3c6du);
 }

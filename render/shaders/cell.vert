@@ -67,10 +67,11 @@ void main() {
     vec4 centre = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
 
     uint style = cell.y >> 16;
-    vec3 lit = shade((EYE(eye_from_index) * centre).xyz, unpack_normal(cell.z), base_color(style));
-    shaded = vec4(written(lit), surfaces[style & 7u].a);
+    vec3 in_eye = (EYE(eye_from_index) * centre).xyz;
+    vec3 lit = shade(in_eye, unpack_normal(cell.z), base_color(style));
+    shaded = vec4(written(lit), surfaces[style & 7u].a * near_share(in_eye));
 
-    if (!ordered && shaded.a < sieve(cell)) {
+    if (!ordered && shaded.a <= evenly(hash_of(cell))) {
         gl_Position = vec4(0, 0, -2, 1);
         return;
     }

@@ -16,6 +16,7 @@ struct Eye {
     vec4 depth_cue;         // distance [m] where it starts, 1 / its length, strength
     vec4 key_light;         // direction towards it, eye space
     vec4 up;                // of the room, eye space
+    vec4 between_eyes;      // of the viewer, eye space: what fades near by is the same for both
 };
 
 layout(std140, binding = 0) uniform Frame {
@@ -24,6 +25,7 @@ layout(std140, binding = 0) uniform Frame {
     vec4 no_value;      // colour where there is no value to colour by, linear light
     vec4 light;         // strengths of the ambient light, the head light and the key light
     vec4 material;      // reflectance, shininess, floor's share of the ambient light, outline
+    vec4 near_fade;     // distance [m] up to which all is gone, 1 / the way to whole, grains per voxel
     vec2 color_range;   // coordinate = x value + y
     bool colored;       // by a value rather than by surface
     bool linear_light;  // what is written: light, or the display's values

@@ -108,10 +108,14 @@ float depth_at(Ray ray, float s) {
     return 0.5 + 0.5 * (centre.z + along * EYE(ray_ahead).w) / w;
 }
 
-vec3 light_at(Ray ray, float s) {
-    vec3 p = ray.middle + s * ray.half_chord;
-    return written(shade(centre_in_eye + mat3(EYE(eye_from_index)) * p, gradient(p), base.rgb));
-}
+vec3 place_at(Ray ray, float s) { return ray.middle + s * ray.half_chord; }
+
+vec3 in_eye(vec3 p) { return centre_in_eye + mat3(EYE(eye_from_index)) * p; }
+
+vec3 light_at(vec3 p) { return written(shade(in_eye(p), gradient(p), base.rgb)); }
+
+// Pre-multiplied.
+vec4 layer_at(vec3 p) { return vec4(light_at(p), 1.0) * (base.a * near_share(in_eye(p))); }
 
 void main() {
     Ray ray = ray_in_cell();
@@ -127,16 +131,22 @@ void main() {
                                  first ? turns.x : second ? turns.y : 1.0,
                                  first ? f0 : second ? f1 : f2, first ? f1 : second ? f2 : f3);
     gl_FragDepth = depth_at(ray, nearest);
-    result = vec4(light_at(ray, nearest), 1.0);
-#ifdef BLENDED
+    vec3 p = place_at(ray, nearest);
+#ifndef BLENDED
+    if (near_share(in_eye(p)) <= grain(p, hash))
+        discard;
+    result = vec4(light_at(p), 1.0);
+#else
     // Behind the nearest layer may be two more.
     bool to_third = second != third, to_second = first != second;
     vec4 behind = vec4(0);
     if (to_third && (first || second))
-        behind = vec4(light_at(ray, root_between(k, turns.y, 1.0, f2, f3)), 1.0) * base.a;
-    if (to_second && first)
-        behind = vec4(light_at(ray, root_between(k, turns.x, turns.y, f1, f2)), 1.0) * base.a +
-                 behind * (1.0 - base.a);
-    result = result * base.a + behind * (1.0 - base.a);
+        behind = layer_at(place_at(ray, root_between(k, turns.y, 1.0, f2, f3)));
+    if (to_second && first) {
+        vec4 middle = layer_at(place_at(ray, root_between(k, turns.x, turns.y, f1, f2)));
+        behind = middle + behind * (1.0 - middle.a);
+    }
+    vec4 front = layer_at(p);
+    result = front + behind * (1.0 - front.a);
 #endif
 }

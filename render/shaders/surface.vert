@@ -168,6 +168,7 @@ void main() {
     uvec3 cell = texelFetch(cells, slot).xyz;
     vec4 at = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
     centre = to_pixels(at);
+    hash = hash_of(cell);
     centre_in_eye = (EYE(eye_from_index) * at).xyz;
     uint style = cell.y >> 16;
     base = vec4(base_color(style), surfaces[style & 7u].a);

@@ -142,8 +142,9 @@ stereo::Windows open(const ExploreOptions& options, const Config& config) {
     const stereo::StereoMode start = options.stereo
                                          ? *stereo::stereo_mode_from_name(*options.stereo)
                                          : installation.windows.front().stereo;
-    return open_windows(config.context, installation,
-                        {.title = title, .vsync = config.vsync, .stereo = start});
+    return open_windows(
+        config.context, installation,
+        {.title = title, .vsync = config.vsync, .stereo = start, .console = config.panel.console});
 }
 
 /// Devices and windows as in a session, the pattern in the place of data.
@@ -223,6 +224,8 @@ void explore(const ExploreOptions& options) {
     session.set_clock(clock);
     for (bool running = true; running && !windows.should_close();) {
         const auto events = session.panel_events(windows.poll_events());
+        if (config.devices.empty()) // a tracked wand points by itself
+            emulation.set_panel(session.state().room_panel, session.room_panel_size());
         emulation.feed(options.emulate ? camera.feed(events) : events);
         const Seconds now = clock();
         const interaction::InputState input =

@@ -3,6 +3,7 @@
 
 #include "app/device_config.h"
 #include "app/display_config.h"
+#include "app/panel_config.h"
 #include "app/placement.h"
 #include "interaction/comfort.h"
 #include "interaction/motion_gate.h"
@@ -41,6 +42,7 @@ struct Config {
     DeviceConfig devices;
     interaction::StillnessLimits stillness;
     interaction::ComfortOptions comfort;
+    PanelConfig panel;
     bool grid = false; ///< floor grid shown at the start
     interaction::QualityMode quality = interaction::QualityMode::automatic;
     /// What a settled picture is drawn with, whatever it costs; empty: the best that fits the

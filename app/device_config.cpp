@@ -194,6 +194,15 @@ void read_comfort(TomlReader& root, ComfortOptions& comfort, bool& grid) {
         reader.flag("vignette", comfort.vignette);
         reader.number("vignette_speed", 0.0, 100.0, comfort.vignette_speed);
         reader.number("vignette_full", 0.0, 100.0, comfort.vignette_full);
+        glm::vec2 near(comfort.near_gone, comfort.near_whole);
+        reader.vector("near_fade", near);
+        if (reader.has("near_fade") && !(near.x >= 0 && near.x < near.y && near.y <= 10))
+            reader.fail(
+                "near_fade",
+                fmt::format("expected two ascending distances from 0 to 10 m, got {} and {}",
+                            near.x, near.y));
+        comfort.near_gone = near.x;
+        comfort.near_whole = near.y;
         double turn = comfort.vignette_turn / kDegree, full = comfort.vignette_turn_full / kDegree;
         reader.number("vignette_turn", 0.0, 3600.0, turn);
         reader.number("vignette_turn_full", 0.0, 3600.0, full);

@@ -66,6 +66,10 @@ bool ExplorerState::apply(const interaction::Commands& commands, std::size_t ste
         panel = *commands.panel;
     if (commands.grid)
         grid = *commands.grid;
+    if (commands.room_panel)
+        set(room_panel, *commands.room_panel, is_finite(commands.room_panel->pose));
+    if (commands.mark)
+        set(mark, *commands.mark, !commands.mark->point || commands.mark->point->step < steps);
     if (commands.views)
         set(views, *commands.views, commands.views->size() <= interaction::kMostViews);
     return taken;
@@ -101,6 +105,8 @@ interaction::Commands ExplorerState::as_commands() const {
     all.panel = panel;
     all.grid = grid;
     all.views = views;
+    all.room_panel = room_panel;
+    all.mark = mark;
     return all;
 }
 

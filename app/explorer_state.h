@@ -19,6 +19,8 @@ struct ExplorerState {
     float eye_separation = 0.063f;
     stereo::StereoMode stereo = stereo::StereoMode::mono;
     bool panel = true;
+    interaction::RoomPanel room_panel;
+    interaction::Mark mark;
     bool grid = false; ///< of the floor
     std::vector<interaction::Viewpoint> views;
 

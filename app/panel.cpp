@@ -2,6 +2,7 @@
 #include "app/panel.h"
 
 #include "app/config.h"
+#include "app/mark.h"
 #include "app/panel_colours.h"
 #include "app/placement.h"
 
@@ -21,6 +22,7 @@ constexpr ImU32 kBarColour = IM_COL32(120, 128, 140, 255);
 constexpr ImU32 kAskedColour = IM_COL32(255, 196, 92, 255);
 constexpr ImU32 kShownColour = IM_COL32(120, 220, 160, 255);
 const ImVec4 kDim(0.62f, 0.65f, 0.70f, 1.0f);
+const ImVec4 kPaper(0.115f, 0.125f, 0.145f, 1.0f);
 const ImVec4 kWarning(1.0f, 0.55f, 0.40f, 1.0f);
 
 void text(const std::string& line) {
@@ -33,6 +35,15 @@ void note(const std::string& line, const ImVec4& colour) {
     text(line);
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
+}
+
+/// On what changes by itself. In the room it never takes another line, which would move the
+/// controls below it: a replay must find them where the wand found them.
+void state_note(const PanelModel& model, const std::string& line, const ImVec4& colour) {
+    if (model.place == PanelPlace::in_room)
+        ImGui::TextColored(colour, "%s", line.c_str());
+    else
+        note(line, colour);
 }
 
 /// Histogram of all values on a logarithmic scale; pressing or dragging picks an isovalue.
@@ -99,12 +110,13 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
                             slider_format(model.info.value_unit).c_str()))
         commands.isovalue = value;
     const auto& shown = model.frame.shown;
-    note(fmt::format("isovalue: asked {}   shown {}",
-                     with_unit(model.asked.isovalue(), model.info.value_unit),
-                     shown
-                         ? with_unit(shown->isovalues[shown_surface(model)], model.info.value_unit)
-                         : "nothing yet"),
-         kDim);
+    state_note(
+        model,
+        fmt::format("isovalue: asked {}   shown {}",
+                    with_unit(model.asked.isovalue(), model.info.value_unit),
+                    shown ? with_unit(shown->isovalues[shown_surface(model)], model.info.value_unit)
+                          : "nothing yet"),
+        kDim);
 }
 
 void playback_buttons(const PanelModel& model, Commands& commands) {
@@ -151,10 +163,12 @@ void time_section(const PanelModel& model, Commands& commands) {
     if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
         commands.step = static_cast<std::uint32_t>(step);
     const auto& shown = model.frame.shown;
-    note(fmt::format("time: asked {}   shown {}",
-                     with_unit(times[model.asked.step], model.info.time_unit),
-                     shown ? with_unit(times[shown->step], model.info.time_unit) : "nothing yet"),
-         kDim);
+    state_note(
+        model,
+        fmt::format("time: asked {}   shown {}",
+                    with_unit(times[model.asked.step], model.info.time_unit),
+                    shown ? with_unit(times[shown->step], model.info.time_unit) : "nothing yet"),
+        kDim);
     playback_buttons(model, commands);
     ImGui::EndDisabled();
 }
@@ -165,8 +179,11 @@ void view_section(const PanelModel& model, Commands& commands) {
     if (ImGui::Combo("quality", &mode, "auto\0fast\0quality\0"))
         commands.quality = static_cast<interaction::QualityMode>(mode);
     const bool settled = model.frame.pace == interaction::Pace::settled;
-    note(quality_line(model.frame),
-         settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
+    // The footprint follows from what is drawn, and in the room the panel is a part of that.
+    state_note(model,
+               model.place == PanelPlace::in_room ? name_of(model.frame.pace)
+                                                  : quality_line(model.frame),
+               settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
     ImGui::SetNextItemWidth(-60.0f);
     const std::string current(stereo::name_of(model.asked.stereo));
     if (ImGui::BeginCombo("stereo", current.c_str())) {
@@ -215,6 +232,28 @@ void measurements(const PanelModel& model) {
         note(in_words(device), device.tracking == interaction::Tracking::tracked ? kDim : kWarning);
 }
 
+/// Notes come when a disk is done: not in the room, where every replay shows the same.
+void complaints(const PanelModel& model) {
+    if (!model.failure.empty())
+        note(model.failure, kWarning);
+    if (!model.message.empty() && model.place != PanelPlace::in_room)
+        note(model.message, kDim);
+}
+
+/// The place that somebody picked, and what to do with it.
+void mark_section(const PanelModel& model, Commands& commands) {
+    const auto& point = model.asked.mark.point;
+    if (!point)
+        return;
+    note(fmt::format("picked: {}", mark_text(*point, model.info)), kDim);
+    if (ImGui::SmallButton("isovalue through it"))
+        commands.isovalue = point->value;
+    ImGui::SameLine();
+    if (ImGui::SmallButton("forget it"))
+        commands.mark = interaction::Mark{};
+    ImGui::Separator();
+}
+
 /// In two columns: the control, and behind the run of spaces that pads it, its effect.
 void keys_and_mouse(const std::vector<std::string>& lines) {
     if (!ImGui::BeginTable("controls", 2))
@@ -253,11 +292,19 @@ std::string with_unit(double value, const std::string& unit) {
 
 Commands draw_panel(const PanelModel& model, PanelArea& area) {
     Commands commands;
-    ImGui::SetNextWindowPos({12.0f, 12.0f}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({380.0f, 0.0f}, ImGuiCond_Always);
-    ImGui::SetNextWindowBgAlpha(0.86f);
-    ImGui::Begin(("Isochron: " + model.info.array + "###panel").c_str(), nullptr,
-                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings);
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings;
+    if (model.place == PanelPlace::over) {
+        ImGui::SetNextWindowPos({12.0f, 12.0f}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSize({380.0f, 0.0f}, ImGuiCond_Always);
+        ImGui::SetNextWindowBgAlpha(0.86f);
+    } else {
+        ImGui::SetNextWindowPos({0.0f, 0.0f});
+        ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+        ImGui::SetNextWindowBgAlpha(1.0f);
+        ImGui::PushStyleColor(ImGuiCol_WindowBg, kPaper);
+        flags |= ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse;
+    }
+    ImGui::Begin(("Isochron: " + model.info.array + "###panel").c_str(), nullptr, flags);
     isovalue_section(model, commands);
     surfaces_section(model, commands);
     ImGui::Separator();
@@ -265,18 +312,22 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
     ImGui::Separator();
     time_section(model, commands);
     ImGui::Separator();
+    mark_section(model, commands);
     view_section(model, commands);
     ImGui::Separator();
-    measurements(model);
-    if (!model.failure.empty())
-        note(model.failure, kWarning);
-    if (!model.message.empty())
-        note(model.message, kDim);
+    if (model.place != PanelPlace::in_room) {
+        measurements(model);
+        complaints(model);
+    }
     if (ImGui::CollapsingHeader("keys and mouse"))
         keys_and_mouse(model.controls);
+    if (model.place == PanelPlace::in_room) // below all controls, which it must not move
+        complaints(model);
     const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-    area = {corner.x, corner.y, corner.x + size.x, corner.y + size.y};
+    area = {corner.x, corner.y, corner.x + size.x, corner.y + size.y, ImGui::GetFrameHeight()};
     ImGui::End();
+    if (model.place != PanelPlace::over)
+        ImGui::PopStyleColor();
     return commands;
 }
 

@@ -12,6 +12,13 @@
 
 namespace isochron::app {
 
+/// Where a panel is laid out.
+enum class PanelPlace : std::uint8_t {
+    over,   ///< a picture, as a window that can be moved
+    whole,  ///< a window of its own, which it fills
+    in_room ///< likewise; it says only what is the same on every wall and in every replay
+};
+
 /// What the panel shows in one frame; nothing in it is changed by showing it.
 struct PanelModel {
     const index::SeriesInfo& info;
@@ -27,12 +34,14 @@ struct PanelModel {
     std::string failure;                      ///< of the worker; empty when all is well
     std::string message;                      ///< newest note, such as a saved screenshot
     const std::vector<std::string>& controls; ///< one line per key
+    PanelPlace place = PanelPlace::over;
     bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
 };
 
 /// The rectangle that the panel covers: pixels from the top left.
 struct PanelArea {
     float left = 0, top = 0, right = 0, bottom = 0;
+    float title = 0; ///< height of its title
     bool contains(float x, float y) const {
         return x >= left && x < right && y >= top && y < bottom;
     }

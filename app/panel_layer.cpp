@@ -5,9 +5,13 @@
 #include "render/shader.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <limits>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -15,8 +19,6 @@ namespace isochron::app {
 namespace {
 
 using namespace interaction;
-
-constexpr float kFontPixels = 15.0f;
 
 /// Keys that ImGui's text fields and sliders understand, with ours.
 constexpr std::pair<ImGuiKey_, Key> kKeys[]{
@@ -43,6 +45,7 @@ struct Taker {
     ImGuiIO& io;
     const PanelArea& area;
     std::uint32_t& late_releases;
+    std::optional<glm::vec2>& cursor;
     std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
 
     /// ImGui's own answer is from the last frame; a quick hand moves and presses within one.
@@ -77,6 +80,7 @@ struct Taker {
         return event.down && captures_mouse();
     }
     bool operator()(const MouseMoveEvent& event) const {
+        cursor = glm::vec2(event.x, event.y);
         io.MousePos = {event.x * io.DisplaySize.x, event.y * io.DisplaySize.y};
         return false;
     }
@@ -108,8 +112,8 @@ void style_dark_and_round() {
 
 } // namespace
 
-PanelLayer::PanelLayer(const render::Gl& gl)
-    : gl_(gl), imgui_(ImGui::CreateContext()),
+PanelLayer::PanelLayer(const render::Gl& gl, float scale)
+    : gl_(gl), imgui_(ImGui::CreateContext()), scale_(scale),
       program_(render::link_program(
           gl, {render::shader_file("panel.vert"), render::shader_file("panel.frag")})),
       vertex_array_(gl), vertices_(gl), elements_(gl), font_(gl, GL_TEXTURE_2D) {
@@ -142,7 +146,8 @@ PanelLayer::~PanelLayer() {
 
 void PanelLayer::make_font_texture() {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-    add_font(fonts, kFontPixels);
+    add_font(fonts, kFontPixels * scale_);
+    ImGui::GetIO().FontGlobalScale = 1.0f / scale_;
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     fonts.GetTexDataAsRGBA32(&pixels, &width, &height);
@@ -160,7 +165,7 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
         if (late_releases_ & (1u << button))
             io.MouseDown[button] = false;
     late_releases_ = 0;
-    Taker taker{io, area_, late_releases_};
+    Taker taker{io, area_, late_releases_, cursor_};
     for (const WindowEvent& event : events) {
         const bool taken = std::visit(taker, event);
         if (!taken || !shown)
@@ -169,24 +174,62 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
     return left;
 }
 
-Commands PanelLayer::draw(glm::ivec2 framebuffer, const PanelModel& model) {
+void PanelLayer::point(const std::optional<glm::vec2>& at, bool pressed, float notches) {
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
-    io.DisplaySize = {static_cast<float>(framebuffer.x), static_cast<float>(framebuffer.y)};
+    constexpr float kAway = -std::numeric_limits<float>::max(); // as ImGui wants it
+    io.MousePos = at ? ImVec2(at->x, at->y) : ImVec2(kAway, kAway);
+    io.MouseDown[0] = pressed;
+    io.MouseWheel = notches;
+}
+
+Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {
+    constexpr double kShortest = 1e-4, kLongest = 0.1; // ImGui wants time to pass
+    ImGui::SetCurrentContext(imgui_);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(picture.x) / scale_,
+                      static_cast<float>(picture.y) / scale_};
+    if (cursor_) // it may have come before there was a size, or before another
+        io.MousePos = {cursor_->x * io.DisplaySize.x, cursor_->y * io.DisplaySize.y};
+    const Seconds elapsed = time - std::exchange(laid_out_, time);
+    io.DeltaTime = static_cast<float>(std::clamp(elapsed.count(), kShortest, kLongest));
     ImGui::NewFrame();
     const Commands commands = draw_panel(model, area_);
     ImGui::Render();
-    render(*ImGui::GetDrawData(), framebuffer);
     return commands;
 }
 
-void PanelLayer::draw_again(glm::ivec2 framebuffer) {
-    ImGui::SetCurrentContext(imgui_);
-    render(*ImGui::GetDrawData(), framebuffer);
+std::uint32_t PanelLayer::hovered() const {
+    return imgui_->HoveredId;
 }
 
-void PanelLayer::render(const ImDrawData& data, glm::ivec2 framebuffer) {
-    gl_.Viewport(0, 0, framebuffer.x, framebuffer.y);
+std::uint32_t PanelLayer::held() const {
+    return imgui_->ActiveId;
+}
+
+std::size_t PanelLayer::digest() const {
+    ImGui::SetCurrentContext(imgui_);
+    const ImDrawData& data = *ImGui::GetDrawData();
+    std::size_t digest = 0;
+    const auto add = [&](const void* bytes, int size) {
+        const std::string_view text(static_cast<const char*>(bytes),
+                                    static_cast<std::size_t>(size));
+        digest = digest * 31 + std::hash<std::string_view>()(text);
+    };
+    for (int n = 0; n < data.CmdListsCount; ++n) {
+        const ImDrawList& list = *data.CmdLists[n];
+        add(list.VtxBuffer.Data, list.VtxBuffer.size_in_bytes());
+        add(list.IdxBuffer.Data, list.IdxBuffer.size_in_bytes());
+        for (const ImDrawCmd& command : list.CmdBuffer)
+            add(&command.ClipRect, sizeof command.ClipRect);
+    }
+    return digest;
+}
+
+void PanelLayer::draw(glm::ivec2 picture) {
+    ImGui::SetCurrentContext(imgui_);
+    const ImDrawData& data = *ImGui::GetDrawData();
+    gl_.Viewport(0, 0, picture.x, picture.y);
     gl_.Disable(GL_DEPTH_TEST);
     gl_.Enable(GL_BLEND);
     gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -205,12 +248,13 @@ void PanelLayer::render(const ImDrawData& data, glm::ivec2 framebuffer) {
                             GL_STREAM_DRAW);
         for (const ImDrawCmd& command : list.CmdBuffer) {
             const ImVec4& clip = command.ClipRect;
-            const int width = static_cast<int>(clip.z - clip.x);
-            const int height = static_cast<int>(clip.w - clip.y);
+            const int left = static_cast<int>(scale_ * clip.x);
+            const int bottom = static_cast<int>(scale_ * clip.w);
+            const int width = static_cast<int>(scale_ * (clip.z - clip.x));
+            const int height = static_cast<int>(scale_ * (clip.w - clip.y));
             if (width <= 0 || height <= 0)
                 continue;
-            gl_.Scissor(static_cast<int>(clip.x), framebuffer.y - static_cast<int>(clip.w), width,
-                        height);
+            gl_.Scissor(left, picture.y - bottom, width, height);
             gl_.DrawElementsBaseVertex(
                 GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,
                 reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)),

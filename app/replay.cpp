@@ -47,6 +47,9 @@ std::vector<std::string> differences(const Commands& a, const Commands& b) {
     compare("stereo", a.stereo, b.stereo);
     compare("panel", a.panel, b.panel);
     compare("grid", a.grid, b.grid);
+    compare("room_panel", a.room_panel, b.room_panel);
+    compare("mark", a.mark, b.mark);
+    compare("haptics", a.haptics, b.haptics);
     compare("views", a.views, b.views);
     compare("axes", a.axes, b.axes);
     compare("coloring", a.coloring, b.coloring);

@@ -68,7 +68,7 @@ RoomView::RoomView(const render::Gl& gl, stereo::GlContext& window,
     : start_(RoomCamera(installation).pose()),
       display_(gl, window, room_window(),
                {.near_plane = kNear, .far_plane = kFar, .background = kBackground}),
-      lines_(gl), pictures_(gl), solids_(gl), floor_(floor_of(installation)) {}
+      lines_(gl), pictures_(gl), solids_(gl), panels_(gl), floor_(floor_of(installation)) {}
 
 stereo::StereoMode RoomView::shown(stereo::StereoMode mode) {
     return stereo::eyes_of(mode).size() == 1 ? mode : stereo::StereoMode::left;
@@ -133,10 +133,13 @@ void RoomView::draw_room(const render::View& view, std::span<const Wall> walls,
         }
     if (wand) {
         solids_.draw(view, room_from(*wand), wand_model());
-        const glm::vec3 ahead = wand->orientation * glm::vec3(0, 0, -kWandRay);
+        const glm::vec3 ahead =
+            wand->orientation * glm::vec3(0, 0, -(panel_ && panel_->ray ? *panel_->ray : kWandRay));
         lines.push_back({wand->position, wand->position + ahead, kRay});
     }
     lines_.draw(view, glm::mat4(1.0f), lines);
+    if (panel_)
+        panels_.draw(view, panel_->quad);
     draw_walls(view, walls, false);
 }
 

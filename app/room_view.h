@@ -1,6 +1,7 @@
 // The picture of an emulated installation: the room from outside, with what every wall shows.
 #pragma once
 
+#include "app/panel_in_room.h"
 #include "app/room_camera.h"
 #include "interaction/tracked_input.h"
 #include "render/line_pass.h"
@@ -25,6 +26,9 @@ class RoomView {
 
     /// The mode of which a wall shows one picture: the left eye's, or the only one.
     static stereo::StereoMode shown(stereo::StereoMode mode);
+
+    /// The panel that stands in the room from now on, if any.
+    void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }
 
     /// Draws the room around the displays as they are: walls with the picture of one eye,
     /// clear from the front and as if of glass from behind; the lines from each viewer to the
@@ -56,6 +60,8 @@ class RoomView {
     render::LinePass lines_;
     render::PicturePass pictures_;
     render::SolidPass solids_;
+    render::PanelPass panels_;
+    std::optional<ShownPanel> panel_;
     std::vector<render::Line> floor_;
 };
 

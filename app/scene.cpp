@@ -2,14 +2,18 @@
 #include "app/scene.h"
 
 #include "app/font.h"
+#include "app/mark.h"
+#include "interaction/navigation.h"
 #include "render/driver.h"
 
+#include <algorithm>
 #include <array>
 
 namespace isochron::app {
 namespace {
 
-constexpr float kWandLength = 1.2f; // metres
+constexpr float kWandLength = 1.2f;             // metres
+constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
 constexpr glm::vec4 kBoxColour(0.45f, 0.50f, 0.56f, 0.55f);
 constexpr glm::vec4 kWandColour(1.0f, 0.77f, 0.36f, 0.9f);
 constexpr float kFontPixels = 32.0f; ///< of glyphs, which are shown smaller
@@ -24,7 +28,7 @@ bool blends_light(const render::Gl& gl, Blending blending) {
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : gl_(gl), info_(info), upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame),
       appearance_(config.appearance), cells_(gl, info.grid), cell_pass_(gl), line_pass_(gl),
-      text_pass_(gl, room_font(kFontPixels)), veil_pass_(gl) {
+      text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), veil_pass_(gl) {
     appearance_.linear_light = blends_light(gl, config.blending);
     // How values are held depends on their type only, not on their range.
     cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
@@ -56,11 +60,40 @@ void Scene::look(const ExplorerState& state, const interaction::Pose& head,
         appearance_.values = {
             .map = map_->name(), .low = share(scale->range[0]), .high = share(scale->range[1])};
     }
+    mark_ = state.mark;
     box_ = state.axes;
     axes_ =
         box_ ? axes_for(info_, render::Placement::of(info_.grid, matrix(state.room_from_physical)),
                         head)
              : Axes{};
+}
+
+void Scene::set_near_fade(const interaction::ComfortOptions& comfort,
+                          std::span<const stereo::Viewpoint> viewers) {
+    heads_.clear();
+    appearance_.near_fade.reset();
+    if (!(comfort.near_whole > 0))
+        return;
+    appearance_.near_fade = {.gone = comfort.near_gone, .whole = comfort.near_whole};
+    for (const stereo::Viewpoint& viewer : viewers)
+        heads_.push_back(viewer.head.position);
+}
+
+/// That of the viewer whose eye it is: between two eyes is less room than between two heads.
+glm::vec3 Scene::head_of(const render::View& view) const {
+    const glm::vec3 eye = view.eye_in_room();
+    return *std::ranges::min_element(
+        heads_, {}, [&](const glm::vec3& head) { return glm::distance(head, eye); });
+}
+
+/// Over the surface that it lies on, but not over the panel.
+void Scene::draw_mark(const render::View& view, const interaction::Similarity& room_from_physical) {
+    const glm::vec3 at(interaction::transform(room_from_physical, mark_.point->position));
+    if (panel_ && render::hides(panel_->quad, view.eye_in_room(), at))
+        return;
+    text_pass_.draw(view, glm::mat4(1.0f),
+                    mark_quads(*mark_.point, at, info_, text_pass_, view.size),
+                    render::TextPass::Depth::none);
 }
 
 void Scene::draw(std::span<const render::View> views,
@@ -71,9 +104,11 @@ void Scene::draw(std::span<const render::View> views,
         draw_around_cells(view, placement, wand);
     if (footprint == render::Footprint::surface)
         cells_.compute_corners();
+    if (appearance_.near_fade && !views.empty()) // of one viewer, all of them
+        appearance_.near_fade->between_eyes = head_of(views.front());
     cell_pass_.draw(views, placement, cells_, footprint, appearance_);
     for (const render::View& view : views)
-        draw_over_cells(view);
+        draw_over_cells(view, room_from_physical);
 }
 
 void Scene::draw_around_cells(const render::View& view, const render::Placement& placement,
@@ -90,12 +125,18 @@ void Scene::draw_around_cells(const render::View& view, const render::Placement&
     if (!guides_.empty())
         line_pass_.draw(view, glm::mat4(1.0f), guides_);
     if (wand) {
-        const std::array ray{render::Line{{0, 0, 0}, {0, 0, -kWandLength}, kWandColour}};
-        line_pass_.draw(view, room_from(*wand), ray);
+        const float length = panel_ && panel_->ray ? *panel_->ray : kWandLength;
+        const std::array ray{render::Line{{0, 0, 0}, {0, 0, -length}, kWandColour}};
+        line_pass_.draw(view, room_from(*wand), ray, panel_ ? kPointing : kThin);
     }
+    if (panel_)
+        panel_pass_.draw(view, panel_->quad);
 }
 
-void Scene::draw_over_cells(const render::View& view) {
+void Scene::draw_over_cells(const render::View& view,
+                            const interaction::Similarity& room_from_physical) {
+    if (mark_.point)
+        draw_mark(view, room_from_physical);
     veil_pass_.draw(view, veil_);
     text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
                     legend_quads({surfaces_, info_.value_unit, scale_}, text_pass_, view.size),

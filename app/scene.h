@@ -7,6 +7,7 @@
 #include "app/explorer_state.h"
 #include "app/guides.h"
 #include "app/legend.h"
+#include "app/panel_in_room.h"
 #include "index/volume_series.h"
 #include "render/cell_buffers.h"
 #include "render/cell_pass.h"
@@ -14,10 +15,12 @@
 #include "render/text_pass.h"
 #include "render/veil_pass.h"
 #include "render/view.h"
+#include "stereo/display.h"
 
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace isochron::app {
 
@@ -35,7 +38,12 @@ class Scene {
     render::Footprint best_footprint() const;
 
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
+    void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }
     void set_veil(const render::Veil& veil) { veil_ = veil; }
+
+    /// Where what comes near to somebody fades, and who is there.
+    void set_near_fade(const interaction::ComfortOptions& comfort,
+                       std::span<const stereo::Viewpoint> viewers);
 
     /// What is the same for all eyes of the frames to come: colours, and the edges of the box that
     /// carry numbers.
@@ -54,7 +62,10 @@ class Scene {
   private:
     void draw_around_cells(const render::View& view, const render::Placement& placement,
                            const std::optional<interaction::Pose>& wand);
-    void draw_over_cells(const render::View& view);
+    void draw_over_cells(const render::View& view,
+                         const interaction::Similarity& room_from_physical);
+    glm::vec3 head_of(const render::View& view) const;
+    void draw_mark(const render::View& view, const interaction::Similarity& room_from_physical);
 
     const render::Gl& gl_;
     const index::SeriesInfo& info_;
@@ -70,6 +81,10 @@ class Scene {
     render::LinePass line_pass_;
     std::vector<render::Line> guides_;
     render::TextPass text_pass_;
+    render::PanelPass panel_pass_;
+    std::optional<ShownPanel> panel_;
+    std::vector<glm::vec3> heads_; ///< of viewers before whom cells fade
+    interaction::Mark mark_;
     render::VeilPass veil_pass_;
     render::Veil veil_;
 };

@@ -51,6 +51,8 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     state.isosurfaces = first_surfaces(config, file.stats());
     state.coloring = config.coloring;
     state.axes = config.bounding_box;
+    const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
+    state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};
     state.stereo = config.installation.windows.front().stereo;
     return state;
 }
@@ -64,10 +66,13 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       gate_(config_.stillness), comfort_(config_.comfort),
       extractor_(extract ? std::move(extract) : index::extract_from(file_)),
       scene_(gl_, file_->info(), config_), displays_(make_displays(gl_, windows_, config_)),
-      panel_(gl_), stereo_modes_(live_stereo_modes(windows_)),
+      panel_(gl_), room_panel_(gl_, config_.panel), picker_(file_),
+      stereo_modes_(live_stereo_modes(windows_)),
       quality_(gl_, config_, windows_.first().refresh_rate()) {
     if (windows_.room())
         room_.emplace(gl_, *windows_.room(), config_.installation);
+    if (windows_.console())
+        console_.emplace(gl_, windows_.drawing(), *windows_.console());
 }
 
 Session::~Session() = default;
@@ -92,6 +97,8 @@ interaction::ControlContext Session::control_context() const {
     context.eye_separation = state_.eye_separation;
     context.stereo = stereo::name_of(state_.stereo);
     context.panel = state_.panel;
+    context.room_panel = state_.room_panel;
+    context.panel_distance = room_panel_.distance();
     context.grid = state_.grid;
     context.views = &state_.views;
     context.stereo_modes = &stereo_modes_;
@@ -99,7 +106,13 @@ interaction::ControlContext Session::control_context() const {
 }
 
 Commands Session::commands_from(const interaction::InputState& input) {
-    return controls_.update(input, control_context());
+    PanelInRoom::Outcome panel = room_panel_.outcome(input, state_.room_panel);
+    Commands commands = controls_.update(panel.rest, control_context());
+    interaction::merge(commands, panel.commands);
+    // What is found depends on what is shown: recorded with what the operator's panel leads to.
+    interaction::merge(panel_commands_,
+                       picker_.update(panel.rest, !panel.touched, state_, scene_.shown()));
+    return commands;
 }
 
 Commands Session::take_panel_commands() {
@@ -108,7 +121,11 @@ Commands Session::take_panel_commands() {
 
 std::vector<interaction::WindowEvent>
 Session::panel_events(std::span<const interaction::WindowEvent> events) {
-    return panel_.feed(events, state_.panel);
+    if (!console_)
+        return panel_.feed(events, state_.panel);
+    std::vector<interaction::WindowEvent> all = console_->take_events();
+    all.insert(all.end(), events.begin(), events.end());
+    return all;
 }
 
 void Session::request_cells() {
@@ -165,6 +182,8 @@ Session::Picture Session::picture(const interaction::InputState& input,
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
     return {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
             .wand = wand ? wand->pose : std::nullopt,
+            .panel = room_panel_.shown(state_.room_panel),
+            .mark = state_.mark,
             .guides = {state_.grid, interaction::teleport_target(input)},
             .veil = {static_cast<float>(report.comfort.fade),
                      static_cast<float>(report.comfort.vignette)},
@@ -213,6 +232,8 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     if (report.redrawn) {
         quality_.begin(log_.next());
         scene_.set_guides(now.guides);
+        scene_.set_panel(now.panel);
+        scene_.set_near_fade(config_.comfort, now.viewers);
         scene_.set_veil(now.veil);
         scene_.look(state_, now.viewers.front().head, now.scale);
     }
@@ -237,33 +258,40 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     if (report.redrawn)
         quality_.end(report, report.upload + watch.lap());
     drawn_ = now;
-    if (room_)
+    if (room_) {
+        room_->set_panel(now.panel);
         room_->draw(displays_, now.viewers, now.wand, input, panel);
+    }
+}
+
+PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) const {
+    const auto scale = color_scale(state_, *file_);
+    return {.info = file_->info(),
+            .stats = file_->stats(),
+            .asked = state_,
+            .second_array = file_->color() != nullptr,
+            .whole_range = scale ? scale->whole : std::array{0.0, 0.0},
+            .frame = report,
+            .frame_times = log_.stage(&FrameReport::total, kShownFrames),
+            .frames_per_second = log_.frames_per_second(kShownFrames),
+            .searching = extractor_.busy(),
+            .recording = recording_,
+            .failure = failure(),
+            .message = message_,
+            .controls = documentation_,
+            .place = place,
+            .quad_buffered = windows_[0].has_stereo_buffers()};
 }
 
 void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
-    if (!state_.panel || !windows_.first().has_window())
+    if (!state_.panel || !windows_.first().has_window() || console_)
         return;
     // The right buffer of a quad-buffered window shows what was laid out for the left one.
-    if (std::exchange(panel_drawn_, true))
-        return panel_.draw_again(size);
-    const auto times = log_.stage(&FrameReport::total, kShownFrames);
-    const auto scale = color_scale(state_, *file_);
-    const PanelModel model{.info = file_->info(),
-                           .stats = file_->stats(),
-                           .asked = state_,
-                           .second_array = file_->color() != nullptr,
-                           .whole_range = scale ? scale->whole : std::array{0.0, 0.0},
-                           .frame = report,
-                           .frame_times = times,
-                           .frames_per_second = log_.frames_per_second(kShownFrames),
-                           .searching = extractor_.busy(),
-                           .recording = recording_,
-                           .failure = failure(),
-                           .message = message_,
-                           .controls = documentation_,
-                           .quad_buffered = windows_[0].has_stereo_buffers()};
-    interaction::merge(panel_commands_, panel_.draw(size, model));
+    if (!std::exchange(panel_drawn_, true))
+        interaction::merge(
+            panel_commands_,
+            panel_.lay_out(size, panel_model(PanelPlace::over, report), report.time));
+    panel_.draw(size);
 }
 
 bool Session::captures(const FrameReport& report) {
@@ -297,6 +325,8 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     FrameReport report;
     report.time = input.time;
     report.tracking = tracking_of(input);
+    panel_commands_ = {}; // a replay takes none
+    const interaction::InputState rest = room_panel_.update(input, state_.room_panel);
     state_.apply(commands, file_->info().steps());
     if (commands.screenshot)
         captures_.ask();
@@ -304,23 +334,33 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     report.asked = state_.surfaces();
     request_cells();
     take_newest_cells(waiting, report);
-    report.pace = gate_.update(input, commands, state_.quality);
-    Picture now = picture(seen(input, latch, report), report);
+    report.pace = gate_.update(rest, commands, state_.quality);
+    if (state_.room_panel.shown)
+        room_panel_.lay_out(panel_model(PanelPlace::in_room, report), report.time);
+    else
+        room_panel_.leave_out();
+    Picture now = picture(seen(rest, latch, report), report);
     choose_quality(now, waiting, report);
 
     StopWatch stages;
     const bool capture = captures(report);
     draw_eyes(now, input, !capture, report);
+    if (console_)
+        interaction::merge(panel_commands_,
+                           console_->draw(panel_model(PanelPlace::whole, report), report.time));
     report.draw = stages.lap();
     for (stereo::Display& display : displays_)
         display.present();
     if (room_)
         room_->present();
+    if (console_)
+        console_->present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     if (capture)
         take_screenshot();
     show_messages(pictures_.messages());
+    show_messages(picker_.messages());
     report.total = whole.lap();
     log_.add(report);
     return log_.frames().back();

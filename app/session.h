@@ -10,12 +10,15 @@
 #include "app/background_work.h"
 #include "app/capture_wait.h"
 #include "app/config.h"
+#include "app/console.h"
 #include "app/displays.h"
 #include "app/explorer_state.h"
 #include "app/frame_log.h"
 #include "app/frame_quality.h"
 #include "app/late_latch.h"
+#include "app/panel_in_room.h"
 #include "app/panel_layer.h"
+#include "app/picker.h"
 #include "app/room_view.h"
 #include "app/scene.h"
 #include "index/extractor.h"
@@ -52,7 +55,12 @@ class Session {
     /// What the devices lead to in this frame; advances the controls, changes nothing else.
     interaction::Commands commands_from(const interaction::InputState& input);
 
-    /// What the user did to the panel while the last frame was drawn. Handed out once.
+    /// The panel in the room, for those who emulate a wand.
+    interaction::PanelSize room_panel_size() const { return room_panel_.size(); }
+
+    /// What no device alone explains: what the user did to the operator's panel while the last
+    /// frame was drawn, and what picking found among what was shown. Handed out once, before the
+    /// next frame.
     interaction::Commands take_panel_commands();
 
     /// Passes window events to the panel. @return those that it has no use for
@@ -95,6 +103,8 @@ class Session {
     struct Picture {
         std::vector<stereo::Viewpoint> viewers;
         std::optional<interaction::Pose> wand;
+        std::optional<ShownPanel> panel;
+        interaction::Mark mark;
         Guides guides;
         render::Veil veil;
         interaction::Similarity room_from_physical;
@@ -120,6 +130,7 @@ class Session {
     std::vector<glm::ivec2> window_sizes() const;
     void draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
                    FrameReport& report);
+    PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
     void take_screenshot();
 
@@ -138,6 +149,9 @@ class Session {
     std::optional<RoomView> room_;
     std::optional<Picture> drawn_; ///< what the eyes saw last
     PanelLayer panel_;
+    PanelInRoom room_panel_;
+    Picker picker_;
+    std::optional<Console> console_;
     bool panel_drawn_ = false; ///< in this frame, over one buffer of its window
     const std::vector<std::string> stereo_modes_;
     const std::vector<std::string> documentation_ = interaction::Controls::documentation();

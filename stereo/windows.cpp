@@ -27,7 +27,7 @@ ContextOptions options_of(const Window& window, const Installation& installation
 Windows::Windows(GlContext& only) : windows_{&only}, drawing_(&only) {}
 
 bool Windows::should_close() const {
-    return (room_ && room_->should_close()) ||
+    return (room_ && room_->should_close()) || (console_ && console_->should_close()) ||
            std::ranges::any_of(windows_,
                                [](const GlContext* each) { return each->should_close(); });
 }
@@ -59,6 +59,13 @@ Windows open_windows(ContextKind kind, const Installation& installation,
         }
         opened.windows_.push_back(opened.owned_.back().get());
         opened.drawing_ = opened.windows_.front();
+    }
+    if (options.console && opened.drawing_->has_window()) {
+        ContextOptions console =
+            options_of(*options.console, installation, options, opened.drawing_);
+        console.stereo_buffers = false;
+        opened.owned_.push_back(make_context(kind, console));
+        opened.console_ = opened.owned_.back().get();
     }
     return opened;
 }

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ class Windows {
     /// The desktop window that shows the room of an emulated installation; null where the
     /// installation's windows are real. Then it draws, and they are pictures beside it.
     GlContext* room() const { return room_; }
+    /// The operator's window, which shows no part of the installation; null without one. Its events
+    /// are not among those of `poll_events`.
+    GlContext* console() const { return console_; }
     /// The window that the operator's panel lies over: the room's, or else the first.
     GlContext& first() const { return room_ ? *room_ : *windows_.front(); }
 
@@ -44,12 +48,14 @@ class Windows {
     std::vector<GlContext*> windows_;
     GlContext* drawing_ = nullptr;
     GlContext* room_ = nullptr;
+    GlContext* console_ = nullptr;
 };
 
 struct WindowOptions {
     std::string title = "Isochron"; ///< further windows add their name
     bool vsync = true;              ///< the first window's; the others are shown right after it
     StereoMode stereo{};            ///< that the first window starts in
+    std::optional<Window> console = std::nullopt; ///< beside the windows, where there is a desktop
 };
 
 /// Opens every window; without a window system (`egl`, `osmesa`) each is a picture in one context.

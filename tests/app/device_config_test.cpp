@@ -207,5 +207,35 @@ TEST(DeviceTracking, IsToldInWords) {
                                             "head: lost for 9.0 s", "head: not seen yet"));
 }
 
+TEST(PanelConfig, HoldsTheRoomsPanelAndTheConsole) {
+    const Config plain = parse_config("", "lab.toml");
+    EXPECT_FALSE(plain.panel.room);
+    EXPECT_FALSE(plain.panel.console);
+    const Config config = parse_config("[panel]\nroom = true\nwidth = 0.6\ndistance = 0.7\n"
+                                       "[console]\nsize = [500, 700]\nposition = [10, 20]\n",
+                                       "lab.toml");
+    EXPECT_TRUE(config.panel.room);
+    EXPECT_EQ(config.panel.width, 0.6f);
+    EXPECT_EQ(config.panel.distance, 0.7f);
+    ASSERT_TRUE(config.panel.console);
+    EXPECT_EQ(config.panel.console->size, glm::ivec2(500, 700));
+    EXPECT_EQ(config.panel.console->position, glm::ivec2(10, 20));
+    EXPECT_TRUE(parse_config("[console]\n", "lab.toml").panel.console);
+    EXPECT_THAT(error_of("[panel]\nwidth = 3\n"), HasSubstr("lab.toml:2: panel.width"));
+    EXPECT_THAT(error_of("[console]\nsise = [1, 2]\n"), HasSubstr("did you mean 'size'"));
+    EXPECT_THAT(error_of("[console]\nsize = [10, 700]\n"), HasSubstr("lab.toml:2: console.size"));
+}
+
+TEST(ComfortConfig, FadesNearByBetweenTwoAscendingDistances) {
+    EXPECT_EQ(parse_config("", "lab.toml").comfort.near_whole, 0.0f);
+    const Config config = parse_config("[comfort]\nnear_fade = [0.1, 0.4]\n", "lab.toml");
+    EXPECT_EQ(config.comfort.near_gone, 0.1f);
+    EXPECT_EQ(config.comfort.near_whole, 0.4f);
+    for (const char* wrong : {"[0.4, 0.1]", "[0.2, 0.2]", "[-0.1, 0.2]", "[0.1, 11]"})
+        EXPECT_THAT(error_of(std::string("[comfort]\nnear_fade = ") + wrong),
+                    HasSubstr("lab.toml:2: comfort.near_fade"))
+            << wrong;
+}
+
 } // namespace
 } // namespace isochron::app

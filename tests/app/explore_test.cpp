@@ -2,6 +2,7 @@
 // it.
 #include "session_fixture.h"
 
+#include "app/shipped_configs.h"
 #include "interaction/recording.h"
 #include "stereo/image_file.h"
 #include "tests/support/virtual_display.h"
@@ -114,6 +115,27 @@ TEST_F(ExploreTest, PressingOnTheHistogramPicksAnIsovalue) {
                     [](const auto& frame) { return frame.from_panel.isovalue.has_value(); }));
     EXPECT_FALSE(
         any_frame(recording, [](const auto& c) { return c.room_from_physical.has_value(); }));
+}
+
+TEST_F(ExploreTest, FromTheConsoleAnOperatorSteersWithThePanelAndKeys) {
+    folder_.write("lab.toml", *shipped_config("desktop") +
+                                  "\n[console]\nsize = [400, 700]\nposition = [800, 100]\n");
+    const auto program =
+        explore({"--config", file("lab.toml"), "--record", file("walk.jsonl"), "--isovalue", "8"});
+    screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "console"});
+    // The middle of the histogram, below the title.
+    screen_.xdotool({"mousemove", "1000", "160"});
+    // The test's limit ends a hang.
+    while (folder_.read("walk.jsonl.part").find("\"panel\":{\"isovalue\"") == std::string::npos)
+        screen_.xdotool({"click", "1", "sleep", "0.2"});
+    const auto title = screen_.pixel(1150, 110);
+    EXPECT_GT(title[2], title[0] + 40) << "the panel fills the window";
+    screen_.xdotool({"search", "--name", "console", "windowfocus", "key", "Escape"});
+    ASSERT_EQ(program->exit_status(), 0);
+    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    EXPECT_FALSE(any_frame(recording, [](const auto& c) {
+        return c.room_from_physical.has_value();
+    })) << "clicks are the console's alone";
 }
 
 TEST_F(ExploreTest, ClosingTheWindowKeepsTheRecording) {

@@ -2,9 +2,11 @@
 #include "app/check_config.h"
 
 #include "app/tracker_setup.h"
+#include "stereo/nodes.h"
 #include "stereo/screen.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -86,6 +88,9 @@ class Judge {
         }
         windows();
         viewers(all);
+        const std::string misfit = stereo::misfit(config_.installation, 1);
+        if (!misfit.empty())
+            add(0, "windows.node", misfit);
         if (config_.installation.near_plane >= config_.installation.far_plane)
             add(0, "rendering.near", "it is not nearer than rendering.far");
         return std::move(found_);
@@ -154,7 +159,8 @@ class Judge {
         for (std::size_t i = 0; i < windows.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
                 if (windows[i].fullscreen && windows[j].fullscreen &&
-                    windows[i].monitor == windows[j].monitor)
+                    windows[i].monitor != stereo::kNextMonitor &&
+                    windows[i].monitor == windows[j].monitor && windows[i].node == windows[j].node)
                     add(place_of_window(config_, i).line, "windows.monitor",
                         fmt::format("window {} covers monitor {}, as window {} does",
                                     windows[i].name, windows[i].monitor, windows[j].name));
@@ -180,6 +186,8 @@ class Judge {
 };
 
 std::string place_on_desktop(const stereo::Window& window) {
+    if (window.fullscreen && window.monitor == stereo::kNextMonitor)
+        return "fullscreen on the next monitor";
     if (window.fullscreen)
         return fmt::format("fullscreen on monitor {}", window.monitor);
     if (window.position == glm::ivec2(-1))
@@ -208,6 +216,21 @@ std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer&
         screen.fit_aspect
             ? "; fitted to the window's shape"
             : fmt::format("; pixels {:.2f} x {:.2f} mm", millimetres.x, millimetres.y));
+}
+
+/// Which windows each node opens; nothing where there is one node.
+std::string describe_nodes(const stereo::Installation& installation) {
+    std::string text;
+    const int nodes = stereo::node_count(installation);
+    for (int node = 0; nodes > 1 && node < nodes; ++node) {
+        std::vector<std::string> names;
+        for (const std::size_t number : stereo::windows_of(installation, node, nodes))
+            names.push_back(installation.windows[number].name);
+        text += fmt::format("node {}: {}\n", node,
+                            names.empty() ? "the operator's window"
+                                          : fmt::to_string(fmt::join(names, ", ")));
+    }
+    return text;
 }
 
 } // namespace
@@ -241,6 +264,7 @@ std::string describe(const Config& config) {
         last = &window;
         text += describe_viewport(place, installation.viewers[place.viewport.viewer]);
     }
+    text += describe_nodes(installation);
     for (const std::string& line : describe_devices(config))
         text += fmt::format("devices: {}\n", line);
     return text;

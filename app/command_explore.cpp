@@ -1,5 +1,6 @@
 // `isochron explore`: the live program, in a window.
 #include "app/check_config.h"
+#include "app/cluster_job.h"
 #include "app/commands.h"
 #include "app/file_patterns.h"
 #include "app/pattern_show.h"
@@ -79,7 +80,8 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
     header.configuration = config.text;
     header.data = std::filesystem::absolute(path).string();
     const glm::ivec2 window = session.windows()[0].framebuffer_size();
-    if (!session.windows().room()) // an emulated installation is as large as configured
+    // An emulated installation is as large as configured.
+    if (!session.windows().room() && session.windows().number(0) == 0)
         header.window = {window.x, window.y};
     header.data_hash = fmt::format("{:016x}", file.content_hash());
     header.start = session.state().as_commands();
@@ -87,8 +89,13 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
 }
 
 /// Refuses now what would fail, or destroy something, only when the session ends.
-void check_outputs(const ExploreOptions& options) {
+void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
     namespace fs = std::filesystem;
+    if (!fs::is_directory(options.screenshots))
+        throw index::Error(
+            fmt::format("{}: expected a folder for screenshots", options.screenshots));
+    if (!job.leads())
+        return;
     for (const auto& out : {options.record, options.report})
         if (out)
             refuse_input_as_output({*options.data}, *out);
@@ -96,9 +103,6 @@ void check_outputs(const ExploreOptions& options) {
         interaction::read_recording(*options.record); // only a recording may be replaced by one
     if (options.report)
         index::NewFile{*options.report};
-    if (!fs::is_directory(options.screenshots))
-        throw index::Error(
-            fmt::format("{}: expected a folder for screenshots", options.screenshots));
 }
 
 /// Sleeps where no display paces the frames, so that an idle window does not burn the processor.
@@ -129,7 +133,7 @@ interaction::InputState poll_devices(interaction::CompositeInput& trackers,
     return input;
 }
 
-stereo::Windows open(const ExploreOptions& options, const Config& config) {
+stereo::Windows open(const ExploreOptions& options, const Config& config, const ClusterJob& job) {
     const std::string title =
         fmt::format("Isochron: {}", options.test_pattern ? "test pattern" : *options.data);
     const stereo::Installation& installation = config.installation;
@@ -142,16 +146,33 @@ stereo::Windows open(const ExploreOptions& options, const Config& config) {
     const stereo::StereoMode start = options.stereo
                                          ? *stereo::stereo_mode_from_name(*options.stereo)
                                          : installation.windows.front().stereo;
-    return open_windows(
-        config.context, installation,
-        {.title = title, .vsync = config.vsync, .stereo = start, .console = config.panel.console});
+    return open_windows(config.context, installation,
+                        {.title = title,
+                         .vsync = config.vsync,
+                         .stereo = start,
+                         .console = job.leads() ? config.panel.console : std::nullopt,
+                         .rank = job.rank(),
+                         .ranks = job.size()});
+}
+
+void warn(const Config& config) {
+    for (const ConfigProblem& problem : problems_of(config))
+        fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
+    for (const std::string& warning : device_warnings(config))
+        fmt::print(stderr, "isochron: warning: {}\n", warning);
 }
 
 /// Devices and windows as in a session, the pattern in the place of data.
-void show_test_pattern(const ExploreOptions& options, const Config& config) {
+void show_test_pattern(const ExploreOptions& options, const ClusterJob& job) {
+    if (options.record || options.report)
+        throw UsageError("--test-pattern does not go with --record or --report");
+    if (job.size() > 1)
+        throw UsageError("--test-pattern is shown by one process, without mpirun");
+    const Config config = configure(options);
+    warn(config);
     interaction::CompositeInput trackers;
     open_trackers(config.devices, trackers);
-    PatternShow show(config, open(options, config));
+    PatternShow show(config, open(options, config, job));
     if (options.stereo)
         show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
     interaction::DesktopEmulation emulation(emulation_for(config));
@@ -176,40 +197,59 @@ void show_test_pattern(const ExploreOptions& options, const Config& config) {
         fmt::print(stderr, "{}\n", line);
 }
 
-void explore(const ExploreOptions& options) {
-    if (options.check_config)
-        return check_config(*options.check_config);
-    const Config config = configure(options);
-    if (options.list_devices) {
-        for (const std::string& line : describe_devices(config))
-            fmt::print("{}\n", line);
-        for (const std::string& warning : device_warnings(config))
-            fmt::print("warning: {}\n", warning);
-        return;
+/// Says what a configuration holds. @return whether that was all that was asked for
+bool only_describes(const ExploreOptions& options) {
+    if (options.check_config) {
+        check_config(*options.check_config);
+        return true;
     }
-    if (!options.data && !options.test_pattern)
-        throw UsageError("file is required: an index made by `isochron build`");
-    if (options.test_pattern && (options.record || options.report))
-        throw UsageError("--test-pattern does not go with --record or --report");
-    for (const ConfigProblem& problem : problems_of(config))
-        fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
+    if (!options.list_devices)
+        return false;
+    const Config config = configure(options);
+    for (const std::string& line : describe_devices(config))
+        fmt::print("{}\n", line);
     for (const std::string& warning : device_warnings(config))
-        fmt::print(stderr, "isochron: warning: {}\n", warning);
+        fmt::print("warning: {}\n", warning);
+    return true;
+}
+
+void explore(const ExploreOptions& options, ClusterJob& job) {
     if (options.test_pattern)
-        return show_test_pattern(options, config);
+        return job.together([&] { show_test_pattern(options, job); });
+    Config config;
+    std::shared_ptr<const index::IndexFile> file;
     interaction::CompositeInput trackers;
-    open_trackers(config.devices, trackers);
-    const auto file = index::IndexFile::open(*options.data);
-    check_outputs(options);
-    Session session(config, file, open(options, config));
+    job.together([&] {
+        if (!options.data)
+            throw UsageError("file is required: an index made by `isochron build`");
+        config = configure(options);
+        if (job.leads())
+            warn(config);
+        prepare_walls(config, job, options.emulate);
+        if (job.leads())
+            open_trackers(config.devices, trackers);
+        file = index::IndexFile::open(*options.data);
+        check_outputs(options, job);
+    });
+    job.require_same(facts_of(config, *file));
+    job.set_limits(config.cluster.limits);
+    std::optional<Session> opened;
+    job.together([&] {
+        opened.emplace(config, file, open(options, config, job));
+        opened->set_state(start_from(opened->state(), options, file->info().steps()));
+        opened->set_screenshots(options.screenshots);
+        if (config.cluster.swap_group && job.size() > 1)
+            stereo::join_swap_group(opened->windows());
+    });
+    Session& session = *opened;
+    job.require_same(start_fact(session));
+    job.share_frames(session);
     const stereo::Windows& windows = session.windows();
-    session.set_state(start_from(session.state(), options, file->info().steps()));
-    session.set_screenshots(options.screenshots);
     // The writer lives on the thread that writes: a slow disk delays the recording, not the
     // picture.
     BackgroundWork recording;
     std::shared_ptr<interaction::RecordingWriter> recorder;
-    if (options.record) {
+    if (options.record && job.leads()) {
         recorder = std::make_shared<interaction::RecordingWriter>(
             *options.record, header_of(session, config, *file, *options.data));
         session.set_recording(true);
@@ -222,7 +262,9 @@ void explore(const ExploreOptions& options) {
         return Seconds(std::chrono::steady_clock::now() - start);
     };
     session.set_clock(clock);
-    for (bool running = true; running && !windows.should_close();) {
+    if (!job.leads())
+        job.follow(session);
+    for (bool running = job.leads(); running && !session.should_close();) {
         const auto events = session.panel_events(windows.poll_events());
         if (config.devices.empty()) // a tracked wand points by itself
             emulation.set_panel(session.state().room_panel, session.room_panel_size());
@@ -246,6 +288,7 @@ void explore(const ExploreOptions& options) {
         running = !commands.quit && !(options.seconds && now.count() >= *options.seconds);
         pacer.wait();
     }
+    job.end_frames();
     recording.finish();
     if (recorder)
         recorder->finish();
@@ -253,7 +296,8 @@ void explore(const ExploreOptions& options) {
     for (const std::string& line : trackers.status())
         fmt::print(stderr, "{}\n", line);
     if (options.report)
-        session.log().write(*options.report, windows.drawing().description());
+        session.log().write(job.own_file(*options.report), windows.drawing().description());
+    job.finish();
 }
 
 std::string footer() {
@@ -263,6 +307,9 @@ std::string footer() {
     text += "\nWith --emulate:\n";
     for (const std::string& line : RoomCamera::documentation())
         text += "  " + line + "\n";
+    text +=
+        "\nIn every process of a job (mpirun -n N isochron explore ...), each opens the windows of "
+        "its node;\nthe first one reads the devices. docs/INSTALLATIONS.md tells more.\n";
     text += "\nExit status: 0 done, 1 bad input, 2 bad usage.";
     return text;
 }
@@ -318,7 +365,10 @@ void add_explore(CLI::App& program) {
     command->add_flag("--no-panel", options->no_panel,
                       "Start with the panel hidden (Tab shows it)");
     command->footer(footer());
-    command->callback([options] { explore(*options); });
+    command->callback([options] {
+        if (!only_describes(*options))
+            run_in_cluster([&](ClusterJob& job) { explore(*options, job); });
+    });
 }
 
 } // namespace isochron::app

@@ -1,11 +1,11 @@
 // `isochron replay`: a recording becomes pictures and measurements, or plays again in a window.
+#include "app/cluster_job.h"
 #include "app/commands.h"
 #include "app/file_patterns.h"
 #include "app/pattern_show.h"
 #include "app/picture_names.h"
 #include "app/positive_number.h"
 #include "app/progress_bar.h"
-#include "app/replay.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -93,7 +93,10 @@ void write_pictures(Show& session, const Options& options, const PictureNames& n
         return write(session.room()->read(), "");
     for (std::size_t i = 0; i < session.displays(); ++i) {
         const stereo::Display& display = session.display(i);
-        const PictureNames::Window& named = names.windows[i];
+        const std::size_t number = session.windows().number(i);
+        if (number >= names.windows.size()) // the operator's window is no wall
+            continue;
+        const PictureNames::Window& named = names.windows[number];
         if (options.eyes == "each") {
             write_eyes(display, named);
         } else if (stereo::upright(display.mode()) == stereo::StereoMode::quadbuffer) {
@@ -130,10 +133,12 @@ void check(const Options& options) {
         throw UsageError("--live does not go with --every, --stamps or --from-devices");
     if (options.test_pattern && (options.live || options.report || options.from_devices))
         throw UsageError("--test-pattern does not go with --live, --report or --from-devices");
+    if (options.report)
+        refuse_input_as_output({options.recording}, *options.report);
 }
 
 stereo::Windows open(const Options& options, const Config& config,
-                     const interaction::RecordingHeader& header) {
+                     const interaction::RecordingHeader& header, const ClusterJob& job) {
     const std::string title = "Isochron: " + options.recording;
     if (options.emulate) {
         stereo::ContextOptions room{.title = title};
@@ -146,7 +151,9 @@ stereo::Windows open(const Options& options, const Config& config,
                         {.title = title,
                          .vsync = config.vsync,
                          .stereo = stereo::stereo_mode_from_name(mode).value_or(
-                             config.installation.windows.front().stereo)});
+                             config.installation.windows.front().stereo),
+                         .rank = job.rank(),
+                         .ranks = job.size()});
 }
 
 /// Of one frame, where the options ask for them.
@@ -163,9 +170,15 @@ void write_pictures(Show& show, const Options& options, const PictureNames& name
 }
 
 /// The recorded heads and hands before the test pattern; needs no data.
-void run_test_pattern(const Options& options, const interaction::Recording& recording,
-                      const Config& config) {
-    PatternShow show(config, open(options, config, recording.header));
+void replay_test_pattern(const Options& options, const ClusterJob& job) {
+    check(options);
+    if (job.size() > 1)
+        throw UsageError("--test-pattern is shown by one process, without mpirun");
+    const interaction::Recording recording = interaction::read_recording(options.recording);
+    const Config config = configure(options, recording.header);
+    if (options.out)
+        make_folder(*options.out);
+    PatternShow show(config, open(options, config, recording.header, job));
     show.obey(recording.header.start);
     const PictureNames names = picture_names(config.installation);
     std::vector<fs::path> written;
@@ -182,49 +195,91 @@ void run_test_pattern(const Options& options, const interaction::Recording& reco
         fmt::print("wrote {}\n", path.string());
 }
 
-void run(const Options& options) {
-    check(options);
-    if (options.report)
-        refuse_input_as_output({options.recording}, *options.report);
-    const interaction::Recording recording = interaction::read_recording(options.recording);
-    if (!recording.note.empty())
-        fmt::print(stderr, "note: {}\n", recording.note);
-    const Config config = configure(options, recording.header);
-    if (options.out)
-        make_folder(*options.out);
-    if (options.test_pattern)
-        return run_test_pattern(options, recording, config);
-    const auto file = open_data(options, recording.header);
-    ReplayOptions replay{.from_devices = options.from_devices, .stereo = {}, .quality = {}};
-    if (options.stereo)
-        replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
-    if (options.quality)
-        replay.quality = quality_mode_from_name(*options.quality);
-    const PictureNames names = picture_names(config.installation);
-    Session session(config, file, open(options, config, recording.header));
-    session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
+/// Everything that is read before the first frame.
+struct Prepared {
+    interaction::Recording recording;
+    Config config;
+    PictureNames names;
+    std::shared_ptr<const index::IndexFile> file;
+    ReplayOptions replay;
+};
 
+Prepared prepare(const Options& options, const ClusterJob& job) {
+    check(options);
+    Prepared all;
+    all.recording = interaction::read_recording(options.recording);
+    if (!all.recording.note.empty() && job.leads())
+        fmt::print(stderr, "note: {}\n", all.recording.note);
+    all.config = configure(options, all.recording.header);
+    all.names = picture_names(all.config.installation);
+    prepare_walls(all.config, job, options.emulate);
+    all.file = open_data(options, all.recording.header);
+    all.replay.from_devices = options.from_devices;
+    if (options.stereo)
+        all.replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
+    if (options.quality)
+        all.replay.quality = quality_mode_from_name(*options.quality);
+    return all;
+}
+
+/// @return one line per frame whose recomputed commands differ
+std::vector<std::string> show(Session& session, const Prepared& all, bool live, ClusterJob& job,
+                              const FrameDone& done) {
     std::vector<std::string> different;
-    std::vector<fs::path> written;
-    if (options.live) {
-        replay_live(session, recording, replay);
+    if (!job.leads()) {
+        job.follow(session, done);
+    } else if (live) {
+        replay_live(session, all.recording, all.replay);
     } else {
         ProgressBar bar;
-        different = replay_fixed_step(
-            session, recording, replay,
-            [&](std::size_t number, const interaction::RecordedFrame& frame) {
-                write_pictures(session, options, names, number, frame, written);
-                bar.show("replaying", static_cast<double>(number + 1) /
-                                          static_cast<double>(recording.frames.size()));
-            });
+        const auto frames = static_cast<double>(all.recording.frames.size());
+        different =
+            replay_fixed_step(session, all.recording, all.replay,
+                              [&](std::size_t number, const interaction::RecordedFrame& frame) {
+                                  done(number, frame);
+                                  bar.show("replaying", static_cast<double>(number + 1) / frames);
+                              });
     }
+    job.end_frames();
+    return different;
+}
+
+void replay(const Options& options, ClusterJob& job) {
+    if (options.test_pattern)
+        return job.together([&] { replay_test_pattern(options, job); });
+    std::optional<Prepared> prepared;
+    job.together([&] { prepared = prepare(options, job); });
+    const Prepared& all = *prepared;
+    job.require_same(facts_of(all.config, *all.file));
+    job.set_limits(all.config.cluster.limits);
+    std::optional<Session> opened;
+    job.together([&] {
+        opened.emplace(all.config, all.file, open(options, all.config, all.recording.header, job));
+        opened->set_state(
+            start_of(all.recording.header, opened->state(), all.file->info().steps(), all.replay));
+        if (options.out)
+            make_folder(*options.out);
+    });
+    Session& session = *opened;
+    job.require_same(start_fact(session));
+    job.share_frames(session);
+
+    std::vector<fs::path> written;
+    const auto done = [&](std::size_t number, const interaction::RecordedFrame& frame) {
+        write_pictures(session, options, all.names, number, frame, written);
+    };
+    const std::vector<std::string> different = show(session, all, options.live, job, done);
     session.pictures().finish();
     for (const fs::path& path : written)
         fmt::print("wrote {}\n", path.string());
     if (options.report)
-        session.log().write(*options.report, session.windows().drawing().description());
+        session.log().write(job.own_file(*options.report),
+                            session.windows().drawing().description());
+    job.finish();
+    if (!job.leads())
+        return;
     fmt::print("{}\n{}", session.windows().drawing().description(), session.log().table());
-    if (options.from_devices && report_differences(different, recording.frames.size()) != 0)
+    if (options.from_devices && report_differences(different, all.recording.frames.size()) != 0)
         throw interaction::Error(options.recording +
                                  ": the devices no longer lead to its commands");
 }
@@ -287,7 +342,11 @@ void add_replay(CLI::App& program) {
                       "Show the pattern that tells eyes, walls and trackers apart; needs no index");
     command->add_flag("--live", options->live,
                       "Play on the wall clock in a window; frames wait for nothing");
-    command->callback([options] { run(*options); });
+    command->footer("In every process of a job: mpirun -n N isochron replay ...: each writes the "
+                    "pictures of its "
+                    "own windows. Exit status: 0 done, 1 bad input, 2 bad usage.");
+    command->callback(
+        [options] { run_in_cluster([&](ClusterJob& job) { replay(*options, job); }); });
 }
 
 } // namespace isochron::app

@@ -153,6 +153,7 @@ void read_root(TomlReader& reader, Config& config) {
     reader.table("emulation", [&](TomlReader& inner) { read_emulation(inner, config.emulation); });
     read_devices(reader, config.devices, config.emulation);
     read_panel(reader, config.panel);
+    read_cluster(reader, config.cluster);
     read_comfort(reader, config.comfort, config.grid);
     reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
     reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });

@@ -1,6 +1,7 @@
 // An installation and its habits, as a TOML file describes them.
 #pragma once
 
+#include "app/cluster_config.h"
 #include "app/device_config.h"
 #include "app/display_config.h"
 #include "app/panel_config.h"
@@ -40,6 +41,7 @@ struct Config {
     DisplayPlaces places; ///< where the file describes the installation's parts
     interaction::EmulationOptions emulation;
     DeviceConfig devices;
+    ClusterConfig cluster;
     interaction::StillnessLimits stillness;
     interaction::ComfortOptions comfort;
     PanelConfig panel;

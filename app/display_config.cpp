@@ -69,6 +69,7 @@ DisplayPlaces::Window read_window(TomlReader& reader, const std::vector<std::str
     reader.integers("position", -kFarthestPixel, kFarthestPixel, window.position);
     reader.flag("fullscreen", window.fullscreen);
     reader.integer("monitor", 0, 63, window.monitor);
+    reader.integer("node", 0, 255, window.node);
     reader.flag("border", window.border);
     std::vector<std::string> modes;
     for (const std::string_view word : stereo::stereo_mode_words())

@@ -71,8 +71,10 @@ std::string text_of(const stereo::Window& window, const stereo::Installation& in
         text += fmt::format("position = {}\n", numbers(window.position));
     if (window.fullscreen)
         text += "fullscreen = true\n";
-    if (window.monitor != 0)
+    if (window.monitor != stereo::kNextMonitor)
         text += fmt::format("monitor = {}\n", window.monitor);
+    if (window.node != 0)
+        text += fmt::format("node = {}\n", window.node);
     if (!window.border)
         text += "border = false\n";
     text += fmt::format("stereo = \"{}\"\n", stereo::name_of(window.stereo));

@@ -31,8 +31,8 @@ std::deque<stereo::Display> make_displays(const render::Gl& gl, const stereo::Wi
                                          .samples = samples_of(config, gl)};
     std::deque<stereo::Display> displays;
     for (std::size_t i = 0; i < windows.count(); ++i)
-        displays.emplace_back(gl, windows.drawing(), windows[i], config.installation.windows[i],
-                              options);
+        displays.emplace_back(gl, windows.drawing(), windows[i],
+                              config.installation.windows[windows.number(i)], options);
     return displays;
 }
 

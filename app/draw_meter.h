@@ -20,6 +20,7 @@ struct DrawSample {
     DrawLoad load;
     Milliseconds processor{0};       ///< until the last command was given
     std::optional<Milliseconds> gpu; ///< from the first to the last command's execution
+    bool operator==(const DrawSample&) const = default;
 
     /// What the frame rate feels: both work at the same time, so the slower one counts.
     Milliseconds cost() const { return std::max(processor, gpu.value_or(processor)); }

@@ -23,6 +23,7 @@ constexpr std::array<std::pair<const char*, Stage>, 8> kStages{{
     {"wait", &FrameReport::wait},
     {"upload", &FrameReport::upload},
     {"draw", &FrameReport::draw},
+    {"barrier", &FrameReport::barrier},
     {"present", &FrameReport::present},
     {"total", &FrameReport::total},
     {"latency", &FrameReport::latency},

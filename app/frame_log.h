@@ -40,6 +40,7 @@ struct FrameReport {
     Milliseconds search{0}, gather{0};    ///< on the worker, of the shown set: cells, bricks
     Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
+    Milliseconds barrier{0}; ///< between draw and present: until all processes have drawn
     std::optional<Milliseconds> pose_age; ///< of the oldest head's, when the views were made
     Milliseconds latency{0};              ///< from the poll of the devices until all was submitted
     interaction::ComfortState comfort;

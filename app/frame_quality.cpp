@@ -24,13 +24,18 @@ FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
       steady_(budget_of(config, period_)),
       still_(std::max(steady_.budget(), Milliseconds(config.still_budget_ms))), meter_(gl) {}
 
-void FrameQuality::collect(FrameLog& log) {
-    for (const DrawSample& sample : meter_.finished()) {
-        for (QualityController* controller : {&steady_, &still_})
-            controller->measured(sample.footprint, sample.load, sample.cost());
+std::vector<DrawSample> FrameQuality::collect(FrameLog& log) {
+    std::vector<DrawSample> samples = meter_.finished();
+    for (const DrawSample& sample : samples)
         if (sample.gpu)
             log.set_gpu(sample.frame, *sample.gpu);
-    }
+    return samples;
+}
+
+void FrameQuality::learn(std::span<const DrawSample> samples) {
+    for (const DrawSample& sample : samples)
+        for (QualityController* controller : {&steady_, &still_})
+            controller->measured(sample.footprint, sample.load, sample.cost());
 }
 
 bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
@@ -47,7 +52,8 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
         input.settled = std::min(*settled_, best);
     if (how == Choosing::by_pace)
         input.settled = input.settled.value_or(best);
-    input.load = {static_cast<double>(report.cells) * views_, pixels_};
+    const DrawLoad each = charged_.value_or(view());
+    input.load = {static_cast<double>(report.cells) * each.cells, each.pixels};
     QualityController& controller = still ? still_ : steady_;
     const QualityChoice choice = controller.choose(input);
     report.footprint = choice.footprint;

@@ -1,6 +1,6 @@
 // The quality of a session's frames: budgets, measurement and choice brought together.
 //
-//     quality.collect(log);                                 // every frame
+//     quality.learn(quality.collect(log));                  // every frame
 //     const bool redraw = quality.choose(state, changed, how, best, report) || changed;
 //     if (redraw) { quality.begin(log.next()); ... quality.viewed(view); ... quality.end(...); }
 #pragma once
@@ -11,6 +11,10 @@
 #include "app/frame_log.h"
 #include "app/quality_controller.h"
 #include "render/view.h"
+
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace isochron::app {
 
@@ -29,8 +33,15 @@ class FrameQuality {
     /// @param refresh_rate [Hz] of the display, if it is known
     FrameQuality(const render::Gl& gl, const Config& config, std::optional<double> refresh_rate);
 
-    /// Learns from frames whose times are known by now, and completes their reports.
-    void collect(FrameLog& log);
+    /// Frames whose times are known by now, each once; completes their reports.
+    std::vector<DrawSample> collect(FrameLog& log);
+    /// Learns from frames, in their order.
+    void learn(std::span<const DrawSample> samples);
+
+    /// What drawing one cell in every view of the last frame comes to.
+    DrawLoad view() const { return {views_, pixels_}; }
+    /// Other processes draw with the same footprint: from now on this is their slowest one's.
+    void charge(const DrawLoad& view) { charged_ = view; }
 
     /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
     /// and with its cells.
@@ -55,6 +66,7 @@ class FrameQuality {
     interaction::Seconds changed_at_{0};
     DrawMeter meter_;
     double views_ = 0, pixels_ = 0; ///< of the frame drawn last
+    std::optional<DrawLoad> charged_;
 };
 
 } // namespace isochron::app

@@ -30,12 +30,15 @@ class Scene {
 
     /// Moves the newest set to the GPU, at most the configured bytes per call.
     void upload(const index::ExtractionPtr& newest);
+    /// The same without showing it: the next `upload` of it does. @return true when it is there
+    bool stage(const index::ExtractionPtr& set) { return cells_.stage(set, upload_bytes_); }
     const index::ExtractionPtr& shown() const { return cells_.shown(); }
 
     const render::UploadCount& uploaded() const { return cells_.count(); }
 
     /// That the shown cells can be drawn with: a very large set has no room for its surface.
     render::Footprint best_footprint() const;
+    std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
 
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
     void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }

@@ -128,11 +128,14 @@ Session::panel_events(std::span<const interaction::WindowEvent> events) {
     return all;
 }
 
-void Session::request_cells() {
+void Session::request_cells(Waiting waiting) {
     index::Request request{state_.surfaces(), std::nullopt};
+    if (shared_ && waiting == Waiting::never)
+        request.query = shared_->cells().ask(request.query);
     const auto steps = static_cast<std::uint32_t>(file_->info().steps());
     if (state_.playback.playing && steps > 1)
-        request.next_step = (state_.step + (state_.playback.reverse ? steps - 1 : 1)) % steps;
+        request.next_step =
+            (request.query.step + (state_.playback.reverse ? steps - 1 : 1)) % steps;
     extractor_.request(request);
 }
 
@@ -144,7 +147,10 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
         report.wait = watch.lap();
     }
     const index::ExtractionPtr newest = extractor_.newest();
-    scene_.upload(newest);
+    if (shared_ && waiting == Waiting::never)
+        show_shared_cells();
+    else
+        scene_.upload(newest);
     // A replay shows what was asked for, however many upload budgets that takes.
     while (waiting == Waiting::for_cells && newest && scene_.shown() != newest)
         scene_.upload(newest);
@@ -209,14 +215,18 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
 }
 
 void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report) {
-    quality_.collect(log_);
+    learn_costs();
     const bool live = waiting == Waiting::never;
     if (live && !log_.frames().empty())
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool changed = now != drawn_;
-    const bool measure =
-        quality_.choose(state_, changed, live ? Choosing::by_measurement : Choosing::by_pace,
-                        scene_.best_footprint(), report);
+    render::Footprint best = scene_.best_footprint();
+    if (shared_ && report.cells > shared_->surface_limit())
+        best = render::Footprint::gaussian;
+    bool measure = quality_.choose(
+        state_, changed, live ? Choosing::by_measurement : Choosing::by_pace, best, report);
+    if (shared_)
+        measure = take_shared_choice(measure, report);
     now.footprint = report.footprint;
     report.redrawn = now != drawn_ || measure;
 }
@@ -239,13 +249,14 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     }
     for (std::size_t i = 0; i < displays_.size(); ++i) {
         // The panel lies over one window.
-        const auto overlay = i == 0 && !room_ ? panel : stereo::Display::Overlay();
+        const bool first = i == 0 && (!shared_ || shared_->leads());
+        const auto overlay = first && !room_ ? panel : stereo::Display::Overlay();
         if (!report.redrawn) {
             displays_[i].draw_overlay_again(overlay);
             continue;
         }
-        const auto& window = config_.installation.windows[i];
-        const stereo::StereoMode mode = mode_of(window, config_.installation, now.stereo);
+        const stereo::StereoMode mode =
+            mode_of(displays_[i].window(), config_.installation, now.stereo);
         displays_[i].draw(
             now.viewers, room_ ? RoomView::shown(mode) : mode,
             [&](std::span<const render::View> views) {
@@ -302,9 +313,16 @@ bool Session::captures(const FrameReport& report) {
                            .final = report.final});
 }
 
-void Session::take_screenshot() {
-    const auto name = fmt::format("isochron_{:04}.png", ++screenshots_taken_);
-    write_image(room_ ? room_->read() : displays_.front().read_window(), screenshot_folder_ / name);
+/// Of the room, or of every window of this process.
+void Session::take_screenshots() {
+    const std::string stem = fmt::format("isochron_{:04}", ++screenshots_taken_);
+    if (room_)
+        return write_image(room_->read(), screenshot_folder_ / (stem + ".png"));
+    const PictureNames names = picture_names(config_.installation);
+    for (std::size_t i = 0; i < displays_.size(); ++i)
+        write_image(displays_[i].read_window(),
+                    screenshot_folder_ /
+                        fmt::format("{}{}.png", stem, names.windows[windows_.number(i)].suffix));
 }
 
 void Session::show_messages(std::vector<std::string> messages) {
@@ -322,6 +340,12 @@ void Session::write_image(render::Image image, const std::filesystem::path& path
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
                                   Waiting waiting, const Latch& latch) {
     StopWatch whole, since_input;
+    Latch heads = latch;
+    if (shared_ && shared_->leads()) { // all walls are seen from the same heads
+        const auto newest = latch ? latch() : interaction::InputState{input.time, {}};
+        shared_->begin(input, commands, waiting, viewers_heads(newest, config_.installation));
+        heads = [newest] { return newest; };
+    }
     FrameReport report;
     report.time = input.time;
     report.tracking = tracking_of(input);
@@ -332,14 +356,14 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         captures_.ask();
     report.comfort = comfort_.update(input, state_.room_from_physical);
     report.asked = state_.surfaces();
-    request_cells();
+    request_cells(waiting);
     take_newest_cells(waiting, report);
     report.pace = gate_.update(rest, commands, state_.quality);
     if (state_.room_panel.shown)
         room_panel_.lay_out(panel_model(PanelPlace::in_room, report), report.time);
     else
         room_panel_.leave_out();
-    Picture now = picture(seen(rest, latch, report), report);
+    Picture now = picture(seen(rest, heads, report), report);
     choose_quality(now, waiting, report);
 
     StopWatch stages;
@@ -349,6 +373,9 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         interaction::merge(panel_commands_,
                            console_->draw(panel_model(PanelPlace::whole, report), report.time));
     report.draw = stages.lap();
+    if (shared_)
+        wait_for_others();
+    report.barrier = stages.lap();
     for (stereo::Display& display : displays_)
         display.present();
     if (room_)
@@ -358,7 +385,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     if (capture)
-        take_screenshot();
+        take_screenshots();
     show_messages(pictures_.messages());
     show_messages(picker_.messages());
     report.total = whole.lap();

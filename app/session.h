@@ -19,8 +19,10 @@
 #include "app/panel_in_room.h"
 #include "app/panel_layer.h"
 #include "app/picker.h"
+#include "app/picture_names.h"
 #include "app/room_view.h"
 #include "app/scene.h"
+#include "app/shared_frames.h"
 #include "index/extractor.h"
 #include "interaction/controls.h"
 #include "stereo/windows.h"
@@ -35,10 +37,6 @@
 
 namespace isochron::app {
 
-/// Whether a frame waits for the cells it asked for: only a fixed-step replay does, so that the
-/// same recording gives the same pictures. The live loop never waits.
-enum class Waiting : std::uint8_t { never, for_cells };
-
 class Session {
   public:
     /// @param windows those of the configured installation, or a context for its only one that
@@ -47,6 +45,11 @@ class Session {
     Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::Windows windows,
             index::Extract extract = {});
     ~Session();
+
+    /// Shares every frame from now on with other processes. @param frames outlives the session
+    void join(SharedFrames& frames) { shared_ = &frames; }
+    /// This process or another one has a window that the user wants to close.
+    bool should_close() const;
 
     const ExplorerState& state() const { return state_; }
     void set_state(const ExplorerState& state) { state_ = state; }
@@ -87,7 +90,7 @@ class Session {
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const { return extractor_.failure().value_or(""); }
     const stereo::Windows& windows() const { return windows_; }
-    /// What a window of the installation shows.
+    /// What a window of this process shows; `windows().number(i)` tells which it is.
     const stereo::Display& display(std::size_t window = 0) const { return displays_[window]; }
     std::size_t displays() const { return displays_.size(); }
     /// The room of an emulated installation; null where its windows are real.
@@ -119,20 +122,24 @@ class Session {
     };
 
     interaction::ControlContext control_context() const;
-    void request_cells();
+    void request_cells(Waiting waiting);
     void take_newest_cells(Waiting waiting, FrameReport& report);
     std::optional<ColorScale> shown_scale() const;
     Picture picture(const interaction::InputState& input, const FrameReport& report) const;
     interaction::InputState seen(const interaction::InputState& input, const Latch& latch,
                                  FrameReport& report);
+    void show_shared_cells();
+    void learn_costs();
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
+    bool take_shared_choice(bool measure, FrameReport& report);
+    void wait_for_others();
     bool captures(const FrameReport& report);
     std::vector<glm::ivec2> window_sizes() const;
     void draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
                    FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
-    void take_screenshot();
+    void take_screenshots();
 
     Config config_;
     std::shared_ptr<const index::IndexFile> file_;
@@ -160,6 +167,8 @@ class Session {
     std::function<interaction::Seconds()> clock_;
     FrameLog log_;
     FrameQuality quality_;
+    std::vector<DrawSample> samples_; ///< that the others have not been told of
+    SharedFrames* shared_ = nullptr;  ///< null: one process alone
     BackgroundWork pictures_;
     std::filesystem::path screenshot_folder_;
     CaptureWait captures_;

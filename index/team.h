@@ -1,9 +1,10 @@
-// The processes that build one index together.
+// The processes that work on one thing together: building an index, showing a room.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,18 @@ class Team {
 
     /// What every member gives, in order of rank; each aligned as memory from `new` is.
     virtual std::vector<std::vector<std::byte>> gather(std::span<const std::byte> mine) = 0;
+
+    /// What another member has posted.
+    struct Message {
+        unsigned from;
+        std::vector<std::byte> bytes;
+    };
+    /// Sends to another member, waiting for nothing. Any thread may call it, beside one that polls.
+    virtual void post(unsigned to, std::span<const std::byte> message) = 0;
+    /// What has come and has not been taken, those of one member in their order; waits for nothing.
+    virtual std::optional<Message> poll() = 0;
+    /// Ends this process and all others at once, whatever they are doing.
+    [[noreturn]] virtual void abandon(int status) = 0;
 
     /// Does a member's part. When it throws, or that of another member does, everybody throws: its
     /// own exception, or an Error with what the first of the others said.

@@ -71,6 +71,15 @@ bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget) {
     return changed;
 }
 
+bool CellBuffers::stage(index::ExtractionPtr set, std::size_t byte_budget) {
+    if (!arriving_ && set != shown_)
+        begin(std::move(set));
+    std::size_t sent = 0;
+    const bool complete = !arriving_ || send_on(std::max(byte_budget, StagingRing::kUnit), sent);
+    ring_.end_frame();
+    return complete;
+}
+
 void CellBuffers::begin(index::ExtractionPtr set) {
     if (set->cells() > points_.limit())
         throw Error(fmt::format("{} cells at step {}, this GL can draw at most {}", set->cells(),

@@ -44,6 +44,10 @@ class CellBuffers {
     /// @throws Error when the set is larger than the driver's buffers can be
     bool upload(index::ExtractionPtr newest, std::size_t byte_budget);
 
+    /// The same for one set, without showing it: the next `upload` of it does.
+    /// @return true when everything of it is on the GPU
+    bool stage(index::ExtractionPtr set, std::size_t byte_budget);
+
     /// The set that is drawn, null before the first is complete.
     const index::ExtractionPtr& shown() const { return shown_; }
     /// True while a set is on its way to the GPU.

@@ -38,12 +38,16 @@ struct Viewport {
     bool operator==(const Viewport&) const = default;
 };
 
+inline constexpr int kNextMonitor = -1;
+
 struct Window {
     std::string name = "window"; ///< no two windows share one
     glm::ivec2 size{1280, 720};  ///< pixels
     glm::ivec2 position{-1};     ///< -1: wherever the desktop puts it
     bool fullscreen = false;
-    int monitor = 0;    ///< that a fullscreen window covers, from 0
+    /// That a fullscreen window covers, from 0; kNextMonitor: the first one free in its process.
+    int monitor = kNextMonitor;
+    int node = 0;       ///< of a cluster, whose process opens it
     bool border = true; ///< whether the desktop may frame it
     StereoMode stereo = StereoMode::mono;
     std::vector<Viewport> viewports{Viewport{}};

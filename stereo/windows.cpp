@@ -1,6 +1,9 @@
 // Opening of the windows of an installation.
 #include "stereo/windows.h"
 
+#include "stereo/nodes.h"
+#include "stereo/swap_group.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,14 +11,14 @@
 namespace isochron::stereo {
 namespace {
 
-ContextOptions options_of(const Window& window, const Installation& installation,
+ContextOptions options_of(const Window& window, int monitor, const Installation& installation,
                           const WindowOptions& options, GlContext* first) {
     const StereoMode mode = mode_of(window, installation, options.stereo);
     return {.size = window.size,
             .position = window.position,
             .title = first ? fmt::format("{}: {}", options.title, window.name) : options.title,
             .fullscreen = window.fullscreen,
-            .monitor = window.monitor,
+            .monitor = monitor,
             .vsync = options.vsync && !first,
             .border = window.border,
             .stereo_buffers = upright(mode) == StereoMode::quadbuffer,
@@ -24,7 +27,7 @@ ContextOptions options_of(const Window& window, const Installation& installation
 
 } // namespace
 
-Windows::Windows(GlContext& only) : windows_{&only}, drawing_(&only) {}
+Windows::Windows(GlContext& only) : windows_{&only}, numbers_{0}, drawing_(&only) {}
 
 bool Windows::should_close() const {
     return (room_ && room_->should_close()) || (console_ && console_->should_close()) ||
@@ -45,13 +48,17 @@ std::vector<interaction::WindowEvent> Windows::poll_events() const {
 Windows open_windows(ContextKind kind, const Installation& installation,
                      const WindowOptions& options) {
     Windows opened;
-    for (const Window& window : installation.windows) {
+    opened.numbers_ = windows_of(installation, options.rank, options.ranks);
+    const std::vector<int> monitors = monitors_of(installation, opened.numbers_);
+    for (std::size_t i = 0; i < monitors.size(); ++i) {
+        const Window& window = installation.windows[opened.numbers_[i]];
         GlContext* first = opened.drawing_;
         try {
             opened.owned_.push_back(
                 first && !first->has_window()
                     ? offscreen_beside(*first, window.size)
-                    : make_context(kind, options_of(window, installation, options, first)));
+                    : make_context(kind,
+                                   options_of(window, monitors[i], installation, options, first)));
         } catch (const render::Error& error) {
             if (installation.windows.size() == 1)
                 throw;
@@ -70,12 +77,23 @@ Windows open_windows(ContextKind kind, const Installation& installation,
     return opened;
 }
 
+void join_swap_group(const Windows& windows) {
+    for (std::size_t i = 0; i < windows.count(); ++i) {
+        if (!windows[i].has_window())
+            continue;
+        windows[i].make_current();
+        join_swap_group(windows[i].loader());
+    }
+    windows.drawing().make_current();
+}
+
 Windows open_room(ContextKind kind, const Installation& installation, const ContextOptions& room) {
     Windows opened;
     opened.owned_.push_back(make_context(kind, room));
     opened.drawing_ = opened.room_ = opened.owned_.front().get();
     for (const Window& window : installation.windows) {
         opened.owned_.push_back(offscreen_beside(*opened.drawing_, window.size));
+        opened.numbers_.push_back(opened.windows_.size());
         opened.windows_.push_back(opened.owned_.back().get());
     }
     return opened;

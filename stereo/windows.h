@@ -26,6 +26,8 @@ class Windows {
     GlContext& drawing() const { return *drawing_; }
     std::size_t count() const { return windows_.size(); }
     GlContext& operator[](std::size_t window) const { return *windows_[window]; }
+    /// Which of the installation's windows it is.
+    std::size_t number(std::size_t window) const { return numbers_[window]; }
     /// The desktop window that shows the room of an emulated installation; null where the
     /// installation's windows are real. Then it draws, and they are pictures beside it.
     GlContext* room() const { return room_; }
@@ -46,6 +48,7 @@ class Windows {
 
     std::vector<std::unique_ptr<GlContext>> owned_; ///< the drawing one first
     std::vector<GlContext*> windows_;
+    std::vector<std::size_t> numbers_;
     GlContext* drawing_ = nullptr;
     GlContext* room_ = nullptr;
     GlContext* console_ = nullptr;
@@ -56,12 +59,18 @@ struct WindowOptions {
     bool vsync = true;              ///< the first window's; the others are shown right after it
     StereoMode stereo{};            ///< that the first window starts in
     std::optional<Window> console = std::nullopt; ///< beside the windows, where there is a desktop
+    int rank = 0, ranks = 1;        ///< whose windows are opened: see nodes.h
 };
 
-/// Opens every window; without a window system (`egl`, `osmesa`) each is a picture in one context.
+/// Opens every window of this process; without a window system (`egl`, `osmesa`) each is a picture
+/// in one context.
 /// @throws render::Error naming the window
 Windows open_windows(ContextKind kind, const Installation& installation,
                      const WindowOptions& options);
+
+/// Lets the driver swap the windows at once, with those of other processes: see swap_group.h.
+/// Windows that are pictures only have no part in it. @throws render::Error
+void join_swap_group(const Windows& windows);
 
 /// Opens one window that shows the room, beside which the installation's windows are pictures.
 Windows open_room(ContextKind kind, const Installation& installation, const ContextOptions& room);

@@ -6,7 +6,11 @@
 
 #include <mpi.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
 #include <limits>
+#include <mutex>
 
 namespace isochron::index {
 namespace {
@@ -14,11 +18,18 @@ namespace {
 class MpiTeam final : public Team {
   public:
     MpiTeam() {
-        MPI_Init(nullptr, nullptr);
+        int given = 0;
+        MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given);
+        if (given < MPI_THREAD_SERIALIZED)
+            throw Error("MPI: expected a library that several threads may call, one at a time");
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
         MPI_Comm_size(MPI_COMM_WORLD, &size_);
     }
-    ~MpiTeam() override { MPI_Finalize(); }
+    ~MpiTeam() override {
+        for (Sending& sending : under_way_)
+            MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
+        MPI_Finalize();
+    }
 
     unsigned rank() const override { return static_cast<unsigned>(rank_); }
     unsigned size() const override { return static_cast<unsigned>(size_); }
@@ -35,8 +46,8 @@ class MpiTeam final : public Team {
             total += bytes;
             // All see the same sizes, so all throw.
             if (total > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
-                throw Error(fmt::format("MPI: {} bytes to exchange, expected less than 2^31",
-                                        total));
+                throw Error(
+                    fmt::format("MPI: {} bytes to exchange, expected less than 2^31", total));
         }
         std::vector<std::byte> all(total);
         MPI_Allgatherv(mine.data(), static_cast<int>(own), MPI_BYTE, all.data(), counts.data(),
@@ -51,8 +62,50 @@ class MpiTeam final : public Team {
         return parts;
     }
 
+    void post(unsigned to, std::span<const std::byte> message) override {
+        const std::scoped_lock lock(calls_);
+        std::erase_if(under_way_, [](Sending& sending) {
+            int done = 0;
+            MPI_Test(&sending.request, &done, MPI_STATUS_IGNORE);
+            return done != 0;
+        });
+        Sending& sending = under_way_.emplace_back();
+        sending.bytes.assign(message.begin(), message.end());
+        MPI_Isend(sending.bytes.data(), static_cast<int>(sending.bytes.size()), MPI_BYTE,
+                  static_cast<int>(to), kPosted, MPI_COMM_WORLD, &sending.request);
+    }
+
+    std::optional<Message> poll() override {
+        const std::scoped_lock lock(calls_);
+        int there = 0, size = 0;
+        MPI_Message found;
+        MPI_Status status;
+        MPI_Improbe(MPI_ANY_SOURCE, kPosted, MPI_COMM_WORLD, &there, &found, &status);
+        if (!there)
+            return std::nullopt;
+        MPI_Get_count(&status, MPI_BYTE, &size);
+        Message message{static_cast<unsigned>(status.MPI_SOURCE),
+                        std::vector<std::byte>(static_cast<std::size_t>(size))};
+        MPI_Mrecv(message.bytes.data(), size, MPI_BYTE, &found, MPI_STATUS_IGNORE);
+        return message;
+    }
+
+    [[noreturn]] void abandon(int status) override {
+        std::fflush(nullptr);
+        MPI_Abort(MPI_COMM_WORLD, status);
+        std::_Exit(status); // MPI_Abort is not declared to stay away
+    }
+
   private:
+    static constexpr int kPosted = 1; ///< tag
+    struct Sending {
+        std::vector<std::byte> bytes; ///< MPI reads them until the request is done
+        MPI_Request request = MPI_REQUEST_NULL;
+    };
+
     int rank_ = 0, size_ = 1;
+    std::mutex calls_; ///< of MPI, since messages are posted by several threads
+    std::deque<Sending> under_way_;
 };
 
 } // namespace

@@ -110,8 +110,9 @@ TEST(CheckConfig, WhatTwoCannotShareIsWrong) {
                          "[windows.viewports.projection]\nfit_aspect = true\n"),
                 ElementsAre("lab.toml:11: windows.viewports: b of window window overlaps another "
                             "of the window's viewports by 500 x 500 pixels"));
-    EXPECT_THAT(lines_of("[[windows]]\nfullscreen = true\n[[windows]]\nfullscreen = true\n"),
-                ElementsAre("lab.toml:3: windows.monitor: window window 2 covers monitor 0, as "
+    EXPECT_THAT(lines_of("[[windows]]\nfullscreen = true\nmonitor = 0\n[[windows]]\nfullscreen = "
+                         "true\nmonitor = 0\n"),
+                ElementsAre("lab.toml:4: windows.monitor: window window 2 covers monitor 0, as "
                             "window window does"));
     EXPECT_THAT(lines_of("[[viewers]]\nname = \"a\"\n[[viewers]]\nname = \"b\"\n"),
                 ElementsAre("lab.toml:3: warning: viewers: no viewport is for viewer b",
@@ -123,7 +124,8 @@ TEST(CheckConfig, TheDescriptionHoldsEveryPartAndItsMeasures) {
     const std::string text = describe(read_config("cave4"));
     for (const char* part :
          {"viewer guide: head head, at 0 1.7 0 m", "eyes 63.0 mm apart",
-          "window floor: 1920 x 1200 pixels, fullscreen on monitor 3, quadbuffer",
+          "window floor: 1920 x 1200 pixels, fullscreen on the next monitor, quadbuffer",
+          "node 0: the operator's window\nnode 1: front\nnode 2: left\n",
           "1200 x 1200 pixels at 360, 0; for guide",
           "3.00 x 3.00 m, fixed in the room, corners square, faces the viewer, 1.70 m from the "
           "viewer; pixels 2.50 x 2.50 mm",

@@ -117,6 +117,7 @@ stereo::Installation any_installation(std::mt19937& random) {
         window.fullscreen = whole(0, 1);
         window.border = whole(0, 1);
         window.monitor = whole(0, 63);
+        window.node = whole(0, 255);
         window.stereo = modes[whole(0, static_cast<int>(modes.size()) - 1)];
         window.viewports.clear();
         for (int v = whole(1, 3); v > 0; --v) {

@@ -32,10 +32,11 @@ TEST_F(InstallationCommand, CheckConfigListsAndEndsWithNothingWhereNothingIsWron
 }
 
 TEST_F(InstallationCommand, CheckConfigNamesWhatIsWrongAndFails) {
-    folder.write("lab.toml", "[[windows]]\nfullscreen = true\n[[windows]]\nfullscreen = true\n");
+    folder.write("lab.toml", "[[windows]]\nfullscreen = true\nmonitor = 0\n[[windows]]\nfullscreen "
+                             "= true\nmonitor = 0\n");
     ChildResult result = isochron({"explore", "--check-config", "lab.toml"});
     EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.err, "lab.toml:3: windows.monitor: window window 2 covers monitor 0, as "
+    EXPECT_EQ(result.err, "lab.toml:4: windows.monitor: window window 2 covers monitor 0, as "
                           "window window does\n"
                           "isochron: lab.toml: 1 thing is wrong\n");
     folder.write("lab.toml", "[[windows]]\nname = \"x\"\nsteroe = \"mono\"\n");

@@ -151,6 +151,7 @@ MessageBytes encoded(const FrameAnswer& answer) {
         samples.push_back(sample_json(sample));
     return bytes_of({{"cells", cells_json(answer.cells)},
                      {"close", answer.close},
+                     {"failure", answer.failure},
                      {"view", load_json(answer.view)},
                      {"surface_limit", answer.surface_limit},
                      {"samples", std::move(samples)}});
@@ -161,12 +162,13 @@ FrameAnswer decode_answer(std::span<const std::byte> bytes) {
     Members members(value, "answer");
     FrameAnswer answer{.cells = progress_from(members.at("cells")),
                        .close = boolean(members.at("close"), "close"),
+                       .failure = interaction::text(members.at("failure"), "failure"),
                        .view = load_from(members.at("view")),
                        .surface_limit = count(members, "surface_limit"),
                        .samples = {}};
     for (const json& sample : interaction::list(members.at("samples"), "samples", 0, kMostSamples))
         answer.samples.push_back(sample_from(sample));
-    members.done({"cells", "close", "view", "surface_limit", "samples"});
+    members.done({"cells", "close", "failure", "view", "surface_limit", "samples"});
     return answer;
 }
 

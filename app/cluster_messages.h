@@ -45,6 +45,7 @@ struct FrameChoice {
 struct FrameAnswer {
     CellProgress cells;
     bool close = false;              ///< the user closes a window
+    std::string failure;             ///< why it has no cells; empty when all is well
     DrawLoad view;                   ///< of one cell: the number of views, and their pixels
     std::uint64_t surface_limit = 0; ///< cells that can be drawn as exact surfaces
     std::vector<DrawSample> samples; ///< frames whose times have become known

@@ -309,7 +309,7 @@ bool Session::captures(const FrameReport& report) {
     return captures_.take({.time = report.time,
                            .asked = report.asked,
                            .shown = report.shown,
-                           .failed = extractor_.failure() && !extractor_.busy(),
+                           .failed = has_no_answer(),
                            .final = report.final});
 }
 

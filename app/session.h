@@ -88,7 +88,7 @@ class Session {
     void set_recording(bool recording) { recording_ = recording; }
 
     /// Why the newest query could not be answered; empty when all is well.
-    std::string failure() const { return extractor_.failure().value_or(""); }
+    std::string failure() const;
     const stereo::Windows& windows() const { return windows_; }
     /// What a window of this process shows; `windows().number(i)` tells which it is.
     const stereo::Display& display(std::size_t window = 0) const { return displays_[window]; }
@@ -133,6 +133,7 @@ class Session {
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
     bool take_shared_choice(bool measure, FrameReport& report);
     void wait_for_others();
+    bool has_no_answer() const;
     bool captures(const FrameReport& report);
     std::vector<glm::ivec2> window_sizes() const;
     void draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,

@@ -19,6 +19,15 @@ bool Session::should_close() const {
     return windows_.should_close() || (shared_ && shared_->close_wanted());
 }
 
+std::string Session::failure() const {
+    return shared_ ? shared_->failure() : extractor_.failure().value_or("");
+}
+
+/// The newest query will not be answered: alike in all processes.
+bool Session::has_no_answer() const {
+    return shared_ ? !shared_->failure().empty() : extractor_.failure() && !extractor_.busy();
+}
+
 /// The slowest process counts: all draw with one footprint.
 void Session::learn_costs() {
     samples_ = quality_.collect(log_);
@@ -33,6 +42,7 @@ void Session::wait_for_others() {
     gl_.Finish(); // what is drawn yet would be shown later
     FrameAnswer answer;
     answer.close = windows_.should_close();
+    answer.failure = extractor_.failure().value_or("");
     answer.view = quality_.view();
     answer.surface_limit = scene_.surface_limit();
     answer.samples = std::move(samples_);

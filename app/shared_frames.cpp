@@ -1,6 +1,8 @@
 // The frames that the processes of a cluster show together, seen from one of them.
 #include "app/shared_frames.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -44,6 +46,15 @@ void SharedFrames::swap_barrier(FrameAnswer mine) {
 
 bool SharedFrames::close_wanted() const {
     return std::ranges::any_of(answers_, &FrameAnswer::close);
+}
+
+std::string SharedFrames::failure() const {
+    for (unsigned each = 0; each < answers_.size(); ++each)
+        if (!answers_[each].failure.empty())
+            return each == 0
+                       ? answers_[each].failure
+                       : fmt::format("{}: {}", cluster_.name_of(each), answers_[each].failure);
+    return {};
 }
 
 DrawLoad SharedFrames::view() const {

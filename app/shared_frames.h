@@ -9,6 +9,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace isochron::app {
@@ -37,6 +38,8 @@ class SharedFrames {
 
     /// Somebody wants to close a window.
     bool close_wanted() const;
+    /// Why one of them has no cells, with its name; empty when all have them.
+    std::string failure() const;
     /// Of the process that draws most.
     DrawLoad view() const;
     /// Cells that all can draw as exact surfaces.

@@ -42,6 +42,7 @@ FrameAnswer rich_answer(std::mt19937& random) {
     FrameAnswer answer;
     answer.cells = {random(), random(), random(), random()};
     answer.close = random() % 2;
+    answer.failure = random() % 2 ? "step 3: damaged" : "";
     answer.view = {2, 1e6 / 3};
     answer.surface_limit = random();
     answer.samples = {

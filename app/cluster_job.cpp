@@ -89,7 +89,11 @@ void ClusterJob::follow(Session& session, const FrameDone& done) {
             order->input, order->commands, order->waiting,
             order->latched.devices.empty() ? Latch{} : [&order] { return order->latched; });
         if (done)
-            done(number, {std::move(order->input), std::move(order->commands), {}, {}});
+            done(number, {std::move(order->input),
+                          std::move(order->commands),
+                          {},
+                          {},
+                          std::move(order->latched)});
     }
 }
 

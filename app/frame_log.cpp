@@ -17,7 +17,7 @@ namespace isochron::app {
 namespace {
 
 using Stage = Milliseconds FrameReport::*;
-constexpr std::array<std::pair<const char*, Stage>, 8> kStages{{
+constexpr std::array<std::pair<const char*, Stage>, 9> kStages{{
     {"search", &FrameReport::search},
     {"gather", &FrameReport::gather},
     {"wait", &FrameReport::wait},

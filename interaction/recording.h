@@ -35,9 +35,9 @@ struct RecordedFrame {
     Commands commands;   ///< what they and the panel led to
     Commands from_panel; ///< the part of `commands` that no device alone explains; picks too
     /// What the cells were drawn with (`quad`, ...); a report, which no replay obeys. May be empty.
-    std::string footprint;
+    std::string footprint = {};
     /// Heads as they were right before drawing, for the views alone; no devices: as in `input`.
-    InputState latched;
+    InputState latched = {};
     bool operator==(const RecordedFrame&) const = default;
 };
 

@@ -68,8 +68,8 @@ Windows open_windows(ContextKind kind, const Installation& installation,
         opened.drawing_ = opened.windows_.front();
     }
     if (options.console && opened.drawing_->has_window()) {
-        ContextOptions console =
-            options_of(*options.console, installation, options, opened.drawing_);
+        ContextOptions console = options_of(*options.console, std::max(options.console->monitor, 0),
+                                            installation, options, opened.drawing_);
         console.stereo_buffers = false;
         opened.owned_.push_back(make_context(kind, console));
         opened.console_ = opened.owned_.back().get();

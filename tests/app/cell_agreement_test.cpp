@@ -104,8 +104,9 @@ TEST(CellAgreement, PlaybackShowsASetInEveryFrameTwoFramesLate) {
     Members members({{}, {}, {}});
     for (std::uint32_t step = 0; step < 50; ++step) {
         const auto shown = members.frame(step, {});
-        if (step >= 2)
+        if (step >= 2) {
             EXPECT_EQ(shown, step - 2);
+        }
     }
 }
 

@@ -25,7 +25,8 @@ FrameOrder rich_order(std::mt19937& random) {
     head.velocity = interaction::Velocity{{any(random), 1, 2}, {3, any(random), 5}};
     head.measured = interaction::Seconds(any(random));
     order.input.devices = {
-        head, {.name = "wand", .pose_valid = false, .valuators = {}, .pose_lost = true}};
+        head,
+        {.name = "wand", .pose = {}, .pose_valid = false, .valuators = {}, .pose_lost = true}};
     order.commands.isovalue = any(random);
     order.commands.step = random() % 1000;
     order.commands.room_from_physical = interaction::Similarity{};

@@ -3,6 +3,7 @@
 #include "app/cluster_job.h"
 #include "app/commands.h"
 #include "app/file_patterns.h"
+#include "app/headset_loop.h"
 #include "app/pattern_show.h"
 #include "app/positive_number.h"
 #include "app/session.h"
@@ -51,11 +52,19 @@ Config configure(const ExploreOptions& options) {
             window.size = {options.size[0], options.size[1]};
             window.fullscreen = false;
         }
-    if (config.context != stereo::ContextKind::glfw)
+    config.openxr.enabled = config.openxr.enabled && !options.emulate;
+    const bool in_headset =
+        config.openxr.enabled && config.context == stereo::ContextKind::egl; // shows without window
+    if (config.context != stereo::ContextKind::glfw && !in_headset)
         throw UsageError(
-            fmt::format("explore needs a window: --context glfw, not {}; `isochron replay` "
-                        "draws pictures without one",
+            fmt::format("explore needs a window: --context glfw, not {} (egl only with a headset, "
+                        "[openxr] enabled = true); `isochron replay` draws pictures without one",
                         stereo::name_of(config.context)));
+    stereo::OpenXrOptions& openxr = config.openxr.options;
+    openxr.windowless = in_headset;
+    openxr.near_plane = config.installation.near_plane;
+    openxr.far_plane = config.installation.far_plane;
+    openxr.local_in_room.position = config.installation.viewers.front().position;
     return config;
 }
 
@@ -133,7 +142,9 @@ interaction::InputState poll_devices(interaction::CompositeInput& trackers,
     return input;
 }
 
-stereo::Windows open(const ExploreOptions& options, const Config& config, const ClusterJob& job) {
+/// @param headset that the first window mirrors: it paces the frames, not that window's display
+stereo::Windows open(const ExploreOptions& options, const Config& config, const ClusterJob& job,
+                     const stereo::Headset* headset) {
     const std::string title =
         fmt::format("Isochron: {}", options.test_pattern ? "test pattern" : *options.data);
     const stereo::Installation& installation = config.installation;
@@ -146,10 +157,12 @@ stereo::Windows open(const ExploreOptions& options, const Config& config, const 
     const stereo::StereoMode start = options.stereo
                                          ? *stereo::stereo_mode_from_name(*options.stereo)
                                          : installation.windows.front().stereo;
+    // A headset paces the frames, so the window that mirrors it must not wait for its own display.
     return open_windows(config.context, installation,
                         {.title = title,
-                         .vsync = config.vsync,
-                         .stereo = start,
+                         .vsync = config.vsync && !headset,
+                         .stereo = headset ? stereo::StereoMode::mono : start,
+                         .api = headset ? headset->context_api() : stereo::ContextApi::native,
                          .console = job.leads() ? config.panel.console : std::nullopt,
                          .rank = job.rank(),
                          .ranks = job.size()});
@@ -172,7 +185,7 @@ void show_test_pattern(const ExploreOptions& options, const ClusterJob& job) {
     warn(config);
     interaction::CompositeInput trackers;
     open_trackers(config.devices, trackers);
-    PatternShow show(config, open(options, config, job));
+    PatternShow show(config, open(options, config, job, nullptr));
     if (options.stereo)
         show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
     interaction::DesktopEmulation emulation(emulation_for(config));
@@ -225,6 +238,8 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         config = configure(options);
         if (job.leads())
             warn(config);
+        if (config.openxr.enabled && job.size() > 1)
+            throw UsageError("a headset belongs to one process: start it without mpirun");
         prepare_walls(config, job, options.emulate);
         if (job.leads())
             open_trackers(config.devices, trackers);
@@ -235,7 +250,9 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     job.set_limits(config.cluster.limits);
     std::optional<Session> opened;
     job.together([&] {
-        opened.emplace(config, file, open(options, config, job));
+        auto headset = open_headset(config.openxr);
+        stereo::Windows windows = open(options, config, job, headset.get());
+        opened.emplace(config, file, std::move(windows), index::Extract(), std::move(headset));
         opened->set_state(start_from(opened->state(), options, file->info().steps()));
         opened->set_screenshots(options.screenshots);
         if (config.cluster.swap_group && job.size() > 1)
@@ -244,6 +261,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     Session& session = *opened;
     job.require_same(start_fact(session));
     job.share_frames(session);
+    HeadsetLoop in_headset(session.headset());
     const stereo::Windows& windows = session.windows();
     // The writer lives on the thread that writes: a slow disk delays the recording, not the
     // picture.
@@ -266,15 +284,17 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         job.follow(session);
     for (bool running = job.leads(); running && !session.should_close();) {
         const auto events = session.panel_events(windows.poll_events());
-        if (config.devices.empty()) // a tracked wand points by itself
+        if (config.devices.empty() && !session.headset()) // a tracked wand points by itself
             emulation.set_panel(session.state().room_panel, session.room_panel_size());
         emulation.feed(options.emulate ? camera.feed(events) : events);
+        const bool paced = in_headset.begin_frame(clock());
         const Seconds now = clock();
         const interaction::InputState input =
-            poll_devices(trackers, emulation, camera, options, now);
+            in_headset.with_devices(poll_devices(trackers, emulation, camera, options, now), now);
         interaction::Commands commands = session.commands_from(input);
         const interaction::Commands from_panel = session.take_panel_commands();
         interaction::merge(commands, from_panel);
+        in_headset.feel(commands.haptics);
         const FrameReport& drawn =
             session.frame(input, commands, Waiting::never, [&] { return trackers.latch(clock()); });
         if (recorder)
@@ -285,15 +305,20 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
                 return std::string();
             });
         session.show_messages(recording.messages());
-        running = !commands.quit && !(options.seconds && now.count() >= *options.seconds);
-        pacer.wait();
+        running = !commands.quit && !in_headset.ended() &&
+                  !(options.seconds && now.count() >= *options.seconds);
+        if (!paced)
+            pacer.wait();
     }
+    in_headset.leave();
     job.end_frames();
     recording.finish();
     if (recorder)
         recorder->finish();
     session.pictures().finish();
     for (const std::string& line : trackers.status())
+        fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : in_headset.status())
         fmt::print(stderr, "{}\n", line);
     if (options.report)
         session.log().write(job.own_file(*options.report), windows.drawing().description());
@@ -331,7 +356,9 @@ void add_explore(CLI::App& program) {
     command->add_flag("--emulate", options->emulate,
                       "Show the whole installation in one window: the room from outside, with what "
                       "every wall shows");
-    command->add_option("--context", options->context, "GL context; explore needs glfw")
+    command
+        ->add_option("--context", options->context,
+                     "GL context: glfw (a window), or egl where a headset is the only display")
         ->check(CLI::IsMember({"glfw", "egl", "osmesa"}));
     command->add_option("--stereo", options->stereo, "Stereo mode to start in")
         ->check(CLI::IsMember(stereo_mode_names()));

@@ -154,6 +154,7 @@ void read_root(TomlReader& reader, Config& config) {
     read_devices(reader, config.devices, config.emulation);
     read_panel(reader, config.panel);
     read_cluster(reader, config.cluster);
+    reader.table("openxr", [&](TomlReader& inner) { read_openxr(inner, config.openxr); });
     read_comfort(reader, config.comfort, config.grid);
     reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
     reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });

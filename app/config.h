@@ -4,6 +4,7 @@
 #include "app/cluster_config.h"
 #include "app/device_config.h"
 #include "app/display_config.h"
+#include "app/openxr_config.h"
 #include "app/panel_config.h"
 #include "app/placement.h"
 #include "interaction/comfort.h"
@@ -42,6 +43,7 @@ struct Config {
     interaction::EmulationOptions emulation;
     DeviceConfig devices;
     ClusterConfig cluster;
+    OpenXrConfig openxr;
     interaction::StillnessLimits stillness;
     interaction::ComfortOptions comfort;
     PanelConfig panel;

@@ -23,12 +23,16 @@ int samples_of(const Config& config, const render::Gl& gl) {
 
 } // namespace
 
+stereo::DisplayOptions display_options(const render::Gl& gl, const Config& config) {
+    return {.near_plane = config.installation.near_plane,
+            .far_plane = config.installation.far_plane,
+            .background = config.background,
+            .samples = samples_of(config, gl)};
+}
+
 std::deque<stereo::Display> make_displays(const render::Gl& gl, const stereo::Windows& windows,
                                           const Config& config) {
-    const stereo::DisplayOptions options{.near_plane = config.installation.near_plane,
-                                         .far_plane = config.installation.far_plane,
-                                         .background = config.background,
-                                         .samples = samples_of(config, gl)};
+    const stereo::DisplayOptions options = display_options(gl, config);
     std::deque<stereo::Display> displays;
     for (std::size_t i = 0; i < windows.count(); ++i)
         displays.emplace_back(gl, windows.drawing(), windows[i],

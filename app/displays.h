@@ -11,6 +11,10 @@
 
 namespace isochron::app {
 
+/// What displays of this configuration have alike.
+/// @throws render::Error when this GL has fewer samples than configured
+stereo::DisplayOptions display_options(const render::Gl& gl, const Config& config);
+
 /// One for each window; a display stays where it is made.
 /// @throws render::Error when this GL has fewer samples than configured
 std::deque<stereo::Display> make_displays(const render::Gl& gl, const stereo::Windows& windows,

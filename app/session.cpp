@@ -60,22 +60,33 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
 } // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
-                 stereo::Windows windows, index::Extract extract)
+                 stereo::Windows windows, index::Extract extract,
+                 std::unique_ptr<stereo::Headset> headset)
     : config_(std::move(config)), file_(std::move(file)), windows_(std::move(windows)),
       gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
       gate_(config_.stillness), comfort_(config_.comfort),
       extractor_(extract ? std::move(extract) : index::extract_from(file_)),
-      scene_(gl_, file_->info(), config_), displays_(make_displays(gl_, windows_, config_)),
-      panel_(gl_), room_panel_(gl_, config_.panel), picker_(file_),
+      scene_(gl_, file_->info(), config_),
+      displays_(headset ? std::deque<stereo::Display>() : make_displays(gl_, windows_, config_)),
+      headset_(std::move(headset)), panel_(gl_), room_panel_(gl_, config_.panel), picker_(file_),
       stereo_modes_(live_stereo_modes(windows_)),
-      quality_(gl_, config_, windows_.first().refresh_rate()) {
+      // A headset has its own rate, which the configuration tells.
+      quality_(gl_, config_, headset_ ? std::nullopt : windows_.first().refresh_rate()) {
+    if (headset_) {
+        headset_display_.emplace(gl_, windows_.drawing(), windows_[0], config_.openxr.mirror,
+                                 display_options(gl_, config_));
+        headset_->attach(windows_.drawing(), gl_);
+    }
     if (windows_.room())
         room_.emplace(gl_, *windows_.room(), config_.installation);
     if (windows_.console())
         console_.emplace(gl_, windows_.drawing(), *windows_.console());
 }
 
-Session::~Session() = default;
+Session::~Session() {
+    if (headset_)
+        headset_->detach();
+}
 
 interaction::ControlContext Session::control_context() const {
     interaction::ControlContext context;
@@ -187,6 +198,7 @@ Session::Picture Session::picture(const interaction::InputState& input,
                                   const FrameReport& report) const {
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
     return {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
+            .eyes = headset_ ? headset_->eyes() : std::vector<stereo::HeadsetEye>(),
             .wand = wand ? wand->pose : std::nullopt,
             .panel = room_panel_.shown(state_.room_panel),
             .mark = state_.mark,
@@ -228,7 +240,9 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     if (shared_)
         measure = take_shared_choice(measure, report);
     now.footprint = report.footprint;
-    report.redrawn = now != drawn_ || measure;
+    // While a headset wants no picture, there is nothing to draw and nothing to learn from it.
+    const bool wanted = !headset_ || !now.eyes.empty();
+    report.redrawn = wanted && (now != drawn_ || measure);
 }
 
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
@@ -259,13 +273,10 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
             mode_of(displays_[i].window(), config_.installation, now.stereo);
         displays_[i].draw(
             now.viewers, room_ ? RoomView::shown(mode) : mode,
-            [&](std::span<const render::View> views) {
-                for (const render::View& view : views)
-                    quality_.viewed(view);
-                scene_.draw(views, now.room_from_physical, now.footprint, now.wand);
-            },
-            overlay);
+            [&](std::span<const render::View> views) { draw_for(views, now); }, overlay);
     }
+    if (headset_)
+        draw_headset(now, report.redrawn, panel);
     if (report.redrawn)
         quality_.end(report, report.upload + watch.lap());
     drawn_ = now;
@@ -294,6 +305,21 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .quad_buffered = windows_[0].has_stereo_buffers()};
 }
 
+void Session::draw_for(std::span<const render::View> views, const Picture& now) {
+    for (const render::View& view : views)
+        quality_.viewed(view);
+    scene_.draw(views, now.room_from_physical, now.footprint, now.wand);
+}
+
+void Session::draw_headset(const Picture& now, bool redrawn,
+                           const stereo::Display::Overlay& overlay) {
+    if (redrawn)
+        headset_display_->draw(now.eyes,
+                               [&](std::span<const render::View> views) { draw_for(views, now); });
+    headset_display_->submit(*headset_, now.eyes, !redrawn);
+    headset_display_->mirror(overlay);
+}
+
 void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
     if (!state_.panel || !windows_.first().has_window() || console_)
         return;
@@ -318,6 +344,8 @@ void Session::take_screenshots() {
     const std::string stem = fmt::format("isochron_{:04}", ++screenshots_taken_);
     if (room_)
         return write_image(room_->read(), screenshot_folder_ / (stem + ".png"));
+    if (headset_)
+        return write_image(headset_display_->read_window(), screenshot_folder_ / (stem + ".png"));
     const PictureNames names = picture_names(config_.installation);
     for (std::size_t i = 0; i < displays_.size(); ++i)
         write_image(displays_[i].read_window(),
@@ -382,6 +410,8 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         room_->present();
     if (console_)
         console_->present();
+    if (headset_)
+        headset_display_->present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     if (capture)

@@ -25,6 +25,7 @@
 #include "app/shared_frames.h"
 #include "index/extractor.h"
 #include "interaction/controls.h"
+#include "stereo/headset_display.h"
 #include "stereo/windows.h"
 
 #include <deque>
@@ -42,8 +43,10 @@ class Session {
     /// @param windows those of the configured installation, or a context for its only one that
     /// outlives the session; the one that draws is current on this thread
     /// @param extract replaces the extraction from `file`, for tests; empty: the extraction itself
+    /// @param headset that is drawn for in place of the installation's windows, the first of which
+    /// mirrors it; null: none
     Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::Windows windows,
-            index::Extract extract = {});
+            index::Extract extract = {}, std::unique_ptr<stereo::Headset> headset = nullptr);
     ~Session();
 
     /// Shares every frame from now on with other processes. @param frames outlives the session
@@ -95,6 +98,12 @@ class Session {
     std::size_t displays() const { return displays_.size(); }
     /// The room of an emulated installation; null where its windows are real.
     const RoomView* room() const { return room_ ? &*room_ : nullptr; }
+    /// Whose events and frames the caller sees to; null where there is none.
+    stereo::Headset* headset() const { return headset_.get(); }
+    /// The pictures of the headset's eyes; null where there is none.
+    const stereo::HeadsetDisplay* headset_display() const {
+        return headset_display_ ? &*headset_display_ : nullptr;
+    }
     const FrameLog& log() const { return log_; }
 
     /// Writes a picture under its name, in the background.
@@ -105,6 +114,7 @@ class Session {
     /// Everything that the eyes' pictures depend on.
     struct Picture {
         std::vector<stereo::Viewpoint> viewers;
+        std::vector<stereo::HeadsetEye> eyes; ///< of a headset that wants a picture
         std::optional<interaction::Pose> wand;
         std::optional<ShownPanel> panel;
         interaction::Mark mark;
@@ -139,6 +149,8 @@ class Session {
     void draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
                    FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
+    void draw_headset(const Picture& now, bool redrawn, const stereo::Display::Overlay& overlay);
+    void draw_for(std::span<const render::View> views, const Picture& now);
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
     void take_screenshots();
 
@@ -155,6 +167,8 @@ class Session {
     Scene scene_;
     std::deque<stereo::Display> displays_; ///< by window
     std::optional<RoomView> room_;
+    std::unique_ptr<stereo::Headset> headset_;
+    std::optional<stereo::HeadsetDisplay> headset_display_;
     std::optional<Picture> drawn_; ///< what the eyes saw last
     PanelLayer panel_;
     PanelInRoom room_panel_;

@@ -132,7 +132,7 @@ void open_trackers(const DeviceConfig& devices, CompositeInput& input) {
 }
 
 std::vector<std::string> describe_devices(const Config& config) {
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = describe_openxr(config.openxr);
     for (const DTrackOptions& dtrack : config.devices.dtrack) {
         lines.push_back(fmt::format("dtrack: UDP {}", to_string(dtrack.endpoint)));
         describe_place(dtrack.devices.front().device.calibration, lines);
@@ -168,7 +168,9 @@ std::vector<std::string> device_warnings(const Config& config) {
     const auto devices = all_devices(config.devices);
     const bool head = std::ranges::any_of(
         devices, [](const DeviceOptions* each) { return each->name == "head" && each->has_pose; });
-    if (!devices.empty() && !head)
+    if (config.openxr.enabled && !built_with_openxr())
+        warn(missing("openxr", "OpenXR").what());
+    if (!devices.empty() && !head && !config.openxr.enabled)
         warn("no tracked device is called head: mouse and keyboard move it");
     return warnings;
 }

@@ -2,6 +2,7 @@
 #include "interaction/desktop_emulation.h"
 
 #include "interaction/actions.h"
+#include "interaction/dead_zone.h"
 
 #include <algorithm>
 #include <array>
@@ -40,11 +41,6 @@ struct Switch {
         }
     }
 };
-
-float past_dead_zone(float value, float zone) {
-    const float size = std::min(std::abs(value), 1.0f);
-    return size > zone ? std::copysign((size - zone) / (1.0f - zone), value) : 0.0f;
-}
 
 struct Gamepad {
     bool present = false;

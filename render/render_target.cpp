@@ -70,7 +70,7 @@ void RenderTarget::expect_complete(GLuint framebuffer) const {
 }
 
 void RenderTarget::bind() const {
-    gl_->BindFramebuffer(GL_FRAMEBUFFER, drawn());
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, drawn_framebuffer());
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Viewport(0, 0, size_.x, size_.y);
 }
@@ -82,8 +82,8 @@ void RenderTarget::clear(glm::vec4 color) const {
     gl_->Disable(GL_SCISSOR_TEST);
     gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl_->DepthMask(GL_TRUE);
-    gl_->ClearNamedFramebufferfv(drawn(), GL_COLOR, 0, &light.x);
-    gl_->ClearNamedFramebufferfv(drawn(), GL_DEPTH, 0, &far);
+    gl_->ClearNamedFramebufferfv(drawn_framebuffer(), GL_COLOR, 0, &light.x);
+    gl_->ClearNamedFramebufferfv(drawn_framebuffer(), GL_DEPTH, 0, &far);
 }
 
 void RenderTarget::resolve() const {

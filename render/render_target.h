@@ -33,6 +33,8 @@ class RenderTarget {
     /// With several samples these hold what was resolved last.
     GLuint framebuffer() const { return framebuffer_.name(); }
     GLuint color_texture() const { return color_.name(); }
+    /// What is drawn into: colour and depth of every sample.
+    GLuint drawn_framebuffer() const { return many_ ? many_->framebuffer.name() : framebuffer(); }
 
     /// Does nothing when the size is the same already; otherwise the contents become undefined.
     void resize(glm::ivec2 size);
@@ -62,7 +64,6 @@ class RenderTarget {
     void allocate();
     void allocate_samples();
     void expect_complete(GLuint framebuffer) const;
-    GLuint drawn() const { return many_ ? many_->framebuffer.name() : framebuffer_.name(); }
 
     const Gl* gl_;
     glm::ivec2 size_;

@@ -3,6 +3,7 @@
 
 #include "interaction/window_event.h"
 #include "render/gl.h"
+#include "stereo/native_gl.h"
 
 #include <glm/vec2.hpp>
 
@@ -27,9 +28,10 @@ struct ContextOptions {
     bool fullscreen = false;
     int monitor = 0;
     bool vsync = true;
-    bool border = true;          ///< whether the desktop may frame the window
-    bool stereo_buffers = false; ///< a left and a right buffer, or no window at all
-    GlContext* share = nullptr;  ///< a window whose textures this one's context shares
+    bool border = true;                  ///< whether the desktop may frame the window
+    bool stereo_buffers = false;         ///< a left and a right buffer, or no window at all
+    ContextApi api = ContextApi::native; ///< that makes a window's context
+    GlContext* share = nullptr;          ///< a window whose textures this one's context shares
 };
 
 class GlContext {
@@ -46,6 +48,8 @@ class GlContext {
     virtual std::optional<double> refresh_rate() const { return std::nullopt; }
     virtual bool should_close() const = 0;
     virtual std::vector<interaction::WindowEvent> poll_events() = 0;
+    /// The context as the window system knows it.
+    virtual NativeGl native() const { return {}; }
     virtual std::string description() const = 0; ///< `GLFW, OpenGL 4.5, llvmpipe (...)`
 };
 

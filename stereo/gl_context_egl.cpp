@@ -165,6 +165,9 @@ class EglContext final : public OffscreenContext {
             return reinterpret_cast<void*>(get(name));
         };
     }
+    NativeGl native() const override {
+        return EglHandles{egl_->handle(), nullptr, context_, egl_->proc_address};
+    }
     std::string description() const override { return "EGL, " + describe_current(loader()); }
 
   private:

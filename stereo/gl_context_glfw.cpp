@@ -1,5 +1,6 @@
 // A context with a window: GLFW, and the translation of its events.
 #include "stereo/gl_context_backends.h"
+#include "stereo/gl_context_glfw_native.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -129,6 +130,8 @@ class GlfwContext final : public GlContext {
             glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
             size = {mode->width, mode->height};
         }
+        if (options.api == ContextApi::egl)
+            glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
         auto* share = static_cast<GlfwContext*>(options.share);
         window_ = glfwCreateWindow(size.x, size.y, options.title.c_str(), monitor,
                                    share ? share->window_ : nullptr);
@@ -178,6 +181,7 @@ class GlfwContext final : public GlContext {
             events_.push_back(gamepad_ = gamepad);
         return std::exchange(events_, {});
     }
+    NativeGl native() const override { return native_of(window_); }
     std::string description() const override { return "GLFW, " + describe_current(loader()); }
 
   private:

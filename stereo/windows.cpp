@@ -22,6 +22,7 @@ ContextOptions options_of(const Window& window, int monitor, const Installation&
             .vsync = options.vsync && !first,
             .border = window.border,
             .stereo_buffers = upright(mode) == StereoMode::quadbuffer,
+            .api = options.api,
             .share = first};
 }
 

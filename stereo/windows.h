@@ -58,6 +58,7 @@ struct WindowOptions {
     std::string title = "Isochron"; ///< further windows add their name
     bool vsync = true;              ///< the first window's; the others are shown right after it
     StereoMode stereo{};            ///< that the first window starts in
+    ContextApi api = ContextApi::native;          ///< that makes the windows' contexts
     std::optional<Window> console = std::nullopt; ///< beside the windows, where there is a desktop
     int rank = 0, ranks = 1;        ///< whose windows are opened: see nodes.h
 };

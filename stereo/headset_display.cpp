@@ -1,0 +1,101 @@
+// Drawing for a headset, and mirroring.
+#include "stereo/headset_display.h"
+
+#include "render/driver.h"
+#include "render/viewport.h"
+
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+
+namespace isochron::stereo {
+
+HeadsetDisplay::HeadsetDisplay(const render::Gl& gl, GlContext& drawing, GlContext& window,
+                               Mirror mirror, const DisplayOptions& options)
+    : gl_(&gl), in_software_(render::draws_in_software(gl)), window_(&window), mirror_(mirror),
+      options_(options), presenter_(gl, drawing, window),
+      window_picture_(gl, glm::max(window.framebuffer_size(), glm::ivec2(1))) {
+    window_picture_.clear({0, 0, 0, 1});
+}
+
+void HeadsetDisplay::draw(std::span<const HeadsetEye> eyes, const Scene& scene) {
+    if (eyes.size() != parts_.size())
+        return;
+    std::vector<render::View> views;
+    glm::ivec2 whole(0);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        parts_[i] = {{whole.x, 0}, eyes[i].pixels};
+        views.push_back(view_of(eyes[i], options_.near_plane, options_.far_plane));
+        views.back().corner = parts_[i].corner;
+        whole = {whole.x + eyes[i].pixels.x, glm::max(whole.y, eyes[i].pixels.y)};
+    }
+    if (target_)
+        target_->resize(whole);
+    else
+        target_.emplace(*gl_, whole, options_.samples);
+    target_->clear(glm::vec4(options_.background, 1.0f));
+    target_->bind();
+    gl_->Enable(GL_SCISSOR_TEST);
+    for (std::size_t i = 0; i < views.size(); ++i)
+        set_viewport(*gl_, views[i], static_cast<GLuint>(i));
+    scene(views);
+    gl_->Disable(GL_SCISSOR_TEST);
+    target_->resolve();
+    // Mesa 22.3's llvmpipe copies a texture of the same format without waiting until what is drawn
+    // into it is finished, once another framebuffer is bound.
+    if (in_software_)
+        gl_->Finish();
+}
+
+void HeadsetDisplay::submit(Headset& headset, std::span<const HeadsetEye> eyes, bool again) {
+    if (eyes.size() != parts_.size())
+        return headset.end_frame(nullptr, false);
+    const HeadsetPictures pictures{HeadsetPicture{&*target_, parts_[0].corner},
+                                   HeadsetPicture{&*target_, parts_[1].corner}};
+    headset.end_frame(&pictures, again);
+}
+
+void HeadsetDisplay::cover(const Part& picture, glm::ivec2 corner, glm::ivec2 size) const {
+    if (!target_)
+        return;
+    const glm::vec2 whole(picture.size), shape(size);
+    const float scale = glm::min(whole.x / shape.x, whole.y / shape.y);
+    const glm::ivec2 part = glm::max(glm::ivec2(scale * shape), glm::ivec2(1));
+    const glm::ivec2 from = picture.corner + (picture.size - part) / 2, to = from + part;
+    const glm::ivec2 end = corner + size;
+    gl_->BlitNamedFramebuffer(target_->framebuffer(), window_picture_.framebuffer(), from.x, from.y,
+                              to.x, to.y, corner.x, corner.y, end.x, end.y, GL_COLOR_BUFFER_BIT,
+                              GL_LINEAR);
+}
+
+void HeadsetDisplay::mirror(const Overlay& overlay) {
+    const glm::ivec2 size = window_->framebuffer_size();
+    if (size.x < 2 || size.y < 1)
+        return; // minimised
+    window_picture_.resize(size);
+    window_picture_.clear({0, 0, 0, 1});
+    gl_->Disable(GL_SCISSOR_TEST);
+    const glm::ivec2 half(size.x / 2, size.y);
+    if (mirror_ == Mirror::both) {
+        cover(part(Eye::left), {0, 0}, half);
+        cover(part(Eye::right), {size.x - half.x, 0}, half);
+    } else if (mirror_ != Mirror::none) {
+        cover(part(mirror_ == Mirror::left ? Eye::left : Eye::right), {0, 0}, size);
+    }
+    window_picture_.bind();
+    if (overlay)
+        overlay(size);
+}
+
+void HeadsetDisplay::present() {
+    presenter_.present(window_picture_, nullptr);
+}
+
+render::Image HeadsetDisplay::read_eye(Eye eye) const {
+    if (!target_)
+        throw render::Error(
+            fmt::format("headset: the {} eye's picture asked for, none was drawn", name_of(eye)));
+    return target_->read(part(eye).corner, part(eye).size);
+}
+
+} // namespace isochron::stereo

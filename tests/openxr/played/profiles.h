@@ -1,0 +1,13 @@
+// Which input and output paths each interaction profile of the specification has.
+#pragma once
+
+#include <string>
+
+namespace isochron::played {
+
+/// OpenXR 1.0, section 6.4, "Interaction Profile Paths".
+/// @param path `/user/hand/left/input/x/click`
+bool has_path(const std::string& profile, const std::string& path);
+bool is_profile(const std::string& profile);
+
+} // namespace isochron::played

@@ -25,13 +25,14 @@ constexpr std::array kRows{
     ActionRow{HandAction::teleport, XR_ACTION_TYPE_BOOLEAN_INPUT, "teleport", "Aim and teleport"},
     ActionRow{HandAction::recentre, XR_ACTION_TYPE_BOOLEAN_INPUT, "recentre", "Volume ahead"},
     ActionRow{HandAction::next_view, XR_ACTION_TYPE_BOOLEAN_INPUT, "next_view", "Next viewpoint"},
+    ActionRow{HandAction::pick, XR_ACTION_TYPE_BOOLEAN_INPUT, "pick", "Pick the surface"},
     ActionRow{HandAction::fly_speed, XR_ACTION_TYPE_FLOAT_INPUT, "fly_speed", "Fly and back"},
     ActionRow{HandAction::turn, XR_ACTION_TYPE_FLOAT_INPUT, "turn", "Turn"},
     ActionRow{HandAction::isovalue, XR_ACTION_TYPE_FLOAT_INPUT, "isovalue", "Isovalue"},
     ActionRow{HandAction::step, XR_ACTION_TYPE_FLOAT_INPUT, "step", "Step of time"},
     ActionRow{HandAction::play, XR_ACTION_TYPE_BOOLEAN_INPUT, "play", "Play and pause"},
     ActionRow{HandAction::reverse, XR_ACTION_TYPE_BOOLEAN_INPUT, "reverse", "Reverse time"},
-    ActionRow{HandAction::panel, XR_ACTION_TYPE_BOOLEAN_INPUT, "panel", "Panel"},
+    ActionRow{HandAction::panel, XR_ACTION_TYPE_BOOLEAN_INPUT, "panel", "Panel in the room"},
 };
 static_assert(kRows.size() == static_cast<std::size_t>(HandAction::count));
 

@@ -25,6 +25,7 @@ enum class HandAction : std::uint8_t {
     teleport,
     recentre,
     next_view,
+    pick,
     fly_speed,
     turn,
     isovalue,

@@ -5,6 +5,8 @@
 #include "stereo/openxr_error.h"
 #include "stereo/openxr_poses.h"
 
+#include <algorithm>
+
 namespace isochron::stereo {
 namespace {
 
@@ -61,8 +63,7 @@ struct Button {
 constexpr std::array kButtons{Button{HandAction::grab, WandButton::grab},
                               Button{HandAction::fly, WandButton::fly},
                               Button{HandAction::teleport, WandButton::teleport},
-                              Button{HandAction::recentre, WandButton::recentre},
-                              Button{HandAction::next_view, WandButton::next_view}};
+                              Button{HandAction::recentre, WandButton::recentre}};
 
 /// A control lies on one hand alone, whichever it is bound to.
 float stick(const OpenXrSession& session, const OpenXrActions& actions, HandAction action,
@@ -117,12 +118,15 @@ void OpenXrInput::poll_hand(Seconds now, const OpenXrSession& session, const Ope
 
 void OpenXrInput::poll_keys(const OpenXrSession& session, const OpenXrActions& actions) {
     const auto add = [&](bool down, Action action) { keys_ |= down ? bit(action) : 0; };
-    const auto pressed = [&](HandAction action) {
-        return actions.pressed(session.handle(), action, Hand::other);
+    const auto pressed = [&](HandAction action) { // by whichever hand has it
+        return std::ranges::any_of(
+            kHands, [&](Hand hand) { return actions.pressed(session.handle(), action, hand); });
     };
     add(pressed(HandAction::play), Action::play);
     add(pressed(HandAction::reverse), Action::reverse);
-    add(pressed(HandAction::panel), Action::panel);
+    add(pressed(HandAction::panel), Action::room_panel);
+    add(pressed(HandAction::next_view), Action::next_view);
+    add(pressed(HandAction::pick), Action::pick);
     const float step = actions.value(session.handle(), HandAction::step, Hand::other);
     add(step > kStepAt, Action::step_forward);
     add(step < -kStepAt, Action::step_back);

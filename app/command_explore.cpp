@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/file_patterns.h"
 #include "app/headset_loop.h"
+#include "app/pacer.h"
 #include "app/pattern_show.h"
 #include "app/positive_number.h"
 #include "app/session.h"
@@ -20,7 +21,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <thread>
 
 namespace isochron::app {
 namespace {
@@ -113,23 +113,6 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
     if (options.report)
         index::NewFile{*options.report};
 }
-
-/// Sleeps where no display paces the frames, so that an idle window does not burn the processor.
-class Pacer {
-  public:
-    explicit Pacer(double frames_per_second)
-        : interval_(std::chrono::duration_cast<Clock::duration>(Seconds(1.0 / frames_per_second))) {
-    }
-    void wait() {
-        next_ = std::max(next_ + interval_, Clock::now());
-        std::this_thread::sleep_until(next_);
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    Clock::duration interval_;
-    Clock::time_point next_ = Clock::now();
-};
 
 interaction::InputState poll_devices(interaction::CompositeInput& trackers,
                                      interaction::DesktopEmulation& emulation,

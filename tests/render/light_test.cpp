@@ -111,7 +111,7 @@ TEST_P(Lights, OfAQuadAreItsSurfacesColourWhetherConvertedByShaderOrTarget) {
         for (const bool linear : {true, false}) {
             look_.linear_light = linear;
             const Image image = wall(footprint, 5);
-            for (const auto [channel, value] : {std::pair{0, 64}, {1, 128}, {2, 191}})
+            for (const auto& [channel, value] : {std::pair{0, 64}, {1, 128}, {2, 191}})
                 EXPECT_NEAR(image.at(32, 32)[channel], value, 3) << int(footprint) << linear;
         }
 }

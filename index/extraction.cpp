@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace isochron::index {
@@ -13,8 +14,9 @@ namespace {
 
 class Extracting {
   public:
-    Extracting(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method)
-        : file_(std::move(file)), method_(method),
+    Extracting(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+               Shading shading)
+        : file_(std::move(file)), method_(method), shading_(shading),
           values_(file_->info().type, file_->info().scaling, file_->stats().low,
                   file_->stats().high),
           gatherer_(file_->info().grid, values_), colors_(file_, method) {}
@@ -27,7 +29,7 @@ class Extracting {
         result->query = query;
         for (std::size_t i = 0; i < count; ++i) {
             if (searches_.size() == i)
-                searches_.push_back(search_in(file_, method_, Shading::none));
+                searches_.push_back(search_in(file_, method_, shading_));
             const CellSetPtr set = searches_[i](query.surface(i), stop);
             if (!set)
                 return nullptr;
@@ -56,6 +58,7 @@ class Extracting {
 
     std::shared_ptr<const IndexFile> file_;
     std::optional<SearchMethod> method_;
+    Shading shading_;
     std::vector<Search> searches_; ///< by surface
     BrickValues values_;
     BrickGatherer gatherer_;
@@ -72,6 +75,10 @@ Sum sum_of(const std::vector<CellSet>& surfaces, Of&& of) {
 std::size_t Extraction::cells() const {
     return sum_of<std::size_t>(surfaces, [](const CellSet& set) { return set.ids.size(); });
 }
+bool Extraction::shaded() const {
+    return std::ranges::all_of(
+        surfaces, [](const CellSet& set) { return set.points.size() == set.ids.size(); });
+}
 std::uint64_t Extraction::candidates() const {
     return sum_of<std::uint64_t>(surfaces, [](const CellSet& set) { return set.candidates; });
 }
@@ -83,9 +90,10 @@ std::chrono::nanoseconds Extraction::search_time() const {
                                             [](const CellSet& set) { return set.search_time; });
 }
 
-Extract extract_from(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method) {
+Extract extract_from(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+                     Shading shading) {
     // `std::function` wants something that can be copied; the state of a search must not be.
-    auto extracting = std::make_shared<Extracting>(std::move(file), method);
+    auto extracting = std::make_shared<Extracting>(std::move(file), method, shading);
     return [extracting = std::move(extracting)](const SurfacesQuery& query,
                                                 const std::stop_token& stop) {
         return (*extracting)(query, stop);

@@ -17,7 +17,7 @@ namespace isochron::index {
 /// Immutable once published; whoever shows it needs no mapped page.
 struct Extraction {
     SurfacesQuery query;
-    std::vector<CellSet> surfaces; ///< one for each isovalue: ids without points and rows
+    std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows where asked for
     std::vector<float> levels;     ///< of the isovalues, in brick units: see BrickLevels
     /// Coordinates of the cells, surface after surface in the order of ids; empty where none were
     /// asked for, and where the index has no second array to colour by.
@@ -26,6 +26,7 @@ struct Extraction {
     std::chrono::nanoseconds gather_time{0};
 
     std::size_t cells() const; ///< of all surfaces: one that is active in two counts twice
+    bool shaded() const;       ///< whether every cell has its point, with its normal
     std::uint64_t candidates() const;
     std::uint64_t reused() const;
     std::chrono::nanoseconds search_time() const;
@@ -41,7 +42,9 @@ using Extract = std::function<ExtractionPtr(const SurfacesQuery&, std::stop_toke
 /// share their state. What it makes throws Error for a step that the series does not have and for
 /// other than 1 to kMostSurfaces isovalues.
 /// @param method instead of the cheapest; the file must have that tier
+/// @param shading whether the sets get points, for renderers that do not make normals themselves
 Extract extract_from(std::shared_ptr<const IndexFile> file,
-                     std::optional<SearchMethod> method = std::nullopt);
+                     std::optional<SearchMethod> method = std::nullopt,
+                     Shading shading = Shading::none);
 
 } // namespace isochron::index

@@ -1,9 +1,12 @@
 // The way of a set to the GPU: merge, bricks, message, and then all of it at once.
 #include "render/cell_buffers.h"
 
+#include "render/driver.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace isochron::render {
 namespace {
@@ -25,6 +28,10 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       styles_(gl, "coloured cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       corner_values_(gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none),
       corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none) {}
+
+index::Shading CellBuffers::wanted_shading(const Gl& gl) {
+    return draws_in_software(gl) ? index::Shading::cells : index::Shading::none;
+}
 
 CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points) {
     CellBuffers cells(gl, {.vertices = {2, 2, 2}}, 2 * StagingRing::kUnit);
@@ -103,7 +110,19 @@ bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
         sent += part;
         count_.brick_bytes += part;
     }
-    return bricks_->complete() && send_message(bytes, sent) && send_styles(bytes, sent);
+    if (!bricks_->complete())
+        return false;
+    if (arriving_->shaded())
+        return assign_slots();
+    return send_message(bytes, sent) && send_styles(bytes, sent);
+}
+
+/// Of a set whose points are written as they are: the message goes nowhere.
+bool CellBuffers::assign_slots() {
+    std::array<std::uint32_t, 1024> unsent;
+    for (std::size_t cells = kLookedAt; cells > 0 && !plan_->done();)
+        plan_->message(unsent, cells);
+    return plan_->done();
 }
 
 bool CellBuffers::send_message(std::size_t bytes, std::size_t& sent) {
@@ -154,10 +173,14 @@ void CellBuffers::show() {
     const std::size_t cells = arriving_->cells();
     points_.reserve(cells, DeviceArray::Contents::kept);
     compute_->enter_pages(*bricks_);
-    compute_->place_cells(*plan_, *arriving_, message_, points_);
-    if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))
-        compute_->set_styles(*arriving_, styles_, points_);
-    compute_->fill_normals(*arriving_, *bricks_, points_);
+    if (arriving_->shaded()) {
+        write_points();
+    } else {
+        compute_->place_cells(*plan_, *arriving_, message_, points_);
+        if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))
+            compute_->set_styles(*arriving_, styles_, points_);
+        compute_->fill_normals(*arriving_, *bricks_, points_);
+    }
     bricks_->show();
     ++count_.sets;
     count_.ids += plan_->ids();
@@ -167,6 +190,21 @@ void CellBuffers::show() {
     shown_ = std::move(arriving_);
     arriving_ = nullptr;
     ++version_;
+}
+
+void CellBuffers::write_points() {
+    const Slots& slots = plan_->slots();
+    std::vector<index::CellPoint> points(slots.places.size());
+    std::size_t rank = 0;
+    for (const index::CellSet& surface : arriving_->surfaces)
+        for (const index::CellPoint& point : surface.points) {
+            const std::uint32_t slot = slots.slot_of_rank[rank++];
+            points[slot] = point;
+            points[slot].style = slots.places[slot].style;
+        }
+    const std::size_t bytes = points.size() * sizeof(index::CellPoint);
+    gl_->NamedBufferSubData(points_.buffer(), 0, static_cast<GLsizeiptr>(bytes), points.data());
+    count_.id_bytes += bytes;
 }
 
 void CellBuffers::compute_corners() {

@@ -90,8 +90,7 @@ class Bench {
         : gl_(gl), file_(std::move(file)), options_(options), picture_(picture),
           camera_(bench_camera(file_->info(), picture.size, picture.eyes)),
           target_(gl, {picture.size * picture.eyes, picture.size}), pass_(gl), as_quads_(gl),
-          cells_(gl, file_->info().grid), orders_(gl), bare_(gl),
-          extract_(index::extract_from(file_)) {
+          cells_(gl, file_->info().grid), orders_(gl), bare_(gl), extract_(extraction()) {
         as_quads_.draw_without_points();
         if (options.vtk && options.context != stereo::ContextKind::osmesa)
             vtk_ = vtk_scene(file_->values(), camera_.poses, picture.size, options.threads);
@@ -116,6 +115,11 @@ class Bench {
     }
 
   private:
+    /// As a session's.
+    index::Extract extraction() const {
+        return index::extract_from(file_, std::nullopt, render::CellBuffers::wanted_shading(gl_));
+    }
+
     RenderRow row_of(const NamedFootprint& footprint, const Times& times) const {
         RenderRow row;
         row.data = options_.data;
@@ -225,7 +229,7 @@ class Bench {
         constexpr int kStatic = 3;
         constexpr double kDragged = 0.1; ///< of the isovalue
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());
-        index::Extractor extractor(index::extract_from(file_));
+        index::Extractor extractor(extraction());
         std::vector<double> over, noise;
         for (std::size_t i = 0; i < frames; ++i) {
             progress(static_cast<double>(i) / static_cast<double>(frames));

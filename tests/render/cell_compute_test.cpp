@@ -86,6 +86,38 @@ TEST_P(CellComputing, NormalsAreTheCpusForEveryTypeSpacingAndBorder) {
             }
 }
 
+TEST_P(CellComputing, PointsThatComeWithASetAreTakenAsTheyAre) {
+    const TestField field({19, 10, 17}, 2, ValueType::f32, index::turbulence(random_));
+    const StepValues values = field.view();
+    const auto isovalues = index::quantiles(index::sorted_values(values), 2);
+    Extractions extractions(values);
+    CellBuffers given(gl_, values.grid), computed(gl_, values.grid);
+    std::size_t drawn = 0;
+    // Sets with points and without in turn, of one surface and of two, and the same step again.
+    for (const std::uint32_t turn : {0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u}) {
+        auto chosen = isovalues;
+        chosen.resize(1 + turn / 2 % 2);
+        const auto set = extractions.active(turn % 2, chosen);
+        const auto shaded = turn == 5 ? set : extractions.shaded(set);
+        ASSERT_EQ(shaded->shaded(), turn != 5);
+        ASSERT_TRUE(computed.upload(set, kEnough));
+        ASSERT_TRUE(given.upload(shaded, kEnough));
+        ASSERT_EQ(given.size(), set->cells());
+        const auto points = read<index::CellPoint>(given.texture(), given.size());
+        const auto others = read<index::CellPoint>(computed.texture(), computed.size());
+        for (std::size_t slot = 0; slot < points.size(); ++slot) {
+            ASSERT_EQ(id_of(values.grid, points[slot]), id_of(values.grid, others[slot]));
+            ASSERT_EQ(points[slot].style, others[slot].style);
+            for (int axis = 0; axis < 3; ++axis)
+                ASSERT_NEAR(component(points[slot].normal, axis),
+                            component(others[slot].normal, axis), 1);
+            ++drawn;
+        }
+        EXPECT_EQ(given.count().ids, computed.count().ids);
+    }
+    EXPECT_GT(drawn, 2000u);
+}
+
 TEST_P(CellComputing, ACellWithoutAGradientHasNoNormal) {
     TestField field({12, 12, 12}, 1, ValueType::f32,
                     [](double x, double, double, double) { return x < 6 ? 2.0 : x; });

@@ -35,6 +35,16 @@ class Extractions {
         return complete(std::move(made));
     }
 
+    /// The same with the points that the worker makes where they are asked for.
+    index::ExtractionPtr shaded(const index::ExtractionPtr& set) {
+        auto with_points = std::make_shared<index::Extraction>(*set);
+        for (index::CellSet& surface : with_points->surfaces) {
+            surface.query.step = set->query.step;
+            index::shade_cells(values_, surface);
+        }
+        return with_points;
+    }
+
     const index::BrickValues& brick_values() const { return bricks_; }
 
   private:

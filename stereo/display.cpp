@@ -1,7 +1,7 @@
 // Targets of the eyes, their place in the window, and the composition.
 #include "stereo/display.h"
 
-#include "render/viewport.h"
+#include "stereo/views_in_target.h"
 
 #include <fmt/format.h>
 
@@ -64,20 +64,8 @@ void Display::draw_viewport(std::size_t number, const Viewpoint& viewer, const S
                                 options_.near_plane, options_.far_plane, size));
         views.back().corner = corner_in_target(views.size() - 1, size);
     }
-    std::optional<render::RenderTarget>& target = targets_[number];
-    const glm::ivec2 whole = views.back().corner + views.back().size;
-    if (target)
-        target->resize(whole);
-    else
-        target.emplace(*gl_, whole, options_.samples);
-    target->clear(glm::vec4(options_.background, 1.0f));
-    target->bind();
-    gl_->Enable(GL_SCISSOR_TEST);
-    for (std::size_t i = 0; i < views.size(); ++i)
-        set_viewport(*gl_, views[i], static_cast<GLuint>(i));
-    scene(views);
-    gl_->Disable(GL_SCISSOR_TEST);
-    target->resolve();
+    draw_views(*gl_, targets_[number], views.back().corner + views.back().size, options_, views,
+               scene);
 }
 
 void Display::draw_overlay_again(const Overlay& overlay) {

@@ -2,7 +2,7 @@
 #include "stereo/headset_display.h"
 
 #include "render/driver.h"
-#include "render/viewport.h"
+#include "stereo/views_in_target.h"
 
 #include <fmt/format.h>
 
@@ -29,18 +29,7 @@ void HeadsetDisplay::draw(std::span<const HeadsetEye> eyes, const Scene& scene) 
         views.back().corner = parts_[i].corner;
         whole = {whole.x + eyes[i].pixels.x, glm::max(whole.y, eyes[i].pixels.y)};
     }
-    if (target_)
-        target_->resize(whole);
-    else
-        target_.emplace(*gl_, whole, options_.samples);
-    target_->clear(glm::vec4(options_.background, 1.0f));
-    target_->bind();
-    gl_->Enable(GL_SCISSOR_TEST);
-    for (std::size_t i = 0; i < views.size(); ++i)
-        set_viewport(*gl_, views[i], static_cast<GLuint>(i));
-    scene(views);
-    gl_->Disable(GL_SCISSOR_TEST);
-    target_->resolve();
+    draw_views(*gl_, target_, whole, options_, views, scene);
     // Mesa 22.3's llvmpipe copies a texture of the same format without waiting until what is drawn
     // into it is finished, once another framebuffer is bound.
     if (in_software_)

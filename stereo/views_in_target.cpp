@@ -1,0 +1,27 @@
+// Several views' pictures in parts of one target, drawn together.
+#include "stereo/views_in_target.h"
+
+#include "render/viewport.h"
+
+#include <glm/vec4.hpp>
+
+namespace isochron::stereo {
+
+void draw_views(const render::Gl& gl, std::optional<render::RenderTarget>& target, glm::ivec2 size,
+                const DisplayOptions& options, std::span<const render::View> views,
+                const Display::Scene& scene) {
+    if (target)
+        target->resize(size);
+    else
+        target.emplace(gl, size, options.samples);
+    target->clear(glm::vec4(options.background, 1.0f));
+    target->bind();
+    gl.Enable(GL_SCISSOR_TEST);
+    for (std::size_t i = 0; i < views.size(); ++i)
+        set_viewport(gl, views[i], static_cast<GLuint>(i));
+    scene(views);
+    gl.Disable(GL_SCISSOR_TEST);
+    target->resolve();
+}
+
+} // namespace isochron::stereo

@@ -193,6 +193,8 @@ class Bench {
     void draw_bare(Footprint footprint) {
         target_.bind();
         target_.clear(kBackground);
+        if (!is_blended(footprint))
+            gl_.Disable(GL_FRAMEBUFFER_SRGB); // as the pass does, whose colours need no conversion
         bare_.draw(camera_.views, is_blended(footprint));
         gl_.Finish();
     }

@@ -1,6 +1,7 @@
 // The uniforms and GL state of a draw of cells.
 #include "render/cell_pass.h"
 
+#include "render/driver.h"
 #include "render/point_sprites.h"
 #include "render/shader.h"
 #include "render/soft_edges.h"
@@ -44,11 +45,13 @@ struct Frame {
     std::int32_t colored;
     std::int32_t linear_light;
     float radius;
-    std::int32_t ordered;
+    std::int32_t order_begin;
+    std::int32_t order_step;
+    std::int32_t blended;
     std::int32_t soft_near_eye;
-    float padding = 0.0f;
+    glm::vec3 padding{0.0f};
 };
-static_assert(sizeof(Frame) == 2 * (3 * 64 + 10 * 16) + (kMaxSurfaces + 6) * 16);
+static_assert(sizeof(Frame) == 2 * (3 * 64 + 10 * 16) + (kMaxSurfaces + 7) * 16);
 constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
 
 float largest_point(const Gl& gl) {
@@ -71,10 +74,20 @@ glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, fl
     return {near, 1.0f / std::max(far - near, 1e-6f), strength, 0.0f};
 }
 
+bool is_parallel(const View& view) {
+    return view.clip_from_eye[3][3] == 1.0f;
+}
+
+/// w = 0 where the view is parallel: the direction towards the eye.
+glm::vec4 eye_in_index(const View& view, const Placement& placement) {
+    return glm::inverse(view.eye_from_room * placement.room_from_index) *
+           (is_parallel(view) ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1));
+}
+
 EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance) {
     const glm::mat3 eye_from_room(view.eye_from_room);
     const glm::mat4 eye_from_index = view.eye_from_room * placement.room_from_index;
-    const bool parallel = view.clip_from_eye[3][3] == 1.0f;
+    const bool parallel = is_parallel(view);
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
     glm::mat4 pixel_from_clip(1.0f);
     pixel_from_clip[0][0] = half_size.x;
@@ -93,8 +106,7 @@ EyeBlock eye_block(const View& view, const Placement& placement, const CellAppea
         .eye_from_index = eye_from_index,
         .eye_from_physical =
             glm::mat4(glm::mat3(view.eye_from_room) * placement.room_from_physical),
-        .eye_in_index = glm::inverse(eye_from_index) *
-                        (parallel ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1)),
+        .eye_in_index = eye_in_index(view, placement),
         .clip_per_pixel = glm::vec4(1.0f / half_size, 0.0f, 0.0f),
         .viewport = glm::vec4(view.corner, view.size),
         .depth_cue = depth_cue(eye_from_index, placement.extent, appearance.depth_cue),
@@ -115,6 +127,26 @@ glm::vec4 near_fade_of(const NearFade& fade, const glm::vec3& spacing) {
             std::clamp(voxel / kGrain, 1.0f, 1024.0f), 0.0f};
 }
 
+bool is_blended(Footprint footprint, const CellAppearance& appearance) {
+    const bool transparent =
+        std::ranges::any_of(appearance.surfaces, [](const SurfaceAppearance& surface) {
+            return surface.opacity < 1.0f;
+        });
+    return footprint == Footprint::gaussian || (footprint == Footprint::surface && transparent);
+}
+
+/// Whether all quads are drawn whole: none is left out, which others would be seen through.
+bool hides_what_is_behind(const CellAppearance& look, const Placement& placement) {
+    if (std::ranges::any_of(look.surfaces, [](const auto& one) { return one.opacity < 1.0f; }))
+        return false;
+    if (!look.near_fade)
+        return true;
+    const glm::vec3 eyes(glm::inverse(placement.room_from_index) *
+                         glm::vec4(look.near_fade->between_eyes, 1.0f));
+    const glm::vec3 beside = eyes - glm::clamp(eyes, glm::vec3(0.0f), placement.extent);
+    return glm::length(glm::mat3(placement.room_from_index) * beside) > look.near_fade->whole;
+}
+
 /// The part of the block that is the same for every eye.
 Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
                bool blended) {
@@ -130,7 +162,9 @@ Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footpr
         .colored = look.values.has_value(),
         .linear_light = blended && look.linear_light,
         .radius = 0.5f * (gaussian ? shapes.gaussian_diameter : shapes.quad_diameter),
-        .ordered = blended,
+        .order_begin = 0,
+        .order_step = 0,
+        .blended = blended,
         .soft_near_eye = gaussian,
     };
     for (std::size_t i = 0; i < kMaxSurfaces; ++i) {
@@ -197,15 +231,18 @@ CellPass::Programs CellPass::programs(std::string_view fragment_shader,
 CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragment_shader,
                                                          const std::string& prelude) const {
     return {programs(fragment_shader, prelude),
-            programs(fragment_shader, prelude + "#define POINTS\n")};
+            programs(fragment_shader, prelude + "#define POINTS\n"), std::nullopt};
 }
 
 CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
     : gl_(&gl), shapes_(shapes),
       two_views_at_once_(has_extension(gl, "GL_ARB_shader_viewport_layer_array")),
+      seen_only_(draws_in_software(gl)),
       largest_point_(largest_point(gl)), quad_programs_(footprint_programs("cell_quad.frag", {})),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", "#define ROUND\n")),
-      surface_(gl, two_views_at_once_), quads_(gl), orders_(gl), frame_(gl) {
+      surface_(gl, two_views_at_once_), quads_(gl), orders_(gl), seen_slots_(gl),
+      seen_texture_(gl, GL_TEXTURE_BUFFER), frame_(gl) {
+    quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
     const float sigmas = 0.5f * shapes.gaussian_diameter / shapes.gaussian_sigma;
     const float falloff = -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
     for (const Programs* programs : {&gaussian_programs_.quads, &gaussian_programs_.points}) {
@@ -215,12 +252,18 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
     }
 }
 
+float CellPass::radius_of(Footprint footprint) const {
+    return 0.5f * (footprint == Footprint::gaussian ? shapes_.gaussian_diameter
+                                                    : shapes_.quad_diameter);
+}
+
 void CellPass::draw(std::span<const View> views, const Placement& placement,
                     const CellBuffers& cells, Footprint footprint,
                     const CellAppearance& appearance) {
     if (cells.size() == 0)
         return;
-    const std::size_t at_once = two_views_at_once_ ? 2 : 1;
+    const bool apart = !two_views_at_once_ || (footprint == Footprint::quad && seen_only_);
+    const std::size_t at_once = apart ? 1 : 2;
     for (std::size_t first = 0; first < views.size(); first += at_once)
         draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)), placement,
                      cells, footprint, appearance);
@@ -229,27 +272,21 @@ void CellPass::draw(std::span<const View> views, const Placement& placement,
 void CellPass::draw_at_once(std::span<const View> views, const Placement& placement,
                             const CellBuffers& cells, Footprint footprint,
                             const CellAppearance& appearance) {
-    const bool gaussian = footprint == Footprint::gaussian;
-    const bool transparent =
-        std::ranges::any_of(appearance.surfaces, [](const SurfaceAppearance& surface) {
-            return surface.opacity < 1.0f;
-        });
-    const bool blended = gaussian || (footprint == Footprint::surface && transparent);
+    const bool blended = is_blended(footprint, appearance);
     Frame frame = frame_of(appearance, shapes_, footprint, blended);
-    const glm::ivec3 extent(placement.extent);
-    const glm::mat3 axes(placement.room_from_index);
-    const glm::vec3 spacing(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
     if (appearance.near_fade)
-        frame.near_fade = near_fade_of(*appearance.near_fade, spacing);
+        frame.near_fade = near_fade_of(*appearance.near_fade, placement.spacing());
+    const Form form = form_of(views, placement, footprint);
+    Sequence sequence;
     for (std::size_t i = 0; i < views.size(); ++i) {
-        const View& view = views[i];
-        frame.eyes[i] = eye_block(view, placement, appearance);
-        set_viewport(*gl_, view, static_cast<GLuint>(i));
-        if (blended)
-            gl_->BindTextureUnit(
-                static_cast<GLuint>(1 + i),
-                orders_.texture(cells, traversal_key(frame.eyes[i].eye_in_index, extent, spacing)));
+        frame.eyes[i] = eye_block(views[i], placement, appearance);
+        set_viewport(*gl_, views[i], static_cast<GLuint>(i));
+        sequence = sequence_of(views[i], placement, cells, footprint, form, appearance);
+        if (sequence.texture != 0)
+            gl_->BindTextureUnit(static_cast<GLuint>(1 + i), sequence.texture);
     }
+    frame.order_begin = sequence.begin;
+    frame.order_step = sequence.step;
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
     gl_->BindTextureUnit(0, cells.texture());
@@ -271,29 +308,64 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     if (footprint == Footprint::surface)
         surface_.draw(quads_, cells, blended, views.size());
     else
-        draw_footprints(views, placement, cells, gaussian ? gaussian_programs_ : quad_programs_,
-                        frame.radius, gaussian ? 1.0f : kReachOfRectangle);
+        draw_footprints(sequence.cells, static_cast<int>(views.size()), footprint, form);
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);
     gl_->UseProgram(0);
 }
 
-void CellPass::draw_footprints(std::span<const View> views, const Placement& placement,
-                               const CellBuffers& cells, const FootprintPrograms& footprint,
-                               float radius, float reach) {
-    const bool points = std::all_of(views.begin(), views.end(), [&](const View& view) {
-        return points_serve(view, placement, radius, reach, largest_point_);
-    });
-    const Programs& programs = points ? footprint.points : footprint.quads;
-    gl_->UseProgram((views.size() == 2 ? *programs.two : programs.one).name());
-    const int instances = static_cast<int>(views.size());
-    if (points) {
-        gl_->Enable(GL_PROGRAM_POINT_SIZE);
-        quads_.draw_points(cells.size(), instances);
-    } else {
-        quads_.draw(cells.size(), instances);
+CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& placement,
+                                 Footprint footprint) const {
+    const float radius = radius_of(footprint);
+    const float reach = footprint == Footprint::quad ? kReachOfRectangle : 1.0f;
+    Form form = footprint == Footprint::quad ? Form::squares : Form::points;
+    for (const View& view : views) {
+        if (!points_serve(view, placement, radius, reach, largest_point_))
+            return Form::quads;
+        if (!footprints_are_squares(view, placement, radius))
+            form = Form::points;
     }
+    return form;
+}
+
+CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& placement,
+                                         const CellBuffers& cells, Footprint footprint, Form form,
+                                         const CellAppearance& appearance) {
+    const auto all = static_cast<int>(cells.size());
+    const bool blended = is_blended(footprint, appearance);
+    const bool nearest_first = seen_only_ && footprint == Footprint::quad;
+    if (!blended && !nearest_first)
+        return {.cells = cells.size()};
+    const glm::vec4 eye = eye_in_index(view, placement);
+    const TraversalKey key =
+        traversal_key(eye, glm::ivec3(placement.extent), placement.spacing());
+    if (blended)
+        return {cells.size(), orders_.texture(cells, key), 0, 1};
+    if (form != Form::squares || all_cells_ || !hides_what_is_behind(appearance, placement))
+        return {cells.size(), orders_.texture(cells, key), all - 1, -1};
+    const std::span<const std::uint32_t> seen =
+        seen_.find(view, placement, radius_of(footprint), cells.slots().places,
+                   orders_.order(cells, key));
+    gl_->NamedBufferData(seen_slots_.name(), static_cast<GLsizeiptr>(seen.size_bytes()),
+                         seen.data(), GL_STREAM_DRAW);
+    gl_->TextureBuffer(seen_texture_.name(), GL_R32UI, seen_slots_.name());
+    return {seen.size(), seen_texture_.name(), 0, 1};
+}
+
+void CellPass::draw_footprints(std::size_t cells, int views, Footprint footprint, Form form) {
+    const FootprintPrograms& of_footprint =
+        footprint == Footprint::gaussian ? gaussian_programs_ : quad_programs_;
+    const Programs& programs = form == Form::squares  ? *of_footprint.squares
+                               : form == Form::points ? of_footprint.points
+                                                      : of_footprint.quads;
+    gl_->UseProgram((views == 2 ? *programs.two : programs.one).name());
+    if (form == Form::quads) {
+        quads_.draw(cells, views);
+        return;
+    }
+    gl_->Enable(GL_PROGRAM_POINT_SIZE);
+    quads_.draw_points(cells, views);
 }
 
 } // namespace isochron::render

@@ -5,6 +5,7 @@
 #include "render/order_cache.h"
 #include "render/placement.h"
 #include "render/quad_indices.h"
+#include "render/seen_cells.h"
 #include "render/surface_pass.h"
 #include "render/view.h"
 
@@ -33,9 +34,12 @@ inline constexpr Footprint kBestFootprint = Footprint::surface;
 const char* name_of(Footprint footprint);
 
 /// Sizes in voxels: lengths in vertex index coordinates, so anisotropic spacing stretches them.
-/// Defaults from the authors' own later code.
+/// Those of the Gaussian are of the authors' own later code, which had quads of 1.6 voxels. But
+/// discs of sqrt(2) cover the middles of a layer of cells seen face-on without a gap, and the other
+/// views of a surface crowd its cells: nothing shows through that does not through 1.6, and a fifth
+/// fewer pixels are drawn.
 struct FootprintShapes {
-    float quad_diameter = 1.6f;
+    float quad_diameter = 1.41421356f;
     float gaussian_diameter = 4.0f; ///< where the Gaussian is cut off
     float gaussian_sigma = 0.7f;
 };
@@ -114,6 +118,8 @@ class CellPass {
     bool draws_two_views_at_once() const { return two_views_at_once_; }
     /// For comparisons: two passes although the driver could do with one.
     void draw_views_apart() { two_views_at_once_ = false; }
+    /// For comparisons: on software GL, too, quads that are wholly behind others.
+    void draw_hidden_cells() { all_cells_ = true; }
     /// For comparisons: quads also where points would show the same faster.
     void draw_without_points() { largest_point_ = 0.0f; }
 
@@ -125,32 +131,52 @@ class CellPass {
         Program one;
         std::optional<Program> two;
     };
-    /// The same footprint drawn as quads and as points.
+    /// The same footprint drawn as quads, as points, and as points that are all footprint.
     struct FootprintPrograms {
         Programs quads, points;
+        std::optional<Programs> squares;
     };
     Programs programs(std::string_view fragment_shader, const std::string& prelude) const;
     FootprintPrograms footprint_programs(std::string_view fragment_shader,
                                          const std::string& prelude) const;
+    /// What footprints are drawn as, from the most general to the fastest.
+    enum class Form : std::uint8_t { quads, points, squares };
+    /// Which cells a view draws, and in which order: the n-th is the one that the texel
+    /// `begin + n * step` names, or in slot n where there is no texture.
+    struct Sequence {
+        std::size_t cells = 0;
+        GLuint texture = 0;
+        int begin = 0, step = 0;
+    };
+
     /// At most two, of which the second needs `Programs::two`.
     void draw_at_once(std::span<const View> views, const Placement& placement,
                       const CellBuffers& cells, Footprint footprint,
                       const CellAppearance& appearance);
-
-    /// Quads or points, whichever show the same faster.
-    /// @param reach of a footprint beyond its radius, see `points_serve`
-    void draw_footprints(std::span<const View> views, const Placement& placement,
-                         const CellBuffers& cells, const FootprintPrograms& footprint, float radius,
-                         float reach);
+    /// The fastest that shows the same in all views.
+    Form form_of(std::span<const View> views, const Placement& placement,
+                 Footprint footprint) const;
+    /// Of one of the views that are drawn at once; `Sequence::cells` is the same in all of them.
+    Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
+                         Footprint footprint, Form form, const CellAppearance& appearance);
+    void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
+    float radius_of(Footprint footprint) const;
 
     const Gl* gl_;
     FootprintShapes shapes_;
     bool two_views_at_once_;
+    /// On software GL what is seen, nearest first: it saves far more than finding it takes. A GPU
+    /// draws all quads in any order in less.
+    bool seen_only_;
+    bool all_cells_ = false; ///< nearest first nevertheless
     float largest_point_; ///< pixels; 0: no points
     FootprintPrograms quad_programs_, gaussian_programs_;
     SurfacePass surface_;
     QuadIndices quads_;
     OrderCache orders_;
+    SeenCells seen_;
+    Buffer seen_slots_;
+    Texture seen_texture_;
     Buffer frame_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace isochron::render {
@@ -16,7 +17,11 @@ class OrderCache {
   public:
     explicit OrderCache(const Gl& gl);
 
-    /// GL_TEXTURE_BUFFER, one R32UI texel per cell: slots, back to front.
+    /// Slots, back to front; until the next call.
+    std::span<const std::uint32_t> order(const CellBuffers& cells, const TraversalKey& key) {
+        return entry(cells, key).order;
+    }
+    /// The same as a GL_TEXTURE_BUFFER, one R32UI texel per cell.
     GLuint texture(const CellBuffers& cells, const TraversalKey& key);
 
     /// How many orders were made so far.
@@ -30,11 +35,14 @@ class OrderCache {
         const CellBuffers* cells = nullptr;
         std::uint64_t version = 0;
         TraversalKey key;
+        std::vector<std::uint32_t> order;
+        bool sent = false; ///< to the texture
         std::uint64_t last_use = 0;
     };
+    Entry& entry(const CellBuffers& cells, const TraversalKey& key);
+
     const Gl* gl_;
     std::array<Entry, 4> entries_;
-    std::vector<std::uint32_t> order_;
     std::uint64_t uses_ = 0, sorts_ = 0;
 };
 

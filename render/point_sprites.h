@@ -17,6 +17,14 @@ namespace isochron::render {
 bool points_serve(const View& view, const Placement& placement, float radius, float reach,
                   float largest_point);
 
+/// Whether the rectangles of all cells that the volume could have are, within three quarters of a
+/// pixel, upright squares: then a point is the whole footprint, and its fragments have nothing to
+/// look up or to discard. So it is where voxels are cubes, pixels are squares, and footprints are
+/// small or near to the middle of the view: perspective stretches a sphere by 1 / cos of its angle
+/// off the screen's normal. Only where `points_serve`.
+/// @param radius of the footprint, voxels
+bool footprints_are_squares(const View& view, const Placement& placement, float radius);
+
 /// Corners of the rectangle on an ellipse's axes are farther out than the ellipse: by sqrt(2), and
 /// a little since perspective magnifies the nearer parts.
 constexpr float kReachOfRectangle = 1.5f;

@@ -9,10 +9,9 @@
 // holds for every frustum, off-axis and parallel too, and for any spacing.
 
 layout(binding = 0) uniform usamplerBuffer cells;
-layout(binding = 1) uniform usamplerBuffer order; // of the first eye
-layout(binding = 2) uniform usamplerBuffer order_of_other_eye;
 
 #include "frame.glsl"
+#include "cell_order.glsl"
 #include "lighting.glsl"
 #include "appearance.glsl"
 #include "footprint.glsl"
@@ -54,15 +53,13 @@ vec3 unpack_normal(uint word) {
 }
 
 void main() {
+    start_eye();
 #ifdef POINTS
-    int slot = gl_VertexID;
+    int slot = slot_in_order(gl_VertexID);
 #else
-    int slot = gl_VertexID >> 2;
+    int slot = slot_in_order(gl_VertexID >> 2);
     disc = kCorners[gl_VertexID & 3];
 #endif
-    start_eye();
-    if (ordered)
-        slot = int((EYE_INDEX == 0 ? texelFetch(order, slot) : texelFetch(order_of_other_eye, slot)).x);
     uvec3 cell = texelFetch(cells, slot).xyz;
     vec4 centre = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
 
@@ -71,7 +68,7 @@ void main() {
     vec3 lit = shade(in_eye, unpack_normal(cell.z), base_color(style));
     shaded = vec4(written(lit), surfaces[style & 7u].a * near_share(in_eye));
 
-    if (!ordered && shaded.a <= evenly(hash_of(cell))) {
+    if (!blended && shaded.a <= evenly(hash_of(cell))) {
         gl_Position = vec4(0, 0, -2, 1);
         return;
     }
@@ -91,9 +88,13 @@ void main() {
         vec3 b = EYE(row_y).xyz - m.y * EYE(row_w).xyz;
         float k = rr / d;
         vec2 shift = -k * vec2(dot(a, EYE(row_w).xyz), dot(b, EYE(row_w).xyz));
-        mat2 axes = half_axes(shift.x * shift.x + k * dot(a, a), shift.x * shift.y + k * dot(a, b),
-                              shift.y * shift.y + k * dot(b, b));
+        vec3 shape = vec3(shift.x * shift.x + k * dot(a, a), shift.x * shift.y + k * dot(a, b),
+                          shift.y * shift.y + k * dot(b, b));
         vec2 at = m + shift;
+#ifdef SQUARE
+        gl_PointSize = 2.0 * sqrt(max(shape.x, shape.z));
+#else
+        mat2 axes = half_axes(shape.x, shape.y, shape.z);
 #ifdef POINTS
         // The square holds the ellipse, or the rectangle on its axes.
         vec2 u = abs(axes[0]), v = abs(axes[1]);
@@ -108,6 +109,7 @@ void main() {
         gl_PointSize = 2.0 * half_size;
 #else
         at += axes * disc;
+#endif
 #endif
         gl_Position = vec4(at * EYE(clip_per_pixel).xy * p.w, p.z, p.w);
 #ifndef POINTS // which serve only where no cell comes that near

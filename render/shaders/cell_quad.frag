@@ -7,7 +7,7 @@ flat in vec4 shaded;
 out vec4 result;
 
 void main() {
-#ifdef POINTS
+#if defined(POINTS) && !defined(SQUARE)
     vec2 at = abs(position_on_disc());
     if (max(at.x, at.y) > 1.0)
         discard;

@@ -1,8 +1,10 @@
 // Where in its cell's footprint a fragment lies: any ellipse is an affine picture of the unit disc,
 // and the rectangle around it one of the square around the disc.
 //
-// With POINTS a footprint is one square point around it, of which the fragments take their part;
-// without, it is a quad with its corners on the rectangle.
+// With POINTS a footprint is one square point around it, of which the fragments take their part, or
+// with SQUARE all; without, it is a quad with its corners on the rectangle.
+
+#ifndef SQUARE
 
 #ifdef VERTEX_STAGE
 #ifdef POINTS
@@ -23,4 +25,6 @@ vec2 position_on_disc() {
 in vec2 disc;
 vec2 position_on_disc() { return disc; }
 #endif
+#endif
+
 #endif

@@ -30,7 +30,9 @@ layout(std140, binding = 0) uniform Frame {
     bool colored;       // by a value rather than by surface
     bool linear_light;  // what is written: light, or the display's values
     float radius;       // of the footprint, in voxels
-    bool ordered;       // draw through `order`
+    int order_begin;    // the n-th cell drawn is in slot order[order_begin + n * order_step],
+    int order_step;     // or in slot n where the step is 0
+    bool blended;
     bool soft_near_eye; // fade what comes so near that it would veil the whole view
 };
 

@@ -6,12 +6,11 @@
 // the pixels of one around the box, and every pixel costs the search for a root.
 
 layout(binding = 0) uniform usamplerBuffer cells;
-layout(binding = 1) uniform usamplerBuffer order; // of the first eye
-layout(binding = 2) uniform usamplerBuffer order_of_other_eye;
 layout(binding = 3) uniform samplerBuffer corner_values;
 layout(binding = 4) uniform usamplerBuffer corner_gradients;
 
 #include "frame.glsl"
+#include "cell_order.glsl"
 #include "srgb.glsl"
 #include "appearance.glsl"
 #include "surface.glsl"
@@ -161,10 +160,8 @@ vec4 corner_around(Slab slab, vec3 cell_centre, vec2 corner) {
 }
 
 void main() {
-    int slot = gl_VertexID >> 2;
     start_eye();
-    if (ordered)
-        slot = int((EYE_INDEX == 0 ? texelFetch(order, slot) : texelFetch(order_of_other_eye, slot)).x);
+    int slot = slot_in_order(gl_VertexID >> 2);
     uvec3 cell = texelFetch(cells, slot).xyz;
     vec4 at = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
     centre = to_pixels(at);

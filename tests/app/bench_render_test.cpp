@@ -87,8 +87,9 @@ TEST_F(BenchRender, BareQuadsLieWhereTheFootprintsAre) {
     const render::Image footprints = target.read();
     BareQuads bare(*gl_);
     for (std::size_t i = 0; i < 2; ++i)
-        bare.set(i, projected_corners(camera.views[i], camera.placement, 0.8f, cells.slots().places,
-                                      {}));
+        bare.set(i, projected_corners(camera.views[i], camera.placement,
+                                      0.5f * render::FootprintShapes{}.quad_diameter,
+                                      cells.slots().places, {}));
     target.clear({0, 0, 0, 0});
     bare.draw(camera.views, false);
     const render::Image quads = target.read();
@@ -113,7 +114,7 @@ TEST_F(BenchRender, VtkDrawsTheSameSurfaceInTheSameContext) {
         pass.draw(camera.views, camera.placement, cells, Footprint::quad);
         const double ours = covered(target.read()), theirs = scene->covered();
         // Footprints reach beyond the surface, by their radius and half a cell's diagonal at most.
-        constexpr double kRadius = 14.07, kReach = 0.8 + 0.87;
+        constexpr double kRadius = 14.07, kReach = 0.71 + 0.87;
         EXPECT_GT(theirs, 0.03);
         EXPECT_GT(std::sqrt(theirs / ours), kRadius / (kRadius + kReach));
         EXPECT_LT(theirs, ours);

@@ -15,12 +15,20 @@ using Draws = std::multimap<GLsizei, GLsizei>;
 
 /// What stands between the program and the driver. GL's functions have no room for state.
 struct Driver {
+    PFNGLGETSTRINGPROC string = nullptr;
     PFNGLGETSTRINGIPROC strings = nullptr;
     PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXPROC elements = nullptr;
     PFNGLDRAWARRAYSINSTANCEDPROC arrays = nullptr;
     bool chooses_viewports = true;
+    bool is_gpu = true; ///< by its own account; software GL draws what is seen, eye by eye
     Draws draws;
+    int points = 0; ///< draws of points
 } driver;
+
+const GLubyte* APIENTRY name_of_renderer(GLenum name) {
+    return name == GL_RENDERER && driver.is_gpu ? reinterpret_cast<const GLubyte*>("a GPU")
+                                                : driver.string(name);
+}
 
 const GLubyte* APIENTRY extensions(GLenum name, GLuint index) {
     const GLubyte* text = driver.strings(name, index);
@@ -37,6 +45,7 @@ void APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void*
 }
 void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count, GLsizei instances) {
     driver.draws.emplace(count, instances);
+    driver.points += mode == GL_POINTS;
     driver.arrays(mode, first, count, instances);
 }
 
@@ -50,15 +59,17 @@ void* before(void* found, Function& actual, Function ours) {
 /// A context whose draws are counted and that can be one of a lesser driver.
 class WatchedContext final : public stereo::GlContext {
   public:
-    WatchedContext(stereo::ContextKind kind, bool chooses_viewports)
+    WatchedContext(stereo::ContextKind kind, bool chooses_viewports, bool is_gpu = true)
         : context_(stereo::make_context(kind, {.size = kPicture})) {
-        driver = {.chooses_viewports = chooses_viewports, .draws = {}};
+        driver = {.chooses_viewports = chooses_viewports, .is_gpu = is_gpu, .draws = {}};
     }
     void make_current() override { context_->make_current(); }
     render::GlLoader loader() const override {
         return [load = context_->loader()](const char* name) {
             const std::string_view wanted(name);
             void* found = load(name);
+            if (wanted == "glGetString")
+                return before(found, driver.string, &name_of_renderer);
             if (wanted == "glGetStringi")
                 return before(found, driver.strings, &extensions);
             if (wanted == "glDrawElementsInstancedBaseVertex")
@@ -148,6 +159,23 @@ TEST_P(EyesAtOnce, DrawTheirCellsInOneDrawOrOneAfterTheOtherWhereTheDriverCannot
                 EXPECT_EQ(cell_draws(frame.cells), expected) << name_of(mode);
             }
         }
+}
+
+TEST_P(EyesAtOnce, HaveTheirQuadsDrawnApartBySoftware) {
+    WatchedContext context(GetParam(), true, false);
+    Session session(config_for(Footprint::quad), file_, context);
+    Commands commands = commands_for(Footprint::quad);
+    for (const StereoMode mode : {StereoMode::mono, StereoMode::side_by_side}) {
+        commands.stereo = name_of(mode);
+        settle(session, commands);
+        driver.points = 0;
+        Commands aside;
+        aside.room_from_physical =
+            place_at({0.12, 1.75, -2.5 - 0.01 * (1 + static_cast<int>(mode))}, 0.039);
+        ASSERT_TRUE(
+            session.frame(head_at_rest(frame_++ / 60.0), aside, Waiting::for_cells).redrawn);
+        EXPECT_EQ(driver.points, static_cast<int>(eyes_of(mode).size()));
+    }
 }
 
 /// Another program, another rounding of what is blended, which Dubois' matrices carry a step

@@ -10,6 +10,8 @@
 namespace isochron::render {
 namespace {
 
+constexpr double kQuadRadius = 0.5 * double(FootprintShapes{}.quad_diameter);
+
 /// Pixels where the picture disagrees with `inside` (pixels from the middle, y up), though the
 /// whole square of one pixel around them says the same.
 int wrong_pixels(const Image& image, int threshold,
@@ -77,7 +79,7 @@ TEST_P(FootprintGeometry, AGaussianHasItsHalfOpacityOnTheEllipseThatBelongsToIt)
 TEST_P(FootprintGeometry, AQuadIsTheRectangleOnTheEllipsesAxes) {
     int elongated = 0;
     for (int round = 0; round < 150; ++round) {
-        const Scene scene = random_scene(random_, {200, 160}, 0.8);
+        const Scene scene = random_scene(random_, {200, 160}, kQuadRadius);
         const Ellipse ellipse =
             paper_ellipse(scene.pixel_from_index(), glm::dvec3(scene.cell) + 0.5, scene.radius);
         const double major = glm::length(ellipse.major), minor = glm::length(ellipse.minor);
@@ -114,7 +116,7 @@ TEST_P(FootprintGeometry, AQuadOfARoundOutlineStandsUpright) {
                    glm::vec3(0.5f)) *
         glm::translate(glm::mat4(1.0f), glm::vec3(-0.5f));
     const Image image = draw(scene, Footprint::quad, {});
-    const double half = 0.8 * 0.5 * 50.5;
+    const double half = kQuadRadius * 0.5 * 50.5;
     EXPECT_EQ(wrong_pixels(image, 127,
                            [&](const glm::dvec2& at) {
                                return std::abs(at.x) < half && std::abs(at.y) < half;

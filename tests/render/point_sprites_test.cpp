@@ -16,6 +16,7 @@ namespace isochron::render {
 namespace {
 
 constexpr float kLargest = 255.0f;
+constexpr double kQuadRadius = 0.5 * double(FootprintShapes{}.quad_diameter);
 
 /// A view of a whole volume, from outside, from within or past it; now and then parallel.
 Scene random_volume(std::mt19937& random) {
@@ -50,7 +51,7 @@ TEST(PointSprites, ServeOnlyWhereNoFootprintCrossesAnEdgeOrIsTooLarge) {
     int served = 0, refused = 0;
     for (int round = 0; round < 2000; ++round) {
         Scene scene = random_volume(random);
-        const double radius = round % 2 ? 0.8 : 2.0;
+        const double radius = round % 2 ? kQuadRadius : 2.0;
         const bool rectangle = round % 2;
         if (!points_serve(scene.view, scene.placement, static_cast<float>(radius),
                           rectangle ? kReachOfRectangle : 1.0f, kLargest)) {
@@ -88,7 +89,55 @@ TEST(PointSprites, DoNotServeFlatCells) {
     EXPECT_FALSE(points_serve(scene.view, scene.placement, 2.0f, kReachOfRectangle, kLargest));
 }
 
-class PointPasses : public GlTest {};
+TEST(PointSprites, AreWholeFootprintsOnlyWhereTheseAreNearlySquares) {
+    std::mt19937 random(test_seed());
+    int square = 0, other = 0;
+    for (int round = 0; round < 4000; ++round) {
+        Scene scene = random_volume(random);
+        if (round % 4) { // cubes, mostly
+            glm::mat4& room = scene.placement.room_from_index;
+            for (int axis = 1; axis < 3; ++axis)
+                room[axis] *= glm::length(room[0]) / glm::length(room[axis]);
+            const double aspect = double(scene.view.size.y) * scene.view.clip_from_eye[1][1] /
+                                  (scene.view.size.x * scene.view.clip_from_eye[0][0]);
+            scene.view.size.y = std::max(1, int(std::lround(scene.view.size.y / aspect)));
+        }
+        const auto radius = float(kQuadRadius);
+        if (!points_serve(scene.view, scene.placement, radius, kReachOfRectangle, kLargest))
+            continue;
+        double most = 0; // pixels between a half side of the square and the ellipse's half axes
+        for (int cell = 0; cell < 60; ++cell) {
+            glm::dvec3 at(0.5);
+            for (int axis = 0; axis < 3; ++axis)
+                at[axis] += int(random() % unsigned(scene.placement.extent[axis]));
+            const Ellipse ellipse = paper_ellipse(scene.pixel_from_index(), at, kQuadRadius);
+            const glm::dvec2 a = ellipse.major, b = ellipse.minor;
+            const double half = std::sqrt(std::max(a.x * a.x + b.x * b.x, a.y * a.y + b.y * b.y));
+            most = std::max({most, glm::length(a) - half, half - glm::length(b)});
+        }
+        const bool squares = footprints_are_squares(scene.view, scene.placement, radius);
+        if (squares)
+            ASSERT_LE(most, 0.8) << "round " << round;
+        square += squares;
+        other += !squares;
+    }
+    EXPECT_GT(square, 100);
+    EXPECT_GT(other, 100);
+}
+
+class PointPasses : public GlTest {
+  protected:
+    /// Whether the picture has that colour at (x, y) or in one of the eight pixels around it.
+    static bool shown_beside(const Image& image, const std::uint8_t* color, int x, int y) {
+        for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
+            for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)
+                if (std::equal(color, color + 4, image.at(u, v), [](int a, int b) {
+                        return std::abs(a - b) <= 4;
+                    }))
+                    return true;
+        return false;
+    }
+};
 
 TEST_P(PointPasses, ShowWhatQuadsShow) {
     CellPass as_points(gl_), as_quads(gl_);
@@ -115,17 +164,16 @@ TEST_P(PointPasses, ShowWhatQuadsShow) {
                 pass->draw(scene.view, scene.placement, buffers, footprint);
                 images[pass == &as_quads] = target.read();
             }
-            // A rectangle's edge may fall on the other side of a pixel's middle, in rare pixels.
-            std::size_t different = 0, drawn = 0;
-            for (std::size_t i = 0; i < images[0].rgba.size(); i += 4) {
-                int most = 0;
-                for (std::size_t c = i; c < i + 4; ++c)
-                    most = std::max(most, std::abs(images[0].rgba[c] - images[1].rgba[c]));
-                different += most > 4;
-                drawn += images[1].rgba[i + 3] > 0;
-            }
-            EXPECT_GT(drawn, 20u);
-            EXPECT_LE(different, 4 + drawn / 200) << "round " << round;
+            // Edges may lie on the other side of pixels' middles: what is shown beside them then.
+            int different = 0, drawn = 0;
+            for (int y = 0; y < images[0].height; ++y)
+                for (int x = 0; x < images[0].width; ++x) {
+                    different += !shown_beside(images[1], images[0].at(x, y), x, y) ||
+                                 !shown_beside(images[0], images[1].at(x, y), x, y);
+                    drawn += images[1].at(x, y)[3] > 0;
+                }
+            EXPECT_GT(drawn, 20);
+            EXPECT_LE(different, 2 + drawn / 1000) << "round " << round;
         }
     }
 }

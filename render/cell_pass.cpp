@@ -237,8 +237,8 @@ CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragme
 CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
     : gl_(&gl), shapes_(shapes),
       two_views_at_once_(has_extension(gl, "GL_ARB_shader_viewport_layer_array")),
-      seen_only_(draws_in_software(gl)),
-      largest_point_(largest_point(gl)), quad_programs_(footprint_programs("cell_quad.frag", {})),
+      seen_only_(draws_in_software(gl)), largest_point_(largest_point(gl)),
+      quad_programs_(footprint_programs("cell_quad.frag", {})),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", "#define ROUND\n")),
       surface_(gl, two_views_at_once_), quads_(gl), orders_(gl), seen_slots_(gl),
       seen_texture_(gl, GL_TEXTURE_BUFFER), frame_(gl) {
@@ -253,8 +253,8 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
 }
 
 float CellPass::radius_of(Footprint footprint) const {
-    return 0.5f * (footprint == Footprint::gaussian ? shapes_.gaussian_diameter
-                                                    : shapes_.quad_diameter);
+    return 0.5f *
+           (footprint == Footprint::gaussian ? shapes_.gaussian_diameter : shapes_.quad_diameter);
 }
 
 void CellPass::draw(std::span<const View> views, const Placement& placement,
@@ -338,15 +338,13 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
     if (!blended && !nearest_first)
         return {.cells = cells.size()};
     const glm::vec4 eye = eye_in_index(view, placement);
-    const TraversalKey key =
-        traversal_key(eye, glm::ivec3(placement.extent), placement.spacing());
+    const TraversalKey key = traversal_key(eye, glm::ivec3(placement.extent), placement.spacing());
     if (blended)
         return {cells.size(), orders_.texture(cells, key), 0, 1};
     if (form != Form::squares || all_cells_ || !hides_what_is_behind(appearance, placement))
         return {cells.size(), orders_.texture(cells, key), all - 1, -1};
-    const std::span<const std::uint32_t> seen =
-        seen_.find(view, placement, radius_of(footprint), cells.slots().places,
-                   orders_.order(cells, key));
+    const std::span<const std::uint32_t> seen = seen_.find(
+        view, placement, radius_of(footprint), cells.slots().places, orders_.order(cells, key));
     gl_->NamedBufferData(seen_slots_.name(), static_cast<GLsizeiptr>(seen.size_bytes()),
                          seen.data(), GL_STREAM_DRAW);
     gl_->TextureBuffer(seen_texture_.name(), GL_R32UI, seen_slots_.name());

@@ -169,7 +169,7 @@ class CellPass {
     /// draws all quads in any order in less.
     bool seen_only_;
     bool all_cells_ = false; ///< nearest first nevertheless
-    float largest_point_; ///< pixels; 0: no points
+    float largest_point_;    ///< pixels; 0: no points
     FootprintPrograms quad_programs_, gaussian_programs_;
     SurfacePass surface_;
     QuadIndices quads_;

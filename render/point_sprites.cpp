@@ -86,7 +86,8 @@ bool footprints_are_squares(const View& view, const Placement& placement, float 
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 at(
             view.eye_from_room * placement.room_from_index *
-            glm::vec4(placement.extent * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2), 1.0f));
+            glm::vec4(placement.extent * glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2),
+                      1.0f));
         const float z2 = at.z * at.z;
         if (!parallel && (at.z > 0.0f || z2 <= 2.0f * sphere2))
             return false;

@@ -43,7 +43,7 @@ class SeenCells {
     bool hidden(const Square& square, Tiles across, Tiles up) const;
 
     std::vector<Square> squares_; ///< nearest first
-    int tile_ = 1;                ///< pixels across and up
+    int tile_bits_ = 0;           ///< tiles have 1 << tile_bits_ pixels across and up
     int columns_ = 0, rows_ = 0;
     std::vector<float> nearest_; ///< depth by tile, row by row
     std::vector<std::uint32_t> seen_;

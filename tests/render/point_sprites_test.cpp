@@ -131,9 +131,8 @@ class PointPasses : public GlTest {
     static bool shown_beside(const Image& image, const std::uint8_t* color, int x, int y) {
         for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
             for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)
-                if (std::equal(color, color + 4, image.at(u, v), [](int a, int b) {
-                        return std::abs(a - b) <= 4;
-                    }))
+                if (std::equal(color, color + 4, image.at(u, v),
+                               [](int a, int b) { return std::abs(a - b) <= 4; }))
                     return true;
         return false;
     }

@@ -94,8 +94,8 @@ TEST_P(QuadCoverage, QuadsLeaveNoGapInASurface) {
             values.grid.spacing[0] = spacing;
             const Count found = count(pass, values, isovalue);
             EXPECT_GT(found.surface, 20000);
-            EXPECT_EQ(found.gaps, 0) << "of " << found.surface << ", isovalue " << isovalue
-                                     << ", spacing " << spacing;
+            EXPECT_EQ(found.gaps, 0)
+                << "of " << found.surface << ", isovalue " << isovalue << ", spacing " << spacing;
             gaps_of_smaller += count(smaller, values, isovalue).gaps;
         }
     }

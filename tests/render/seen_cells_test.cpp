@@ -36,14 +36,13 @@ Volume random_volume(std::mt19937& random) {
     volume.placement.extent = glm::vec3(float(cells));
     const glm::dvec3 axis(uniform(-1, 1), uniform(-1, 1), uniform(0.1, 1));
     const double distance = uniform(2.5, 6.0);
-    volume.placement.room_from_index =
-        glm::mat4(glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -distance)) *
-                  glm::rotate(glm::dmat4(1.0), random() % 5 ? uniform(0, 6) : 0.0, axis) *
-                  glm::scale(glm::dmat4(1.0), glm::dvec3(random() % 2 ? voxel : -voxel, voxel,
-                                                         voxel)) *
-                  glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5 * cells)));
-    const double slope = uniform(1.1, 1.5) / distance, aspect = volume.view.size.x /
-                                                                double(volume.view.size.y);
+    volume.placement.room_from_index = glm::mat4(
+        glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, -distance)) *
+        glm::rotate(glm::dmat4(1.0), random() % 5 ? uniform(0, 6) : 0.0, axis) *
+        glm::scale(glm::dmat4(1.0), glm::dvec3(random() % 2 ? voxel : -voxel, voxel, voxel)) *
+        glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5 * cells)));
+    const double slope = uniform(1.1, 1.5) / distance,
+                 aspect = volume.view.size.x / double(volume.view.size.y);
     const double up = slope * std::max(1.0, 1.0 / aspect), side = up * aspect;
     volume.view.clip_from_eye =
         random() % 4 ? glm::mat4(glm::frustum(-side, side, -up, up, 1.0, 10.0))
@@ -69,8 +68,7 @@ class SeenCellsPictures : public GlTest {
         for (const glm::ivec3& cell : volume.cells) {
             const glm::vec3 normal(float(random_() % 100) - 50, float(random_() % 100) - 50, 20);
             points.push_back({std::uint16_t(cell.x), std::uint16_t(cell.y), std::uint16_t(cell.z),
-                              std::uint16_t(random_() % 3),
-                              packed_normal(glm::normalize(normal))});
+                              std::uint16_t(random_() % 3), packed_normal(glm::normalize(normal))});
         }
         return showing(gl_, points);
     }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 namespace isochron::render {
 namespace {
@@ -14,6 +15,12 @@ namespace {
 /// Cells looked at in one call, so that a frame never stalls on a large set: some 1 ms.
 constexpr std::size_t kLookedAt = 1 << 18;
 constexpr std::size_t kWord = sizeof(std::uint32_t);
+
+/// Where one set of buffers is gone, another may lie at its address.
+std::uint64_t next_version() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
 
 std::size_t rounded_to_units(std::size_t bytes) {
     return (bytes + StagingRing::kUnit - 1) / StagingRing::kUnit * StagingRing::kUnit;
@@ -44,7 +51,7 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
         slots->places.push_back({point.x, point.y, point.z, point.style});
     }
     cells.slots_ = std::move(slots);
-    cells.version_ = 1;
+    cells.version_ = next_version();
     return cells;
 }
 
@@ -189,7 +196,7 @@ void CellBuffers::show() {
     plan_ = nullptr;
     shown_ = std::move(arriving_);
     arriving_ = nullptr;
-    ++version_;
+    version_ = next_version();
 }
 
 void CellBuffers::write_points() {

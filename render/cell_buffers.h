@@ -57,7 +57,7 @@ class CellBuffers {
     const index::ExtractionPtr& shown() const { return shown_; }
     /// True while a set is on its way to the GPU.
     bool pending() const { return arriving_ != nullptr; }
-    /// Grows with every change of the shown set.
+    /// Grows with every change of the shown set; no two buffers ever have the same, but 0.
     std::uint64_t version() const { return version_; }
 
     /// Cells drawn; one that several surfaces pass through counts for each.

@@ -281,7 +281,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame.eyes[i] = eye_block(views[i], placement, appearance);
         set_viewport(*gl_, views[i], static_cast<GLuint>(i));
-        sequence = sequence_of(views[i], placement, cells, footprint, form, appearance);
+        sequence = sequence_of(views[i], placement, cells, footprint, appearance);
         if (sequence.texture != 0)
             gl_->BindTextureUnit(static_cast<GLuint>(1 + i), sequence.texture);
     }
@@ -330,7 +330,7 @@ CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& p
 }
 
 CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& placement,
-                                         const CellBuffers& cells, Footprint footprint, Form form,
+                                         const CellBuffers& cells, Footprint footprint,
                                          const CellAppearance& appearance) {
     const auto all = static_cast<int>(cells.size());
     const bool blended = is_blended(footprint, appearance);
@@ -341,7 +341,7 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
     const TraversalKey key = traversal_key(eye, glm::ivec3(placement.extent), placement.spacing());
     if (blended)
         return {cells.size(), orders_.texture(cells, key), 0, 1};
-    if (form != Form::squares || all_cells_ || !hides_what_is_behind(appearance, placement))
+    if (all_cells_ || !hides_what_is_behind(appearance, placement))
         return {cells.size(), orders_.texture(cells, key), all - 1, -1};
     const std::span<const std::uint32_t> seen = seen_.find(
         view, placement, radius_of(footprint), cells.slots().places, orders_.order(cells, key));

@@ -118,7 +118,8 @@ class CellPass {
     bool draws_two_views_at_once() const { return two_views_at_once_; }
     /// For comparisons: two passes although the driver could do with one.
     void draw_views_apart() { two_views_at_once_ = false; }
-    /// For comparisons: on software GL, too, quads that are wholly behind others.
+    /// For comparisons: on software GL, too, quads that are wholly behind others or beside the
+    /// view.
     void draw_hidden_cells() { all_cells_ = true; }
     /// For comparisons: quads also where points would show the same faster.
     void draw_without_points() { largest_point_ = 0.0f; }
@@ -158,7 +159,7 @@ class CellPass {
                  Footprint footprint) const;
     /// Of one of the views that are drawn at once; `Sequence::cells` is the same in all of them.
     Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
-                         Footprint footprint, Form form, const CellAppearance& appearance);
+                         Footprint footprint, const CellAppearance& appearance);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
     float radius_of(Footprint footprint) const;
 

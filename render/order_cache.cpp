@@ -11,7 +11,7 @@ OrderCache::OrderCache(const Gl& gl)
 OrderCache::Entry& OrderCache::entry(const CellBuffers& cells, const TraversalKey& key) {
     ++uses_;
     for (Entry& entry : entries_)
-        if (entry.cells == &cells && entry.version == cells.version() && entry.key == key) {
+        if (entry.version == cells.version() && entry.key == key) {
             entry.last_use = uses_;
             return entry;
         }
@@ -19,7 +19,6 @@ OrderCache::Entry& OrderCache::entry(const CellBuffers& cells, const TraversalKe
         *std::min_element(entries_.begin(), entries_.end(),
                           [](const Entry& a, const Entry& b) { return a.last_use < b.last_use; });
     order_back_to_front(cells.slots(), key, oldest.order);
-    oldest.cells = &cells;
     oldest.version = cells.version();
     oldest.key = key;
     oldest.sent = false;

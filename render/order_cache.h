@@ -32,7 +32,6 @@ class OrderCache {
         explicit Entry(const Gl& gl) : buffer(gl), texture(gl, GL_TEXTURE_BUFFER) {}
         Buffer buffer;
         Texture texture;
-        const CellBuffers* cells = nullptr;
         std::uint64_t version = 0;
         TraversalKey key;
         std::vector<std::uint32_t> order;

@@ -92,6 +92,7 @@ class Bench {
           target_(gl, {picture.size * picture.eyes, picture.size}), pass_(gl), as_quads_(gl),
           cells_(gl, file_->info().grid), orders_(gl), bare_(gl), extract_(extraction()) {
         as_quads_.draw_without_points();
+        as_quads_.draw_hidden_cells();
         if (options.vtk && options.context != stereo::ContextKind::osmesa)
             vtk_ = vtk_scene(file_->values(), camera_.poses, picture.size, options.threads);
     }

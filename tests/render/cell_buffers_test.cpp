@@ -167,7 +167,7 @@ TEST_P(CellUpload, AnyRunOfSetsShowsEachWholeWithTinyBudgetsAndSkips) {
         return std::vector<CellId>(cells.begin(), cells.end());
     };
     index::ExtractionPtr set, last_shown, begun;
-    std::uint64_t version = 0, whole = 0;
+    std::uint64_t version = 0, whole = 0, sets = 0;
     for (int frame = 0; frame < 3000; ++frame) {
         if (!set || random_() % 10 == 0) {
             std::vector<std::vector<CellId>> surfaces(1 + random_() % 3);
@@ -186,6 +186,7 @@ TEST_P(CellUpload, AnyRunOfSetsShowsEachWholeWithTinyBudgetsAndSkips) {
         }
         if (changed) { // what was on its way, and in the same frame perhaps the newest, too
             last_shown = buffers.shown();
+            sets += (begun != nullptr) + (last_shown != begun);
             whole += (begun ? begun->cells() : 0) + (last_shown != begun ? set->cells() : 0);
             EXPECT_TRUE(last_shown == begun || last_shown == set);
             begun = nullptr;
@@ -193,10 +194,10 @@ TEST_P(CellUpload, AnyRunOfSetsShowsEachWholeWithTinyBudgetsAndSkips) {
         if (buffers.pending() && !begun)
             begun = set;
     }
-    EXPECT_EQ(buffers.count().sets, version);
+    EXPECT_EQ(buffers.count().sets, sets);
     EXPECT_EQ(buffers.count().whole_ids, whole);
     EXPECT_LT(buffers.count().ids, whole);
-    EXPECT_GT(version, 20u);
+    EXPECT_GT(sets, 20u);
 }
 
 TEST_P(CellUpload, CountsTheIdsAndTheBytesThatAreSent) {

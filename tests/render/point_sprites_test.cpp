@@ -99,7 +99,7 @@ TEST(PointSprites, AreWholeFootprintsOnlyWhereTheseAreNearlySquares) {
             for (int axis = 1; axis < 3; ++axis)
                 room[axis] *= glm::length(room[0]) / glm::length(room[axis]);
             const double aspect = double(scene.view.size.y) * scene.view.clip_from_eye[1][1] /
-                                  (scene.view.size.x * scene.view.clip_from_eye[0][0]);
+                                  (double(scene.view.size.x) * scene.view.clip_from_eye[0][0]);
             scene.view.size.y = std::max(1, int(std::lround(scene.view.size.y / aspect)));
         }
         const auto radius = float(kQuadRadius);
@@ -116,8 +116,9 @@ TEST(PointSprites, AreWholeFootprintsOnlyWhereTheseAreNearlySquares) {
             most = std::max({most, glm::length(a) - half, half - glm::length(b)});
         }
         const bool squares = footprints_are_squares(scene.view, scene.placement, radius);
-        if (squares)
+        if (squares) {
             ASSERT_LE(most, 0.8) << "round " << round;
+        }
         square += squares;
         other += !squares;
     }

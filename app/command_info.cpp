@@ -37,7 +37,7 @@ void add_info(CLI::App& program) {
         "1 when nothing merges in time and every cell has two values. Raw is steps x cells x 24\n"
         "bytes. JSON keys: file, array, vertices, cells,\n"
         "spacing, origin, direction (three axes), handedness (right or left), physical_size,\n"
-        "length_unit, anatomy (none, ras or lps), steps, times, time_unit, uniform_time, type,\n"
+        "length_unit, anatomy (none, ras, lps or enu), steps, times, time_unit, uniform_time, type,\n"
         "slope, intercept, low, high (of finite values), value_unit, nan_values, histogram (256\n"
         "equal bins over low to high), file_bytes, volume_bytes, bricks_bytes, cells_bytes,\n"
         "deltas_bytes, tree_bytes, raw_bytes, percent_of_raw (file without volume), tiers, plan\n"

@@ -18,7 +18,7 @@ namespace {
 using index::Grid;
 using index::SeriesInfo;
 
-constexpr std::array kAnatomies{"none", "ras", "lps"};
+constexpr std::array kAnatomies{"none", "ras", "lps", "enu"};
 
 std::array<double, 3> numbers(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -141,8 +141,12 @@ std::string as_text(const IndexReport& report) {
             axis == 0 ? "direction" : "",
             fmt::format("{}: {:.10g}", "xyz"[axis], fmt::join(numbers(grid.direction[axis]), " ")));
     line("handedness", right_handed(grid) ? "right" : "left");
-    if (info.anatomy != index::Anatomy::none)
-        line("anatomy", info.anatomy == index::Anatomy::ras ? "RAS" : "LPS");
+    switch (info.anatomy) {
+    case index::Anatomy::ras: line("anatomy", "RAS"); break;
+    case index::Anatomy::lps: line("anatomy", "LPS"); break;
+    case index::Anatomy::enu: line("up", "z"); break;
+    case index::Anatomy::none: break;
+    }
     line("steps", times_text(info));
     line("type", std::string(index::name_of(info.type)));
     if (info.scaling != index::Scaling{})

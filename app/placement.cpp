@@ -16,6 +16,8 @@ glm::dquat upright(index::Anatomy anatomy) {
         return glm::quat_cast(glm::dmat3(-x, z, y)); // right, anterior, superior
     case index::Anatomy::lps:
         return glm::quat_cast(glm::dmat3(x, -z, y)); // left, posterior, superior
+    case index::Anatomy::enu:
+        return glm::quat_cast(glm::dmat3(x, -z, y)); // east to the right, north away, up
     default: return glm::dquat(1, 0, 0, 0);
     }
 }

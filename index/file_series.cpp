@@ -28,6 +28,7 @@ std::string text(Anatomy anatomy) {
     switch (anatomy) {
     case Anatomy::ras: return "right-anterior-superior";
     case Anatomy::lps: return "left-posterior-superior";
+    case Anatomy::enu: return "east-north-up";
     case Anatomy::none: break;
     }
     return "not anatomical";

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMaxDepth = 8;
-constexpr std::array kAnatomies{"none", "ras", "lps"};
+constexpr std::array kAnatomies{"none", "ras", "lps", "enu"};
 
 json numbers(const glm::dvec3& v) {
     return {v.x, v.y, v.z};

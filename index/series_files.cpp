@@ -27,6 +27,7 @@ constexpr std::array kFormats{
     Format{".vti", open_vti},       Format{".vtk", open_vtk},      Format{".mhd", open_metaimage},
     Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},    Format{".nhdr", open_nrrd},
     Format{".nii", open_nifti},     Format{".nii.gz", open_nifti}, Format{".hdr", open_nifti},
+    Format{".nc", open_netcdf},     Format{".nc4", open_netcdf},   Format{".cdf", open_netcdf},
     Format{".raw", open_raw},
 };
 

@@ -19,23 +19,6 @@ namespace {
 constexpr std::array<std::string_view, 10> kNames{"i8",  "u8",  "i16", "u16", "i32",
                                                   "u32", "i64", "u64", "f32", "f64"};
 
-template <class F>
-decltype(auto) visit_stored_type(StoredType type, F&& f) {
-    switch (type) {
-    case StoredType::i8: return f(std::type_identity<std::int8_t>{});
-    case StoredType::u8: return f(std::type_identity<std::uint8_t>{});
-    case StoredType::i16: return f(std::type_identity<std::int16_t>{});
-    case StoredType::u16: return f(std::type_identity<std::uint16_t>{});
-    case StoredType::i32: return f(std::type_identity<std::int32_t>{});
-    case StoredType::u32: return f(std::type_identity<std::uint32_t>{});
-    case StoredType::i64: return f(std::type_identity<std::int64_t>{});
-    case StoredType::u64: return f(std::type_identity<std::uint64_t>{});
-    case StoredType::f32: return f(std::type_identity<float>{});
-    case StoredType::f64: break;
-    }
-    return f(std::type_identity<double>{});
-}
-
 bool fits_f32(StoredType type) {
     return type == StoredType::f32 || size_of(type) <= 2;
 }
@@ -151,7 +134,7 @@ StoredType stored_type_of(ValueType type) {
 
 ValueType ChosenScalar::value_type() const {
     const StoredType stored = *array.type;
-    if (component == kMagnitude || array.on_cells)
+    if (component == kMagnitude || array.on_cells || array.gaps)
         return fits_f32(stored) ? ValueType::f32 : ValueType::f64;
     return value_type_from_name(name_of(stored)).value_or(ValueType::f64);
 }
@@ -166,8 +149,10 @@ std::vector<std::string> ChosenScalar::notes() const {
     std::vector<std::string> notes;
     if (array.on_cells)
         notes.push_back("cell data averaged to vertices");
-    if (!array.on_cells && component != kMagnitude && !value_type_from_name(name_of(*array.type)))
-        notes.push_back(fmt::format("{} values converted to f64", name_of(*array.type)));
+    if (!array.on_cells && component != kMagnitude && stored_type_of(value_type()) != *array.type)
+        notes.push_back(fmt::format("{} values converted to {}{}", name_of(*array.type),
+                                    name_of(value_type()),
+                                    array.gaps ? ", missing ones to NaN" : ""));
     return notes;
 }
 
@@ -217,9 +202,10 @@ void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, cons
                 else
                     for (std::size_t i = 0; i < count; ++i)
                         to[i] = from[i * chosen.array.components + chosen.component];
-            } else if constexpr (std::is_integral_v<S> && std::is_same_v<T, double>) {
+            } else if constexpr (std::is_integral_v<S> && std::is_floating_point_v<T>) {
                 for (std::size_t i = 0; i < count; ++i)
-                    to[i] = exact(from[i * chosen.array.components + chosen.component], file);
+                    to[i] = static_cast<T>(
+                        exact(from[i * chosen.array.components + chosen.component], file));
             }
         });
     });

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace isochron::index {
@@ -20,12 +21,31 @@ std::size_t size_of(StoredType type);
 std::string_view name_of(StoredType type);
 StoredType stored_type_of(ValueType type);
 
+/// Calls `f(std::type_identity<T>{})` with the C++ type of `type`.
+template <class F>
+decltype(auto) visit_stored_type(StoredType type, F&& f) {
+    switch (type) {
+    case StoredType::i8: return f(std::type_identity<std::int8_t>{});
+    case StoredType::u8: return f(std::type_identity<std::uint8_t>{});
+    case StoredType::i16: return f(std::type_identity<std::int16_t>{});
+    case StoredType::u16: return f(std::type_identity<std::uint16_t>{});
+    case StoredType::i32: return f(std::type_identity<std::int32_t>{});
+    case StoredType::u32: return f(std::type_identity<std::uint32_t>{});
+    case StoredType::i64: return f(std::type_identity<std::int64_t>{});
+    case StoredType::u64: return f(std::type_identity<std::uint64_t>{});
+    case StoredType::f32: return f(std::type_identity<float>{});
+    case StoredType::f64: break;
+    }
+    return f(std::type_identity<double>{});
+}
+
 /// An array as a file offers it. Tuples lie x fastest, the components of a tuple together.
 struct StoredArray {
     std::string name;
     std::optional<StoredType> type; ///< none: a type that no volume can have (strings, bits, ...)
     std::uint32_t components = 1;
     bool on_cells = false; ///< one tuple per cell rather than per vertex
+    bool gaps = false;     ///< values may be missing, for which there is only NaN
 };
 
 /// An array, or one component of it, or its magnitude.
@@ -35,8 +55,8 @@ struct ChosenScalar {
     StoredArray array;
     std::uint32_t component = 0; ///< or kMagnitude
 
-    /// Type of the values: the stored one where a series can have it. Means over cells and
-    /// magnitudes are f32 for f32 and integers up to 16 bits, f64 for the others.
+    /// Type of the values: the stored one where a series can have it. Means over cells, magnitudes
+    /// and arrays with gaps are f32 for f32 and integers up to 16 bits, f64 for the others.
     ValueType value_type() const;
     std::string label() const;              ///< `speed`, `velocity.2`, `velocity.magnitude`
     std::vector<std::string> notes() const; ///< what was done to the stored values

@@ -15,8 +15,9 @@
 namespace isochron::index {
 
 /// What the axes of physical space mean. `ras` (NIfTI) and `lps` (DICOM, MetaImage, NRRD) are
-/// anatomical, with +z towards the head; both are right-handed.
-enum class Anatomy : std::uint8_t { none, ras, lps };
+/// anatomical, with +z towards the head; `enu` (NetCDF) is that of the Earth's surface: east,
+/// north, up. All are right-handed.
+enum class Anatomy : std::uint8_t { none, ras, lps, enu };
 
 struct SeriesInfo {
     std::string array;       ///< name of the scalar array, with its component: `velocity.magnitude`

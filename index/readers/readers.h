@@ -25,6 +25,11 @@ std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_vti(const std::filesystem::path& path, const ReadOptions& options);
 std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path, const ReadOptions& options);
 
+/// NetCDF, classic and 4 (.nc, .nc4, .cdf); it loads a module of its own, which a build without the
+/// library lacks. Space is that of the coordinate variables, with z up where a file says so.
+std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
+                                        const ReadOptions& options);
+
 /// The files and times of a ParaView collection (.pvd), in its order, paths made relative to where
 /// the program runs. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> read_pvd(const std::filesystem::path& path);

@@ -1,4 +1,5 @@
-// The formats that VTK reads, from a module that is loaded when the first such file is opened.
+// The formats whose libraries are heavy: from modules that are loaded when the first such file is
+// opened.
 #include "index/module.h"
 #include "index/readers/readers.h"
 
@@ -6,8 +7,8 @@ namespace isochron::index {
 namespace {
 
 template <class Function>
-Function from_module(const char* symbol) {
-    return reinterpret_cast<Function>(module_symbol("isochron_readers", symbol));
+Function from_module(const char* symbol, const char* module = "isochron_readers") {
+    return reinterpret_cast<Function>(module_symbol(module, symbol));
 }
 
 using OpenInModule = VolumeFile* (*)(const std::filesystem::path&, const ReadOptions&);
@@ -24,6 +25,12 @@ std::unique_ptr<VolumeFile> open_vti(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path,
                                      const ReadOptions& options) {
     static const auto open = from_module<OpenInModule>("isochron_open_vtk");
+    return std::unique_ptr<VolumeFile>(open(path, options));
+}
+
+std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
+                                        const ReadOptions& options) {
+    static const auto open = from_module<OpenInModule>("isochron_open_netcdf", "isochron_netcdf");
     return std::unique_ptr<VolumeFile>(open(path, options));
 }
 

@@ -60,7 +60,7 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
 
 class NetcdfVolume final : public VolumeFile {
   public:
-    /// The caller holds `netcdf_library()`.
+    /// The caller has a `NetcdfTurn`.
     NetcdfVolume(const fs::path& path, const ReadOptions& options)
         : file_(std::make_unique<NetcdfFile>(path)), variable_(choose_variable(*file_, options)),
           layout_(*layout_of(*file_, variable_)), missing_(*file_, variable_) {
@@ -90,7 +90,7 @@ class NetcdfVolume final : public VolumeFile {
         place_steps(*file_, variable_, layout_, info_);
     }
     ~NetcdfVolume() override {
-        const std::lock_guard library(netcdf_library());
+        const NetcdfTurn turn;
         file_.reset();
     }
     NetcdfVolume(const NetcdfVolume&) = delete;
@@ -100,7 +100,7 @@ class NetcdfVolume final : public VolumeFile {
     std::size_t steps() const override { return steps_; }
 
     void read(std::size_t step, std::span<std::byte> out) override {
-        const std::lock_guard library(netcdf_library());
+        const NetcdfTurn turn;
         read_netcdf_step(*file_, variable_, layout_, step, chosen_, missing_, info_.grid, out);
     }
 
@@ -124,6 +124,6 @@ class NetcdfVolume final : public VolumeFile {
 extern "C" __attribute__((visibility("default"))) isochron::index::VolumeFile*
 isochron_open_netcdf(const std::filesystem::path& path,
                      const isochron::index::ReadOptions& options) {
-    const std::lock_guard library(isochron::index::netcdf_library());
+    const isochron::index::NetcdfTurn turn;
     return std::make_unique<isochron::index::NetcdfVolume>(path, options).release();
 }

@@ -203,9 +203,13 @@ void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const Ne
         info.length_unit = axes[0].unit;
     } else if (!options.spacing) {
         std::vector<std::string> units;
-        for (const Positions& axis : axes)
-            units.push_back(fmt::format("{} in {:g} {}", axis.label, 1 / to_go_with(axes[0], axis),
-                                        axis.unit.empty() ? "vertices" : axis.unit));
+        for (const Positions& axis : axes) {
+            const double factor = to_go_with(axes[0], axis);
+            units.push_back(axis.label + with_blank(axis.unit));
+            if (factor != 1)
+                units.back() += factor < 1 ? fmt::format(" / {:g}", 1 / factor)
+                                           : fmt::format(" * {:g}", factor);
+        }
         info.notes.push_back(fmt::format("units differ: {}; --spacing sets other proportions",
                                          fmt::join(units, ", ")));
     }

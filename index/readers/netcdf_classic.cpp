@@ -34,12 +34,10 @@ class Header {
         : bytes_(bytes), file_(std::move(file)), version_(std::to_integer<int>(bytes[3])) {
         at_ = 4;
         records_ = size();
-        const bool unfinished = records_ == (version_ == 5 ? ~std::uint64_t{0} : 0xffff'ffffu);
         read_dimensions();
         read_attributes();
         read_variables();
-        if (!unfinished) // else the library counts the records that are there
-            expect_values();
+        expect_values();
     }
 
   private:

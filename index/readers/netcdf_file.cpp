@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <hdf5.h>
 #include <netcdf.h>
 #include <netcdf_filter.h>
 
@@ -51,9 +52,11 @@ std::pair<nc_type, std::size_t> attribute_shape(const NetcdfVariable& variable, 
 
 } // namespace
 
-std::mutex& netcdf_library() {
+NetcdfTurn::NetcdfTurn() {
     static std::mutex library;
-    return library;
+    lock_ = std::unique_lock(library);
+    // Each thread has its own; what NetCDF looks for in vain would be printed.
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
 std::string text(const NetcdfVariable& variable) {

@@ -14,8 +14,14 @@
 namespace isochron::index {
 
 /// Neither the NetCDF nor the HDF5 library may be called by two threads at a time, whatever the
-/// files: whoever has a `NetcdfFile` opened, used or closed holds this.
-std::mutex& netcdf_library();
+/// files: whoever opens, uses or closes a `NetcdfFile` has one of these meanwhile.
+class NetcdfTurn {
+  public:
+    NetcdfTurn();
+
+  private:
+    std::unique_lock<std::mutex> lock_;
+};
 
 struct NetcdfDimension {
     std::string name;

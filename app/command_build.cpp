@@ -234,7 +234,7 @@ void add_build(CLI::App& program) {
     command
         ->add_option("files", arguments->files,
                      "One .pvd, or the steps' files or quoted patterns ('t*.vti') in any order: "
-                     ".vti .vtk .mhd .mha .nhdr .nrrd .nii .nii.gz, or raw")
+                     ".vti .vtk .mhd .mha .nhdr .nrrd .nii .nii.gz .nc, or raw")
         ->required()
         ->type_name("FILES");
     command->add_option("-o,--out", arguments->out, "Index to write; replaced when complete")

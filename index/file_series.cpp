@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/stored_file.h"
+#include "index/time_unit.h"
 
 #include <fmt/format.h>
 
@@ -112,6 +113,15 @@ class FileSeries final : public VolumeSeries {
                 throw Error(fmt::format("{}: {} steps, expected 1 for time {}", name(index),
                                         open_->steps(), *files_[index].time));
             times = {*files_[index].time};
+        }
+        // In the unit of the first file. One that gives none is taken to mean the same.
+        else if (!times.empty() && !options_.time_step && !info.time_unit.empty() &&
+                 !first_.time_unit.empty()) {
+            const auto same = times_in(first_.time_unit, info.time_unit, std::move(times));
+            if (!same)
+                throw Error(fmt::format("{}: times in {}, {} has {}; --time-step sets them all",
+                                        name(index), info.time_unit, name(0), first_.time_unit));
+            times = *same;
         }
         if (index == 0)
             timed_ = !times.empty();

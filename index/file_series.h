@@ -15,8 +15,8 @@ struct SeriesFile {
 };
 
 /// Opens every file once and holds them all to the first: vertices, spacing, origin, direction,
-/// array, type and scaling. Times are those of `files`, of the files' contents or, when neither
-/// has any, step numbers; `options` override.
+/// array, type and scaling. Times are those of `files`, of the files' contents, in the unit
+/// of the first, or, when neither has any, step numbers; `options` override.
 /// @throws Error naming both files when two disagree, or when times do not increase
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
                                                const ReadOptions& options);

@@ -80,6 +80,8 @@ class NetcdfVolume final : public VolumeFile {
                 std::min<std::size_t>(length_along(axis), std::int64_t{1} << 62));
         info_.grid.vertices = checked_vertices(sizes, name);
         file_->expect_room(variable_);
+        if (layout_.time)
+            file_->keep_chunks(variable_, *layout_.time);
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         info_.scaling = file_->scaling(variable_);

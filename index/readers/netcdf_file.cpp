@@ -209,18 +209,45 @@ void NetcdfFile::read(const NetcdfVariable& variable, std::span<const std::size_
            fmt::format("{} cannot be read", variable.name));
 }
 
-void NetcdfFile::expect_room(const NetcdfVariable& variable) const {
-    if (is_classic_netcdf(path_))
-        return; // known to be whole
+std::vector<std::size_t> NetcdfFile::chunk_of(const NetcdfVariable& variable) const {
     int storage = NC_CONTIGUOUS;
     std::vector<std::size_t> chunk(variable.dimensions.size());
     expect(nc_inq_var_chunking(variable.group, variable.id, &storage, chunk.data()),
            fmt::format("{}: damaged storage", variable.name));
+    return storage == NC_CHUNKED ? chunk : std::vector<std::size_t>{};
+}
+
+void NetcdfFile::keep_chunks(const NetcdfVariable& variable, std::size_t time) const {
+    const std::vector<std::size_t> chunk = chunk_of(variable);
+    if (chunk.empty() || chunk[time] == 1)
+        return;
+    double bytes = static_cast<double>(size_of(*variable.type)), chunks = 1; // of one step
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+        bytes *= static_cast<double>(chunk[i]);
+        if (i != time)
+            chunks *= std::ceil(static_cast<double>(variable.dimensions[i].length) /
+                                static_cast<double>(chunk[i]));
+    }
+    constexpr double kMostBytes = 512.0 * (1 << 20), kMostChunks = 1e6;
+    if (bytes * chunks > kMostBytes || chunks > kMostChunks)
+        return;
+    constexpr std::size_t kSlotsPerChunk = 10; // as HDF5 advises
+    constexpr float kPreferRead = 1.0f;        // to give up what has been read in whole
+    expect(nc_set_var_chunk_cache(
+               variable.group, variable.id, static_cast<std::size_t>(bytes * chunks),
+               static_cast<std::size_t>(chunks) * kSlotsPerChunk + 1, kPreferRead),
+           fmt::format("{}: no room for its chunks", variable.name));
+}
+
+void NetcdfFile::expect_room(const NetcdfVariable& variable) const {
+    if (is_classic_netcdf(path_))
+        return; // known to be whole
+    const std::vector<std::size_t> chunk = chunk_of(variable);
     Compression compression = Compression::none;
     double bytes = static_cast<double>(size_of(*variable.type)), chunk_bytes = bytes;
-    for (std::size_t i = 0; i < chunk.size(); ++i)
-        bytes *= static_cast<double>(variable.dimensions[i].length);
-    if (storage == NC_CHUNKED) {
+    for (const NetcdfDimension& dimension : variable.dimensions)
+        bytes *= static_cast<double>(dimension.length);
+    if (!chunk.empty()) {
         // Chunks that were never written take no room: as if they were deflated.
         compression = Compression::deflate;
         std::size_t filters = 0;

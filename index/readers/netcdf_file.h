@@ -73,6 +73,10 @@ class NetcdfFile {
     void read(const NetcdfVariable& variable, std::span<const std::size_t> start,
               std::span<const std::size_t> count, std::span<std::byte> out) const;
 
+    /// Keeps the chunks that steps share decompressed from one step to the next, where 512 MiB do.
+    /// @param time the dimension of the steps
+    void keep_chunks(const NetcdfVariable& variable, std::size_t time) const;
+
     /// @throws Error when the file is too small to hold the variable, whatever its compression: a
     ///         header that lies must not cost memory
     void expect_room(const NetcdfVariable& variable) const;
@@ -80,6 +84,8 @@ class NetcdfFile {
   private:
     void add_group(int group, const std::string& prefix);
     void expect(int status, const std::string& what) const;
+    /// Values along each dimension of a chunk; empty where there are no chunks.
+    std::vector<std::size_t> chunk_of(const NetcdfVariable& variable) const;
 
     std::filesystem::path path_;
     std::string name_;

@@ -293,6 +293,22 @@ TEST(NetcdfTimes, OfSeveralFilesFollowEachOther) {
                 HasSubstr("a.nc: v(time 0, z 2, y 2, x 2) has 0 steps, expected at least 1"));
 }
 
+TEST(NetcdfTimes, OfOtherReferenceDatesFollowInThatOfTheFirst) {
+    TestFolder folder;
+    const auto series =
+        open_series({at_times(folder, "1.nc", {0, 12}, "hours since 2000-02-28"),
+                     at_times(folder, "2.nc", {0, 720}, "minutes since 2000-02-29T00:00:00Z"),
+                     at_times(folder, "3.nc", {0}, "days since 2000-03-01 02:30:00 +2:30")});
+    EXPECT_EQ(series->info().times, (std::vector<double>{0, 12, 24, 36, 48}));
+    EXPECT_EQ(series->info().time_unit, "hours since 2000-02-28");
+    EXPECT_THAT(error_of([&] {
+                    open_series({at_times(folder, "1.nc", {0}, "hours since 2000-02-28"),
+                                 at_times(folder, "2.nc", {0}, "months since 2000-02-29")});
+                }),
+                testing::AllOf(HasSubstr("2.nc: times in months since 2000-02-29, "),
+                               HasSubstr("1.nc has hours since 2000-02-28; --time-step")));
+}
+
 TEST(NetcdfTimes, MayBeASingleNumberBesideTheField) {
     TestFolder folder;
     NetcdfWriter out(folder.path() / "one.nc", NC_NETCDF4);

@@ -14,10 +14,9 @@ glm::dquat upright(index::Anatomy anatomy) {
     switch (anatomy) {
     case index::Anatomy::ras:
         return glm::quat_cast(glm::dmat3(-x, z, y)); // right, anterior, superior
-    case index::Anatomy::lps:
-        return glm::quat_cast(glm::dmat3(x, -z, y)); // left, posterior, superior
-    case index::Anatomy::enu:
-        return glm::quat_cast(glm::dmat3(x, -z, y)); // east to the right, north away, up
+    case index::Anatomy::lps:                        // left, posterior, superior
+    case index::Anatomy::enu:                        // east, north, up
+        return glm::quat_cast(glm::dmat3(x, -z, y));
     default: return glm::dquat(1, 0, 0, 0);
     }
 }

@@ -1,7 +1,10 @@
 // The formats whose libraries are heavy: from modules that are loaded when the first such file is
 // opened.
+#include "index/error.h"
 #include "index/module.h"
 #include "index/readers/readers.h"
+
+#include <fmt/format.h>
 
 namespace isochron::index {
 namespace {
@@ -30,7 +33,15 @@ std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path,
 
 std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
                                         const ReadOptions& options) {
-    static const auto open = from_module<OpenInModule>("isochron_open_netcdf", "isochron_netcdf");
+    static const auto open = [&] {
+        try {
+            return from_module<OpenInModule>("isochron_open_netcdf", "isochron_netcdf");
+        } catch (const Error& error) {
+            throw Error(fmt::format("{}: this program has no NetCDF (it was built without "
+                                    "libnetcdf-dev?): {}",
+                                    path.string(), error.what()));
+        }
+    }();
     return std::unique_ptr<VolumeFile>(open(path, options));
 }
 

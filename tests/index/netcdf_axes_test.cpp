@@ -113,6 +113,21 @@ TEST(NetcdfAxes, WithoutNamesAreInTheOrderOfStorage) {
     EXPECT_THAT(series->info().notes, IsEmpty());
 }
 
+TEST(NetcdfAxes, MayBePacked) {
+    TestFolder folder;
+    NetcdfWriter out(folder.path() / "packed.nc", NC_CLASSIC_MODEL);
+    out.axis("x", kX, "m");
+    out.axis("y", kY, "m");
+    out.dimension("z", 3);
+    out.variable("z", NC_SHORT, {"z"});
+    out.text("z", "units", "m");
+    out.number<float>("z", "scale_factor", {0.5f});
+    out.number<float>("z", "add_offset", {10});
+    out.put("z", std::vector<std::int16_t>{40, 48, 56});
+    put_landmark(out, {"z", "y", "x"}, false);
+    EXPECT_EQ(brightest(out.done()), glm::dvec3(16, 23, 38));
+}
+
 TEST(NetcdfAxes, MayDescend) {
     TestFolder folder;
     NetcdfWriter out(folder.path() / "down.nc", NC_CLASSIC_MODEL);

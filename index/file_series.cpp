@@ -113,10 +113,9 @@ class FileSeries final : public VolumeSeries {
                 throw Error(fmt::format("{}: {} steps, expected 1 for time {}", name(index),
                                         open_->steps(), *files_[index].time));
             times = {*files_[index].time};
-        }
-        // In the unit of the first file. One that gives none is taken to mean the same.
-        else if (!times.empty() && !options_.time_step && !info.time_unit.empty() &&
-                 !first_.time_unit.empty()) {
+        } else if (!times.empty() && !options_.time_step && !info.time_unit.empty() &&
+                   !first_.time_unit.empty()) {
+            // A file that gives no unit is taken to mean that of the first.
             const auto same = times_in(first_.time_unit, info.time_unit, std::move(times));
             if (!same)
                 throw Error(fmt::format("{}: times in {}, {} has {}; --time-step sets them all",

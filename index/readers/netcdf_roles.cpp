@@ -28,7 +28,7 @@ struct RoleName {
     AxisRole role;
 };
 
-/// Standard names; a blank in front stands for any beginning.
+/// Standard names; of those that end with _ only the beginning.
 constexpr std::array<RoleName, 15> kStandardNames{{
     {"longitude", AxisRole::x},
     {"grid_longitude", AxisRole::x},

@@ -17,13 +17,16 @@ struct Curve {
     float lightness_low, lightness_high;
     float hue_low, hue_high; ///< degrees
     float chroma;            ///< at most, and where a display can show it
-    bool half = false;       ///< chroma falls from the lower end on, else towards both ends
+    float fades_from;        ///< from here on, 0 to 1, chroma falls to none at the light end
 };
-constexpr Curve kDusk{14, 94, 300, 455, 60};
-constexpr Curve kLagoon{16, 92, 310, 108, 46};
-constexpr Curve kColdHalf{32, 88, 280, 265, 60, true};
-constexpr Curve kWarmHalf{32, 88, 30, 50, 60, true};
-constexpr Curve kGrey{8, 96, 0, 0, 0};
+// None starts darker than this: shading darkens a surface further, and next to a dark background
+// nothing would be left of the low end's shape, nor of its hue.
+constexpr float kDarkest = 32;
+constexpr Curve kDusk{kDarkest, 94, 303, 455, 60, 0.65f};
+constexpr Curve kLagoon{kDarkest, 93, 300, 108, 50, 0.65f};
+constexpr Curve kColdHalf{kDarkest, 88, 280, 265, 60, 0};
+constexpr Curve kWarmHalf{kDarkest, 88, 30, 50, 60, 0};
+constexpr Curve kGrey{kDarkest, 96, 0, 0, 0, 0};
 
 constexpr int kFine = 4096; ///< steps of a curve before it is divided evenly
 
@@ -41,8 +44,8 @@ glm::vec3 lab(float lightness, float chroma, float hue) {
 glm::vec3 point(const Curve& curve, float t) {
     const float lightness = glm::mix(curve.lightness_low, curve.lightness_high, t);
     const float hue = glm::mix(curve.hue_low, curve.hue_high, t);
-    const float off_peak = curve.half ? t : (2 * t - 1) * (2 * t - 1);
-    const float wanted = curve.chroma * (1.0f - off_peak * off_peak);
+    const float faded = std::max(t - curve.fades_from, 0.0f) / (1.0f - curve.fades_from);
+    const float wanted = curve.chroma * (1.0f - faded * faded);
     if (shown(linear_from_cielab(lab(lightness, wanted, hue))))
         return lab(lightness, wanted, hue);
     float low = 0.0f, high = wanted;

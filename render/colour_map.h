@@ -25,8 +25,8 @@ std::optional<ColorMap> color_map_from_name(std::string_view name);
 constexpr std::size_t kColorMapSize = 256;
 
 /// The map from low to high, linear light. Neighbours are equally far apart (Delta E*ab, within a
-/// fifth), and
-/// lightness L* grows all the way (`polar`: to the middle, and falls behind it).
+/// fifth), and lightness L* grows all the way (`polar`: to the middle, and falls behind it) from 32
+/// on, so that low values still show their shape before a dark background.
 std::vector<glm::vec3> color_map(ColorMap map);
 
 /// The map as GL_TEXTURE_1D that interpolates between its colours.

@@ -36,6 +36,14 @@ TEST(ColorMaps, GrowLighterAllTheWayOrUpToTheMiddle) {
     }
 }
 
+TEST(ColorMaps, StandOutFromADarkBackgroundAndAreNeverWhite) {
+    for (const ColorMap map : kAllMaps)
+        for (const glm::vec3& lab : in_lab(map)) {
+            EXPECT_GE(lab.x, 30.0f) << int(map);
+            EXPECT_LE(lab.x, 97.0f) << int(map);
+        }
+}
+
 TEST(ColorMaps, StepThroughEqualDifferencesOfColour) {
     for (const ColorMap map : kAllMaps) {
         const auto lab = in_lab(map);

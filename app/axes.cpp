@@ -113,6 +113,7 @@ Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
         const glm::vec2 anchor =
             0.5f - 0.5f * away; // the side of the text that is next to the tick
         std::size_t widest = 0;
+        AxisLabels& labels = axes.labels.emplace_back();
         for (const double value : ticks.values) {
             glm::vec3 at = middle;
             at[axis] = placement.extent[axis] *
@@ -120,16 +121,19 @@ Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
             axes.ticks.push_back({at, at + tick, kTickColour});
             const std::string text = tick_text(value, ticks.step);
             widest = std::max(widest, text.size());
-            axes.labels.push_back(
-                {.text = text, .at = at + 1.4f * tick, .anchor = anchor, .color = kTextColour});
+            labels.numbers.push_back({.label = {.text = text,
+                                                .at = at + 1.4f * tick,
+                                                .anchor = anchor,
+                                                .color = kTextColour},
+                                      .multiple = std::llround(value / ticks.step)});
         }
         // The title stands beyond the numbers.
         const glm::vec2 room(0.6f * static_cast<float>(widest) + 0.8f, 1.3f);
-        axes.labels.push_back({.text = scale.title,
-                               .at = middle + 1.4f * tick,
-                               .anchor = anchor,
-                               .offset = away * room,
-                               .color = kTextColour});
+        labels.title = {.text = scale.title,
+                        .at = middle + 1.4f * tick,
+                        .anchor = anchor,
+                        .offset = away * room,
+                        .color = kTextColour};
     }
     return axes;
 }

@@ -8,6 +8,7 @@
 #include "render/text_pass.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,10 +34,20 @@ using EdgeSides = std::array<bool, 2>;
 std::optional<EdgeSides> labelled_edge(int axis, const render::Placement& placement,
                                        const interaction::Pose& head);
 
-/// In vertex index coordinates.
+/// What is written along one edge, in vertex index coordinates.
+struct AxisLabels {
+    struct Number {
+        render::Label label;
+        std::int64_t multiple; ///< of the step between ticks
+    };
+    render::Label title;
+    std::vector<Number> numbers; ///< ascending
+};
+
+/// In vertex index coordinates. Not all labels have room in every view: see axis_labels.h.
 struct Axes {
     std::vector<render::Line> ticks;
-    std::vector<render::Label> labels;
+    std::vector<AxisLabels> labels; ///< of each axis that has an edge to carry them
 };
 Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
               const interaction::Pose& head);

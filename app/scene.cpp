@@ -1,10 +1,13 @@
 // What the eyes see: the cells, the volume's box, the legend, the wand and what lies on the floor.
 #include "app/scene.h"
 
+#include "app/axis_labels.h"
 #include "app/font.h"
 #include "app/mark.h"
 #include "interaction/navigation.h"
 #include "render/driver.h"
+
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <array>
@@ -100,28 +103,68 @@ void Scene::draw(std::span<const render::View> views,
                  const interaction::Similarity& room_from_physical, render::Footprint footprint,
                  const std::optional<interaction::Pose>& wand) {
     const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
-    for (const render::View& view : views)
-        draw_around_cells(view, placement, wand);
+    // Soft edges blend with what is drawn before them. What splats may hide must come before these
+    // all the same, since they write no depth.
+    const bool depth = writes_depth(footprint);
+    if (!depth)
+        draw_among_cells(views, placement, wand);
     if (footprint == render::Footprint::surface)
         cells_.compute_corners();
     if (appearance_.near_fade && !views.empty()) // of one viewer, all of them
         appearance_.near_fade->between_eyes = head_of(views.front());
     cell_pass_.draw(views, placement, cells_, footprint, appearance_);
+    if (depth)
+        draw_among_cells(views, placement, wand);
+    draw_before_cells(views, placement);
     for (const render::View& view : views)
         draw_over_cells(view, room_from_physical);
 }
 
-void Scene::draw_around_cells(const render::View& view, const render::Placement& placement,
-                              const std::optional<interaction::Pose>& wand) {
-    if (box_) {
-        std::vector<render::Line> lines = render::box_lines(placement.extent, kBoxColour);
+/// Whether the cells hide what is drawn after them and lies behind.
+bool Scene::writes_depth(render::Footprint footprint) const {
+    return footprint == render::Footprint::quad ||
+           (footprint == render::Footprint::surface &&
+            std::ranges::all_of(appearance_.surfaces, [](const render::SurfaceAppearance& surface) {
+                return surface.opacity >= 1.0f;
+            }));
+}
+
+render::BoxLines Scene::box_in(const render::View& view, const render::Placement& placement) const {
+    const glm::vec4 eye(view.eye_in_room(), 1.0f);
+    return render::box_lines(placement.extent, kBoxColour,
+                             glm::vec3(glm::inverse(placement.room_from_index) * eye));
+}
+
+void Scene::draw_among_cells(std::span<const render::View> views,
+                             const render::Placement& placement,
+                             const std::optional<interaction::Pose>& wand) {
+    for (const render::View& view : views) {
+        if (box_)
+            line_pass_.draw(view, placement.room_from_index, box_in(view, placement).far);
+        draw_guides(view, wand);
+    }
+}
+
+/// The edges of the box that no cell hides. The numbers stand at its outline, where there is no
+/// cell before them, nor behind.
+void Scene::draw_before_cells(std::span<const render::View> views,
+                              const render::Placement& placement) {
+    if (!box_)
+        return;
+    const std::vector<render::Label> labels =
+        labels_with_room(axes_.labels, text_pass_.atlas(), placement.room_from_index, views);
+    for (const render::View& view : views) {
+        std::vector<render::Line> lines = box_in(view, placement).near;
         lines.insert(lines.end(), axes_.ticks.begin(), axes_.ticks.end());
         line_pass_.draw(view, placement.room_from_index, lines);
         std::vector<render::ScreenQuad> quads;
-        for (const render::Label& label : axes_.labels)
+        for (const render::Label& label : labels)
             text_pass_.set(label, text_height(view.size), quads);
         text_pass_.draw(view, placement.room_from_index, quads);
     }
+}
+
+void Scene::draw_guides(const render::View& view, const std::optional<interaction::Pose>& wand) {
     if (!guides_.empty())
         line_pass_.draw(view, glm::mat4(1.0f), guides_);
     if (wand) {

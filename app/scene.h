@@ -63,8 +63,12 @@ class Scene {
               const std::optional<interaction::Pose>& wand);
 
   private:
-    void draw_around_cells(const render::View& view, const render::Placement& placement,
-                           const std::optional<interaction::Pose>& wand);
+    bool writes_depth(render::Footprint footprint) const;
+    render::BoxLines box_in(const render::View& view, const render::Placement& placement) const;
+    void draw_among_cells(std::span<const render::View> views, const render::Placement& placement,
+                          const std::optional<interaction::Pose>& wand);
+    void draw_before_cells(std::span<const render::View> views, const render::Placement& placement);
+    void draw_guides(const render::View& view, const std::optional<interaction::Pose>& wand);
     void draw_over_cells(const render::View& view,
                          const interaction::Similarity& room_from_physical);
     glm::vec3 head_of(const render::View& view) const;

@@ -7,16 +7,21 @@
 
 namespace isochron::render {
 
-std::vector<Line> box_lines(const glm::vec3& extent, const glm::vec4& color) {
-    std::vector<Line> lines;
+BoxLines box_lines(const glm::vec3& extent, const glm::vec4& color, const glm::vec3& eye) {
+    BoxLines lines;
     for (int axis = 0; axis < 3; ++axis)
         for (int edge = 0; edge < 4; ++edge) {
             glm::vec3 from(0.0f);
-            from[(axis + 1) % 3] = edge & 1 ? extent[(axis + 1) % 3] : 0.0f;
-            from[(axis + 2) % 3] = edge & 2 ? extent[(axis + 2) % 3] : 0.0f;
+            bool near = false;
+            for (int i = 0; i < 2; ++i) {
+                const int other = (axis + 1 + i) % 3;
+                const bool upper = (edge >> i & 1) != 0;
+                from[other] = upper ? extent[other] : 0.0f;
+                near = near || (upper ? eye[other] > extent[other] : eye[other] < 0.0f);
+            }
             glm::vec3 to = from;
             to[axis] = extent[axis];
-            lines.push_back({from, to, color});
+            (near ? lines.near : lines.far).push_back({from, to, color});
         }
     return lines;
 }

@@ -19,8 +19,13 @@ struct Line {
     glm::vec4 color{1.0f}; ///< sRGB, not pre-multiplied; a: opacity
 };
 
-/// The twelve edges of the box [0, extent].
-std::vector<Line> box_lines(const glm::vec3& extent, const glm::vec4& color);
+/// The twelve edges of the box [0, extent] as an eye sees them that looks at what is inside.
+struct BoxLines {
+    std::vector<Line> near; ///< sides of a face that faces the eye: nothing inside hides them
+    std::vector<Line> far;  ///< the others, which hide nothing inside; all, from inside
+};
+/// @param eye in the box's coordinates
+BoxLines box_lines(const glm::vec3& extent, const glm::vec4& color, const glm::vec3& eye);
 
 class LinePass {
   public:
@@ -28,9 +33,10 @@ class LinePass {
     explicit LinePass(const Gl& gl);
 
     /// Draws into the view's viewport of the bound framebuffer, `width` pixels wide at any
-    /// distance, with soft edges; tests depth and writes that of the lines' core. Draw lines before
-    /// splats, which do not write any. Leaves depth test and depth writes on, blending and culling
-    /// off.
+    /// distance, with soft edges; tests depth and writes that of the lines' core. Soft edges blend
+    /// with what has been drawn: draw lines after what lies behind them, and those that splats may
+    /// lie before, which write no depth, before these. Leaves depth test and depth writes on,
+    /// blending and culling off.
     void draw(const View& view, const glm::mat4& room_from_model, std::span<const Line> lines,
               float width = 1.5f);
 

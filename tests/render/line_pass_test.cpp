@@ -2,8 +2,12 @@
 #include "render/line_pass.h"
 #include "render/render_target.h"
 #include "tests/render/gl_test.h"
+#include "tests/support/test_seed.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <random>
 
 namespace isochron::render {
 namespace {
@@ -85,15 +89,41 @@ TEST_P(Lines, InFrontOfOthersAreNeverDarkerThanEither) {
 }
 
 TEST_P(Lines, OfABoxAreItsTwelveEdges) {
-    const auto lines = box_lines({1, 2, 3}, glm::vec4(1));
-    ASSERT_EQ(lines.size(), 12u);
+    const BoxLines lines = box_lines({1, 2, 3}, glm::vec4(1), {5, 1, 1});
+    ASSERT_EQ(lines.near.size() + lines.far.size(), 12u);
     glm::vec3 total(0.0f);
-    for (const Line& line : lines) {
-        const glm::vec3 along = glm::abs(line.to - line.from);
-        EXPECT_EQ((along.x > 0) + (along.y > 0) + (along.z > 0), 1);
-        total += along;
-    }
+    for (const auto* part : {&lines.near, &lines.far})
+        for (const Line& line : *part) {
+            const glm::vec3 along = glm::abs(line.to - line.from);
+            EXPECT_EQ((along.x > 0) + (along.y > 0) + (along.z > 0), 1);
+            total += along;
+        }
     EXPECT_EQ(total, glm::vec3(4, 8, 12));
+}
+
+TEST_P(Lines, OfABoxAreNearWhereNothingInsideCanHideThem) {
+    std::mt19937 random(test_seed());
+    std::uniform_real_distribution<float> place(-3.0f, 5.0f), share(0.02f, 0.98f);
+    const glm::vec3 extent(1, 2, 3);
+    const auto inside = [&](const glm::vec3& at) {
+        return glm::all(glm::greaterThan(at, glm::vec3(0))) && glm::all(glm::lessThan(at, extent));
+    };
+    for (int i = 0; i < 300; ++i) {
+        const glm::vec3 eye(place(random), place(random), place(random));
+        const BoxLines lines = box_lines(extent, glm::vec4(1), eye);
+        if (inside(eye)) {
+            EXPECT_TRUE(lines.near.empty());
+        }
+        // Just before an edge, or just behind it, a ray from the eye is within the box or is not.
+        for (const bool near : {true, false})
+            for (const Line& line : near ? lines.near : lines.far) {
+                const glm::vec3 at = glm::mix(line.from, line.to, share(random));
+                const glm::vec3 step = 1e-3f * glm::normalize(at - eye);
+                EXPECT_FALSE(inside(near ? at - step : at + step))
+                    << "eye " << eye.x << ' ' << eye.y << ' ' << eye.z << ", edge " << at.x << ' '
+                    << at.y << ' ' << at.z;
+            }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Lines, both_contexts(), context_name);

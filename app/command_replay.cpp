@@ -26,6 +26,7 @@ struct Options {
     bool test_pattern = false;
     std::string eyes = "window";
     std::string format = "png";
+    std::optional<int> samples;
     std::vector<int> size;
 };
 
@@ -41,6 +42,7 @@ Config configure(const Options& options, const interaction::RecordingHeader& hea
         config.installation.windows.front().size = {header.window[0], header.window[1]};
     if (options.footprint)
         config.settled_footprint = settled_footprint_from_name(*options.footprint);
+    config.picture_samples = options.samples.value_or(config.picture_samples);
     for (stereo::Window& window : config.installation.windows) {
         if (!options.size.empty() && !options.emulate)
             window.size = {options.size[0], options.size[1]};
@@ -90,12 +92,11 @@ void write_pictures(Show& session, const Options& options, const PictureNames& n
                       fmt::format("{}_{}", named.viewports[i], name_of(eye)));
     };
     if (session.room())
-        return write(session.room()->read(), "");
-    for (std::size_t i = 0; i < session.displays(); ++i) {
-        const stereo::Display& display = session.display(i);
+        return write(session.kept_pictures().of_room(), "");
+    session.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
         const std::size_t number = session.windows().number(i);
         if (number >= names.windows.size()) // the operator's window is no wall
-            continue;
+            return;
         const PictureNames::Window& named = names.windows[number];
         if (options.eyes == "each") {
             write_eyes(display, named);
@@ -105,7 +106,7 @@ void write_pictures(Show& session, const Options& options, const PictureNames& n
         } else {
             write(display.read_window(), named.suffix);
         }
-    }
+    });
 }
 
 void make_folder(const fs::path& folder) {
@@ -316,6 +317,11 @@ void add_replay(CLI::App& program) {
             "Size of every window's pictures, or of the room's, in pixels (default: as recorded)")
         ->expected(2)
         ->check(CLI::Range(16, 16384));
+    command
+        ->add_option("--samples", options->samples,
+                     "Samples of each pixel of the pictures (default: as configured, 4 where "
+                     "nothing is)")
+        ->check(CLI::Range(1, 64));
     command->add_flag("--emulate", options->emulate,
                       "Show the room from outside, with what every wall shows, instead");
     command->add_option("--stereo", options->stereo, "Stereo mode instead of the recorded one")

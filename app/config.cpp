@@ -130,6 +130,7 @@ void read_rendering(TomlReader& reader, Config& config) {
     check_color(reader, "background", config.background);
     check_color(reader, "surface_colour", config.surface_colour);
     reader.integer("samples", 0, 64, config.samples);
+    reader.integer("picture_samples", 0, 64, config.picture_samples);
     reader.word("blending", {"auto", "linear", "display"}, [&](const std::string& word) {
         config.blending = word == "auto"     ? Blending::automatic
                           : word == "linear" ? Blending::linear

@@ -10,15 +10,31 @@
 namespace isochron::app {
 namespace {
 
+constexpr int kSmooth = 4;
+
 /// @throws render::Error when this GL has fewer
+void check_samples(const char* key, int samples, const render::Gl& gl) {
+    if (samples > render::max_samples(gl))
+        throw render::Error(fmt::format("rendering.{}: expected 0 to {} with this GL, got {}", key,
+                                        render::max_samples(gl), samples));
+}
+
 int samples_of(const Config& config, const render::Gl& gl) {
-    constexpr int kOnGpu = 4;
-    if (config.samples == 0)
-        return render::draws_in_software(gl) ? 1 : std::min(kOnGpu, render::max_samples(gl));
-    if (config.samples > render::max_samples(gl))
-        throw render::Error(fmt::format("rendering.samples: expected 0 to {} with this GL, got {}",
-                                        render::max_samples(gl), config.samples));
-    return config.samples;
+    check_samples("samples", config.samples, gl);
+    if (config.samples > 0)
+        return config.samples;
+    return render::draws_in_software(gl) ? 1 : std::min(kSmooth, render::max_samples(gl));
+}
+
+int picture_samples_of(const Config& config, const render::Gl& gl, glm::ivec2 window) {
+    check_samples("picture_samples", config.picture_samples, gl);
+    if (config.picture_samples > 0)
+        return config.picture_samples;
+    // Colour and depth of 2^28 samples are 2 GiB. Two eyes in one window of 8K stay below.
+    constexpr double kMost = 1 << 28;
+    const double pixels = 2.0 * window.x * window.y;
+    const int smooth = pixels * kSmooth <= kMost ? std::min(kSmooth, render::max_samples(gl)) : 1;
+    return std::max(smooth, samples_of(config, gl));
 }
 
 } // namespace
@@ -28,6 +44,13 @@ stereo::DisplayOptions display_options(const render::Gl& gl, const Config& confi
             .far_plane = config.installation.far_plane,
             .background = config.background,
             .samples = samples_of(config, gl)};
+}
+
+stereo::DisplayOptions picture_options(const render::Gl& gl, const Config& config,
+                                       glm::ivec2 window) {
+    stereo::DisplayOptions options = display_options(gl, config);
+    options.samples = picture_samples_of(config, gl, window);
+    return options;
 }
 
 std::deque<stereo::Display> make_displays(const render::Gl& gl, const stereo::Windows& windows,

@@ -15,6 +15,12 @@ namespace isochron::app {
 /// @throws render::Error when this GL has fewer samples than configured
 stereo::DisplayOptions display_options(const render::Gl& gl, const Config& config);
 
+/// The same for a picture to keep.
+/// @param window its size, pixels
+/// @throws render::Error when this GL has fewer samples than configured for pictures
+stereo::DisplayOptions picture_options(const render::Gl& gl, const Config& config,
+                                       glm::ivec2 window);
+
 /// One for each window; a display stays where it is made.
 /// @throws render::Error when this GL has fewer samples than configured
 std::deque<stereo::Display> make_displays(const render::Gl& gl, const stereo::Windows& windows,

@@ -18,6 +18,7 @@ PatternShow::PatternShow(Config config, stereo::Windows windows)
       eye_separation_(config_.installation.viewers.front().eye_separation) {
     if (windows_.room())
         room_.emplace(gl_, *windows_.room(), config_.installation);
+    picture_options(gl_, config_, {1, 1}); // wrong ones are told now, not when the first is taken
 }
 
 void PatternShow::obey(const Commands& commands) {
@@ -35,14 +36,13 @@ Commands PatternShow::commands_from(const InputState& input) {
 }
 
 void PatternShow::frame(const InputState& input, const Latch& latch) {
-    const InputState seen =
-        latch ? with_heads(input, viewers_heads(latch(), config_.installation)) : input;
-    const auto viewers = viewpoints(config_.installation, seen, eye_separation_);
+    seen_ = latch ? with_heads(input, viewers_heads(latch(), config_.installation)) : input;
+    viewers_ = viewpoints(config_.installation, seen_, eye_separation_);
     for (std::size_t i = 0; i < displays_.size(); ++i)
-        draw(i, viewers, seen);
+        draw(displays_[i], i);
     if (room_) {
-        const interaction::DeviceState* wand = seen.find("wand");
-        room_->draw(displays_, viewers, wand ? wand->pose : std::nullopt, input, {});
+        const interaction::DeviceState* wand = seen_.find("wand");
+        room_->draw(displays_, viewers_, wand ? wand->pose : std::nullopt, input, {});
     }
     for (stereo::Display& display : displays_)
         display.present();
@@ -50,21 +50,27 @@ void PatternShow::frame(const InputState& input, const Latch& latch) {
         room_->present();
 }
 
-void PatternShow::draw(std::size_t window, std::span<const stereo::Viewpoint> viewers,
-                       const InputState& seen) {
+void PatternShow::draw(stereo::Display& display, std::size_t window) {
     const stereo::Installation& installation = config_.installation;
     const stereo::Window& shown = installation.windows[window];
     const stereo::StereoMode configured = mode_of(shown, installation, mode_);
     const stereo::StereoMode mode = room_ ? RoomView::shown(configured) : configured;
     std::size_t viewport = 0;
-    displays_[window].draw(viewers, mode, [&](std::span<const render::View> views) {
+    display.draw(viewers_, mode, [&](std::span<const render::View> views) {
         const std::size_t number = shown.viewports[viewport].viewer;
         const PatternWall wall =
-            pattern_wall(shown, viewport, installation.viewers[number], viewers[number].head,
-                         viewers[number].eye_separation, views.front().size);
-        pattern_.draw(views, eyes_of(mode), wall, seen);
+            pattern_wall(shown, viewport, installation.viewers[number], viewers_[number].head,
+                         viewers_[number].eye_separation, views.front().size);
+        pattern_.draw(views, eyes_of(mode), wall, seen_);
         ++viewport;
     });
+}
+
+KeptPictures PatternShow::kept_pictures() {
+    return {
+        gl_,     windows_,
+        config_, displays_,
+        room_,   [this](stereo::Display& display, std::size_t window) { draw(display, window); }};
 }
 
 void PatternShow::write_image(render::Image image, const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 #include "app/background_work.h"
 #include "app/config.h"
 #include "app/displays.h"
+#include "app/kept_pictures.h"
 #include "app/late_latch.h"
 #include "app/room_view.h"
 #include "app/test_pattern.h"
@@ -39,13 +40,14 @@ class PatternShow {
     /// The room of an emulated installation; null where its windows are real.
     const RoomView* room() const { return room_ ? &*room_ : nullptr; }
 
+    /// The last frame's pictures, drawn once more to be kept.
+    KeptPictures kept_pictures();
     /// Writes a picture under its name, in the background.
     void write_image(render::Image image, const std::filesystem::path& path);
     BackgroundWork& pictures() { return pictures_; }
 
   private:
-    void draw(std::size_t window, std::span<const stereo::Viewpoint> viewers,
-              const interaction::InputState& seen);
+    void draw(stereo::Display& display, std::size_t window);
 
     Config config_;
     stereo::Windows windows_;
@@ -56,7 +58,9 @@ class PatternShow {
     interaction::Controls controls_;
     const std::vector<std::string> stereo_modes_;
     stereo::StereoMode mode_;
-    float eye_separation_; ///< [m], of the first viewer
+    float eye_separation_;         ///< [m], of the first viewer
+    interaction::InputState seen_; ///< in the last frame
+    std::vector<stereo::Viewpoint> viewers_;
     BackgroundWork pictures_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "app/room_models.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr float kNear = 0.05f, kFar = 200.0f; ///< [m]
 constexpr float kGlass = 0.3f;                ///< opacity of a wall that is seen from behind
+constexpr float kBeforeWall = 2e-3f;          ///< of the distance from the eye
 constexpr float kFloorMargin = 0.5f;          ///< [m] that the floor reaches beyond the walls
 constexpr float kWandRay = 1.2f;              ///< [m]
 constexpr glm::vec3 kBackground(0.13f, 0.14f, 0.16f);
@@ -26,6 +28,9 @@ constexpr std::array<glm::vec3, 4> kViewers{
 glm::vec3 color_of(std::size_t viewer) {
     return kViewers[viewer % kViewers.size()];
 }
+
+constexpr stereo::DisplayOptions kOptions{
+    .near_plane = kNear, .far_plane = kFar, .background = kBackground};
 
 /// A window on the room: a screen that the camera carries and that takes the window's shape.
 stereo::Window room_window() {
@@ -65,10 +70,9 @@ bool seen_from_front(const std::array<glm::vec3, 4>& corners, glm::vec3 eye) {
 
 RoomView::RoomView(const render::Gl& gl, stereo::GlContext& window,
                    const stereo::Installation& installation)
-    : start_(RoomCamera(installation).pose()),
-      display_(gl, window, room_window(),
-               {.near_plane = kNear, .far_plane = kFar, .background = kBackground}),
-      lines_(gl), pictures_(gl), solids_(gl), panels_(gl), floor_(floor_of(installation)) {}
+    : gl_(gl), window_(window), start_(RoomCamera(installation).pose()),
+      display_(gl, window, room_window(), kOptions), lines_(gl), pictures_(gl), solids_(gl),
+      panels_(gl), floor_(floor_of(installation)) {}
 
 stereo::StereoMode RoomView::shown(stereo::StereoMode mode) {
     return stereo::eyes_of(mode).size() == 1 ? mode : stereo::StereoMode::left;
@@ -79,11 +83,26 @@ void RoomView::draw(const std::deque<stereo::Display>& displays,
                     const std::optional<interaction::Pose>& wand,
                     const interaction::InputState& input, const stereo::Display::Overlay& overlay) {
     const interaction::DeviceState* camera = input.find(kRoomCamera);
-    const std::vector<Wall> walls = walls_of(displays, viewers);
-    display_.draw(
-        camera && camera->pose ? *camera->pose : start_, 0.0f, stereo::StereoMode::mono,
+    drawn_ = {
+        camera && camera->pose ? *camera->pose : start_, {viewers.begin(), viewers.end()}, wand};
+    draw_into(display_, displays, overlay);
+}
+
+render::Image RoomView::picture(const std::deque<stereo::Display>& displays, int samples) {
+    stereo::DisplayOptions options = kOptions;
+    options.samples = samples;
+    stereo::Display display(gl_, window_, room_window(), options);
+    draw_into(display, displays, {});
+    return display.read_window();
+}
+
+void RoomView::draw_into(stereo::Display& display, const std::deque<stereo::Display>& displays,
+                         const stereo::Display::Overlay& overlay) {
+    const std::vector<Wall> walls = walls_of(displays, drawn_.viewers);
+    display.draw(
+        drawn_.camera, 0.0f, stereo::StereoMode::mono,
         [&](std::span<const render::View> views) {
-            draw_room(views.front(), walls, viewers, wand);
+            draw_room(views.front(), walls, drawn_.viewers, drawn_.wand);
         },
         overlay);
 }
@@ -125,9 +144,14 @@ void RoomView::draw_room(const render::View& view, std::span<const Wall> walls,
     for (std::size_t i = 0; i < viewers.size(); ++i)
         solids_.draw(view, room_from(viewers[i].head), head_model(color_of(i)));
     std::vector<render::Line> lines = floor_;
+    const glm::vec3 eye = view.eye_in_room();
     for (const Wall& wall : walls)
         for (std::size_t i = 0; i < 4; ++i) {
-            lines.push_back({wall.corners[i], wall.corners[(i + 1) % 4], kFrame});
+            // Nearer to the eye, at the same place of the picture: frames are not lost in walls.
+            const auto before = [&](const glm::vec3& corner) {
+                return glm::mix(corner, eye, kBeforeWall);
+            };
+            lines.push_back({before(wall.corners[i]), before(wall.corners[(i + 1) % 4]), kFrame});
             lines.push_back({viewers[wall.viewer].head.position, wall.corners[i],
                              glm::vec4(color_of(wall.viewer), 0.35f)});
         }

@@ -40,6 +40,10 @@ class RoomView {
               const stereo::Display::Overlay& overlay);
     void present() { display_.present(); }
     render::Image read() const { return display_.read_window(); }
+    glm::ivec2 size() const { return display_.size(); } ///< drawn last, pixels
+    /// What was drawn last, without the overlay, drawn once more.
+    /// @param displays that show what they showed then
+    render::Image picture(const std::deque<stereo::Display>& displays, int samples);
 
   private:
     /// A screen as it stands in the room in this frame.
@@ -55,7 +59,19 @@ class RoomView {
                    const std::optional<interaction::Pose>& wand);
     void draw_walls(const render::View& view, std::span<const Wall> walls, bool from_front) const;
 
-    interaction::Pose start_; ///< of the camera
+    /// What was drawn last, beside the displays.
+    struct Drawn {
+        interaction::Pose camera;
+        std::vector<stereo::Viewpoint> viewers;
+        std::optional<interaction::Pose> wand;
+    };
+    void draw_into(stereo::Display& display, const std::deque<stereo::Display>& displays,
+                   const stereo::Display::Overlay& overlay);
+
+    const render::Gl& gl_;
+    stereo::GlContext& window_;
+    const interaction::Pose start_; ///< of the camera
+    Drawn drawn_;
     stereo::Display display_;
     render::LinePass lines_;
     render::PicturePass pictures_;

@@ -2,9 +2,6 @@
 #include "app/session.h"
 
 #include "interaction/navigator.h"
-#include "stereo/image_file.h"
-
-#include <fmt/format.h>
 
 #include <chrono>
 #include <utility>
@@ -78,6 +75,7 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
     }
     if (windows_.room())
         room_.emplace(gl_, *windows_.room(), config_.installation);
+    picture_options(gl_, config_, {1, 1}); // wrong ones are told now, not when the first is taken
     if (windows_.console())
         console_.emplace(gl_, windows_.drawing(), *windows_.console());
 }
@@ -231,12 +229,15 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     report.redrawn = wanted && (now != drawn_ || measure);
 }
 
-void Session::draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
+/// How a window shows a picture.
+stereo::StereoMode Session::mode_in(const stereo::Window& window, const Picture& now) const {
+    const stereo::StereoMode mode = mode_of(window, config_.installation, now.stereo);
+    return room_ ? RoomView::shown(mode) : mode;
+}
+
+void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
                         FrameReport& report) {
-    const auto panel = [&](glm::ivec2 size) {
-        if (with_panel)
-            draw_panel_overlay(size, report);
-    };
+    const auto panel = [&](glm::ivec2 size) { draw_panel_overlay(size, report); };
     panel_drawn_ = false;
     StopWatch watch;
     if (report.redrawn) {
@@ -255,10 +256,8 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
             displays_[i].draw_overlay_again(overlay);
             continue;
         }
-        const stereo::StereoMode mode =
-            mode_of(displays_[i].window(), config_.installation, now.stereo);
         displays_[i].draw(
-            now.viewers, room_ ? RoomView::shown(mode) : mode,
+            now.viewers, mode_in(displays_[i].window(), now),
             [&](std::span<const render::View> views) { draw_for(views, now); }, overlay);
     }
     if (headset_)
@@ -295,30 +294,9 @@ bool Session::captures(const FrameReport& report) {
                            .final = report.final});
 }
 
-/// Of the room, or of every window of this process.
-void Session::take_screenshots() {
-    const std::string stem = fmt::format("isochron_{:04}", ++screenshots_taken_);
-    if (room_)
-        return write_image(room_->read(), screenshot_folder_ / (stem + ".png"));
-    if (headset_)
-        return write_image(headset_display_->read_window(), screenshot_folder_ / (stem + ".png"));
-    const PictureNames names = picture_names(config_.installation);
-    for (std::size_t i = 0; i < displays_.size(); ++i)
-        write_image(displays_[i].read_window(),
-                    screenshot_folder_ /
-                        fmt::format("{}{}.png", stem, names.windows[windows_.number(i)].suffix));
-}
-
 void Session::show_messages(std::vector<std::string> messages) {
     if (!messages.empty())
         message_ = std::move(messages.back());
-}
-
-void Session::write_image(render::Image image, const std::filesystem::path& path) {
-    pictures_.post([image = std::move(image), path] {
-        stereo::write_image(image, path);
-        return "saved " + path.string();
-    });
 }
 
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
@@ -351,8 +329,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     choose_quality(now, waiting, report);
 
     StopWatch stages;
-    const bool capture = captures(report);
-    draw_eyes(now, input, !capture, report);
+    draw_eyes(now, input, report);
     if (console_)
         interaction::merge(panel_commands_,
                            console_->draw(panel_model(PanelPlace::whole, report), report.time));
@@ -370,7 +347,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         headset_display_->present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
-    if (capture)
+    if (captures(report))
         take_screenshots();
     show_messages(pictures_.messages());
     show_messages(picker_.messages());

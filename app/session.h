@@ -15,6 +15,7 @@
 #include "app/explorer_state.h"
 #include "app/frame_log.h"
 #include "app/frame_quality.h"
+#include "app/kept_pictures.h"
 #include "app/late_latch.h"
 #include "app/panel_in_room.h"
 #include "app/panel_layer.h"
@@ -106,6 +107,8 @@ class Session {
     }
     const FrameLog& log() const { return log_; }
 
+    /// The last frame's pictures, drawn once more to be kept.
+    KeptPictures kept_pictures();
     /// Writes a picture under its name, in the background.
     void write_image(render::Image image, const std::filesystem::path& path);
     BackgroundWork& pictures() { return pictures_; }
@@ -146,12 +149,13 @@ class Session {
     bool has_no_answer() const;
     bool captures(const FrameReport& report);
     std::vector<glm::ivec2> window_sizes() const;
-    void draw_eyes(const Picture& now, const interaction::InputState& input, bool with_panel,
-                   FrameReport& report);
+    void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
+    stereo::StereoMode mode_in(const stereo::Window& window, const Picture& now) const;
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     void draw_headset(const Picture& now, bool redrawn, const stereo::Display::Overlay& overlay);
     void draw_for(std::span<const render::View> views, const Picture& now);
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
+    render::Image headset_picture();
     void take_screenshots();
 
     Config config_;

@@ -34,6 +34,7 @@ opacity = 0.5
 quantile = 0.5
 [rendering]
 samples = 2
+picture_samples = 8
 blending = "display"
 [lighting]
 key_direction = [0, 1, 0]
@@ -52,6 +53,7 @@ range = [0.1, 0.3]
     EXPECT_EQ(config.surfaces[1].quantile, 0.5);
     EXPECT_NE(config.surfaces[1].color, config.surfaces[0].color);
     EXPECT_EQ(config.samples, 2);
+    EXPECT_EQ(config.picture_samples, 8);
     EXPECT_EQ(config.blending, Blending::display);
     EXPECT_EQ(config.appearance.key_direction, glm::vec3(0, 1, 0));
     EXPECT_FLOAT_EQ(config.appearance.reflectance, 0.1f);

@@ -153,11 +153,12 @@ TEST_F(HeadsetSession, TheMirrorCutsTheLeftEyeToTheWindow) {
     ASSERT_EQ(window.width, 128);
     ASSERT_EQ(window.height, 96);
     EXPECT_TRUE(matches_golden(window, "headset_mirror", kTolerance));
-    // All of the eye's width shows, so the sphere is as much smaller as the window is.
+    // All of the eye's width shows, so the sphere is as much smaller as the window is; the filter
+    // widens its rim by less than half a pixel.
     const Coverage in_window = warm_part(window);
     const Coverage in_eye = warm_part(headset().frames.back().views.at(0).picture);
     const double smaller = 128.0 / kEye.x;
-    EXPECT_NEAR(in_window.pixels, in_eye.pixels * smaller * smaller, 0.03 * in_window.pixels);
+    EXPECT_NEAR(in_window.pixels, in_eye.pixels * smaller * smaller, 0.04 * in_window.pixels);
     EXPECT_NEAR(in_window.centre.x, in_eye.centre.x * smaller, 0.7);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kNear = 0.05f, kFar = 200.0f; ///< [m]
 constexpr float kGlass = 0.3f;                ///< opacity of a wall that is seen from behind
-constexpr float kBeforeWall = 2e-3f;          ///< of the distance from the eye
+constexpr float kBeforeWall = 1e-2f;          ///< of the distance from the eye
 constexpr float kFloorMargin = 0.5f;          ///< [m] that the floor reaches beyond the walls
 constexpr float kWandRay = 1.2f;              ///< [m]
 constexpr glm::vec3 kBackground(0.13f, 0.14f, 0.16f);

@@ -2,6 +2,7 @@
 // that an emulation shows.
 #include "session_fixture.h"
 
+#include "app/room_camera.h"
 #include "app/room_view.h"
 #include "render/srgb.h"
 #include "stereo/windows.h"
@@ -246,6 +247,40 @@ TEST_P(CaveTest, AnEmulatedSessionShowsTheRoomAndOneEyeOfEveryWall) {
     input.time = interaction::Seconds(0.1);
     session.frame(input, {}, Waiting::for_cells);
     EXPECT_NE(session.room()->read().rgba, room.rgba) << "the head and its frusta have moved";
+}
+
+TEST_P(CaveTest, FramesOfWallsAreSeenAllAlongThem) {
+    const TestFolder folder;
+    const Config cave = small_cave({64, 64});
+    constexpr glm::ivec2 kRoom(480, 360);
+    Session session(cave, build_sphere(folder.path()),
+                    stereo::open_room(GetParam(), cave.installation, {.size = kRoom}));
+    session.frame(head_at_rest(0), {}, Waiting::for_cells);
+    const Image room = session.room()->read();
+    const Pose camera = RoomCamera(cave.installation).pose();
+    int seen = 0, missing = 0;
+    for (const stereo::Window& window : cave.installation.windows) {
+        const auto corners = corners_in_room(window.viewports.front().screen,
+                                             head_at_rest(0).devices[0].pose.value(), window.size);
+        for (std::size_t i = 0; i < 4; ++i)
+            for (int step = 1; step < 40; ++step) {
+                const glm::vec3 at =
+                    glm::inverse(camera.orientation) *
+                    (glm::mix(corners[i], corners[(i + 1) % 4], static_cast<float>(step) / 40) -
+                     camera.position);
+                const float pixels = 0.5f * kRoom.y / std::tan(kRoomView / 2) / -at.z;
+                const glm::ivec2 pixel(glm::vec2(kRoom) / 2.0f + glm::vec2(at.x, -at.y) * pixels);
+                int brightest = 0; // of the neighbourhood: the line may run between pixels
+                for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
+                    for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
+                        if (x >= 0 && y >= 0 && x < room.width && y < room.height)
+                            brightest = std::max<int>(brightest, room.at(x, y)[2]);
+                ++seen;
+                missing += brightest < 110;
+            }
+    }
+    EXPECT_EQ(seen, 4 * 4 * 39);
+    EXPECT_LT(missing, seen / 50) << "behind a head, perhaps";
 }
 
 } // namespace

@@ -74,7 +74,7 @@ void make(const std::string& data, const std::string& out) {
     const auto context = stereo::make_context(stereo::ContextKind::egl, {.size = {64, 32}});
     Session session(config, file, *context);
     ExplorerState start = session.state();
-    start.isovalue = kIsovalue;
+    start.set_isovalue(kIsovalue);
     start.step = 10;
     session.set_state(start);
 

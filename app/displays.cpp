@@ -13,21 +13,21 @@ namespace {
 constexpr int kSmooth = 4;
 
 /// @throws render::Error when this GL has fewer
-void check_samples(const char* key, int samples, const render::Gl& gl) {
+void check_samples(const char* where, int samples, const render::Gl& gl) {
     if (samples > render::max_samples(gl))
-        throw render::Error(fmt::format("rendering.{}: expected 0 to {} with this GL, got {}", key,
+        throw render::Error(fmt::format("{}: expected 0 to {} with this GL, got {}", where,
                                         render::max_samples(gl), samples));
 }
 
 int samples_of(const Config& config, const render::Gl& gl) {
-    check_samples("samples", config.samples, gl);
+    check_samples("rendering.samples", config.samples, gl);
     if (config.samples > 0)
         return config.samples;
     return render::draws_in_software(gl) ? 1 : std::min(kSmooth, render::max_samples(gl));
 }
 
 int picture_samples_of(const Config& config, const render::Gl& gl, glm::ivec2 window) {
-    check_samples("picture_samples", config.picture_samples, gl);
+    check_samples("rendering.picture_samples or --samples", config.picture_samples, gl);
     if (config.picture_samples > 0)
         return config.picture_samples;
     // Colour and depth of 2^28 samples are 2 GiB. Two eyes in one window of 8K stay below.

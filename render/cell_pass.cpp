@@ -48,8 +48,9 @@ struct Frame {
     std::int32_t order_begin;
     std::int32_t order_step;
     std::int32_t blended;
+    std::int32_t drawn_surfaces;
     std::int32_t soft_near_eye;
-    glm::vec3 padding{0.0f};
+    glm::vec2 padding{0.0f};
 };
 static_assert(sizeof(Frame) == 2 * (3 * 64 + 10 * 16) + (kMaxSurfaces + 7) * 16);
 constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
@@ -127,17 +128,13 @@ glm::vec4 near_fade_of(const NearFade& fade, const glm::vec3& spacing) {
             std::clamp(voxel / kGrain, 1.0f, 1024.0f), 0.0f};
 }
 
-bool is_blended(Footprint footprint, const CellAppearance& appearance) {
-    const bool transparent =
-        std::ranges::any_of(appearance.surfaces, [](const SurfaceAppearance& surface) {
-            return surface.opacity < 1.0f;
-        });
-    return footprint == Footprint::gaussian || (footprint == Footprint::surface && transparent);
+bool is_translucent(const SurfaceAppearance& surface) {
+    return surface.opacity < 1.0f;
 }
 
 /// Whether all quads are drawn whole: none is left out, which others would be seen through.
 bool hides_what_is_behind(const CellAppearance& look, const Placement& placement) {
-    if (std::ranges::any_of(look.surfaces, [](const auto& one) { return one.opacity < 1.0f; }))
+    if (std::ranges::any_of(look.surfaces, is_translucent))
         return false;
     if (!look.near_fade)
         return true;
@@ -149,7 +146,7 @@ bool hides_what_is_behind(const CellAppearance& look, const Placement& placement
 
 /// The part of the block that is the same for every eye.
 Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
-               bool blended) {
+               std::int32_t surfaces, bool blended) {
     const bool gaussian = footprint == Footprint::gaussian;
     Frame frame{
         .eyes = {},
@@ -165,6 +162,7 @@ Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footpr
         .order_begin = 0,
         .order_step = 0,
         .blended = blended,
+        .drawn_surfaces = surfaces,
         .soft_near_eye = gaussian,
     };
     for (std::size_t i = 0; i < kMaxSurfaces; ++i) {
@@ -264,16 +262,30 @@ void CellPass::draw(std::span<const View> views, const Placement& placement,
         return;
     const bool apart = !two_views_at_once_ || (footprint == Footprint::quad && seen_only_);
     const std::size_t at_once = apart ? 1 : 2;
-    for (std::size_t first = 0; first < views.size(); first += at_once)
-        draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)), placement,
-                     cells, footprint, appearance);
+    for (const Layer& layer : layers_of(cells, footprint, appearance))
+        for (std::size_t first = 0; first < views.size(); first += at_once)
+            draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)), placement,
+                         cells, footprint, layer, appearance);
+}
+
+std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footprint footprint,
+                                                 const CellAppearance& appearance) {
+    if (footprint != Footprint::surface)
+        return {{.surfaces = ~0, .blended = footprint == Footprint::gaussian}};
+    const std::size_t shown = cells.shown() ? cells.shown()->surfaces.size() : kMaxSurfaces;
+    Layer opaque, translucent{.blended = true};
+    for (std::size_t i = 0; i < std::min(shown, kMaxSurfaces); ++i)
+        (is_translucent(appearance.surfaces[i]) ? translucent : opaque).surfaces |= 1 << i;
+    std::vector<Layer> layers{opaque, translucent};
+    std::erase_if(layers, [](const Layer& layer) { return layer.surfaces == 0; });
+    return layers;
 }
 
 void CellPass::draw_at_once(std::span<const View> views, const Placement& placement,
-                            const CellBuffers& cells, Footprint footprint,
+                            const CellBuffers& cells, Footprint footprint, const Layer& layer,
                             const CellAppearance& appearance) {
-    const bool blended = is_blended(footprint, appearance);
-    Frame frame = frame_of(appearance, shapes_, footprint, blended);
+    const bool blended = layer.blended;
+    Frame frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended);
     if (appearance.near_fade)
         frame.near_fade = near_fade_of(*appearance.near_fade, placement.spacing());
     const Form form = form_of(views, placement, footprint);
@@ -281,7 +293,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame.eyes[i] = eye_block(views[i], placement, appearance);
         set_viewport(*gl_, views[i], static_cast<GLuint>(i));
-        sequence = sequence_of(views[i], placement, cells, footprint, appearance);
+        sequence = sequence_of(views[i], placement, cells, footprint, blended, appearance);
         if (sequence.texture != 0)
             gl_->BindTextureUnit(static_cast<GLuint>(1 + i), sequence.texture);
     }
@@ -331,9 +343,8 @@ CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& p
 
 CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& placement,
                                          const CellBuffers& cells, Footprint footprint,
-                                         const CellAppearance& appearance) {
+                                         bool blended, const CellAppearance& appearance) {
     const auto all = static_cast<int>(cells.size());
-    const bool blended = is_blended(footprint, appearance);
     const bool nearest_first = seen_only_ && footprint == Footprint::quad;
     if (!blended && !nearest_first)
         return {.cells = cells.size()};

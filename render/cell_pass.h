@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace isochron::render {
 
@@ -150,16 +151,26 @@ class CellPass {
         int begin = 0, step = 0;
     };
 
+    /// Surfaces that are drawn together.
+    struct Layer {
+        std::int32_t surfaces = 0; ///< a bit for each
+        bool blended = false;
+    };
+
+    /// Opaque surfaces before those that let them be seen: where both pass through one cell, no
+    /// order of cells would do.
+    static std::vector<Layer> layers_of(const CellBuffers& cells, Footprint footprint,
+                                        const CellAppearance& appearance);
     /// At most two, of which the second needs `Programs::two`.
     void draw_at_once(std::span<const View> views, const Placement& placement,
-                      const CellBuffers& cells, Footprint footprint,
+                      const CellBuffers& cells, Footprint footprint, const Layer& layer,
                       const CellAppearance& appearance);
     /// The fastest that shows the same in all views.
     Form form_of(std::span<const View> views, const Placement& placement,
                  Footprint footprint) const;
     /// Of one of the views that are drawn at once; `Sequence::cells` is the same in all of them.
     Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
-                         Footprint footprint, const CellAppearance& appearance);
+                         Footprint footprint, bool blended, const CellAppearance& appearance);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
     float radius_of(Footprint footprint) const;
 

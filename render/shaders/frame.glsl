@@ -33,6 +33,7 @@ layout(std140, binding = 0) uniform Frame {
     int order_begin;    // the n-th cell drawn is in slot order[order_begin + n * order_step],
     int order_step;     // or in slot n where the step is 0
     bool blended;
+    int drawn_surfaces; // a bit for each
     bool soft_near_eye; // fade what comes so near that it would veil the whole view
 };
 

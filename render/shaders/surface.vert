@@ -182,6 +182,7 @@ void main() {
     vec2 y = extent(vec4(low.xy, high.xy), vec4(low.zw, high.zw));
     vec2 z = extent(low, high);
     bool has_surface = x.x <= x.y && y.x <= y.y && z.x <= z.y; // not where a value is not finite
+    has_surface = has_surface && (drawn_surfaces >> (style & 7u) & 1) != 0;
     Slab slab = slab_in(vec3(x.x, y.x, z.x) - kMargin, vec3(x.y, y.y, z.y) + kMargin);
     gl_Position = has_surface ? corner_around(slab, at.xyz, kCorners[gl_VertexID & 3]) : vec4(0, 0, 0, 1);
 }

@@ -144,9 +144,9 @@ TEST(RenderGoals, SpeakOfTwoCoresAndOnePicture) {
     row.draw_ms = 2;
     row.quads_ms = 2.8;
     row.bare_fps = 500;
-    EXPECT_THAT(table(), HasSubstr("as points where they serve, against bare quads, 512^2 | 1.1x | "
+    EXPECT_THAT(table(), HasSubstr("those that are seen, against all bare quads, 512^2 | 1.1x | "
                                    "1.3x | 1x | goal reached |"));
-    EXPECT_THAT(table(), HasSubstr("never as points, against bare quads, 512^2 | 1.1x | 1.3x | "
+    EXPECT_THAT(table(), HasSubstr("all of them, against bare quads, 512^2 | 1.1x | 1.3x | "
                                    "1.4x | **below the floor** |"));
     EXPECT_THAT(table(), HasSubstr("| 1.3x | 2x | 1.4x | above the floor |"));
     row.threads = 1;

@@ -153,6 +153,38 @@ TEST_P(SurfacePasses, ATransparentSurfaceShowsEveryLayerFarToNear) {
                             [](float depth) { return depth == 1.0f; })); // blends, hides nothing
 }
 
+TEST_P(SurfacePasses, AnOpaqueSurfaceIsSeenThroughAnotherThatSharesItsCells) {
+    // Two levels of a slope, 0.4 voxels apart in the same layer of cells.
+    const TestField slope({12, 12, 12}, 1, ValueType::f32,
+                          [](double, double, double z, double) { return z; });
+    const index::StepValues values = slope.view();
+    Extractions extractions(values);
+    CellBuffers cells(gl_, values.grid);
+    cells.upload(extractions.active(0, {5.3, 5.7}), std::numeric_limits<std::size_t>::max());
+    cells.compute_corners();
+    const Placement placement = placed_at_origin(values.grid);
+    CellAppearance look;
+    look.depth_cue = look.outline = look.reflectance = 0.0f;
+    look.linear_light = false;
+    look.surfaces[0].color = {1, 0, 0};
+    look.surfaces[1].color = {0, 1, 0};
+    CellPass pass(gl_);
+    RenderTarget target(gl_, {160, 160});
+    for (const bool near_is_clear : {true, false}) {
+        look.surfaces[1].opacity = 0.5f;
+        const View view = perspective_view({0, 0, near_is_clear ? 3.0f : -3.0f});
+        target.bind();
+        target.clear({0, 0, 0, 1});
+        pass.draw(view, placement, cells, Footprint::surface, look);
+        const Image image = target.read();
+        for (int y = 65; y < 95; ++y)
+            for (int x = 65; x < 95; ++x) {
+                ASSERT_GT(image.at(x, y)[0], 40) << x << ", " << y;
+                ASSERT_EQ(image.at(x, y)[1] > 40, near_is_clear) << x << ", " << y;
+            }
+    }
+}
+
 TEST_P(SurfacePasses, NormalsRunOnAcrossTheBordersOfCells) {
     const TestField sphere({40, 38, 41}, 1, ValueType::f32, index::moving_sphere);
     const VertexField field(sphere.view(), {0, 100.5});

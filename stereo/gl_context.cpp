@@ -2,6 +2,7 @@
 #include "stereo/gl_context.h"
 
 #include "stereo/gl_context_backends.h"
+#include "stereo/raster_threads.h"
 
 #include <fmt/format.h>
 
@@ -86,6 +87,8 @@ std::unique_ptr<GlContext> make_context(ContextKind kind, const ContextOptions& 
                         fmt::format("size {}x{} is not positive", options.size.x, options.size.y));
                 auto context = row.make(options);
                 require_gl_4_5_core(context->loader());
+                if (describe_current(context->loader()).find("llvmpipe") != std::string::npos)
+                    spread_raster_threads();
                 return context;
             } catch (const render::Error& error) {
                 throw render::Error(fmt::format("context {}: {}; other contexts: {}", row.name,

@@ -288,7 +288,6 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     Frame frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended);
     if (appearance.near_fade)
         frame.near_fade = near_fade_of(*appearance.near_fade, placement.spacing());
-    const Form form = form_of(views, placement, footprint);
     Sequence sequence;
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame.eyes[i] = eye_block(views[i], placement, appearance);
@@ -320,7 +319,8 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     if (footprint == Footprint::surface)
         surface_.draw(quads_, cells, blended, views.size());
     else
-        draw_footprints(sequence.cells, static_cast<int>(views.size()), footprint, form);
+        draw_footprints(sequence.cells, static_cast<int>(views.size()), footprint,
+                        form_of(views, placement, footprint));
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);

@@ -16,8 +16,6 @@ namespace {
 
 /// Beyond it the square around an ellipse is mostly empty.
 constexpr float kMostUneven = 2.0f;
-/// As in cell.vert: nearer to the eye's plane the outline is drawn in another way.
-constexpr float kLeastDepth = 0.1f;
 /// [pixels] that a square may differ from the rectangle that it stands for, on every side, at the
 /// corners of the volume. Within it the difference is less but for the bend of z^3/2.
 constexpr float kSquareError = 0.75f;

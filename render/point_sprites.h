@@ -25,6 +25,10 @@ bool points_serve(const View& view, const Placement& placement, float radius, fl
 /// @param radius of the footprint, voxels
 bool footprints_are_squares(const View& view, const Placement& placement, float radius);
 
+/// As in cell.vert: where d = w^2 - (r |row w|)^2 of a cell is not above this share of its w^2, it
+/// is so near to the eye's plane that its outline is drawn in another way.
+constexpr float kLeastDepth = 0.1f;
+
 /// Corners of the rectangle on an ellipse's axes are farther out than the ellipse: by sqrt(2), and
 /// a little since perspective magnifies the nearer parts.
 constexpr float kReachOfRectangle = 1.5f;

@@ -1,6 +1,8 @@
 // Quads as the vertex shader makes them, and tiles that they cover.
 #include "render/seen_cells.h"
 
+#include "render/point_sprites.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -20,9 +22,8 @@ constexpr float kClipped =
     1.0f - kLevel;                   ///< what may be cut off by the frustum's ends hides nothing
 constexpr double kTilesAcross = 3.0; ///< of a quad, about
 constexpr int kMostTileBits = 4;
-// As in cell.vert: nearer to the eye's plane a quad is drawn in another way, and up to a third of
-// this the quad of an ellipse is upright: (a^2 - b^2) / (a^2 + b^2) of the half axes.
-constexpr float kLeastDepth = 0.1f;
+/// As in cell.vert: the quad of an ellipse is upright up to this (a^2 - b^2) / (a^2 + b^2) of its
+/// half axes.
 constexpr float kRound = 0.1f;
 
 constexpr float kFar = 1e9f; ///< beyond any view and before any depth

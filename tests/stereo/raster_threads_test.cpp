@@ -19,8 +19,7 @@ TEST(RasterThreads, HaveAProcessorEach) {
     ASSERT_EQ(sched_getaffinity(0, sizeof(allowed), &allowed), 0);
     const auto processors = static_cast<std::size_t>(CPU_COUNT(&allowed));
     const auto context = make_context(ContextKind::egl, {.size = {16, 16}});
-    if (context->description().find("llvmpipe") == std::string::npos)
-        GTEST_SKIP() << "a GPU draws here";
+    const bool software = context->description().find("llvmpipe") != std::string::npos;
     std::size_t threads = 0;
     std::set<int> used;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -37,7 +36,7 @@ TEST(RasterThreads, HaveAProcessorEach) {
             if (CPU_ISSET(cpu, &bound))
                 used.insert(cpu);
     }
-    if (!std::getenv("LP_NUM_THREADS") && processors > 1) {
+    if (software && !std::getenv("LP_NUM_THREADS") && processors > 1) {
         EXPECT_GT(threads, 1u);
     }
     EXPECT_EQ(used.size(), std::min(threads, processors));

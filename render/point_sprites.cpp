@@ -20,9 +20,8 @@ constexpr float kMostUneven = 2.0f;
 /// corners of the volume. Within it the difference is less but for the bend of z^3/2.
 constexpr float kSquareError = 0.75f;
 
-bool nearly_even(const glm::mat3& axes) {
-    const auto [low, high] =
-        std::minmax({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+bool nearly_even(const glm::vec3& spacing) {
+    const auto [low, high] = std::minmax({spacing.x, spacing.y, spacing.z});
     return high <= kMostUneven * low;
 }
 
@@ -30,7 +29,7 @@ bool nearly_even(const glm::mat3& axes) {
 
 bool points_serve(const View& view, const Placement& placement, float radius, float reach,
                   float largest_point) {
-    if (!nearly_even(glm::mat3(placement.room_from_index)))
+    if (!nearly_even(placement.spacing()))
         return false;
     const glm::mat4 clip_from_index =
         view.clip_from_eye * view.eye_from_room * placement.room_from_index;

@@ -37,8 +37,8 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
     cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
 }
 
-void Scene::upload(const index::ExtractionPtr& newest) {
-    cells_.upload(newest, upload_bytes_);
+void Scene::upload(const index::ExtractionPtr& newest, render::SendVolume volume) {
+    cells_.upload(newest, upload_bytes_, volume);
 }
 
 render::Footprint Scene::best_footprint() const {

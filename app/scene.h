@@ -29,10 +29,13 @@ class Scene {
     Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config);
 
     /// Moves the newest set to the GPU, at most the configured bytes per call.
-    void upload(const index::ExtractionPtr& newest);
+    void upload(const index::ExtractionPtr& newest,
+                render::SendVolume volume = render::SendVolume::with_cells);
     /// The same without showing it: the next `upload` of it does. @return true when it is there
     bool stage(const index::ExtractionPtr& set) { return cells_.stage(set, upload_bytes_); }
     const index::ExtractionPtr& shown() const { return cells_.shown(); }
+    /// Whether the shown cells can be drawn with any footprint.
+    bool has_volume() const { return cells_.has_volume(); }
 
     const render::UploadCount& uploaded() const { return cells_.count(); }
 

@@ -142,13 +142,17 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
         report.wait = watch.lap();
     }
     const index::ExtractionPtr newest = extractor_.newest();
+    const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
+    const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
     if (shared_ && waiting == Waiting::never)
         show_shared_cells();
     else
-        scene_.upload(newest);
+        scene_.upload(newest, volume);
     // A replay shows what was asked for, however many upload budgets that takes.
     while (waiting == Waiting::for_cells && newest && scene_.shown() != newest)
         scene_.upload(newest);
+    if (!scene_.has_volume()) // the picture has not come to rest
+        report.pace = interaction::Pace::moving;
     report.upload = watch.lap();
     report.uploaded = scene_.uploaded().since(before);
     if (const index::ExtractionPtr& shown = scene_.shown()) {
@@ -318,9 +322,9 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         captures_.ask();
     report.comfort = comfort_.update(input, state_.room_from_physical);
     report.asked = state_.surfaces();
+    report.pace = gate_.update(rest, commands, state_.quality);
     request_cells(waiting);
     take_newest_cells(waiting, report);
-    report.pace = gate_.update(rest, commands, state_.quality);
     if (state_.room_panel.shown)
         room_panel_.lay_out(panel_model(PanelPlace::in_room, report), report.time);
     else

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
+#include <utility>
 
 namespace isochron::render {
 namespace {
@@ -66,18 +68,11 @@ void CellBuffers::prepare(index::ValueType held) {
     compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_);
 }
 
-bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget) {
+bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget, SendVolume volume) {
     const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
     std::size_t sent = 0;
     bool changed = false;
-    for (;;) {
-        if (!arriving_) {
-            if (!newest || newest == shown_)
-                break;
-            begin(newest);
-        }
-        if (!send_on(most, sent))
-            break;
+    while (take_up(newest, volume, most, sent) && send_on(most, sent)) {
         show();
         changed = true;
     }
@@ -86,15 +81,31 @@ bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget) {
 }
 
 bool CellBuffers::stage(index::ExtractionPtr set, std::size_t byte_budget) {
-    if (!arriving_ && set != shown_)
-        begin(std::move(set));
+    const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
     std::size_t sent = 0;
-    const bool complete = !arriving_ || send_on(std::max(byte_budget, StagingRing::kUnit), sent);
+    const bool complete = take_up(set, SendVolume::with_cells, most, sent)
+                              ? send_on(most, sent)
+                              : set == shown_ && has_volume();
     ring_.end_frame();
     return complete;
 }
 
-void CellBuffers::begin(index::ExtractionPtr set) {
+/// Makes sure that something is on its way, if there is anything to send.
+/// @return whether that is a set
+bool CellBuffers::take_up(const index::ExtractionPtr& newest, SendVolume volume, std::size_t bytes,
+                          std::size_t& sent) {
+    if (arriving_)
+        return true;
+    const bool shown = !newest || newest == shown_;
+    if (sending_bricks_ || (shown && volume == SendVolume::with_cells))
+        send_volume_of_shown(bytes, sent);
+    if (sending_bricks_ || shown)
+        return false;
+    begin(newest, volume);
+    return true;
+}
+
+void CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     if (set->cells() > points_.limit())
         throw Error(fmt::format("{} cells at step {}, this GL can draw at most {}", set->cells(),
                                 set->query.step, points_.limit()));
@@ -103,7 +114,9 @@ void CellBuffers::begin(index::ExtractionPtr set) {
     plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
     merged_ = false;
     words_sent_ = styles_sent_ = 0;
-    bricks_->begin(set->bricks);
+    sending_bricks_ = volume == SendVolume::with_cells || !set->shaded();
+    if (sending_bricks_)
+        bricks_->begin(set->bricks);
     arriving_ = std::move(set);
 }
 
@@ -112,16 +125,35 @@ bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
     merged_ = merged_ || plan_->merge(kLookedAt);
     if (!merged_)
         return false;
+    if (sending_bricks_ && !send_bricks(bytes, sent))
+        return false;
+    if (arriving_->shaded())
+        return assign_slots();
+    return send_message(bytes, sent) && send_styles(bytes, sent);
+}
+
+/// @return whether all are there
+bool CellBuffers::send_bricks(std::size_t bytes, std::size_t& sent) {
     if (!bricks_->complete()) {
         const std::size_t part = bricks_->send(ring_, bytes - sent);
         sent += part;
         count_.brick_bytes += part;
     }
-    if (!bricks_->complete())
-        return false;
-    if (arriving_->shaded())
-        return assign_slots();
-    return send_message(bytes, sent) && send_styles(bytes, sent);
+    return bricks_->complete();
+}
+
+/// Like a set, what has begun is finished before a newer set is taken.
+void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
+    if (!shown_ || has_volume())
+        return;
+    if (!std::exchange(sending_bricks_, true))
+        bricks_->begin(shown_->bricks);
+    if (!send_bricks(bytes, sent))
+        return;
+    compute_->enter_pages(*bricks_);
+    bricks_->show();
+    sending_bricks_ = false;
+    volume_version_ = version_;
 }
 
 /// Of a set whose points are written as they are: the message goes nowhere.
@@ -179,7 +211,8 @@ bool CellBuffers::send_styles(std::size_t bytes, std::size_t& sent) {
 void CellBuffers::show() {
     const std::size_t cells = arriving_->cells();
     points_.reserve(cells, DeviceArray::Contents::kept);
-    compute_->enter_pages(*bricks_);
+    if (sending_bricks_)
+        compute_->enter_pages(*bricks_);
     if (arriving_->shaded()) {
         write_points();
     } else {
@@ -188,7 +221,8 @@ void CellBuffers::show() {
             compute_->set_styles(*arriving_, styles_, points_);
         compute_->fill_normals(*arriving_, *bricks_, points_);
     }
-    bricks_->show();
+    if (sending_bricks_)
+        bricks_->show();
     ++count_.sets;
     count_.ids += plan_->ids();
     count_.whole_ids += cells;
@@ -197,6 +231,8 @@ void CellBuffers::show() {
     shown_ = std::move(arriving_);
     arriving_ = nullptr;
     version_ = next_version();
+    if (std::exchange(sending_bricks_, false))
+        volume_version_ = version_;
 }
 
 void CellBuffers::write_points() {
@@ -217,6 +253,7 @@ void CellBuffers::write_points() {
 void CellBuffers::compute_corners() {
     if (!shown_ || corners_version_ == version_)
         return;
+    assert(has_volume());
     corner_values_.reserve(shown_->cells(), DeviceArray::Contents::dropped);
     corner_gradients_.reserve(shown_->cells(), DeviceArray::Contents::dropped);
     compute_->fill_corners(*shown_, *bricks_, points_, corner_values_, corner_gradients_);

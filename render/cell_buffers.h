@@ -19,6 +19,12 @@
 
 namespace isochron::render {
 
+/// When the volume around cells that come with their normals is sent.
+enum class SendVolume : std::uint8_t {
+    with_cells, ///< they can be drawn as exact surfaces when they are shown
+    never       ///< as in motion, when nothing needs it
+};
+
 /// A pool of dense slots. A new set comes as the cells that it adds and removes, through a ring of
 /// mapped memory within a byte budget per frame, and is applied at once when all of it and of its
 /// bricks is on the GPU, so that no frame ever shows half a set. Normals, and what the exact
@@ -45,9 +51,12 @@ class CellBuffers {
     /// yet taken what was sent before; never waits for it. A set whose transfer has begun is
     /// finished before a newer one is taken, so that a stream of new sets cannot keep the picture
     /// from ever changing; sets in between are skipped. Null changes nothing.
+    /// @param volume never: cells with normals leave it behind. It follows as soon as it is asked
+    /// for while no newer set is there.
     /// @return true when another set is shown than before
     /// @throws Error when the set is larger than the driver's buffers can be
-    bool upload(index::ExtractionPtr newest, std::size_t byte_budget);
+    bool upload(index::ExtractionPtr newest, std::size_t byte_budget,
+                SendVolume volume = SendVolume::with_cells);
 
     /// The same for one set, without showing it: the next `upload` of it does.
     /// @return true when everything of it is on the GPU
@@ -68,7 +77,10 @@ class CellBuffers {
     /// GL_TEXTURE_BUFFER by slot, one RGB32UI texel: the words of an index::CellPoint.
     GLuint texture() const { return points_.texture(); }
 
-    /// Computes the two textures below for the shown set, unless they are up to date.
+    /// Whether the shown set's part of the volume is on the GPU, as the exact surface needs.
+    bool has_volume() const { return volume_version_ == version_; }
+    /// Computes the two textures below for the shown set, which has its volume, unless they are up
+    /// to date.
     /// @throws Error when there are more than `corner_limit()` cells
     void compute_corners();
     /// So many cells can have them: less than can be drawn without.
@@ -89,8 +101,12 @@ class CellBuffers {
     const BrickPool* bricks() const { return bricks_ ? &*bricks_ : nullptr; }
 
   private:
-    void begin(index::ExtractionPtr set);
+    bool take_up(const index::ExtractionPtr& newest, SendVolume volume, std::size_t bytes,
+                 std::size_t& sent);
+    void begin(index::ExtractionPtr set, SendVolume volume);
     bool send_on(std::size_t bytes, std::size_t& sent);
+    bool send_bricks(std::size_t bytes, std::size_t& sent);
+    void send_volume_of_shown(std::size_t bytes, std::size_t& sent);
     bool send_message(std::size_t bytes, std::size_t& sent);
     bool send_styles(std::size_t bytes, std::size_t& sent);
     bool assign_slots();
@@ -105,8 +121,9 @@ class CellBuffers {
     std::optional<CellCompute> compute_; ///< likewise
     index::ExtractionPtr shown_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
-    std::uint64_t version_ = 0, corners_version_ = 0;
+    std::uint64_t version_ = 0, corners_version_ = 0, volume_version_ = 0;
     UploadCount count_;
+    bool sending_bricks_ = false; ///< of the set on its way, or of the shown one after it
     // The set on its way:
     index::ExtractionPtr arriving_;
     std::unique_ptr<SlotPlan> plan_;

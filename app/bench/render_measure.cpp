@@ -58,6 +58,12 @@ bool is_blended(Footprint footprint) {
     return footprint == Footprint::gaussian;
 }
 
+/// As a session's: in motion, quads are drawn.
+render::SendVolume volume_for(Footprint footprint) {
+    return footprint == Footprint::quad ? render::SendVolume::never
+                                        : render::SendVolume::with_cells;
+}
+
 /// Radius in voxels where the footprint is a rectangle around an ellipse.
 std::optional<float> radius_of(Footprint footprint, const render::FootprintShapes& shapes) {
     switch (footprint) {
@@ -159,13 +165,14 @@ class Bench {
 
     void measure_step(Footprint footprint, std::uint32_t step, Times& times) {
         const index::Query query{step, options_.isovalue};
+        const render::SendVolume volume = volume_for(footprint);
         gl_.Finish();
         index::ExtractionPtr set;
         times.whole.time([&] {
             times.extract.time([&] { set = extract_({step, {options_.isovalue}}, {}); });
             times.upload.time([&] {
                 while (cells_.shown() != set)
-                    cells_.upload(set, std::numeric_limits<std::size_t>::max());
+                    cells_.upload(set, std::numeric_limits<std::size_t>::max(), volume);
             });
             draw(pass_, footprint);
         });
@@ -232,6 +239,7 @@ class Bench {
         constexpr int kStatic = 3;
         constexpr double kDragged = 0.1; ///< of the isovalue
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());
+        const render::SendVolume volume = volume_for(footprint);
         index::Extractor extractor(extraction());
         std::vector<double> over, noise;
         for (std::size_t i = 0; i < frames; ++i) {
@@ -243,7 +251,7 @@ class Bench {
             Frames frame, still;
             frame.time([&] {
                 extractor.request({{step, {isovalue}}, (step + 1) % steps});
-                cells_.upload(extractor.newest(), kUploadBytes);
+                cells_.upload(extractor.newest(), kUploadBytes, volume);
                 draw(pass_, footprint);
             });
             extractor.wait();

@@ -138,6 +138,38 @@ TEST_P(SessionQuality, TimesOfTheGpuReachTheReport) {
     EXPECT_GT(session.log().known(&FrameReport::gpu).median, 0);
 }
 
+TEST_P(SessionQuality, TheVolumeOfCellsInMotionFollowsWhenThePictureComesToRest) {
+    const render::Gl gl(context_->loader());
+    // Otherwise normals are made of the volume, which comes with every set.
+    const bool follows = render::CellBuffers::wanted_shading(gl) == index::Shading::cells;
+    Config config = config_with(kPlenty);
+    config.upload_kilobytes_per_frame = 16; // less than a set's
+    Session session(config, file_, *context_);
+    start(session);
+    const std::uint32_t before = session.log().frames().back().shown->step;
+    const auto first = session.log().frames().size();
+    while (session.log().frames().back().shown->step == before) {
+        Commands commands;
+        commands.step = before + 1;
+        walk(session, 1, commands);
+    }
+    walk(session, 5);
+    const auto& frames = session.log().frames();
+    std::uint64_t in_motion = 0;
+    for (auto i = first; i < frames.size(); ++i)
+        in_motion += frames[i].uploaded.brick_bytes;
+    EXPECT_EQ(in_motion == 0, follows);
+    const FrameReport& report = rest(session, 60);
+    EXPECT_EQ(report.footprint, render::kBestFootprint);
+    EXPECT_TRUE(report.final);
+    const auto sending = std::ranges::count_if(
+        frames, [](const auto& frame) { return frame.uploaded.brick_bytes > 0; });
+    EXPECT_GT(sending, 2);
+    for (const FrameReport& frame : frames)
+        EXPECT_TRUE(frame.uploaded.brick_bytes < 16 * 1024 || // as much as fits, and so not all
+                    frame.pace == interaction::Pace::moving);
+}
+
 TEST_P(SessionQuality, AFixedStepReplayGoesByPaceWhateverItCosts) {
     std::vector<Footprint> footprints[2];
     for (const double budget : {kPlenty, kNothing}) {

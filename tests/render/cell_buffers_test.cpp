@@ -1,7 +1,6 @@
 // Transfer of cell sets: differences only, within the budget, never half a set, never starved.
 #include "index/cell_colors.h"
-#include "tests/render/extractions.h"
-#include "tests/render/gl_test.h"
+#include "tests/render/cell_upload.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +14,6 @@ using index::CellId;
 using index::TestField;
 using index::ValueType;
 
-constexpr std::size_t kEnough = std::size_t{1} << 30;
-
 std::size_t copied_bytes = 0;
 PFNGLCOPYNAMEDBUFFERSUBDATAPROC real_copy = nullptr;
 void APIENTRY counting_copy(GLuint from, GLuint to, GLintptr read, GLintptr write,
@@ -25,45 +22,13 @@ void APIENTRY counting_copy(GLuint from, GLuint to, GLintptr read, GLintptr writ
     real_copy(from, to, read, write, size);
 }
 
-class CellUpload : public GlTest {
+class CellUpload : public CellUploadTest {
   protected:
     CellUpload() {
         real_copy = gl_.CopyNamedBufferSubData;
         gl_.CopyNamedBufferSubData = counting_copy;
     }
 
-    using Cell = std::tuple<unsigned, CellId>; ///< surface, id
-    static std::vector<Cell> cells_of(const index::Extraction& set) {
-        std::vector<Cell> all;
-        for (unsigned s = 0; s < set.surfaces.size(); ++s)
-            for (const CellId id : set.surfaces[s].ids)
-                all.emplace_back(s, id);
-        return all;
-    }
-    /// What is drawn, from GPU memory.
-    std::vector<index::CellPoint> drawn_points(const CellBuffers& buffers) {
-        gl_.BindTextureUnit(0, buffers.texture());
-        gl_.ActiveTexture(GL_TEXTURE0);
-        GLint buffer = 0;
-        gl_.GetIntegerv(GL_TEXTURE_BUFFER_DATA_STORE_BINDING, &buffer);
-        std::vector<index::CellPoint> points(buffers.size());
-        if (!points.empty())
-            gl_.GetNamedBufferSubData(GLuint(buffer), 0,
-                                      GLsizeiptr(points.size() * sizeof points[0]), points.data());
-        return points;
-    }
-    std::vector<Cell> drawn(const CellBuffers& buffers) {
-        const auto points = drawn_points(buffers);
-        std::vector<Cell> all;
-        for (std::size_t slot = 0; slot < points.size(); ++slot) {
-            const index::CellPoint& p = points[slot];
-            const CellPlace& place = buffers.slots().places[slot];
-            EXPECT_EQ((CellPlace{p.x, p.y, p.z, p.style}), place) << "slot " << slot;
-            all.emplace_back(p.style & 7u, (CellId{p.z} * kSide + p.y) * kSide + p.x);
-        }
-        std::ranges::sort(all);
-        return all;
-    }
     /// Each drawn cell with its colour coordinate against those of the set.
     void expect_colors(const CellBuffers& buffers) {
         const index::Extraction& set = *buffers.shown();
@@ -77,10 +42,6 @@ class CellUpload : public GlTest {
                 ASSERT_EQ(style >> 3, set.colors.empty() ? 0u : set.colors[rank]);
             }
     }
-    void expect_whole(const CellBuffers& buffers) {
-        ASSERT_TRUE(buffers.shown());
-        EXPECT_EQ(drawn(buffers), cells_of(*buffers.shown()));
-    }
     /// The set with colours of its own, among them the first, the last, and none.
     index::ExtractionPtr colored(const index::ExtractionPtr& set) {
         auto with = std::make_shared<index::Extraction>(*set);
@@ -90,22 +51,6 @@ class CellUpload : public GlTest {
                 std::uint16_t(random_() % index::kColorSteps)}[random_() % 4]);
         return with;
     }
-    std::vector<CellId> random_ids(std::size_t count) {
-        std::set<CellId> ids;
-        while (ids.size() < count)
-            ids.insert(CellId(random_() % (kSide * kSide * kSide)));
-        return {ids.begin(), ids.end()};
-    }
-    index::ExtractionPtr random_set(std::size_t count) {
-        return extractions_.of_cells(std::uint32_t(random_() % 2), {random_ids(count)});
-    }
-
-    static constexpr unsigned kSide = 19; ///< cells
-    TestField field_{{kSide + 1, kSide + 1, kSide + 1},
-                     2,
-                     ValueType::u8,
-                     index::scaled(index::white_noise(random_), 100, 100)};
-    Extractions extractions_{field_.view()};
 };
 
 TEST_P(CellUpload, StaysWithinTheBudgetAndShowsWholeSetsOnly) {

@@ -7,15 +7,19 @@
 #include <deque>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace isochron::index {
 namespace {
 
 /// Bitwise, so that a NaN equals itself: otherwise asking for one again would be something new.
-bool same(const SurfacesQuery& a, const SurfacesQuery& b) {
-    return a.step == b.step && a.coloring == b.coloring &&
+bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b) {
+    return a.coloring == b.coloring &&
            std::ranges::equal(a.isovalues, b.isovalues, {}, std::bit_cast<std::uint64_t, double>,
                               std::bit_cast<std::uint64_t, double>);
+}
+bool same(const SurfacesQuery& a, const SurfacesQuery& b) {
+    return a.step == b.step && same_but_for_step(a, b);
 }
 
 /// The newest few extractions, of answers and of prefetches.
@@ -65,7 +69,8 @@ struct Extractor::State {
     }
 
     bool prefetch_wanted() const {
-        return wanted && wanted->next_step && !prefetch_done && !recent.find(prefetched_query());
+        return wanted && wanted->next_step && !in_flux && !prefetch_done &&
+               !recent.find(prefetched_query());
     }
     bool has_work() const { return (wanted && !answered) || prefetch_wanted(); }
 
@@ -78,6 +83,7 @@ struct Extractor::State {
     mutable std::condition_variable_any changed;
     std::optional<Request> wanted;
     bool answered = false;      ///< the wanted query has been shown or has failed
+    bool in_flux = false;       ///< the newest request is for other surfaces than the one before
     bool prefetch_done = false; ///< the wanted prefetch need not be tried again
     bool abandoned = false;     ///< the last search was given up: the next one is finished
     std::optional<Job> running;
@@ -181,7 +187,9 @@ void Extractor::request(const Request& request) {
         const std::scoped_lock lock(state_->mutex);
         State& s = *state_;
         const bool same_query = s.wanted && same(s.wanted->query, request.query);
-        if (same_query && s.wanted->next_step == request.next_step)
+        const bool was_in_flux = std::exchange(
+            s.in_flux, s.wanted && !same_but_for_step(s.wanted->query, request.query));
+        if (same_query && s.wanted->next_step == request.next_step && !was_in_flux)
             return;
         s.wanted = request;
         s.prefetch_done = false;

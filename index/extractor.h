@@ -15,7 +15,9 @@ namespace isochron::index {
 
 struct Request {
     SurfacesQuery query;
-    std::optional<std::uint32_t> next_step; ///< prefetched once the query is answered (playback)
+    /// Prefetched once the query is answered (playback). Not while the isovalues are dragged: the
+    /// next query will be for others.
+    std::optional<std::uint32_t> next_step;
 };
 
 /// Requests may come faster than a search takes. After one abandoned search the next is therefore

@@ -1,6 +1,7 @@
 // Which cells of a view are worth drawing where the processor draws: those behind others are not.
 #pragma once
 
+#include "render/cell_squares.h"
 #include "render/placement.h"
 #include "render/slot_plan.h"
 #include "render/view.h"
@@ -28,24 +29,10 @@ class SeenCells {
                                         std::span<const std::uint32_t> back_to_front);
 
   private:
-    /// Two upright squares about the middle of a quad: one that it holds and one that holds it.
-    struct Quad {
-        float x, y, z;      ///< middle in pixels of the viewport, depth
-        float inner, outer; ///< half sides in pixels
-    };
-    /// An inclusive range of tiles along one axis; empty where `last` is less than `first`.
-    struct Tiles {
-        int first, last;
-    };
-    void project(const View& view, const Placement& placement, float radius,
-                 std::span<const CellPlace> places, std::span<const std::uint32_t> back_to_front);
     void choose_tiles(const View& view);
-    Tiles touched(float middle, float half, int count) const;
-    Tiles covered(float middle, float half, int count) const;
-    bool hidden(const Quad& quad, Tiles across, Tiles up) const;
 
-    std::vector<Quad> quads_; ///< nearest first
-    int tile_bits_ = 0;       ///< tiles have 1 << tile_bits_ pixels across and up
+    CellSquares squares_;
+    int tile_bits_ = 0; ///< tiles have 1 << tile_bits_ pixels across and up
     int columns_ = 0, rows_ = 0;
     std::vector<float> nearest_; ///< depth by tile, row by row
     std::vector<std::uint32_t> seen_;

@@ -147,6 +147,35 @@ TEST(Extractor, APrefetchGivesWayToARequest) {
     EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{9, {2.0}}));
 }
 
+TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
+    HeldExtraction held;
+    Extractor extractor(held.extract());
+    held.let_go(1000);
+    for (std::uint32_t step = 0; step < 50; ++step) {
+        extractor.request({.query = {step, {1.0 + step}}, .next_step = 100 + step});
+        extractor.wait();
+        while (step == 0 && held.calls(100) == 0) // nothing says that it is dragged
+            std::this_thread::yield();
+    }
+    std::this_thread::sleep_for(20ms);
+    for (std::uint32_t step = 1; step < 50; ++step)
+        EXPECT_EQ(held.calls(100 + step), 0);
+    // Held still, at the same step or at the next.
+    const auto expect_prefetch_of = [&](std::uint32_t step) {
+        const auto end = std::chrono::steady_clock::now() + 10s;
+        while (held.calls(step) == 0 && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+        EXPECT_EQ(held.calls(step), 1);
+    };
+    extractor.request({.query = {49, {50.0}}, .next_step = 149});
+    expect_prefetch_of(149);
+    extractor.request({.query = {50, {51.0}}, .next_step = 150});
+    extractor.wait();
+    extractor.request({.query = {51, {51.0}}, .next_step = 151});
+    expect_prefetch_of(151);
+    EXPECT_EQ(held.calls(150), 0);
+}
+
 TEST(Extractor, AskingAgainForWhatIsAskedDoesNothing) {
     HeldExtraction held;
     Extractor extractor(held.extract());

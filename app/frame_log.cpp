@@ -201,10 +201,13 @@ std::string FrameLog::table() const {
     text += fmt::format("  {:<14}{:>8} refreshes of the display\n", "missed", missed());
     const render::UploadCount sent = uploaded();
     if (sent.whole_ids > 0)
-        text += fmt::format("  {} sets uploaded with {:.1f} % of their ids: {} bytes, and {} bytes "
-                            "of the volume\n",
-                            sent.sets, 100.0 * double(sent.ids) / double(sent.whole_ids),
-                            sent.id_bytes, sent.brick_bytes);
+        text +=
+            fmt::format("  {} sets uploaded {}: {} bytes, and {} bytes of the volume\n", sent.sets,
+                        sent.ids == sent.whole_ids
+                            ? "whole"
+                            : fmt::format("with {:.1f} % of their ids",
+                                          100.0 * double(sent.ids) / double(sent.whole_ids)),
+                        sent.id_bytes, sent.brick_bytes);
     return text;
 }
 

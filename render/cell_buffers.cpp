@@ -1,4 +1,4 @@
-// The way of a set to the GPU: merge, bricks, message, and then all of it at once.
+// The way of a set to the GPU: what changes, bricks, message, and then all of it at once.
 #include "render/cell_buffers.h"
 
 #include "render/driver.h"
@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
 #include <utility>
@@ -111,10 +110,13 @@ void CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
                                 set->query.step, points_.limit()));
     if (!bricks_)
         prepare(set->bricks.held);
-    plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
+    if (set->shaded())
+        ranked_ = std::make_unique<RankedPoints>(*set);
+    else
+        plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
     merged_ = false;
     words_sent_ = styles_sent_ = 0;
-    sending_bricks_ = volume == SendVolume::with_cells || !set->shaded();
+    sending_bricks_ = volume == SendVolume::with_cells || !ranked_;
     if (sending_bricks_)
         bricks_->begin(set->bricks);
     arriving_ = std::move(set);
@@ -122,14 +124,12 @@ void CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
 
 /// Goes on with the set on its way. @return whether all of it is on the GPU
 bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
-    merged_ = merged_ || plan_->merge(kLookedAt);
+    merged_ = merged_ || (ranked_ ? ranked_->copy(kLookedAt) : plan_->merge(kLookedAt));
     if (!merged_)
         return false;
     if (sending_bricks_ && !send_bricks(bytes, sent))
         return false;
-    if (arriving_->shaded())
-        return assign_slots();
-    return send_message(bytes, sent) && send_styles(bytes, sent);
+    return ranked_ || (send_message(bytes, sent) && send_styles(bytes, sent));
 }
 
 /// @return whether all are there
@@ -154,14 +154,6 @@ void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
     bricks_->show();
     sending_bricks_ = false;
     volume_version_ = version_;
-}
-
-/// Of a set whose points are written as they are: the message goes nowhere.
-bool CellBuffers::assign_slots() {
-    std::array<std::uint32_t, 1024> unsent;
-    for (std::size_t cells = kLookedAt; cells > 0 && !plan_->done();)
-        plan_->message(unsent, cells);
-    return plan_->done();
 }
 
 bool CellBuffers::send_message(std::size_t bytes, std::size_t& sent) {
@@ -213,20 +205,12 @@ void CellBuffers::show() {
     points_.reserve(cells, DeviceArray::Contents::kept);
     if (sending_bricks_)
         compute_->enter_pages(*bricks_);
-    if (arriving_->shaded()) {
-        write_points();
-    } else {
-        compute_->place_cells(*plan_, *arriving_, message_, points_);
-        if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))
-            compute_->set_styles(*arriving_, styles_, points_);
-        compute_->fill_normals(*arriving_, *bricks_, points_);
-    }
+    count_.whole_ids += cells;
+    slots_ = std::make_shared<const Slots>(ranked_ ? write_points() : place_cells());
     if (sending_bricks_)
         bricks_->show();
     ++count_.sets;
-    count_.ids += plan_->ids();
-    count_.whole_ids += cells;
-    slots_ = std::make_shared<const Slots>(plan_->take());
+    ranked_ = nullptr;
     plan_ = nullptr;
     shown_ = std::move(arriving_);
     arriving_ = nullptr;
@@ -235,19 +219,24 @@ void CellBuffers::show() {
         volume_version_ = version_;
 }
 
-void CellBuffers::write_points() {
-    const Slots& slots = plan_->slots();
-    std::vector<index::CellPoint> points(slots.places.size());
-    std::size_t rank = 0;
-    for (const index::CellSet& surface : arriving_->surfaces)
-        for (const index::CellPoint& point : surface.points) {
-            const std::uint32_t slot = slots.slot_of_rank[rank++];
-            points[slot] = point;
-            points[slot].style = slots.places[slot].style;
-        }
-    const std::size_t bytes = points.size() * sizeof(index::CellPoint);
-    gl_->NamedBufferSubData(points_.buffer(), 0, static_cast<GLsizeiptr>(bytes), points.data());
-    count_.id_bytes += bytes;
+/// @return where they are
+Slots CellBuffers::write_points() {
+    const std::span<const index::CellPoint> points = ranked_->points();
+    gl_->NamedBufferSubData(points_.buffer(), 0, static_cast<GLsizeiptr>(points.size_bytes()),
+                            points.data());
+    count_.ids += points.size();
+    count_.id_bytes += points.size_bytes();
+    return ranked_->take();
+}
+
+/// What the message says. @return where they are
+Slots CellBuffers::place_cells() {
+    compute_->place_cells(*plan_, *arriving_, message_, points_);
+    if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))
+        compute_->set_styles(*arriving_, styles_, points_);
+    compute_->fill_normals(*arriving_, *bricks_, points_);
+    count_.ids += plan_->ids();
+    return plan_->take();
 }
 
 void CellBuffers::compute_corners() {

@@ -7,6 +7,7 @@
 #include "index/extraction.h"
 #include "render/brick_pool.h"
 #include "render/cell_compute.h"
+#include "render/ranked_points.h"
 #include "render/slot_plan.h"
 #include "render/staging_ring.h"
 #include "render/upload_count.h"
@@ -29,8 +30,8 @@ enum class SendVolume : std::uint8_t {
 /// mapped memory within a byte budget per frame, and is applied at once when all of it and of its
 /// bricks is on the GPU, so that no frame ever shows half a set. Normals, and what the exact
 /// surface is drawn from, are computed there from the bricks; but points that come with the set are
-/// taken as they are: where the processor is the GPU, the worker makes normals in a tenth of the
-/// time.
+/// taken as they are, all of them: where the processor is the GPU, the worker makes normals in a
+/// tenth of the time, and nothing is far.
 class CellBuffers {
   public:
     /// @param staging_bytes of the ring, at least twice StagingRing::kUnit; rounded up to units
@@ -109,8 +110,8 @@ class CellBuffers {
     void send_volume_of_shown(std::size_t bytes, std::size_t& sent);
     bool send_message(std::size_t bytes, std::size_t& sent);
     bool send_styles(std::size_t bytes, std::size_t& sent);
-    bool assign_slots();
-    void write_points();
+    Slots write_points();
+    Slots place_cells();
     void show();
 
     const Gl* gl_;
@@ -126,7 +127,8 @@ class CellBuffers {
     bool sending_bricks_ = false; ///< of the set on its way, or of the shown one after it
     // The set on its way:
     index::ExtractionPtr arriving_;
-    std::unique_ptr<SlotPlan> plan_;
+    std::unique_ptr<RankedPoints> ranked_; ///< where its points come with it,
+    std::unique_ptr<SlotPlan> plan_;       ///< else
     bool merged_ = false;
     std::size_t words_sent_ = 0, styles_sent_ = 0;
 };

@@ -25,8 +25,7 @@ void SlotPlan::next_surface() {
 }
 
 std::uint16_t SlotPlan::style_of(std::size_t rank) const {
-    const unsigned color = to_->colors.empty() ? 0 : to_->colors[rank];
-    return static_cast<std::uint16_t>(surface_ | color << kColorShift);
+    return cell_style(surface_, to_->colors.empty() ? 0 : to_->colors[rank]);
 }
 
 bool SlotPlan::merge(std::size_t cells) {

@@ -22,6 +22,10 @@ struct CellPlace {
 };
 static_assert(sizeof(CellPlace) == 8);
 
+constexpr std::uint16_t cell_style(std::size_t surface, unsigned color) {
+    return static_cast<std::uint16_t>(surface | color << kColorShift);
+}
+
 /// The cells of all surfaces in slots 0 to n - 1.
 struct Slots {
     /// By *rank*: surface after surface, in each in the order of its ids.

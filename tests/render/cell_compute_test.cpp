@@ -105,15 +105,15 @@ TEST_P(CellComputing, PointsThatComeWithASetAreTakenAsTheyAre) {
         ASSERT_EQ(given.size(), set->cells());
         const auto points = read<index::CellPoint>(given.texture(), given.size());
         const auto others = read<index::CellPoint>(computed.texture(), computed.size());
-        for (std::size_t slot = 0; slot < points.size(); ++slot) {
-            ASSERT_EQ(id_of(values.grid, points[slot]), id_of(values.grid, others[slot]));
-            ASSERT_EQ(points[slot].style, others[slot].style);
+        for (std::size_t rank = 0; rank < points.size(); ++rank) {
+            const index::CellPoint& point = points[given.slots().slot_of_rank[rank]];
+            const index::CellPoint& other = others[computed.slots().slot_of_rank[rank]];
+            ASSERT_EQ(id_of(values.grid, point), id_of(values.grid, other));
+            ASSERT_EQ(point.style, other.style);
             for (int axis = 0; axis < 3; ++axis)
-                ASSERT_NEAR(component(points[slot].normal, axis),
-                            component(others[slot].normal, axis), 1);
+                ASSERT_NEAR(component(point.normal, axis), component(other.normal, axis), 1);
             ++drawn;
         }
-        EXPECT_EQ(given.count().ids, computed.count().ids);
     }
     EXPECT_GT(drawn, 2000u);
 }

@@ -95,8 +95,9 @@ TEST_P(LateVolume, AnyRunOfSetsWithAndWithoutTheVolumeShowsEachWhole) {
         followed += !had && buffers.has_volume();
         if (complete || frame % 50 == 0)
             expect_whole(buffers);
-        if (buffers.has_volume() && !buffers.pending()) // nothing is left of what gave way
+        if (buffers.has_volume() && !buffers.pending()) { // nothing is left of what gave way
             EXPECT_EQ(buffers.bricks()->size(), buffers.shown()->bricks.ids.size());
+        }
         if (buffers.has_volume() && frame % 20 == 0)
             expect_corners_as_if_new(buffers, buffers.shown());
     }

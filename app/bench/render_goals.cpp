@@ -45,6 +45,10 @@ std::optional<double> p99(const RenderRow& row) {
     return row.threads == kThreads ? std::optional(row.p99_over_static) : std::nullopt;
 }
 
+std::optional<double> sent_ids(const RenderRow& row) {
+    return row.sent_ids_percent;
+}
+
 /// Against splats of the same picture.
 Figure over_splats(const std::vector<RenderRow>& rows) {
     return [&rows](const RenderRow& row) -> std::optional<double> {
@@ -73,6 +77,8 @@ std::vector<Goal<RenderRow>> all_goals(const std::vector<RenderRow>& rows) {
         {"fast quads, all of them, against bare quads, 512^2", "x", 1.1, 1.3, false,
          of("quad", "", 512, quads_over_bare)},
         {"99th percentile of frame over static draw", "x", 1.3, 2, false, p99},
+        {"ids that a GPU is sent from step to step, of all, sphere", " %", 20, 40, false,
+         of("", "sphere", 512, sent_ids)},
         {"surface against ShellSplatting, 1024^2", "x", 0.7, 1.3, false,
          of("surface", "", 1024, over_splats(rows))},
     };

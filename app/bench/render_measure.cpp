@@ -3,6 +3,7 @@
 
 #include "app/bench/bare_quads.h"
 #include "app/bench/render_camera.h"
+#include "app/bench/sent_ids.h"
 #include "app/bench/stopwatch.h"
 #include "app/bench/timing.h"
 #include "app/bench/vtk_scene.h"
@@ -96,7 +97,8 @@ class Bench {
         : gl_(gl), file_(std::move(file)), options_(options), picture_(picture),
           camera_(bench_camera(file_->info(), picture.size, picture.eyes)),
           target_(gl, {picture.size * picture.eyes, picture.size}), pass_(gl), as_quads_(gl),
-          cells_(gl, file_->info().grid), orders_(gl), bare_(gl), extract_(extraction()) {
+          cells_(gl, file_->info().grid), orders_(gl), bare_(gl), extract_(extraction()),
+          sent_ids_percent_(sent_ids_percent(gl, file_, options.isovalue)) {
         as_quads_.draw_without_points();
         as_quads_.draw_hidden_cells();
         if (options.vtk && options.context != stereo::ContextKind::osmesa)
@@ -151,6 +153,7 @@ class Bench {
         row.quads_cpu_ms = processor_ms(times.quads);
         row.bare_cpu_ms = processor_ms(times.bare);
         row.vtk_cpu_ms = processor_ms(times.vtk);
+        row.sent_ids_percent = sent_ids_percent_;
         return row;
     }
 
@@ -277,6 +280,7 @@ class Bench {
     render::OrderCache orders_;
     BareQuads bare_;
     index::Extract extract_;
+    std::optional<double> sent_ids_percent_;
     std::unique_ptr<VtkScene> vtk_;
 };
 

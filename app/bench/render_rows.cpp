@@ -33,6 +33,7 @@ void each_field(AnyRow& row,
     field("vtk_cpu_ms", row.vtk_cpu_ms);
     field("worst_over_static", row.worst_over_static);
     field("static_p99_over_static", row.static_p99_over_static);
+    field("sent_ids_percent", row.sent_ids_percent);
 }
 
 std::string to_json_text(const RenderResults& results) {

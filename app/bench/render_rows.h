@@ -29,6 +29,8 @@ struct RenderRow {
     double p99_over_static = 0, worst_over_static = 0;
     double static_p99_over_static = 0; ///< the same of those draws themselves: the machine's noise
     double extract_ms = 0, order_ms = 0, upload_ms = 0;
+    /// A GPU is sent as differences from step to step, in percent of the sets' ids.
+    std::optional<double> sent_ids_percent;
     double draw_ms = 0; ///< clearing, drawing and waiting until it is done
     /// The same drawn as quads where the program takes points.
     std::optional<double> quads_ms;

@@ -138,6 +138,8 @@ TEST_F(BenchRender, MeasuresEveryPictureAndFootprint) {
         EXPECT_FALSE(row.vtk_fps) << "VTK cannot draw there";
         EXPECT_LE(row.p99_over_static, row.worst_over_static);
         EXPECT_GT(row.p99_over_static, 0.0);
+        EXPECT_GT(row.sent_ids_percent.value_or(0), 0.0);
+        EXPECT_LT(row.sent_ids_percent.value_or(100), 100.0);
         const double whole = 1e3 / row.fps;
         for (const double part : {row.extract_ms, row.upload_ms, row.draw_ms})
             EXPECT_GT(part, 0.0);
@@ -169,6 +171,7 @@ TEST(RenderRows, GoThroughJsonUnchanged) {
     row.bare_fps = 700.25;
     row.p99_over_static = 1.25;
     row.draw_ms = 1.5;
+    row.sent_ids_percent = 10.8;
     const std::string text = to_json_text(RenderResults{{"0123abcd", "p", "c", "d", 2}, {row}});
     EXPECT_THAT(text, testing::HasSubstr(
                           "{\"data\":\"sphere\",\"footprint\":\"quad\",\"size\":512,\"eyes\":2,"

@@ -149,6 +149,8 @@ TEST(RenderGoals, SpeakOfTwoCoresAndOnePicture) {
     EXPECT_THAT(table(), HasSubstr("all of them, against bare quads, 512^2 | 1.1x | 1.3x | "
                                    "1.4x | **below the floor** |"));
     EXPECT_THAT(table(), HasSubstr("| 1.3x | 2x | 1.4x | above the floor |"));
+    row.sent_ids_percent = 10.8;
+    EXPECT_THAT(table(), HasSubstr("of all, sphere | 20 % | 40 % | 10.8 % | goal reached |"));
     row.threads = 1;
     EXPECT_THAT(table(), HasSubstr("fast quads, sphere, 512^2 | 600 fps | 250 fps | - |"));
 }

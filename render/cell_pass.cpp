@@ -75,20 +75,16 @@ glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, fl
     return {near, 1.0f / std::max(far - near, 1e-6f), strength, 0.0f};
 }
 
-bool is_parallel(const View& view) {
-    return view.clip_from_eye[3][3] == 1.0f;
-}
-
 /// w = 0 where the view is parallel: the direction towards the eye.
 glm::vec4 eye_in_index(const View& view, const Placement& placement) {
     return glm::inverse(view.eye_from_room * placement.room_from_index) *
-           (is_parallel(view) ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1));
+           (view.is_parallel() ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1));
 }
 
 EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance) {
     const glm::mat3 eye_from_room(view.eye_from_room);
     const glm::mat4 eye_from_index = view.eye_from_room * placement.room_from_index;
-    const bool parallel = is_parallel(view);
+    const bool parallel = view.is_parallel();
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
     glm::mat4 pixel_from_clip(1.0f);
     pixel_from_clip[0][0] = half_size.x;

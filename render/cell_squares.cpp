@@ -47,10 +47,8 @@ using V = hn::Vec<Floats>;
 /// As in cell.vert: the quad of an ellipse is upright up to this (a^2 - b^2) / (a^2 + b^2) of its
 /// half axes.
 constexpr float kRound = 0.1f;
-constexpr float kLevel = 1e-6f;
-constexpr float kClipped =
-    1.0f - kLevel; ///< what may be cut off by the frustum's ends hides nothing
-constexpr float kFar = 1e9f;
+constexpr float kClipped = 1.0f - 1e-6f; ///< what the frustum's ends may cut hides nothing
+constexpr float kFar = 1e9f;             ///< beyond any view and before any depth
 
 struct V3 {
     V x, y, z;

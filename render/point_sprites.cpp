@@ -73,7 +73,7 @@ bool footprints_are_squares(const View& view, const Placement& placement, float 
         for (int j = 0; j < 3; ++j)
             uneven += std::abs(square[i][j] / voxel2 - (i == j ? 1.0f : 0.0f));
 
-    const bool parallel = view.clip_from_eye[3][3] == 1.0f;
+    const bool parallel = view.is_parallel();
     const glm::vec2 scale =
         0.5f * glm::vec2(view.size) * glm::vec2(view.clip_from_eye[0][0], view.clip_from_eye[1][1]);
     const auto [narrow, wide] = std::minmax({std::abs(scale.x), std::abs(scale.y)});

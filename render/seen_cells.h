@@ -16,7 +16,7 @@ namespace isochron::render {
 /// tiles of a few pixels with the depth of the nearest quad that covers all of the tile (as the
 /// tiles of a hierarchical z-buffer; Greene, Kass and Miller 1993, doi:10.1145/166117.166147): a
 /// cell is hidden where all tiles that its quad may touch are covered by nearer ones. What is left
-/// shows exactly the same picture. On the processor that takes some 40 ns a cell, drawing one takes
+/// shows exactly the same picture. On the processor that takes some 20 ns a cell, drawing one takes
 /// 500 to 1000.
 class SeenCells {
   public:

@@ -4,6 +4,7 @@
 #include "render/cell_pass.h"
 #include "render/point_sprites.h"
 #include "render/render_target.h"
+#include "tests/index/simd_targets.h"
 #include "tests/render/gl_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -122,6 +123,17 @@ TEST_P(SeenCellsPictures, AreThoseOfAllCells) {
     EXPECT_LT(squares, 180);
 }
 
+TEST_P(SeenCellsPictures, AreTheSameOnEveryKindOfProcessor) {
+    all_.draw_hidden_cells();
+    for (int round = 0; round < 30; ++round) {
+        const Volume volume = random_volume(random_);
+        const CellBuffers cells = shown(volume);
+        const auto expected = draw(all_, volume, cells, three_colors()).rgba;
+        index::on_every_simd_target(
+            [&] { ASSERT_EQ(draw(seen_, volume, cells, three_colors()).rgba, expected); });
+    }
+}
+
 TEST_P(SeenCellsPictures, ShowWhatIsBehindQuadsThatAreLeftOut) {
     all_.draw_hidden_cells();
     for (int round = 0; round < 20; ++round) {
@@ -200,6 +212,18 @@ TEST(SeenCells, ComeNearestFirst) {
         return std::find(found.begin(), found.end(), slot) == found.end();
     });
     EXPECT_TRUE(std::ranges::equal(found, rest));
+}
+
+/// Rounding may differ, which the pictures do not show.
+TEST(SeenCells, AreAsManyOnEveryKindOfProcessor) {
+    const Shell shell;
+    SeenCells seen;
+    const auto find = [&] {
+        return seen.find(shell.volume.view, shell.volume.placement, kRadius, shell.slots.places,
+                         shell.order);
+    };
+    const auto count = double(find().size());
+    index::on_every_simd_target([&] { EXPECT_NEAR(double(find().size()), count, 0.01 * count); });
 }
 
 TEST(SeenCells, OfNoneAreNone) {

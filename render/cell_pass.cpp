@@ -237,8 +237,7 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
       surface_(gl, two_views_at_once_), quads_(gl), orders_(gl), seen_slots_(gl),
       seen_texture_(gl, GL_TEXTURE_BUFFER), frame_(gl) {
     quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
-    const float sigmas = 0.5f * shapes.gaussian_diameter / shapes.gaussian_sigma;
-    const float falloff = -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
+    const float falloff = gaussian_falloff();
     for (const Programs* programs : {&gaussian_programs_.quads, &gaussian_programs_.points}) {
         gl.ProgramUniform1f(programs->one.name(), 0, falloff);
         if (programs->two)
@@ -251,12 +250,18 @@ float CellPass::radius_of(Footprint footprint) const {
            (footprint == Footprint::gaussian ? shapes_.gaussian_diameter : shapes_.quad_diameter);
 }
 
+/// log2 of a splat's opacity on its outline, where it is 1 in the middle.
+float CellPass::gaussian_falloff() const {
+    const float sigmas = 0.5f * shapes_.gaussian_diameter / shapes_.gaussian_sigma;
+    return -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
+}
+
 void CellPass::draw(std::span<const View> views, const Placement& placement,
                     const CellBuffers& cells, Footprint footprint,
                     const CellAppearance& appearance) {
     if (cells.size() == 0)
         return;
-    const bool apart = !two_views_at_once_ || (footprint == Footprint::quad && seen_only_);
+    const bool apart = !two_views_at_once_ || (footprint != Footprint::surface && seen_only_);
     const std::size_t at_once = apart ? 1 : 2;
     for (const Layer& layer : layers_of(cells, footprint, appearance))
         for (std::size_t first = 0; first < views.size(); first += at_once)
@@ -346,12 +351,19 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
         return {.cells = cells.size()};
     const glm::vec4 eye = eye_in_index(view, placement);
     const TraversalKey key = traversal_key(eye, glm::ivec3(placement.extent), placement.spacing());
-    if (blended)
-        return {cells.size(), orders_.texture(cells, key), 0, 1};
-    if (all_cells_ || !hides_what_is_behind(appearance, placement))
-        return {cells.size(), orders_.texture(cells, key), all - 1, -1};
-    const std::span<const std::uint32_t> seen = seen_.find(
-        view, placement, radius_of(footprint), cells.slots().places, orders_.order(cells, key));
+    // In linear light less than a step of the display's values shows where these are dark.
+    const bool leaves_out = seen_only_ && !all_cells_ && footprint != Footprint::surface &&
+                            !(blended && appearance.linear_light) &&
+                            hides_what_is_behind(appearance, placement);
+    if (!leaves_out)
+        return blended ? Sequence{cells.size(), orders_.texture(cells, key), 0, 1}
+                       : Sequence{cells.size(), orders_.texture(cells, key), all - 1, -1};
+    const std::span<const CellPlace> places = cells.slots().places;
+    const std::span<const std::uint32_t> order = orders_.order(cells, key);
+    const float radius = radius_of(footprint);
+    const std::span<const std::uint32_t> seen =
+        blended ? seen_splats_.find(view, placement, radius, gaussian_falloff(), places, order)
+                : seen_.find(view, placement, radius, places, order);
     gl_->NamedBufferData(seen_slots_.name(), static_cast<GLsizeiptr>(seen.size_bytes()),
                          seen.data(), GL_STREAM_DRAW);
     gl_->TextureBuffer(seen_texture_.name(), GL_R32UI, seen_slots_.name());

@@ -6,6 +6,7 @@
 #include "render/placement.h"
 #include "render/quad_indices.h"
 #include "render/seen_cells.h"
+#include "render/seen_splats.h"
 #include "render/surface_pass.h"
 #include "render/view.h"
 
@@ -119,8 +120,8 @@ class CellPass {
     bool draws_two_views_at_once() const { return two_views_at_once_; }
     /// For comparisons: two passes although the driver could do with one.
     void draw_views_apart() { two_views_at_once_ = false; }
-    /// For comparisons: on software GL, too, quads that are wholly behind others or beside the
-    /// view.
+    /// For comparisons: on software GL, too, quads and splats that nobody sees behind others or
+    /// beside the view.
     void draw_hidden_cells() { all_cells_ = true; }
     /// For comparisons: quads also where points would show the same faster.
     void draw_without_points() { largest_point_ = 0.0f; }
@@ -173,6 +174,7 @@ class CellPass {
                          Footprint footprint, bool blended, const CellAppearance& appearance);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
     float radius_of(Footprint footprint) const;
+    float gaussian_falloff() const;
 
     const Gl* gl_;
     FootprintShapes shapes_;
@@ -187,6 +189,7 @@ class CellPass {
     QuadIndices quads_;
     OrderCache orders_;
     SeenCells seen_;
+    SeenSplats seen_splats_;
     Buffer seen_slots_;
     Texture seen_texture_;
     Buffer frame_;

@@ -23,7 +23,7 @@ struct SquareProjection {
 
 /// Where the results go.
 struct SquareArrays {
-    float *x, *y, *z, *inner, *outer;
+    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc;
 };
 
 } // namespace isochron::render
@@ -48,7 +48,9 @@ using V = hn::Vec<Floats>;
 /// half axes.
 constexpr float kRound = 0.1f;
 constexpr float kClipped = 1.0f - 1e-6f; ///< what the frustum's ends may cut hides nothing
-constexpr float kFar = 1e9f;             ///< beyond any view and before any depth
+/// As kLeastDepth, of an eye that is two radii away: from there on nothing of a splat fades.
+constexpr float kWholeDepth = 0.75f;
+constexpr float kFar = 1e9f; ///< beyond any view and before any depth
 
 struct V3 {
     V x, y, z;
@@ -126,6 +128,10 @@ HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* wor
     const V inner = hn::IfThenElseZero(hides, hn::Div(det, most));
     const V outer = hn::IfThenElse(round, most, hn::Sqrt(hn::Add(trace, uneven)));
 
+    const V major = hn::Sqrt(hn::Mul(hn::Set(d, 0.5f), hn::Add(trace, uneven)));
+    const auto whole = hn::And(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)),
+                               hn::Ge(depth, hn::Mul(hn::Set(d, kWholeDepth), hn::Mul(w, w))));
+
     const V far = hn::Set(d, kFar);
     const V everywhere = hn::IfThenZeroElse(behind, hn::Set(d, 2.0f * kFar));
     const auto store = [&](V of_near, V of_others, float* to) {
@@ -136,6 +142,8 @@ HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* wor
     store(hn::Neg(far), z, out.z);
     store(zero, inner, out.inner);
     store(everywhere, outer, out.outer);
+    store(zero, hn::IfThenElseZero(whole, hn::Div(det, major)), out.inner_disc);
+    store(everywhere, major, out.outer_disc);
 }
 
 } // namespace
@@ -160,7 +168,7 @@ void CellSquares::project(const View& view, const Placement& placement, float ra
     size_ = back_to_front.size();
     const std::size_t whole = (size_ + kBlock - 1) / kBlock * kBlock;
     words_.resize(2 * whole);
-    for (std::vector<float>* array : {&x_, &y_, &z_, &inner_, &outer_})
+    for (std::vector<float>* array : {&x_, &y_, &z_, &inner_, &outer_, &inner_disc_, &outer_disc_})
         array->resize(whole);
     for (std::size_t i = 0; i < size_; ++i)
         std::memcpy(&words_[2 * i], &places[back_to_front[size_ - 1 - i]], sizeof(CellPlace));
@@ -171,7 +179,8 @@ void CellSquares::project(const View& view, const Placement& placement, float ra
         half_size.x * rows[0], half_size.y * rows[1], rows[2], rows[3], half_size, radius};
     HWY_DYNAMIC_DISPATCH(project)
     (projection, words_.data(), whole,
-     {x_.data(), y_.data(), z_.data(), inner_.data(), outer_.data()});
+     {x_.data(), y_.data(), z_.data(), inner_.data(), outer_.data(), inner_disc_.data(),
+      outer_disc_.data()});
 }
 
 } // namespace isochron::render

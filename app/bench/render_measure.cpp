@@ -8,6 +8,7 @@
 #include "app/bench/timing.h"
 #include "app/bench/vtk_scene.h"
 #include "index/extractor.h"
+#include "render/driver.h"
 #include "render/render_target.h"
 
 #include <fmt/format.h>
@@ -99,6 +100,7 @@ class Bench {
           target_(gl, {picture.size * picture.eyes, picture.size}), pass_(gl), as_quads_(gl),
           cells_(gl, file_->info().grid), orders_(gl), bare_(gl), extract_(extraction()),
           sent_ids_percent_(sent_ids_percent(gl, file_, options.isovalue)) {
+        look_.linear_light = !render::draws_in_software(gl); // as a session's
         as_quads_.draw_without_points();
         as_quads_.draw_hidden_cells();
         if (options.vtk && options.context != stereo::ContextKind::osmesa)
@@ -162,7 +164,7 @@ class Bench {
         target_.clear(kBackground);
         if (footprint == Footprint::surface)
             cells_.compute_corners();
-        pass.draw(camera_.views, camera_.placement, cells_, footprint);
+        pass.draw(camera_.views, camera_.placement, cells_, footprint, look_);
         gl_.Finish();
     }
 
@@ -204,7 +206,7 @@ class Bench {
     void draw_bare(Footprint footprint) {
         target_.bind();
         target_.clear(kBackground);
-        if (!is_blended(footprint))
+        if (!is_blended(footprint) || !look_.linear_light)
             gl_.Disable(GL_FRAMEBUFFER_SRGB); // as the pass does, whose colours need no conversion
         bare_.draw(camera_.views, is_blended(footprint));
         gl_.Finish();
@@ -241,12 +243,19 @@ class Bench {
               const std::function<void(double)>& progress) {
         constexpr int kStatic = 3;
         constexpr double kDragged = 0.1; ///< of the isovalue
+        // One frame in a hundred is to be one of several, not the worst, where that is soon done.
+        constexpr std::size_t kManyFrames = 500;
+        constexpr double kSoon = 3e3; // ms
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());
         const render::SendVolume volume = volume_for(footprint);
         index::Extractor extractor(extraction());
         std::vector<double> over, noise;
-        for (std::size_t i = 0; i < frames; ++i) {
-            progress(static_cast<double>(i) / static_cast<double>(frames));
+        const double start = wall_ms();
+        const auto enough = [&](std::size_t i) {
+            return i >= frames && (i >= kManyFrames || wall_ms() - start > kSoon);
+        };
+        for (std::size_t i = 0; !enough(i); ++i) {
+            progress(std::min(static_cast<double>(i) / static_cast<double>(frames), 1.0));
             const auto step = static_cast<std::uint32_t>(i % steps);
             const double turn = static_cast<double>(i) / 40.0;
             const double isovalue =
@@ -273,6 +282,7 @@ class Bench {
     const RenderOptions& options_;
     Picture picture_;
     render::FootprintShapes shapes_;
+    render::CellAppearance look_;
     BenchCamera camera_;
     render::RenderTarget target_;
     render::CellPass pass_, as_quads_;

@@ -16,22 +16,23 @@ namespace {
 constexpr std::string_view kReading =
     "- A *frame* extracts the next step from the index, sends it to GL, sorts it where splats "
     "blend, draws it and waits until it is drawn. Fast quads come without the volume around their "
-    "cells, which follows in a session when motion ends. The camera's angle is 45 degrees, the "
-    "volume's "
-    "bounding sphere touches the picture. Wall-clock medians over all steps and rounds; our "
-    "frames, VTK's, bare quads and static draws take turns at every step.\n"
+    "cells, which follows in a session when motion ends. Where the processor draws, splats blend "
+    "in display values, as in a session. The camera's angle is 45 degrees, the volume's bounding "
+    "sphere touches the picture. Wall-clock medians over all steps and rounds; our frames, VTK's, "
+    "bare quads and static draws take turns at every step.\n"
     "- *VTK*: `vtkFlyingEdges3D` with normals and VTK's own renderer, for the same step, in the "
     "same GL context and on as many processors.\n"
     "- *bare*: only the drawing of plain quads, of one flat colour, whose corners lie ready: what "
     "this GL can do. Footprints are drawn as points where no footprint crosses an edge of the "
-    "picture, and of fast quads only those that are not hidden; *as quads* is the time without "
+    "picture, and where the processor draws only those that are seen: no quads that are hidden, no "
+    "splats that would change a byte by less than its rounding; *as quads* is the time without "
     "either.\n"
     "- *ids that a GPU is sent*: as differences from step to step, in percent of the sets' ids. "
     "Where the processor draws, cells come with their normals, all of them.\n"
     "- *p99*: while time plays and the isovalue is dragged by 10 % to and fro, with the extraction "
     "on its own thread: the time of a frame over the median of three draws of the very cells that "
-    "it showed; the 99th percentile over the frames. *noise* is the same of those draws "
-    "themselves.\n\n";
+    "it showed; the 99th percentile over the frames, 500 of them where these take no more than "
+    "three seconds. *noise* is the same of those draws themselves.\n\n";
 
 const RenderRow* find(const RenderResults& results, std::string_view data,
                       std::string_view footprint, unsigned threads) {

@@ -1,6 +1,8 @@
 // A figure that is to be reached, and how far what was measured is from it.
 #pragma once
 
+#include "app/bench/short_number.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,8 +38,8 @@ std::string line_of(const Goal<Row>& goal, const std::vector<Row>& rows) {
     if (!measured.empty()) {
         const auto [low, high] = std::minmax_element(measured.begin(), measured.end());
         const double worst = goal.more ? *low : *high;
-        found = *low == *high ? fmt::format("{:.3g}{}", *low, goal.unit)
-                              : fmt::format("{:.3g} to {:.3g}{}", *low, *high, goal.unit);
+        found = *low == *high ? short_number(*low) + goal.unit
+                              : short_number(*low) + " to " + short_number(*high) + goal.unit;
         verdict = goal.reaches(worst, goal.goal)    ? "goal reached"
                   : goal.reaches(worst, goal.floor) ? "above the floor"
                                                     : "**below the floor**";

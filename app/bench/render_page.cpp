@@ -3,6 +3,7 @@
 
 #include "app/bench/paper_tables.h"
 #include "app/bench/render_goals.h"
+#include "app/bench/short_number.h"
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ std::string table3(const RenderResults& results) {
 }
 
 std::string number(const std::optional<double>& value) {
-    return value ? fmt::format("{:.3g}", *value) : "-";
+    return value ? short_number(*value) : "-";
 }
 
 std::string all_rows(const std::vector<RenderRow>& rows) {
@@ -73,13 +74,13 @@ std::string all_rows(const std::vector<RenderRow>& rows) {
         "extract ms | order ms | upload ms | draw ms | as quads ms | p99 | worst | noise |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const RenderRow& row : rows)
-        text += fmt::format(
-            "| {} | {} | {} | {} | {} | {:.0f} | {:.3g} | {} | {} | {:.3f} | {:.3f} "
-            "| {:.3f} | {:.3g} | {} | {:.3g} | {:.3g} | {:.3g} |\n",
-            row.data, row.footprint, picture_name(row), row.threads, row.context, row.cells,
-            row.fps, number(row.vtk_fps), number(row.bare_fps), row.extract_ms, row.order_ms,
-            row.upload_ms, row.draw_ms, number(row.quads_ms), row.p99_over_static,
-            row.worst_over_static, row.static_p99_over_static);
+        text += fmt::format("| {} | {} | {} | {} | {} | {:.0f} | {} | {} | {} | {:.3f} | {:.3f} "
+                            "| {:.3f} | {:.3g} | {} | {:.3g} | {:.3g} | {:.3g} |\n",
+                            row.data, row.footprint, picture_name(row), row.threads, row.context,
+                            row.cells, short_number(row.fps), number(row.vtk_fps),
+                            number(row.bare_fps), row.extract_ms, row.order_ms, row.upload_ms,
+                            row.draw_ms, number(row.quads_ms), row.p99_over_static,
+                            row.worst_over_static, row.static_p99_over_static);
     return text;
 }
 

@@ -2,6 +2,7 @@
 #include "app/bench/render_rows.h"
 
 #include "app/bench/record_json.h"
+#include "app/bench/short_number.h"
 #include "index/error.h"
 
 namespace isochron::app::bench {
@@ -61,7 +62,7 @@ std::string picture_name(const RenderRow& row) {
 
 std::string table_of(const std::vector<RenderRow>& rows) {
     const auto number = [](const std::optional<double>& value) {
-        return value ? fmt::format("{:.3g}", *value) : "-";
+        return value ? short_number(*value) : "-";
     };
     std::string text =
         fmt::format("{:<12} {:<9} {:<10} {:>7} {:<7} {:>6} {:>6} {:>6} {:>6} {:>5} "

@@ -95,11 +95,11 @@ std::vector<Subject> make_subjects(const RenderArguments& arguments, const fs::p
     std::vector<Subject> subjects;
     for (const fs::path& path : arguments.files) {
         constexpr double kShare = 0.005;
-        const index::StepValues& values = index::IndexFile::open(path)->values();
-        const double active = kShare * static_cast<double>(values.grid.cell_count());
+        const auto file = index::IndexFile::open(path);
+        const double active = kShare * static_cast<double>(file->info().grid.cell_count());
         subjects.push_back(
             {path.stem().string(), path,
-             arguments.isovalue ? *arguments.isovalue : isovalue_with(values, active)});
+             arguments.isovalue ? *arguments.isovalue : isovalue_with(file->values(), active)});
     }
     if (!subjects.empty())
         return subjects;

@@ -58,16 +58,26 @@ TEST_F(BenchRenderCommand, MeasuresAGivenIndexAndContext) {
                         "slope.isochron"})
                   .status,
               0);
-    const ChildResult result = isochron(
-        {"bench", "render", "slope.isochron", "--isovalue", "90", "--repeat", "1", "--footprints",
-         "quad", "--pictures", "40", "--threads", "1", "--context", "osmesa", "--json", "b.json"});
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto rows = nlohmann::json::parse(folder.read("b.json")).at("rows");
+    const auto measure = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"bench",     "render",     "slope.isochron",
+                                           "--repeat",  "1",          "--footprints",
+                                           "quad",      "--pictures", "40",
+                                           "--threads", "1",          "--context",
+                                           "osmesa",    "--json",     "b.json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ChildResult result = isochron(arguments);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return nlohmann::json::parse(folder.read("b.json")).at("rows");
+    };
+    auto rows = measure({"--isovalue", "90"});
     ASSERT_EQ(rows.size(), 1u);
     EXPECT_EQ(rows[0].at("data"), "slope");
     EXPECT_EQ(rows[0].at("context"), "osmesa");
     EXPECT_EQ(rows[0].at("cells"), 121.0);
     EXPECT_TRUE(rows[0].at("vtk_fps").is_null());
+    rows = measure({}); // an isovalue of its own
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].at("cells"), 121.0);
 }
 
 TEST_F(BenchRenderCommand, RefusesWhatItCannotDraw) {

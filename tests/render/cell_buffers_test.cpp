@@ -55,7 +55,8 @@ class CellUpload : public CellUploadTest {
 
 TEST_P(CellUpload, StaysWithinTheBudgetAndShowsWholeSetsOnly) {
     CellBuffers buffers(gl_, field_.view().grid);
-    const auto first = random_set(500), second = random_set(300);
+    const auto first = extractions_.of_cells(0, {random_ids(500)});
+    const auto second = extractions_.of_cells(1, {random_ids(300)}); // other bricks, too
     ASSERT_TRUE(buffers.upload(first, kEnough));
     EXPECT_EQ(buffers.shown(), first);
     expect_whole(buffers);

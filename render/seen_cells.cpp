@@ -6,21 +6,6 @@
 #include <array>
 #include <limits>
 
-#ifndef ISOCHRON_SEEN_CELLS_TYPES
-#define ISOCHRON_SEEN_CELLS_TYPES
-namespace isochron::render {
-
-/// The picture as tiles with the depth of the nearest quad that covers all of the tile.
-struct DepthTiles {
-    static constexpr std::size_t kSlack = 8; ///< depths behind the last that are written, too
-    float* nearest;                          ///< row by row
-    int bits;                                ///< tiles have 1 << bits pixels across and up
-    int columns, rows;
-};
-
-} // namespace isochron::render
-#endif
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/seen_cells.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
@@ -40,7 +25,7 @@ constexpr float kLevel = 1e-6f;
 
 using Floats = hn::CappedTag<float, CellSquares::kBlock>;
 using Ints = hn::RebindToSigned<Floats>;
-using Row = hn::CappedTag<float, DepthTiles::kSlack>;
+using Row = hn::CappedTag<float, TileNumbers::kSlack>;
 
 /// Inclusive ranges of tiles along one axis for a block of cells; empty where `last` is less than
 /// `first`.
@@ -56,7 +41,7 @@ HWY_INLINE hn::Vec<Ints> pixel_at(hn::Vec<Floats> at) {
 }
 
 /// Tiles of which the quad may draw the middle of a pixel.
-HWY_INLINE void touched(const DepthTiles& tiles, const float* middle, const float* half, int count,
+HWY_INLINE void touched(const TileNumbers& tiles, const float* middle, const float* half, int count,
                         Tiles& out) {
     const Floats d;
     const Ints di;
@@ -71,7 +56,7 @@ HWY_INLINE void touched(const DepthTiles& tiles, const float* middle, const floa
 }
 
 /// Tiles of which the quad surely draws the middles of all pixels.
-HWY_INLINE void covered(const DepthTiles& tiles, const float* middle, const float* half, int count,
+HWY_INLINE void covered(const TileNumbers& tiles, const float* middle, const float* half, int count,
                         Tiles& out) {
     const Floats d;
     const Ints di;
@@ -98,12 +83,12 @@ HWY_INLINE bool all_of_row(float* row, int first, int last, Each&& each) {
     return true;
 }
 
-HWY_INLINE bool hidden(const DepthTiles& tiles, const Tiles& across, const Tiles& up, std::size_t i,
-                       float z) {
+HWY_INLINE bool hidden(const TileNumbers& tiles, const Tiles& across, const Tiles& up,
+                       std::size_t i, float z) {
     const Row d;
     const auto nearer = hn::Set(d, z - kLevel);
     for (int y = up.first[i]; y <= up.last[i]; ++y) {
-        float* const row = tiles.nearest + static_cast<std::size_t>(y) * tiles.columns;
+        float* const row = tiles.numbers + static_cast<std::size_t>(y) * tiles.columns;
         if (!all_of_row(row, across.first[i], across.last[i], [&](const float* at, auto which) {
                 return hn::AllFalse(d, hn::And(which, hn::Ge(hn::LoadU(d, at), nearer)));
             }))
@@ -112,12 +97,12 @@ HWY_INLINE bool hidden(const DepthTiles& tiles, const Tiles& across, const Tiles
     return true;
 }
 
-HWY_INLINE void cover(const DepthTiles& tiles, const Tiles& across, const Tiles& up, std::size_t i,
+HWY_INLINE void cover(const TileNumbers& tiles, const Tiles& across, const Tiles& up, std::size_t i,
                       float z) {
     const Row d;
     const auto depth = hn::Set(d, z);
     for (int y = up.first[i]; y <= up.last[i]; ++y) {
-        float* const row = tiles.nearest + static_cast<std::size_t>(y) * tiles.columns;
+        float* const row = tiles.numbers + static_cast<std::size_t>(y) * tiles.columns;
         all_of_row(row, across.first[i], across.last[i], [&](float* at, auto which) {
             const auto before = hn::LoadU(d, at);
             hn::StoreU(hn::IfThenElse(which, hn::Min(before, depth), before), d, at);
@@ -130,7 +115,7 @@ HWY_INLINE void cover(const DepthTiles& tiles, const Tiles& across, const Tiles&
 
 /// @param seen numbers of cells in the order of the squares: room for all of them
 /// @return how many
-std::size_t find(const CellSquares& squares, const DepthTiles& tiles, std::uint32_t* seen) {
+std::size_t find(const CellSquares& squares, const TileNumbers& tiles, std::uint32_t* seen) {
     Tiles across, up, whole_across, whole_up;
     std::size_t count = 0;
     for (std::size_t first = 0; first < squares.size(); first += CellSquares::kBlock) {
@@ -158,44 +143,20 @@ namespace isochron::render {
 
 HWY_EXPORT(find);
 
-namespace {
-
-constexpr double kTilesAcross = 3.0; ///< of a quad, about
-constexpr int kMostTileBits = 4;
-
-} // namespace
-
 std::span<const std::uint32_t> SeenCells::find(const View& view, const Placement& placement,
                                                float radius, std::span<const CellPlace> places,
                                                std::span<const std::uint32_t> back_to_front) {
     squares_.project(view, placement, radius, places, back_to_front);
-    choose_tiles(view);
-    const std::size_t tiles = static_cast<std::size_t>(columns_) * rows_;
-    nearest_.assign(tiles + DepthTiles::kSlack, std::numeric_limits<float>::max());
+    // Most quads cover some tiles.
+    constexpr float kTilesAcross = 1.5f; ///< half of a quad
+    constexpr int kMostTileBits = 4;
+    tiles_.lay_out(view, {squares_.inner(), squares_.size()}, kTilesAcross, kMostTileBits,
+                   std::numeric_limits<float>::max());
     seen_.resize(squares_.size());
-    seen_.resize(HWY_DYNAMIC_DISPATCH(find)(
-        squares_, {nearest_.data(), tile_bits_, columns_, rows_}, seen_.data()));
+    seen_.resize(HWY_DYNAMIC_DISPATCH(find)(squares_, tiles_.numbers(), seen_.data()));
     for (std::uint32_t& cell : seen_)
         cell = back_to_front[squares_.size() - 1 - cell];
     return seen_;
-}
-
-/// Smaller tiles find more cells hidden, larger ones take less time: most quads cover some.
-void SeenCells::choose_tiles(const View& view) {
-    constexpr std::size_t kEvery = 16; // are enough to know their size
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < squares_.size(); i += kEvery)
-        if (const float inner = squares_.inner()[i]; inner > 0.0f) {
-            sum += inner;
-            ++count;
-        }
-    const double mean = sum / static_cast<double>(std::max(count, std::size_t{1}));
-    tile_bits_ = 0;
-    while (tile_bits_ < kMostTileBits && (1 << tile_bits_) * kTilesAcross <= mean)
-        ++tile_bits_;
-    columns_ = ((view.size.x - 1) >> tile_bits_) + 1;
-    rows_ = ((view.size.y - 1) >> tile_bits_) + 1;
 }
 
 } // namespace isochron::render

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/cell_squares.h"
+#include "render/picture_tiles.h"
 #include "render/placement.h"
 #include "render/slot_plan.h"
 #include "render/view.h"
@@ -29,12 +30,8 @@ class SeenCells {
                                         std::span<const std::uint32_t> back_to_front);
 
   private:
-    void choose_tiles(const View& view);
-
     CellSquares squares_;
-    int tile_bits_ = 0; ///< tiles have 1 << tile_bits_ pixels across and up
-    int columns_ = 0, rows_ = 0;
-    std::vector<float> nearest_; ///< depth by tile, row by row
+    PictureTiles tiles_; ///< with the depth of the nearest quad that covers all of the tile
     std::vector<std::uint32_t> seen_;
 };
 

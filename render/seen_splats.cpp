@@ -6,21 +6,6 @@
 #include <array>
 #include <cmath>
 
-#ifndef ISOCHRON_SEEN_SPLATS_TYPES
-#define ISOCHRON_SEEN_SPLATS_TYPES
-namespace isochron::render {
-
-/// The picture as tiles with a bound of the light that comes through from behind.
-struct LightTiles {
-    static constexpr std::size_t kSlack = 16; ///< tiles behind the last that are written, too
-    float* light;                             ///< row by row
-    int bits;                                 ///< tiles have 1 << bits pixels across and up
-    int columns, rows;
-};
-
-} // namespace isochron::render
-#endif
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/seen_splats.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
@@ -33,7 +18,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Row = hn::CappedTag<float, LightTiles::kSlack>;
+using Row = hn::CappedTag<float, TileNumbers::kSlack>;
 
 /// Below this, all that lies behind changes no byte by more than its rounding.
 constexpr float kDark = 1.0f / 512.0f;
@@ -46,8 +31,8 @@ constexpr float kToSample = 0.75f;
 constexpr int kMostTiles = 96;
 constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
 
-using Floats = std::array<float, kMostTiles + LightTiles::kSlack>;
-using Ints = std::array<std::int32_t, kMostTiles + LightTiles::kSlack>;
+using Floats = std::array<float, kMostTiles + TileNumbers::kSlack>;
+using Ints = std::array<std::int32_t, kMostTiles + TileNumbers::kSlack>;
 
 /// Along one axis: which tiles a splat touches, and its factor of the Gaussian in each, at the
 /// sample that is farthest from the splat's middle; 0 behind the last.
@@ -73,14 +58,14 @@ HWY_INLINE hn::Vec<Row> below_exp2(hn::Vec<Row> x) {
     return power;
 }
 
-HWY_INLINE int tile_of(const LightTiles& tiles, float at) {
+HWY_INLINE int tile_of(const TileNumbers& tiles, float at) {
     return static_cast<int>(std::floor(std::clamp(at, -kFarthest, kFarthest))) >> tiles.bits;
 }
 
 /// @param middle, reach of the splat [pixel]
 /// @param falloff per square pixel
 /// @return false when there are too many tiles
-HWY_INLINE bool make_profile(const LightTiles& tiles, float middle, float reach, float falloff,
+HWY_INLINE bool make_profile(const TileNumbers& tiles, float middle, float reach, float falloff,
                              int count, Profile& out) {
     out.first = std::max(tile_of(tiles, middle - reach - kMargin), 0);
     out.count = std::min(tile_of(tiles, middle + reach + kMargin), count - 1) - out.first + 1;
@@ -105,7 +90,7 @@ HWY_INLINE bool make_profile(const LightTiles& tiles, float middle, float reach,
 }
 
 /// Of a disc of this radius, in the rows of `up`.
-HWY_INLINE void find_spans(const LightTiles& tiles, const Profile& across, const Profile& up,
+HWY_INLINE void find_spans(const TileNumbers& tiles, const Profile& across, const Profile& up,
                            float middle, float radius, Spans& out) {
     const Row d;
     const hn::RebindToSigned<Row> di;
@@ -154,7 +139,7 @@ HWY_INLINE void dim(float* light, const float* gaussian, int count, float of_row
 /// @param falloff log2 of the opacity on the outline
 /// @param seen numbers of splats in the order of the squares: room for all of them
 /// @return how many
-std::size_t find(const CellSquares& splats, float falloff, const LightTiles& tiles,
+std::size_t find(const CellSquares& splats, float falloff, const TileNumbers& tiles,
                  std::uint32_t* seen) {
     Profile across, up;
     Spans spans;
@@ -171,7 +156,7 @@ std::size_t find(const CellSquares& splats, float falloff, const LightTiles& til
         if (across.count < 1 || up.count < 1)
             continue;
         const auto row = [&](int i) {
-            return tiles.light + static_cast<std::size_t>(up.first + i) * tiles.columns +
+            return tiles.numbers + static_cast<std::size_t>(up.first + i) * tiles.columns +
                    across.first;
         };
         find_spans(tiles, across, up, x, reach, spans);
@@ -205,33 +190,16 @@ std::span<const std::uint32_t> SeenSplats::find(const View& view, const Placemen
                                                 std::span<const CellPlace> places,
                                                 std::span<const std::uint32_t> back_to_front) {
     squares_.project(view, placement, radius, places, back_to_front);
-    const int bits = tile_bits_for_splats();
-    const int columns = ((view.size.x - 1) >> bits) + 1, rows = ((view.size.y - 1) >> bits) + 1;
-    light_.assign(static_cast<std::size_t>(columns) * rows + LightTiles::kSlack, 1.0f);
+    constexpr float kTilesAcross = 8.0f; ///< half of a splat
+    constexpr int kMostTileBits = 3;
+    tiles_.lay_out(view, {squares_.inner_disc(), squares_.size()}, kTilesAcross, kMostTileBits,
+                   1.0f);
     seen_.resize(squares_.size());
-    seen_.resize(HWY_DYNAMIC_DISPATCH(find)(squares_, falloff, {light_.data(), bits, columns, rows},
-                                            seen_.data()));
+    seen_.resize(HWY_DYNAMIC_DISPATCH(find)(squares_, falloff, tiles_.numbers(), seen_.data()));
     for (std::uint32_t& splat : seen_)
         splat = back_to_front[squares_.size() - 1 - splat];
     std::ranges::reverse(seen_);
     return seen_;
-}
-
-/// Smaller tiles find more splats hidden, larger ones take less time: some 20 lie across a splat.
-int SeenSplats::tile_bits_for_splats() const {
-    constexpr std::size_t kEvery = 16;   // are enough to know their size
-    constexpr float kTilesAcross = 8.0f; ///< of an inner disc's radius, at least
-    constexpr int kMostTileBits = 3;
-    float sum = 0.0f, count = 0.0f;
-    for (std::size_t i = 0; i < squares_.size(); i += kEvery)
-        if (const float inner = squares_.inner_disc()[i]; inner > 0.0f) {
-            sum += inner;
-            ++count;
-        }
-    int bits = 0;
-    while (bits < kMostTileBits && static_cast<float>(2 << bits) * kTilesAcross * count <= sum)
-        ++bits;
-    return bits;
 }
 
 } // namespace isochron::render

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/cell_squares.h"
+#include "render/picture_tiles.h"
 #include "render/placement.h"
 #include "render/slot_plan.h"
 #include "render/view.h"
@@ -30,10 +31,8 @@ class SeenSplats {
                                         std::span<const std::uint32_t> back_to_front);
 
   private:
-    int tile_bits_for_splats() const;
-
     CellSquares squares_;
-    std::vector<float> light_; ///< by tile, row by row
+    PictureTiles tiles_; ///< with a bound of the light that comes through
     std::vector<std::uint32_t> seen_;
 };
 

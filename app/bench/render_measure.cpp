@@ -98,8 +98,7 @@ class Bench {
         : gl_(gl), file_(std::move(file)), options_(options), picture_(picture),
           camera_(bench_camera(file_->info(), picture.size, picture.eyes)),
           target_(gl, {picture.size * picture.eyes, picture.size}), pass_(gl), as_quads_(gl),
-          cells_(gl, file_->info().grid), orders_(gl), bare_(gl), extract_(extraction()),
-          sent_ids_percent_(sent_ids_percent(gl, file_, options.isovalue)) {
+          cells_(gl, file_->info().grid), orders_(gl), bare_(gl), extract_(extraction()) {
         look_.linear_light = !render::draws_in_software(gl); // as a session's
         as_quads_.draw_without_points();
         as_quads_.draw_hidden_cells();
@@ -155,7 +154,6 @@ class Bench {
         row.quads_cpu_ms = processor_ms(times.quads);
         row.bare_cpu_ms = processor_ms(times.bare);
         row.vtk_cpu_ms = processor_ms(times.vtk);
-        row.sent_ids_percent = sent_ids_percent_;
         return row;
     }
 
@@ -290,7 +288,6 @@ class Bench {
     render::OrderCache orders_;
     BareQuads bare_;
     index::Extract extract_;
-    std::optional<double> sent_ids_percent_;
     std::unique_ptr<VtkScene> vtk_;
 };
 
@@ -315,6 +312,7 @@ std::vector<RenderRow> measure_rendering(const std::shared_ptr<const index::Inde
                                          const index::Progress& progress) {
     const auto context = stereo::make_context(options.context, {.size = {16, 16}, .vsync = false});
     const render::Gl gl(context->loader());
+    const std::optional<double> sent_ids = sent_ids_percent(gl, file, options.isovalue);
     std::vector<RenderRow> rows;
     for (const Picture& picture : options.pictures) {
         Bench bench(gl, file, options, picture);
@@ -326,6 +324,8 @@ std::vector<RenderRow> measure_rendering(const std::shared_ptr<const index::Inde
                          fraction);
             }));
     }
+    for (RenderRow& row : rows)
+        row.sent_ids_percent = sent_ids;
     return rows;
 }
 

@@ -33,7 +33,7 @@ int largest_difference(const Image& a, const Image& b) {
     return most;
 }
 
-/// A step of eight bits for what lies behind, and one for the rounding of every blend.
+/// Less than half a step of eight bits lies behind: with rounding, one.
 constexpr int kUnseen = 1;
 
 TEST_P(SeenSplatsPictures, AreThoseOfAllSplatsToWithinRounding) {

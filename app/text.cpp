@@ -42,4 +42,8 @@ std::string with_space(const std::string& unit) {
     return unit.empty() ? unit : " " + unit;
 }
 
+std::string with_unit(double value, const std::string& unit) {
+    return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
 } // namespace isochron::app

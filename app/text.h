@@ -19,6 +19,9 @@ std::string grouped(std::uint64_t number);
 /// A number without the digits that rounding left behind: `0.3`, not `0.30000000000000004`.
 std::string human_number(double number);
 
+/// `12.5 ms`, `0.0341`, `1.20e+07`: a number with its unit, short enough for a label.
+std::string with_unit(double value, const std::string& unit);
+
 /// A unit set off from its number, or nothing.
 std::string with_space(const std::string& unit);
 

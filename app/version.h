@@ -5,6 +5,7 @@
 
 namespace isochron::app {
 
+constexpr std::string_view kVersion = ISOCHRON_VERSION;
 constexpr std::string_view kProgram = "isochron " ISOCHRON_VERSION;
 
 } // namespace isochron::app

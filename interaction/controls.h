@@ -2,6 +2,7 @@
 #pragma once
 
 #include "interaction/commands.h"
+#include "interaction/control_context.h"
 #include "interaction/tracked_input.h"
 
 #include <memory>
@@ -9,31 +10,6 @@
 #include <vector>
 
 namespace isochron::interaction {
-
-/// What commands are relative to; owned by the session, passed in every frame.
-struct ControlContext {
-    double isovalue = 0;
-    double low = 0, high = 1; ///< value range of the data
-    std::uint32_t step = 0;
-    std::vector<double> const* times = nullptr; ///< physical times of the steps, increasing
-    PlaybackState playback;
-    Similarity room_from_physical;
-    Similarity home;       ///< what reset returns to
-    glm::dvec3 pivot{0.0}; ///< centre of the volume, physical space: what orbit turns about
-    QualityMode quality = QualityMode::automatic;
-    float eye_separation = 0.063f;
-    std::string stereo;
-    bool panel = true;
-    RoomPanel room_panel;
-    float panel_distance = 0.65f; ///< [m] from the eyes to the room's panel, where it appears
-    bool grid = false;
-    std::vector<Viewpoint> const* views = nullptr; ///< saved so far; may be null
-    bool axes = true;
-    std::uint32_t isosurfaces = 1, picked = 0; ///< how many there are, and the one that is moved
-    Coloring coloring;
-    bool has_second_array = false;                          ///< something to colour by
-    std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
-};
 
 /// Pure function of the device states and contexts it was given: the same sequence, the same
 /// commands.

@@ -1,7 +1,7 @@
 // Hands, mouse, keys and gamepad move the volume: what navigation comes to in a frame.
 #pragma once
 
-#include "interaction/controls.h"
+#include "interaction/control_context.h"
 #include "interaction/device_reading.h"
 #include "interaction/navigation.h"
 

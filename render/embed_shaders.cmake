@@ -7,7 +7,7 @@ foreach(path IN LISTS SHADERS)
   string(APPEND table "    {\"${name}\", R\"glsl(${text})glsl\"},\n")
 endforeach()
 file(WRITE "${OUT}.new" "// Written by embed_shaders.cmake from render/shaders.
-#include \"render/shader.h\"
+#include \"render/gl/shader.h\"
 
 namespace isochron::render {
 

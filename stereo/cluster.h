@@ -5,7 +5,7 @@
 //     const auto answers = cluster.gather(mine);           // also a barrier
 #pragma once
 
-#include "index/team.h"
+#include "index/system/team.h"
 
 #include <chrono>
 #include <condition_variable>

@@ -6,9 +6,10 @@
 //     display.present();
 #pragma once
 
-#include "render/image.h"
-#include "render/render_target.h"
-#include "stereo/gl_context.h"
+#include "render/gl/image.h"
+#include "render/gl/render_target.h"
+#include "stereo/context/gl_context.h"
+#include "stereo/display_options.h"
 #include "stereo/installation.h"
 #include "stereo/multiplex.h"
 #include "stereo/presenter.h"
@@ -25,12 +26,6 @@
 
 namespace isochron::stereo {
 
-struct DisplayOptions {
-    float near_plane = 0.05f, far_plane = 50.0f; ///< [m] along a screen's normal
-    glm::vec3 background{0.0f};                  ///< sRGB, 0 to 1
-    int samples = 1; ///< of each pixel of an eye, resolved before eyes are composed
-};
-
 /// Where a viewer's eyes are in one frame.
 struct Viewpoint {
     interaction::Pose head;
@@ -46,11 +41,8 @@ struct Viewpoint {
 /// `fit_aspect` screen takes the aspect of the half, so that shapes stay round on a monitor.
 class Display {
   public:
-    /// Draws all eyes of one viewport, in the order of `eyes_of`. Their pictures lie in one target,
-    /// so that a pass may draw them at once. It is bound and cleared to the background, and
-    /// viewport and scissor number i are those of the i-th view. Called once for each of the
-    /// window's viewports, in their order.
-    using Scene = std::function<void(std::span<const render::View>)>;
+    /// Called once for each of the window's viewports, in their order.
+    using Scene = DrawViews;
     /// Draws over the composed window (a panel), which is bound; gets its size in pixels. Called
     /// for each buffer of the window: twice in a quad-buffered one, where it must draw the same.
     using Overlay = std::function<void(glm::ivec2)>;

@@ -9,9 +9,9 @@
 #pragma once
 
 #include "interaction/tracked_input.h"
-#include "render/render_target.h"
-#include "render/view.h"
-#include "stereo/gl_context.h"
+#include "render/gl/render_target.h"
+#include "render/gl/view.h"
+#include "stereo/context/gl_context.h"
 #include "stereo/stereo_mode.h"
 
 #include <array>

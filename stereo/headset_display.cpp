@@ -1,7 +1,7 @@
 // Drawing for a headset, and mirroring.
 #include "stereo/headset_display.h"
 
-#include "render/driver.h"
+#include "render/gl/driver.h"
 #include "stereo/views_in_target.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The pictures of a headset's eyes, and what a window shows of them.
 #pragma once
 
-#include "render/image.h"
+#include "render/gl/image.h"
 #include "stereo/display.h"
 #include "stereo/headset.h"
 

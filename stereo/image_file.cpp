@@ -1,9 +1,9 @@
 // Reading and writing of pictures through the module that knows OpenImageIO.
 #include "stereo/image_file.h"
 
-#include "index/module.h"
-#include "index/new_file.h"
-#include "render/gl.h"
+#include "index/system/module.h"
+#include "index/system/new_file.h"
+#include "render/gl/gl.h"
 #include "stereo/image_module/image_module.h"
 
 #include <fmt/format.h>

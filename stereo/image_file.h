@@ -1,7 +1,7 @@
 // Pictures as files: PNG as seen on the display, EXR in linear light.
 #pragma once
 
-#include "render/image.h"
+#include "render/gl/image.h"
 
 #include <filesystem>
 

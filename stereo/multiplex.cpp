@@ -1,7 +1,7 @@
 // Composition of two eyes' pictures in a fragment shader.
 #include "stereo/multiplex.h"
 
-#include "render/shader.h"
+#include "render/gl/shader.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // Two eyes' pictures in one, pixel by pixel: by colour, or by rows, columns or squares.
 #pragma once
 
-#include "render/gl_objects.h"
-#include "render/render_target.h"
+#include "render/gl/gl_objects.h"
+#include "render/gl/render_target.h"
 #include "stereo/stereo_mode.h"
 
 #include <glm/vec2.hpp>

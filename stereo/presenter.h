@@ -1,9 +1,9 @@
 // Shows a finished picture in a window, whichever context drew it.
 #pragma once
 
-#include "render/gl_objects.h"
-#include "render/render_target.h"
-#include "stereo/gl_context.h"
+#include "render/gl/gl_objects.h"
+#include "render/gl/render_target.h"
+#include "stereo/context/gl_context.h"
 
 #include <optional>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "interaction/pose.h"
-#include "render/view.h"
+#include "render/gl/view.h"
 #include "stereo/installation.h"
 #include "stereo/stereo_mode.h"
 

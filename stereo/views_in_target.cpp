@@ -1,7 +1,7 @@
 // Several views' pictures in parts of one target, drawn together.
 #include "stereo/views_in_target.h"
 
-#include "render/viewport.h"
+#include "render/gl/viewport.h"
 
 #include <glm/vec4.hpp>
 
@@ -9,7 +9,7 @@ namespace isochron::stereo {
 
 void draw_views(const render::Gl& gl, std::optional<render::RenderTarget>& target, glm::ivec2 size,
                 const DisplayOptions& options, std::span<const render::View> views,
-                const Display::Scene& scene) {
+                const DrawViews& scene) {
     if (target)
         target->resize(size);
     else

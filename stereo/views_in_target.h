@@ -1,8 +1,8 @@
 // Several views' pictures in parts of one target, drawn together.
 #pragma once
 
-#include "render/render_target.h"
-#include "stereo/display.h"
+#include "render/gl/render_target.h"
+#include "stereo/display_options.h"
 
 #include <optional>
 #include <span>
@@ -14,6 +14,6 @@ namespace isochron::stereo {
 /// @param size of the whole, pixels; the views' corners and sizes lie inside
 void draw_views(const render::Gl& gl, std::optional<render::RenderTarget>& target, glm::ivec2 size,
                 const DisplayOptions& options, std::span<const render::View> views,
-                const Display::Scene& scene);
+                const DrawViews& scene);
 
 } // namespace isochron::stereo

@@ -1,8 +1,8 @@
 // Opening of the windows of an installation.
 #include "stereo/windows.h"
 
+#include "stereo/context/swap_group.h"
 #include "stereo/nodes.h"
-#include "stereo/swap_group.h"
 
 #include <fmt/format.h>
 

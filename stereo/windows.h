@@ -4,7 +4,7 @@
 //     const render::Gl gl(windows.drawing().loader());
 #pragma once
 
-#include "stereo/gl_context.h"
+#include "stereo/context/gl_context.h"
 #include "stereo/installation.h"
 
 #include <cstddef>
@@ -60,7 +60,7 @@ struct WindowOptions {
     StereoMode stereo{};            ///< that the first window starts in
     ContextApi api = ContextApi::native;          ///< that makes the windows' contexts
     std::optional<Window> console = std::nullopt; ///< beside the windows, where there is a desktop
-    int rank = 0, ranks = 1;        ///< whose windows are opened: see nodes.h
+    int rank = 0, ranks = 1;                      ///< whose windows are opened: see nodes.h
 };
 
 /// Opens every window of this process; without a window system (`egl`, `osmesa`) each is a picture

@@ -1,5 +1,5 @@
 // The values around a cell, from bricks of the volume; needs BRICKS, the sampler of their type.
-// A brick has 8^3 vertices (index/volume_bricks.h), x fastest.
+// A brick has 8^3 vertices (index/extraction/volume_bricks.h), x fastest.
 
 layout(binding = 0) uniform usamplerBuffer pages; // slots by brick id
 layout(binding = 1) uniform BRICKS bricks;        // held values by slot

@@ -1,7 +1,7 @@
 // Encoding and decoding of pictures with OpenImageIO, the one place that knows it.
 #include "stereo/image_module/image_module.h"
 
-#include "render/srgb.h"
+#include "render/gl/srgb.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -1,7 +1,7 @@
 // What the program and its picture module agree on; errors cross as text, never as exceptions.
 #pragma once
 
-#include "render/image.h"
+#include "render/gl/image.h"
 
 #include <cstddef>
 #include <string>

@@ -1,9 +1,9 @@
 // Light in every stereo mode: what eyes are composed of, with one sample and with several.
 #include "stereo/display.h"
 
-#include "render/line_pass.h"
-#include "render/shader.h"
-#include "render/srgb.h"
+#include "render/gl/shader.h"
+#include "render/gl/srgb.h"
+#include "render/passes/line_pass.h"
 #include "tests/stereo/each_eye.h"
 
 #include <gtest/gtest.h>

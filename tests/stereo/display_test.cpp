@@ -1,8 +1,8 @@
 // Eyes, disparity and composition of windows, measured on the pictures.
 #include "stereo/display.h"
 
-#include "render/shader.h"
-#include "render/srgb.h"
+#include "render/gl/shader.h"
+#include "render/gl/srgb.h"
 #include "tests/stereo/each_eye.h"
 #include "tests/support/image_compare.h"
 

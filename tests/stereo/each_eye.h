@@ -1,7 +1,7 @@
 // Draws of tests that show each eye something of its own.
 #pragma once
 
-#include "render/viewport.h"
+#include "render/gl/viewport.h"
 #include "stereo/display.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "stereo/image_file.h"
 
 #include "index/error.h"
-#include "render/gl.h"
+#include "render/gl/gl.h"
 #include "tests/support/image_compare.h"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // Which eye owns which pixel of a window, whatever the window's size and the viewports in it.
 #include "stereo/display.h"
 
-#include "render/shader.h"
+#include "render/gl/shader.h"
 #include "tests/stereo/each_eye.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 //     EXPECT_TRUE(matches_golden(picture, "sphere_left", {.maximum = 8, .mean = 0.2}));
 #pragma once
 
-#include "render/image.h"
+#include "render/gl/image.h"
 
 #include <gtest/gtest.h>
 

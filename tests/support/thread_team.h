@@ -1,7 +1,7 @@
 // Members of a team that are threads of one test.
 #pragma once
 
-#include "index/team.h"
+#include "index/system/team.h"
 
 #include <atomic>
 #include <deque>

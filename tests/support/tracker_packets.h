@@ -3,7 +3,7 @@
 #pragma once
 
 #include "interaction/pose.h"
-#include "interaction/udp_socket.h"
+#include "interaction/trackers/udp_socket.h"
 
 #include <glm/mat3x3.hpp>
 

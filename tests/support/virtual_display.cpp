@@ -82,9 +82,17 @@ void VirtualDisplay::xdotool(std::vector<std::string> arguments) const {
         pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     pid_t child = -1;
+    if (posix_spawnp(&child, "xdotool", nullptr, nullptr, pointers.data(), environ) != 0)
+        throw std::runtime_error("xdotool does not start");
+    // `search --sync` waits for a window; a program that died opens none.
+    constexpr int kPatience = 6000; // of 10 ms
     int status = -1;
-    if (posix_spawnp(&child, "xdotool", nullptr, nullptr, pointers.data(), environ) != 0 ||
-        waitpid(child, &status, 0) != child || status != 0)
+    for (int waited = 0; waitpid(child, &status, WNOHANG) == 0; ++waited) {
+        if (waited == kPatience)
+            kill(child, SIGKILL);
+        usleep(10'000);
+    }
+    if (status != 0)
         throw std::runtime_error("xdotool " + arguments.front() + " failed");
 }
 

@@ -2,9 +2,9 @@
 // controls.
 //
 //     build/release/tests/demo_recording build/demo/vorticity.isochron configs/demo.jsonl
-#include "app/session.h"
+#include "app/session/session.h"
 #include "app/version.h"
-#include "interaction/recording.h"
+#include "interaction/recording/recording.h"
 
 #include <cstdio>
 #include <functional>

@@ -1,0 +1,175 @@
+// What the processes of a cluster say to each other in a frame, as bytes.
+#include "app/cluster/cluster_messages.h"
+
+#include "interaction/recording/commands_json.h"
+#include "interaction/recording/json_values.h"
+#include "interaction/recording/recording_json.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace isochron::app {
+namespace {
+
+using interaction::boolean;
+using interaction::Members;
+using interaction::natural;
+using interaction::number;
+using nlohmann::json;
+
+constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+constexpr std::size_t kMostSamples = 4096; ///< of one frame
+
+json decoded(std::span<const std::byte> bytes) {
+    const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    try {
+        return json::from_cbor(first, first + bytes.size());
+    } catch (const json::exception& error) {
+        throw interaction::Error(fmt::format("message: expected CBOR: {}", error.what()));
+    }
+}
+
+MessageBytes bytes_of(const json& value) {
+    return json::to_cbor(value);
+}
+
+std::uint64_t count(Members& members, const char* key) {
+    return natural(members.at(key), key, kMost);
+}
+
+render::Footprint footprint_from(const json& value) {
+    return static_cast<render::Footprint>(natural(value, "footprint", render::kFootprints - 1));
+}
+
+json cells_json(const CellOrder& cells) {
+    return {{"ask", cells.ask}, {"stage", cells.stage}, {"show", cells.show}};
+}
+
+CellOrder order_from(const json& value) {
+    Members members(value, "cells");
+    const CellOrder order{count(members, "ask"), count(members, "stage"), count(members, "show")};
+    members.done({"ask", "stage", "show"});
+    return order;
+}
+
+json cells_json(const CellProgress& cells) {
+    return {{"asked", cells.asked},
+            {"found", cells.found},
+            {"failed", cells.failed},
+            {"staged", cells.staged}};
+}
+
+CellProgress progress_from(const json& value) {
+    Members members(value, "cells");
+    const CellProgress progress{count(members, "asked"), count(members, "found"),
+                                count(members, "failed"), count(members, "staged")};
+    members.done({"asked", "found", "failed", "staged"});
+    return progress;
+}
+
+json load_json(const DrawLoad& load) {
+    return {load.cells, load.pixels};
+}
+
+DrawLoad load_from(const json& value) {
+    interaction::list(value, "load", 2, 2);
+    return {number(value[0], "load"), number(value[1], "load")};
+}
+
+json sample_json(const DrawSample& sample) {
+    json result{{"frame", sample.frame},
+                {"footprint", sample.footprint},
+                {"load", load_json(sample.load)},
+                {"processor", sample.processor.count()}};
+    if (sample.gpu)
+        result["gpu"] = sample.gpu->count();
+    return result;
+}
+
+DrawSample sample_from(const json& value) {
+    Members members(value, "sample");
+    DrawSample sample;
+    sample.frame = count(members, "frame");
+    sample.footprint = footprint_from(members.at("footprint"));
+    sample.load = load_from(members.at("load"));
+    sample.processor = Milliseconds(number(members.at("processor"), "processor"));
+    if (const json* gpu = members.find("gpu"))
+        sample.gpu = Milliseconds(number(*gpu, "gpu"));
+    members.done({"frame", "footprint", "load", "processor", "gpu"});
+    return sample;
+}
+
+} // namespace
+
+MessageBytes encoded(const FrameOrder& order) {
+    const interaction::RecordedFrame frame{order.input, order.commands, {}, {}, order.latched};
+    return bytes_of({{"frame", to_json(frame, nullptr)},
+                     {"waits", order.waiting == Waiting::for_cells},
+                     {"cells", cells_json(order.cells)}});
+}
+
+MessageBytes encoded_end() {
+    return bytes_of(nullptr);
+}
+
+std::optional<FrameOrder> decode_order(std::span<const std::byte> bytes) {
+    const json value = decoded(bytes);
+    if (value.is_null())
+        return std::nullopt;
+    Members members(value, "order");
+    interaction::RecordedFrame frame = interaction::frame_from_json(members.at("frame"), nullptr);
+    FrameOrder order{std::move(frame.input), std::move(frame.commands),
+                     boolean(members.at("waits"), "waits") ? Waiting::for_cells : Waiting::never,
+                     order_from(members.at("cells")), std::move(frame.latched)};
+    members.done({"frame", "waits", "cells"});
+    return order;
+}
+
+MessageBytes encoded(const FrameChoice& choice) {
+    return bytes_of({{"footprint", choice.footprint},
+                     {"reason", choice.reason},
+                     {"final", choice.final},
+                     {"measure", choice.measure}});
+}
+
+FrameChoice decode_choice(std::span<const std::byte> bytes) {
+    const json value = decoded(bytes);
+    Members members(value, "choice");
+    const FrameChoice choice{
+        footprint_from(members.at("footprint")),
+        static_cast<QualityReason>(natural(members.at("reason"), "reason",
+                                           static_cast<unsigned>(QualityReason::over_budget))),
+        boolean(members.at("final"), "final"), boolean(members.at("measure"), "measure")};
+    members.done({"footprint", "reason", "final", "measure"});
+    return choice;
+}
+
+MessageBytes encoded(const FrameAnswer& answer) {
+    json samples = json::array();
+    for (const DrawSample& sample : answer.samples)
+        samples.push_back(sample_json(sample));
+    return bytes_of({{"cells", cells_json(answer.cells)},
+                     {"close", answer.close},
+                     {"failure", answer.failure},
+                     {"view", load_json(answer.view)},
+                     {"surface_limit", answer.surface_limit},
+                     {"samples", std::move(samples)}});
+}
+
+FrameAnswer decode_answer(std::span<const std::byte> bytes) {
+    const json value = decoded(bytes);
+    Members members(value, "answer");
+    FrameAnswer answer{.cells = progress_from(members.at("cells")),
+                       .close = boolean(members.at("close"), "close"),
+                       .failure = interaction::text(members.at("failure"), "failure"),
+                       .view = load_from(members.at("view")),
+                       .surface_limit = count(members, "surface_limit"),
+                       .samples = {}};
+    for (const json& sample : interaction::list(members.at("samples"), "samples", 0, kMostSamples))
+        answer.samples.push_back(sample_from(sample));
+    members.done({"cells", "close", "failure", "view", "surface_limit", "samples"});
+    return answer;
+}
+
+} // namespace isochron::app

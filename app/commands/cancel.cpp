@@ -1,0 +1,37 @@
+// Ctrl-C ends long work at its next report of progress.
+#include "app/commands/cancel.h"
+
+#include <array>
+
+namespace isochron::app {
+namespace {
+
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+
+volatile std::sig_atomic_t received = 0; // a signal handler can reach nothing else
+
+} // namespace
+
+CancelOnSignal::CancelOnSignal() {
+    received = 0;
+    struct sigaction action {};
+    action.sa_handler = [](int signal) { received = signal; };
+    action.sa_flags = SA_RESTART;
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+        sigaction(kSignals[i], nullptr, &previous_[i]);
+        if (previous_[i].sa_handler != SIG_IGN) // as nohup asks
+            sigaction(kSignals[i], &action, nullptr);
+    }
+}
+
+CancelOnSignal::~CancelOnSignal() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i)
+        sigaction(kSignals[i], &previous_[i], nullptr);
+}
+
+void CancelOnSignal::check() const {
+    if (received != 0)
+        throw Cancelled(received);
+}
+
+} // namespace isochron::app

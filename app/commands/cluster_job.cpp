@@ -1,0 +1,155 @@
+// A command run by all processes of a cluster's job.
+#include "app/commands/cluster_job.h"
+
+#include "app/commands/subcommands.h"
+#include "app/config/display_config_text.h"
+#include "app/version.h"
+#include "interaction/recording/commands_json.h"
+#include "stereo/nodes.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <sstream>
+#include <stdexcept>
+
+namespace isochron::app {
+namespace {
+
+/// The first line in which two texts differ, of each: long lines are cut.
+std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
+    std::istringstream lines_a(a), lines_b(b);
+    std::string line_a, line_b;
+    bool more_a = true, more_b = true;
+    while (more_a && more_b && line_a == line_b) {
+        more_a = static_cast<bool>(std::getline(lines_a, line_a));
+        more_b = static_cast<bool>(std::getline(lines_b, line_b));
+    }
+    constexpr std::size_t kLongest = 80;
+    return {more_a ? line_a.substr(0, kLongest) : "its end",
+            more_b ? line_b.substr(0, kLongest) : "its end"};
+}
+
+} // namespace
+
+void ClusterJob::together(const std::function<void()>& part) {
+    try {
+        cluster_.together([&] {
+            try {
+                part();
+            } catch (const std::exception& error) {
+                if (leads())
+                    throw;
+                throw std::runtime_error(
+                    fmt::format("{}: {}", cluster_.name_of(cluster_.rank()), error.what()));
+            }
+        });
+    } catch (const stereo::ProcessLost&) {
+        throw;
+    } catch (const std::exception&) {
+        over_ = true;
+        if (!leads())
+            throw ReportedElsewhere();
+        throw;
+    }
+}
+
+void ClusterJob::require_same(const Facts& facts) {
+    const std::string mine =
+        nlohmann::json(facts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const auto all = cluster_.gather(std::as_bytes(std::span(mine)));
+    together([&] {
+        if (!leads())
+            return;
+        for (unsigned rank = 1; rank < all.size(); ++rank) {
+            const auto* text = reinterpret_cast<const char*>(all[rank].data());
+            const auto theirs = nlohmann::json::parse(text, text + all[rank].size()).get<Facts>();
+            for (std::size_t i = 0; i < facts.size(); ++i) {
+                if (theirs.at(i) == facts[i])
+                    continue;
+                const auto [here, there] = first_difference(facts[i].second, theirs.at(i).second);
+                throw std::runtime_error(fmt::format("{}: another {}: '{}', process 0 has '{}'",
+                                                     cluster_.name_of(rank), facts[i].first, there,
+                                                     here));
+            }
+        }
+    });
+}
+
+void ClusterJob::share_frames(Session& session) {
+    if (size() > 1)
+        session.join(frames_);
+}
+
+void ClusterJob::follow(Session& session, const FrameDone& done) {
+    for (std::size_t number = 0; auto order = frames_.next(); ++number) {
+        session.windows().poll_events();
+        session.frame(
+            order->input, order->commands, order->waiting,
+            order->latched.devices.empty() ? Latch{} : [&order] { return order->latched; });
+        if (done)
+            done(number, {std::move(order->input),
+                          std::move(order->commands),
+                          {},
+                          {},
+                          std::move(order->latched)});
+    }
+}
+
+void ClusterJob::end_frames() {
+    if (leads())
+        frames_.end();
+}
+
+void ClusterJob::finish() {
+    cluster_.gather({});
+    over_ = true;
+}
+
+std::filesystem::path ClusterJob::own_file(const std::filesystem::path& path) const {
+    if (leads())
+        return path;
+    return path.parent_path() /
+           fmt::format("{}_rank{}{}", path.stem().string(), rank(), path.extension().string());
+}
+
+void prepare_walls(Config& config, const ClusterJob& job, bool emulated) {
+    if (job.size() == 1)
+        return;
+    if (emulated)
+        throw UsageError("--emulate shows every wall in one window: start it without mpirun");
+    const std::string misfit = stereo::misfit(config.installation, job.size());
+    if (!misfit.empty())
+        throw ConfigError(fmt::format("{}: {}", config.name, misfit));
+    stereo::add_console(config.installation, job.size());
+}
+
+Facts facts_of(const Config& config, const index::IndexFile& file) {
+    return {{"program", std::string(kProgram)},
+            {"configuration", config.text},
+            {"installation", display_config_text(config.installation)},
+            {"data set", fmt::format("content hash {:016x}", file.content_hash())}};
+}
+
+Facts start_fact(const Session& session) {
+    return {{"start", interaction::commands_json(session.state().as_commands()).dump()}};
+}
+
+void run_in_cluster(const std::function<void(ClusterJob&)>& command) {
+    const auto team = index::join_team();
+    stereo::Cluster cluster(*team);
+    ClusterJob job(cluster);
+    try {
+        command(job);
+    } catch (const std::exception& error) {
+        if (cluster.size() == 1 || job.is_over())
+            throw;
+        const auto* lost = dynamic_cast<const stereo::ProcessLost*>(&error);
+        const std::string where = lost ? "" : cluster.name_of(cluster.rank()) + ": ";
+        std::fputs(fmt::format("isochron: {}{}\n", where, error.what()).c_str(), stderr);
+        cluster.abandon(1);
+    }
+}
+
+} // namespace isochron::app

@@ -1,0 +1,137 @@
+// `isochron change`: the cells that become active, and those that cease to be, from one query to
+// another.
+#include "app/commands/file_patterns.h"
+#include "app/commands/id_file.h"
+#include "app/commands/subcommands.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/extraction/cell_change.h"
+#include "index/extraction/extractor.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+namespace isochron::app {
+namespace {
+
+struct ChangeArguments {
+    std::filesystem::path file, added, removed;
+    double isovalue = 0;
+    std::optional<double> to_isovalue;
+    std::int64_t step = 0;
+    std::optional<std::int64_t> to_step;
+    std::uint32_t repeats = 5;
+    bool json = false;
+};
+
+index::Query checked(const ChangeArguments& arguments, const index::IndexFile& file,
+                     std::int64_t step, double isovalue) {
+    const auto steps = static_cast<std::int64_t>(file.info().steps());
+    if (step < 0 || step >= steps)
+        throw index::Error(
+            fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(), step, steps - 1));
+    return {static_cast<std::uint32_t>(step), isovalue};
+}
+
+/// What the sets of two queries do not share, ascending.
+struct Difference {
+    std::vector<index::CellId> added, removed;
+};
+
+Difference difference(const std::shared_ptr<const index::IndexFile>& file, const index::Query& from,
+                      const index::Query& to) {
+    const auto search = index::search_in(file);
+    const auto before = search(from, {}), after = search(to, {});
+    Difference found;
+    std::ranges::set_difference(after->ids, before->ids, std::back_inserter(found.added));
+    std::ranges::set_difference(before->ids, after->ids, std::back_inserter(found.removed));
+    return found;
+}
+
+Difference sorted(const index::CellChange& change) {
+    Difference found{{change.added.begin(), change.added.end()},
+                     {change.removed.begin(), change.removed.end()}};
+    std::ranges::sort(found.added);
+    std::ranges::sort(found.removed);
+    return found;
+}
+
+void run_change(const ChangeArguments& arguments) {
+    for (const auto& out : {arguments.added, arguments.removed})
+        if (!out.empty())
+            refuse_input_as_output({arguments.file}, out);
+    const auto file = index::IndexFile::open(arguments.file);
+    const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
+    const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),
+                                    arguments.to_isovalue.value_or(arguments.isovalue));
+    index::ChangeSearch search(file);
+    index::CellChange change;
+    std::vector<std::chrono::duration<double, std::milli>> times;
+    for (std::uint32_t i = 0; i < std::max(arguments.repeats, 1u); ++i) {
+        const auto started = std::chrono::steady_clock::now();
+        change = search(from, to);
+        times.push_back(std::chrono::steady_clock::now() - started);
+    }
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    const bool whole = change.whole;
+    const Difference found = whole ? difference(file, from, to) : sorted(change);
+    if (!arguments.added.empty())
+        write_ids(arguments.added, found.added);
+    if (!arguments.removed.empty())
+        write_ids(arguments.removed, found.removed);
+    if (arguments.json) {
+        const nlohmann::ordered_json j{
+            {"file", arguments.file.string()}, {"step", from.step},
+            {"isovalue", from.isovalue},       {"to_step", to.step},
+            {"to_isovalue", to.isovalue},      {"added", found.added.size()},
+            {"removed", found.removed.size()}, {"searched_anew", whole},
+            {"change_ms", middle->count()}};
+        fmt::print("{}\n", j.dump(2));
+        return;
+    }
+    fmt::print("isovalue {} at step {} to isovalue {} at step {}\n"
+               "added            {}\n"
+               "removed          {}\n"
+               "found by         {}\n"
+               "time             {:.4f} ms (median of {})\n",
+               from.isovalue, from.step, to.isovalue, to.step, grouped(found.added.size()),
+               grouped(found.removed.size()),
+               whole ? "a search for all of the second set: little stays" : "what differs alone",
+               middle->count(), times.size());
+}
+
+} // namespace
+
+void add_change(Command& program) {
+    auto arguments = std::make_shared<ChangeArguments>();
+    Command command = program.subcommand(
+        "change", "Find the cells that become active and those that cease to be, from one step or "
+                  "isovalue to another.");
+    command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
+    command.option("--isovalue", arguments->isovalue, "From this isovalue").required();
+    command.option("--step", arguments->step, "From this step").required();
+    command.option("--to-isovalue", arguments->to_isovalue, "To this isovalue (default: the same)");
+    command.option("--to-step", arguments->to_step, "To this step (default: the same)");
+    command
+        .option("--added", arguments->added,
+                "Write the ids of the cells that become active, as `query --ids` does")
+        .type_name("OUT.bin");
+    command
+        .option("--removed", arguments->removed, "Write the ids of those that cease to be active")
+        .type_name("OUT.bin");
+    command.option("--repeat", arguments->repeats, "Repetitions to take the median of")
+        .between(1u, 1000u)
+        .shows_default();
+    command.flag("--json", arguments->json, "Print one JSON object");
+    command.footer("JSON keys: file, step, isovalue, to_step, to_isovalue, added, removed (numbers "
+                   "of cells), searched_anew\n(true where that was cheaper than finding what "
+                   "differs), change_ms (median).");
+    command.on_run([arguments] { run_change(*arguments); });
+}
+
+} // namespace isochron::app

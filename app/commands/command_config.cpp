@@ -1,0 +1,72 @@
+// `isochron config`: configurations from other programs' files.
+#include "app/commands/file_patterns.h"
+#include "app/commands/subcommands.h"
+#include "app/config/check_config.h"
+#include "app/config/display_config_text.h"
+#include "app/config/pvx_file.h"
+#include "index/system/new_file.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace isochron::app {
+namespace {
+
+struct ImportOptions {
+    std::string file;
+    std::optional<std::string> out;
+    PvxOptions pvx;
+    std::vector<float> origin;
+};
+
+void import(ImportOptions options) {
+    if (!options.origin.empty())
+        options.pvx.origin = {options.origin[0], options.origin[1], options.origin[2]};
+    const PvxImport imported = read_pvx(options.file, options.pvx);
+    for (const std::string& note : imported.notes)
+        fmt::print(stderr, "note: {}\n", note);
+    const std::string text =
+        "# Imported from a .pvx file of ParaView.\n" + display_config_text(imported.installation);
+    const Config config = parse_config(text, options.out.value_or("the imported configuration"));
+    for (const ConfigProblem& problem : problems_of(config))
+        fmt::print(stderr, "{}\n", line_of(problem, config));
+    if (!options.out) {
+        fmt::print("{}", text);
+        return;
+    }
+    refuse_input_as_output({options.file}, *options.out);
+    index::NewFile file(*options.out);
+    file.write_at(0, std::as_bytes(std::span(text)));
+    file.commit();
+}
+
+} // namespace
+
+void add_config(Command& program) {
+    Command config =
+        program.subcommand("config", "Make configurations from other programs' files.");
+    config.require_subcommand();
+    auto options = std::make_shared<ImportOptions>();
+    Command command = config.subcommand(
+        "import", "Write what ParaView's .pvx file describes as a TOML configuration.");
+    command.option("file", options->file, "ParaView's description of a CAVE (.pvx)").required();
+    command.option("-o,--out", options->out, "Configuration to write (default: to the terminal)");
+    command
+        .option("--unit", options->pvx.metres_per_unit,
+                "Metres per unit of the file: 0.3048 for feet, 0.001 for millimetres")
+        .positive()
+        .shows_default();
+    command
+        .option("--origin", options->origin,
+                "Where the file's origin is in the room, metres: 0 1.6 0 where corners are "
+                "given from the eyes")
+        .values(3);
+    command.footer("Exit status: 0 done, 1 bad input, 2 bad usage.");
+    command.on_run([options] { import(*options); });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,377 @@
+// `isochron explore`: the live program, in a window.
+#include "app/commands/cluster_job.h"
+#include "app/commands/file_patterns.h"
+#include "app/commands/subcommands.h"
+#include "app/config/check_config.h"
+#include "app/config/shipped_configs.h"
+#include "app/config/tracker_setup.h"
+#include "app/frame/pacer.h"
+#include "app/session/headset_loop.h"
+#include "app/session/pattern_show.h"
+#include "app/session/session.h"
+#include "app/version.h"
+#include "index/error.h"
+#include "index/system/new_file.h"
+#include "interaction/recording/recording.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Seconds;
+
+struct ExploreOptions {
+    std::optional<std::string> data;
+    std::string config = "desktop";
+    std::optional<std::string> check_config, context, stereo, quality, footprint;
+    std::optional<std::string> record, report;
+    std::optional<double> isovalue, seconds;
+    std::optional<std::uint32_t> step;
+    std::vector<int> size;
+    std::string screenshots = ".";
+    bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
+};
+
+Config configure(const ExploreOptions& options) {
+    Config config = read_config(options.config);
+    if (options.context)
+        config.context = *stereo::context_kind_from_name(*options.context);
+    if (options.quality)
+        config.quality = quality_mode_from_name(*options.quality);
+    if (options.footprint)
+        config.settled_footprint = settled_footprint_from_name(*options.footprint);
+    if (!options.size.empty() && !options.emulate)
+        for (stereo::Window& window : config.installation.windows) {
+            window.size = {options.size[0], options.size[1]};
+            window.fullscreen = false;
+        }
+    config.openxr.enabled = config.openxr.enabled && !options.emulate;
+    const bool in_headset =
+        config.openxr.enabled && config.context == stereo::ContextKind::egl; // shows without window
+    if (config.context != stereo::ContextKind::glfw && !in_headset)
+        throw UsageError(
+            fmt::format("explore needs a window: --context glfw, not {} (egl only with a headset, "
+                        "[openxr] enabled = true); `isochron replay` draws pictures without one",
+                        stereo::name_of(config.context)));
+    stereo::OpenXrOptions& openxr = config.openxr.options;
+    openxr.windowless = in_headset;
+    openxr.near_plane = config.installation.near_plane;
+    openxr.far_plane = config.installation.far_plane;
+    openxr.local_in_room.position = config.installation.viewers.front().position;
+    return config;
+}
+
+ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps) {
+    if (options.step && *options.step >= steps)
+        throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
+    if (options.isovalue && !std::isfinite(*options.isovalue))
+        throw UsageError(
+            fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
+    state.set_isovalue(options.isovalue.value_or(state.isovalue()));
+    state.step = options.step.value_or(state.step);
+    state.panel = !options.no_panel;
+    if (options.stereo)
+        state.stereo = *stereo::stereo_mode_from_name(*options.stereo);
+    return state;
+}
+
+interaction::RecordingHeader header_of(const Session& session, const Config& config,
+                                       const index::IndexFile& file, const std::string& path) {
+    interaction::RecordingHeader header;
+    header.program = kProgram;
+    header.configuration = config.text;
+    header.data = std::filesystem::absolute(path).string();
+    const glm::ivec2 window = session.windows()[0].framebuffer_size();
+    // An emulated installation is as large as configured.
+    if (!session.windows().room() && session.windows().number(0) == 0)
+        header.window = {window.x, window.y};
+    header.data_hash = fmt::format("{:016x}", file.content_hash());
+    header.start = session.state().as_commands();
+    return header;
+}
+
+/// Refuses now what would fail, or destroy something, only when the session ends.
+void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
+    namespace fs = std::filesystem;
+    if (!fs::is_directory(options.screenshots))
+        throw index::Error(
+            fmt::format("{}: expected a folder for screenshots", options.screenshots));
+    if (!job.leads())
+        return;
+    for (const auto& out : {options.record, options.report})
+        if (out)
+            refuse_input_as_output({*options.data}, *out);
+    if (options.record && fs::exists(*options.record))
+        interaction::read_recording(*options.record); // only a recording may be replaced by one
+    if (options.report)
+        index::NewFile{*options.report};
+}
+
+interaction::InputState poll_devices(interaction::CompositeInput& trackers,
+                                     interaction::DesktopEmulation& emulation,
+                                     const RoomCamera& camera, const ExploreOptions& options,
+                                     Seconds now) {
+    // What is tracked goes before what mouse and keyboard emulate.
+    interaction::InputState input = interaction::merged(trackers.poll(now), emulation.poll(now));
+    if (options.emulate)
+        input.devices.push_back({.name = kRoomCamera, .pose = camera.pose(), .valuators = {}});
+    return input;
+}
+
+/// @param headset that the first window mirrors: it paces the frames, not that window's display
+stereo::Windows open(const ExploreOptions& options, const Config& config, const ClusterJob& job,
+                     const stereo::Headset* headset) {
+    const std::string title =
+        fmt::format("Isochron: {}", options.test_pattern ? "test pattern" : *options.data);
+    const stereo::Installation& installation = config.installation;
+    if (options.emulate) {
+        stereo::ContextOptions room{.title = title, .vsync = config.vsync};
+        if (!options.size.empty())
+            room.size = {options.size[0], options.size[1]};
+        return open_room(config.context, installation, room);
+    }
+    const stereo::StereoMode start = options.stereo
+                                         ? *stereo::stereo_mode_from_name(*options.stereo)
+                                         : installation.windows.front().stereo;
+    // A headset paces the frames, so the window that mirrors it must not wait for its own display.
+    return open_windows(config.context, installation,
+                        {.title = title,
+                         .vsync = config.vsync && !headset,
+                         .stereo = headset ? stereo::StereoMode::mono : start,
+                         .api = headset ? headset->context_api() : stereo::ContextApi::native,
+                         .console = job.leads() ? config.panel.console : std::nullopt,
+                         .rank = job.rank(),
+                         .ranks = job.size()});
+}
+
+void warn(const Config& config) {
+    for (const ConfigProblem& problem : problems_of(config))
+        fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
+    for (const std::string& warning : device_warnings(config))
+        fmt::print(stderr, "isochron: warning: {}\n", warning);
+}
+
+/// Devices and windows as in a session, the pattern in the place of data.
+void show_test_pattern(const ExploreOptions& options, const ClusterJob& job) {
+    if (options.record || options.report)
+        throw UsageError("--test-pattern does not go with --record or --report");
+    if (job.size() > 1)
+        throw UsageError("--test-pattern is shown by one process, without mpirun");
+    const Config config = configure(options);
+    warn(config);
+    interaction::CompositeInput trackers;
+    open_trackers(config.devices, trackers);
+    PatternShow show(config, open(options, config, job, nullptr));
+    if (options.stereo)
+        show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
+    interaction::DesktopEmulation emulation(emulation_for(config));
+    RoomCamera camera(config.installation);
+    Pacer pacer(config.frame_rate_limit);
+    const auto clock = [start = std::chrono::steady_clock::now()] {
+        return Seconds(std::chrono::steady_clock::now() - start);
+    };
+    for (bool running = true; running && !show.windows().should_close();) {
+        const auto events = show.windows().poll_events();
+        emulation.feed(options.emulate ? camera.feed(events) : events);
+        const Seconds now = clock();
+        const interaction::InputState input =
+            poll_devices(trackers, emulation, camera, options, now);
+        const interaction::Commands commands = show.commands_from(input);
+        show.obey(commands);
+        show.frame(input, [&] { return trackers.latch(clock()); });
+        running = !commands.quit && !(options.seconds && now.count() >= *options.seconds);
+        pacer.wait();
+    }
+    for (const std::string& line : trackers.status())
+        fmt::print(stderr, "{}\n", line);
+}
+
+/// Says what a configuration holds. @return whether that was all that was asked for
+bool only_describes(const ExploreOptions& options) {
+    if (options.check_config) {
+        check_config(*options.check_config);
+        return true;
+    }
+    if (!options.list_devices)
+        return false;
+    const Config config = configure(options);
+    for (const std::string& line : describe_devices(config))
+        fmt::print("{}\n", line);
+    for (const std::string& warning : device_warnings(config))
+        fmt::print("warning: {}\n", warning);
+    return true;
+}
+
+void explore(const ExploreOptions& options, ClusterJob& job) {
+    if (options.test_pattern)
+        return job.together([&] { show_test_pattern(options, job); });
+    Config config;
+    std::shared_ptr<const index::IndexFile> file;
+    interaction::CompositeInput trackers;
+    job.together([&] {
+        if (!options.data)
+            throw UsageError("file is required: an index made by `isochron build`");
+        config = configure(options);
+        if (job.leads())
+            warn(config);
+        if (config.openxr.enabled && job.size() > 1)
+            throw UsageError("a headset belongs to one process: start it without mpirun");
+        prepare_walls(config, job, options.emulate);
+        if (job.leads())
+            open_trackers(config.devices, trackers);
+        file = index::IndexFile::open(*options.data);
+        check_outputs(options, job);
+    });
+    job.require_same(facts_of(config, *file));
+    job.set_limits(config.cluster.limits);
+    std::optional<Session> opened;
+    job.together([&] {
+        auto headset = open_headset(config.openxr);
+        stereo::Windows windows = open(options, config, job, headset.get());
+        opened.emplace(config, file, std::move(windows), index::Extract(), std::move(headset));
+        opened->set_state(start_from(opened->state(), options, file->info().steps()));
+        opened->set_screenshots(options.screenshots);
+        if (config.cluster.swap_group && job.size() > 1)
+            stereo::join_swap_group(opened->windows());
+    });
+    Session& session = *opened;
+    job.require_same(start_fact(session));
+    job.share_frames(session);
+    HeadsetLoop in_headset(session.headset());
+    const stereo::Windows& windows = session.windows();
+    // The writer lives on the thread that writes: a slow disk delays the recording, not the
+    // picture.
+    BackgroundWork recording;
+    std::shared_ptr<interaction::RecordingWriter> recorder;
+    if (options.record && job.leads()) {
+        recorder = std::make_shared<interaction::RecordingWriter>(
+            *options.record, header_of(session, config, *file, *options.data));
+        session.set_recording(true);
+    }
+
+    interaction::DesktopEmulation emulation(emulation_for(config));
+    RoomCamera camera(config.installation);
+    Pacer pacer(config.frame_rate_limit);
+    const auto clock = [start = std::chrono::steady_clock::now()] {
+        return Seconds(std::chrono::steady_clock::now() - start);
+    };
+    session.set_clock(clock);
+    if (!job.leads())
+        job.follow(session);
+    for (bool running = job.leads(); running && !session.should_close();) {
+        const auto events = session.panel_events(windows.poll_events());
+        if (config.devices.empty() && !session.headset()) // a tracked wand points by itself
+            emulation.set_panel(session.state().room_panel, session.room_panel_size());
+        emulation.feed(options.emulate ? camera.feed(events) : events);
+        const bool paced = in_headset.begin_frame(clock());
+        const Seconds now = clock();
+        const interaction::InputState input =
+            in_headset.with_devices(poll_devices(trackers, emulation, camera, options, now), now);
+        interaction::Commands commands = session.commands_from(input);
+        const interaction::Commands from_panel = session.take_panel_commands();
+        interaction::merge(commands, from_panel);
+        in_headset.feel(commands.haptics);
+        const FrameReport& drawn =
+            session.frame(input, commands, Waiting::never, [&] { return trackers.latch(clock()); });
+        if (recorder)
+            recording.post([recorder, frame = interaction::RecordedFrame{
+                                          input, commands, from_panel, name_of(drawn.footprint),
+                                          session.latched()}] {
+                recorder->append(frame);
+                return std::string();
+            });
+        session.show_messages(recording.messages());
+        running = !commands.quit && !in_headset.ended() &&
+                  !(options.seconds && now.count() >= *options.seconds);
+        if (!paced)
+            pacer.wait();
+    }
+    in_headset.leave();
+    job.end_frames();
+    recording.finish();
+    if (recorder)
+        recorder->finish();
+    session.pictures().finish();
+    for (const std::string& line : trackers.status())
+        fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : in_headset.status())
+        fmt::print(stderr, "{}\n", line);
+    if (options.report)
+        session.log().write(job.own_file(*options.report), windows.drawing().description());
+    job.finish();
+}
+
+std::string footer() {
+    std::string text = "Mouse and keyboard:\n";
+    for (const std::string& line : interaction::Controls::documentation())
+        text += "  " + line + "\n";
+    text += "\nWith --emulate:\n";
+    for (const std::string& line : RoomCamera::documentation())
+        text += "  " + line + "\n";
+    text +=
+        "\nIn every process of a job (mpirun -n N isochron explore ...), each opens the windows of "
+        "its node;\nthe first one reads the devices. docs/INSTALLATIONS.md tells more.\n";
+    text += "\nExit status: 0 done, 1 bad input, 2 bad usage.";
+    return text;
+}
+
+} // namespace
+
+void add_explore(Command& program) {
+    auto options = std::make_shared<ExploreOptions>();
+    Command command = program.subcommand("explore", "Explore an index in a window, live.");
+    command.option("file", options->data, "Index made by `isochron build`");
+    command
+        .option("--config", options->config,
+                fmt::format("TOML file, or the name of a shipped one: {}",
+                            fmt::join(shipped_config_names(), ", ")))
+        .shows_default();
+    command.option("--check-config", options->check_config,
+                   "List the windows, screens, viewers and devices of this configuration "
+                   "and what is wrong with it, and leave");
+    command.flag("--emulate", options->emulate,
+                 "Show the whole installation in one window: the room from outside, with what "
+                 "every wall shows");
+    command
+        .option("--context", options->context,
+                "GL context: glfw (a window), or egl where a headset is the only display")
+        .one_of({"glfw", "egl", "osmesa"});
+    command.option("--stereo", options->stereo, "Stereo mode to start in")
+        .one_of(stereo_mode_names());
+    command.option("--quality", options->quality, "auto, fast or quality")
+        .one_of(quality_mode_names());
+    command
+        .option("--footprint", options->footprint,
+                "What a settled picture is drawn with: auto (the best that fits the frame "
+                "budget), or always gaussian or surface")
+        .one_of(settled_footprint_names());
+    command.option("--size", options->size, "Size of every window, or of the room's, in pixels")
+        .values(2)
+        .between(16, 16384);
+    command.option("--isovalue", options->isovalue, "Isovalue to start with, in data units");
+    command.option("--step", options->step, "Step to start at, from 0");
+    command.option("--record", options->record, "Record the session to this file (JSON Lines)");
+    command.option("--report", options->report,
+                   "Write the time of every frame's stages to this JSON file");
+    command.option("--screenshots", options->screenshots, "Folder for screenshots (key P)")
+        .shows_default();
+    command.option("--seconds", options->seconds, "Leave after this many seconds").positive();
+    command.flag("--list-devices", options->list_devices,
+                 "Say which devices the configuration names, and leave; needs no index");
+    command.flag("--test-pattern", options->test_pattern,
+                 "Show a pattern instead of data: each eye's letter, each wall's name, a cross "
+                 "at a known depth, the axes of every device; needs no index");
+    command.flag("--no-panel", options->no_panel, "Start with the panel hidden (Tab shows it)");
+    command.footer(footer());
+    command.on_run([options] {
+        if (!only_describes(*options))
+            run_in_cluster([&](ClusterJob& job) { explore(*options, job); });
+    });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,80 @@
+// `isochron generate`: makes the demo series.
+#include "app/commands/cancel.h"
+#include "app/commands/progress_bar.h"
+#include "app/commands/subcommands.h"
+#include "app/generate/demo_series.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace isochron::app {
+
+namespace {
+
+/// What every series can be asked for.
+template <class Series>
+struct Request {
+    Series series;
+    std::string type{"f32"};
+    std::filesystem::path dir;
+};
+
+/// Adds `generate NAME` with the options that every series has.
+/// @return its subcommand and request, for the options of its own
+template <class Series>
+std::pair<Command, std::shared_ptr<Request<Series>>> add_series(Command& generate_command,
+                                                                const std::string& description) {
+    const std::string name = Series::kName;
+    Command command = generate_command.subcommand(name, description);
+    auto request = std::make_shared<Request<Series>>();
+    command.option("--out", request->dir, "Folder to write into; made where it is missing")
+        .required();
+    command.option("--type", request->type, "Stored type: f32 (default), or u8 (rounded)")
+        .one_of({"f32", "u8"});
+    command.option("--steps", request->series.steps, "Number of time steps")
+        .between(1, 100000)
+        .shows_default();
+    command.on_run([request, name] {
+        request->series.type = *index::value_type_from_name(request->type);
+        const auto pvd = (request->dir / (name + ".pvd")).string();
+        bool made = false;
+        {
+            const CancelOnSignal signals;
+            ProgressBar bar;
+            made = generate(request->series, request->dir,
+                            [&](std::string_view phase, double fraction) {
+                                signals.check();
+                                bar.show(phase, fraction);
+                            });
+        }
+        fmt::print("{}: {} steps{}\n", pvd, request->series.steps, made ? "" : ", made before");
+    });
+    return {command, request};
+}
+
+template <class Series>
+void add_cube_options(Command& command, const std::shared_ptr<Request<Series>>& request,
+                      std::size_t largest) {
+    command.option("--seed", request->series.seed, "Start of the random numbers").shows_default();
+    command.option("--size", request->series.size, "Vertices along each axis")
+        .between(std::size_t{16}, largest)
+        .shows_default();
+}
+
+} // namespace
+
+void add_generate(Command& program) {
+    Command command = program.subcommand("generate", "Make a demo series as .pvd and .vti files.");
+    command.require_subcommand();
+    add_series<SphereSeries>(command, "A moving sphere, 61 x 50 x 60 vertices");
+    auto [vorticity, flow] =
+        add_series<VorticitySeries>(command, "Vorticity magnitude of decaying turbulence");
+    add_cube_options(vorticity, flow, 256);
+    auto [fourier, modes] = add_series<FourierSeries>(
+        command, "Vorticity magnitude of 96 random Fourier modes: turbulence of any size, soon "
+                 "made");
+    add_cube_options(fourier, modes, 1024);
+}
+
+} // namespace isochron::app

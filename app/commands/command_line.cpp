@@ -1,0 +1,215 @@
+// The command line by CLI11, the only source that sees it.
+#include "app/commands/command_line.h"
+
+#include "app/commands/cancel.h"
+#include "app/version.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+namespace isochron::app {
+
+Option& Option::required() {
+    option_->required();
+    return *this;
+}
+
+Option& Option::type_name(const std::string& name) {
+    option_->type_name(name);
+    return *this;
+}
+
+Option& Option::group(const std::string& heading) {
+    option_->group(heading);
+    return *this;
+}
+
+Option& Option::needs(const Option& other) {
+    option_->needs(other.option_);
+    return *this;
+}
+
+Option& Option::values(int count) {
+    option_->expected(count);
+    return *this;
+}
+
+Option& Option::comma_separated() {
+    option_->delimiter(',');
+    return *this;
+}
+
+Option& Option::shows_default() {
+    option_->capture_default_str();
+    return *this;
+}
+
+template <class T>
+Option& Option::between(T low, T high) {
+    option_->check(CLI::Range(low, high));
+    return *this;
+}
+template Option& Option::between(int, int);
+template Option& Option::between(unsigned, unsigned);
+template Option& Option::between(std::size_t, std::size_t);
+
+Option& Option::one_of(const std::vector<std::string>& names) {
+    option_->check(CLI::IsMember(names));
+    return *this;
+}
+
+Option& Option::positive() {
+    return accepted_by(
+        [](const std::string& text) {
+            double value = 0;
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+            return good ? std::string() : fmt::format("expected a positive number, got {}", text);
+        },
+        "");
+}
+
+Option& Option::existing_file() {
+    option_->check(CLI::ExistingFile);
+    return *this;
+}
+
+Option& Option::existing_folder() {
+    option_->check(CLI::ExistingDirectory);
+    return *this;
+}
+
+Option& Option::accepted_by(std::function<std::string(const std::string&)> complaint,
+                            const std::string& form) {
+    option_->check(CLI::Validator(
+        [complaint = std::move(complaint)](const std::string& text) { return complaint(text); },
+        form));
+    return *this;
+}
+
+bool Option::given() const {
+    return option_->count() > 0;
+}
+
+Command Command::subcommand(const std::string& name, const std::string& description) {
+    return Command(*app_->add_subcommand(name, description));
+}
+
+void Command::require_subcommand() {
+    app_->require_subcommand(1);
+}
+
+template <class T>
+Option Command::option(const std::string& names, T& value, const std::string& help) {
+    return Option(*app_->add_option(names, value, help));
+}
+// One line for each type of value that options have.
+template Option Command::option(const std::string&, std::filesystem::path&, const std::string&);
+template Option Command::option(const std::string&, std::string&, const std::string&);
+template Option Command::option(const std::string&, int&, const std::string&);
+template Option Command::option(const std::string&, long&, const std::string&);
+template Option Command::option(const std::string&, unsigned&, const std::string&);
+template Option Command::option(const std::string&, std::size_t&, const std::string&);
+template Option Command::option(const std::string&, float&, const std::string&);
+template Option Command::option(const std::string&, double&, const std::string&);
+template Option Command::option(const std::string&, std::optional<std::string>&,
+                                const std::string&);
+template Option Command::option(const std::string&, std::optional<int>&, const std::string&);
+template Option Command::option(const std::string&, std::optional<long>&, const std::string&);
+template Option Command::option(const std::string&, std::optional<unsigned>&, const std::string&);
+template Option Command::option(const std::string&, std::optional<std::size_t>&,
+                                const std::string&);
+template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<std::filesystem::path>&,
+                                const std::string&);
+template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<int>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<unsigned>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<float>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<double>&, const std::string&);
+
+Option Command::flag(const std::string& names, bool& value, const std::string& help) {
+    return Option(*app_->add_flag(names, value, help));
+}
+
+void Command::footer(const std::string& text) {
+    app_->footer(text);
+}
+
+void Command::on_run(std::function<void()> run) {
+    app_->callback(std::move(run));
+}
+
+namespace {
+
+int fail(const std::string& program, const std::string& what, int status) {
+    std::fprintf(stderr, "%s: %s\n", program.c_str(), what.c_str());
+    return status;
+}
+
+/// The parser's complaint in one line, with the command whose help explains more.
+std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
+    const CLI::App* command = &program;
+    std::string name = program.get_name();
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+        name += " " + command->get_name();
+    }
+    std::string what = error.what();
+    // Of a command that it does not know, the parser says only that one is missing.
+    const std::vector<std::string> unknown = command->remaining();
+    const auto known = command->get_subcommands([](const CLI::App*) { return true; });
+    if (!known.empty()) {
+        std::vector<std::string> names;
+        for (const CLI::App* candidate : known)
+            names.push_back(candidate->get_name());
+        what = fmt::format("{}, expected {}",
+                           unknown.empty() ? what : fmt::format("{}: unknown", unknown.front()),
+                           fmt::join(names, ", "));
+    }
+    return fmt::format("{} (see {} --help)", what, name);
+}
+
+} // namespace
+
+int run_program(const std::string& name, const std::string& description,
+                std::initializer_list<void (*)(Command& program)> commands, int argc,
+                const char* const* argv) {
+    CLI::App program{description, name};
+    program.set_version_flag("--version", fmt::format("{} {}", name, kVersion));
+    program.require_subcommand(1);
+    program.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
+    Command root(program);
+    for (const auto add : commands)
+        add(root);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& request) {
+        return program.exit(request);
+    } catch (const CLI::ParseError& error) {
+        return fail(name, complaint(program, error), 2);
+    } catch (const Cancelled& cancelled) {
+        return fail(name, cancelled.what(), cancelled.status);
+    } catch (const ReportedElsewhere&) {
+        return 0;
+    } catch (const UsageError& error) {
+        return fail(name, error.what(), 2);
+    } catch (const std::exception& error) {
+        return fail(name, error.what(), 1);
+    }
+    // What was printed must have arrived: a full disk behind a pipe or a redirection is an error
+    // too.
+    if (std::fflush(stdout) != 0)
+        return fail(name, "the output cannot be written", 1);
+    return 0;
+}
+
+} // namespace isochron::app

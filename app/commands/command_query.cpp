@@ -1,0 +1,201 @@
+// `isochron query`: the active cells of one isovalue at one step, and what finding them took.
+#include "app/commands/file_patterns.h"
+#include "app/commands/id_file.h"
+#include "app/commands/process_usage.h"
+#include "app/commands/subcommands.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/extraction/extractor.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace isochron::app {
+namespace {
+
+struct QueryArguments {
+    std::filesystem::path file, ids;
+    double isovalue = 0;
+    std::int64_t step = 0;
+    std::uint32_t repeats = 5;
+    std::string method;
+    bool json = false;
+};
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+struct Times {
+    Milliseconds search{}, shading{};
+};
+
+struct Measured {
+    index::CellSetPtr set;
+    Times cold, warm;   ///< warm: medians; zero without repetitions
+    ProcessUsage usage; ///< after the first search
+};
+
+/// Every repetition starts a new search: otherwise it would find its own last result.
+Measured measure(const std::shared_ptr<const index::IndexFile>& file, const index::Query& query,
+                 index::SearchMethod method, std::uint32_t repeats) {
+    const auto run = [&] { return index::search_in(file, method)(query, {}); };
+    Measured result;
+    result.set = run();
+    result.cold = {result.set->search_time, result.set->shading_time};
+    result.usage = process_usage();
+    std::vector<std::chrono::nanoseconds> search, shading;
+    for (std::uint32_t i = 0; i < repeats; ++i) {
+        const index::CellSetPtr again = run();
+        search.push_back(again->search_time);
+        shading.push_back(again->shading_time);
+    }
+    const auto median = [](std::vector<std::chrono::nanoseconds> times) -> Milliseconds {
+        const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+        std::nth_element(times.begin(), middle, times.end());
+        return *middle;
+    };
+    if (repeats > 0)
+        result.warm = {median(search), median(shading)};
+    return result;
+}
+
+std::string_view name_of(index::SearchMethod method) {
+    return index::kSearchMethodNames[static_cast<std::size_t>(method)];
+}
+
+index::SearchMethod method_of(const QueryArguments& arguments, const index::IndexFile& file) {
+    for (std::size_t i = 0; i < index::kSearchMethodNames.size(); ++i) {
+        const auto method = static_cast<index::SearchMethod>(i);
+        if (index::kSearchMethodNames[i] != arguments.method)
+            continue;
+        if (!index::can_search(file, method))
+            throw index::Error(fmt::format("{}: has no {} to search in; isochron info tells what "
+                                           "it has",
+                                           arguments.file.string(), arguments.method));
+        return method;
+    }
+    return index::cheapest_method(file);
+}
+
+std::string as_json(const QueryArguments& arguments, const index::IndexFile& file,
+                    const Measured& result) {
+    const index::SeriesInfo& info = file.info();
+    const std::uint64_t active = result.set->ids.size();
+    const std::uint64_t false_positives = result.set->candidates - active;
+    nlohmann::ordered_json j{
+        {"file", arguments.file.string()},
+        {"step", arguments.step},
+        {"time", info.times[result.set->query.step]},
+        {"time_unit", info.time_unit},
+        {"isovalue", arguments.isovalue},
+        {"value_unit", info.value_unit},
+        {"method", name_of(result.set->method)},
+        {"active_cells", active},
+        {"candidates", result.set->candidates},
+        {"false_positives", false_positives},
+        {"false_positive_rate",
+         active ? nlohmann::ordered_json(double(false_positives) / double(active)) : nullptr},
+        {"cold_search_ms", result.cold.search.count()},
+        {"cold_shading_ms", result.cold.shading.count()},
+        {"resident_bytes", result.usage.resident_bytes},
+        {"read_bytes", result.usage.read_bytes},
+        {"repetitions", arguments.repeats}};
+    if (arguments.repeats > 0) {
+        j["search_ms"] = result.warm.search.count();
+        j["shading_ms"] = result.warm.shading.count();
+    }
+    if (!arguments.ids.empty())
+        j["ids"] = arguments.ids.string();
+    return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string as_text(const QueryArguments& arguments, const index::IndexFile& file,
+                    const Measured& result) {
+    const index::SeriesInfo& info = file.info();
+    const std::uint64_t active = result.set->ids.size();
+    const std::uint64_t false_positives = result.set->candidates - active;
+    std::string text = fmt::format("isovalue {}{} at step {} (time {}{})\n"
+                                   "active cells     {}\n",
+                                   arguments.isovalue, with_space(info.value_unit), arguments.step,
+                                   human_number(info.times[result.set->query.step]),
+                                   with_space(info.time_unit), grouped(active));
+    text += fmt::format("found by         {}: {} candidates, {} false positives{}\n",
+                        name_of(result.set->method), grouped(result.set->candidates),
+                        grouped(false_positives),
+                        active ? fmt::format(" ({:.2f} % of the active cells)",
+                                             100.0 * double(false_positives) / double(active))
+                               : "");
+    const auto times = [](const Times& t) {
+        return fmt::format("search {:.3f} ms, shading {:.3f} ms", t.search.count(),
+                           t.shading.count());
+    };
+    text += fmt::format("first, cold      {}\n", times(result.cold));
+    text += fmt::format("memory           {} resident, {} read from disk\n",
+                        human_bytes(static_cast<double>(result.usage.resident_bytes)),
+                        human_bytes(static_cast<double>(result.usage.read_bytes)));
+    if (arguments.repeats > 0)
+        text += fmt::format("repeated, warm   {} (medians of {} full searches)\n",
+                            times(result.warm), arguments.repeats);
+    if (!arguments.ids.empty())
+        text += fmt::format("ids              {}\n", arguments.ids.string());
+    return text;
+}
+
+void run_query(const QueryArguments& arguments) {
+    if (!arguments.ids.empty())
+        refuse_input_as_output({arguments.file}, arguments.ids);
+    const auto file = index::IndexFile::open(arguments.file);
+    const auto steps = static_cast<std::int64_t>(file->info().steps());
+    if (arguments.step < 0 || arguments.step >= steps)
+        throw index::Error(fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(),
+                                       arguments.step, steps - 1));
+    const Measured result =
+        measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue},
+                method_of(arguments, *file), arguments.repeats);
+    if (!arguments.ids.empty())
+        write_ids(arguments.ids, result.set->ids);
+    fmt::print("{}", arguments.json ? as_json(arguments, *file, result)
+                                    : as_text(arguments, *file, result));
+}
+
+} // namespace
+
+void add_query(Command& program) {
+    auto arguments = std::make_shared<QueryArguments>();
+    Command command = program.subcommand(
+        "query", "Find the active cells of an isovalue at a step: min < isovalue <= max.");
+    command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
+    command.option("--isovalue", arguments->isovalue, "In the values' unit, compared after scaling")
+        .required();
+    command.option("--step", arguments->step, "From 0 to the number of steps - 1").required();
+    command
+        .option("--ids", arguments->ids,
+                "Write the cell ids: u32, little-endian, ascending; "
+                "id = (z * (ny - 1) + y) * (nx - 1) + x")
+        .type_name("OUT.bin");
+    command.option("--repeat", arguments->repeats, "Warm repetitions to take the median of")
+        .between(0u, 1000u)
+        .shows_default();
+    command
+        .option("--method", arguments->method,
+                "Search by cells, bricks, tree or scan (default: the cheapest that the index "
+                "has)")
+        .one_of(std::vector<std::string>(index::kSearchMethodNames.begin(),
+                                         index::kSearchMethodNames.end()));
+    command.flag("--json", arguments->json, "Print one JSON object");
+    command.footer(
+        "JSON keys: file, step, time, time_unit, isovalue (null unless finite), value_unit,\n"
+        "method (cells, bricks, tree or scan), active_cells, candidates (before the exact test),\n"
+        "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
+        "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
+        "file), resident_bytes and read_bytes (of the process after that run: memory with mapped\n"
+        "files, and what came from disk instead of the page cache), repetitions, search_ms and "
+        "shading_ms (medians of the repetitions, each a full\n"
+        "search; absent with --repeat 0), ids (only with --ids). Search includes the exact test;\n"
+        "shading is positions and normals.");
+    command.on_run([arguments] { run_query(*arguments); });
+}
+
+} // namespace isochron::app

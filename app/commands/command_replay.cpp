@@ -1,0 +1,354 @@
+// `isochron replay`: a recording becomes pictures and measurements, or plays again in a window.
+#include "app/commands/cluster_job.h"
+#include "app/commands/file_patterns.h"
+#include "app/commands/progress_bar.h"
+#include "app/commands/subcommands.h"
+#include "app/output/picture_names.h"
+#include "app/session/pattern_show.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::string recording;
+    std::optional<std::string> data, out, config, context, stereo, quality, footprint, report;
+    std::size_t every = 0;
+    bool stamps = false, from_devices = false, live = false, any_data = false, emulate = false;
+    bool test_pattern = false;
+    std::string eyes = "window";
+    std::string format = "png";
+    std::optional<int> samples;
+    std::vector<int> size;
+};
+
+Config configure(const Options& options, const interaction::RecordingHeader& header) {
+    Config config =
+        options.config ? read_config(*options.config)
+                       : parse_config(header.configuration, options.recording + " (configuration)");
+    // A recording made in a window replays without one unless a window is asked for.
+    config.context = options.live ? stereo::ContextKind::glfw : stereo::ContextKind::egl;
+    if (options.context)
+        config.context = *stereo::context_kind_from_name(*options.context);
+    if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
+        config.installation.windows.front().size = {header.window[0], header.window[1]};
+    if (options.footprint)
+        config.settled_footprint = settled_footprint_from_name(*options.footprint);
+    config.picture_samples = options.samples.value_or(config.picture_samples);
+    for (stereo::Window& window : config.installation.windows) {
+        if (!options.size.empty() && !options.emulate)
+            window.size = {options.size[0], options.size[1]};
+        window.fullscreen = false; // a replay looks on, it does not take the displays over
+    }
+    return config;
+}
+
+std::shared_ptr<const index::IndexFile> open_data(const Options& options,
+                                                  const interaction::RecordingHeader& header) {
+    std::string path = options.data.value_or(header.data);
+    if (!options.data && !fs::exists(path)) {
+        // A relative name is from where the session was started; the data may lie beside the
+        // recording.
+        path = (fs::path(options.recording).parent_path() / header.data).string();
+        if (!fs::exists(path))
+            throw interaction::Error(
+                fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
+                            options.recording, header.data));
+    }
+    auto file = index::IndexFile::open(path);
+    const std::string hash = fmt::format("{:016x}", file->content_hash());
+    // A recording without a hash is not bound to one data set: demonstrations are like that.
+    if (!options.any_data && !header.data_hash.empty() && header.data_hash != hash)
+        throw interaction::Error(
+            fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
+                        "(--any-data replays all the same)",
+                        options.recording, header.data_hash, path, hash));
+    return file;
+}
+
+/// Writes the pictures of one frame under names that start with `stem`, and notes which.
+/// @tparam Show a session, or a show of the test pattern
+template <class Show>
+void write_pictures(Show& session, const Options& options, const PictureNames& names,
+                    const std::string& stem, std::vector<fs::path>& written) {
+    const fs::path folder = *options.out;
+    const auto write = [&](render::Image image, const std::string& suffix) {
+        session.pictures().wait_for_room();
+        written.push_back(folder / fmt::format("{}{}.{}", stem, suffix, options.format));
+        session.write_image(std::move(image), written.back());
+    };
+    const auto write_eyes = [&](const stereo::Display& display, const PictureNames::Window& named) {
+        for (std::size_t i = 0; i < named.viewports.size(); ++i)
+            for (const stereo::Eye eye : stereo::eyes_of(display.mode()))
+                write(display.read_eye(eye, i),
+                      fmt::format("{}_{}", named.viewports[i], name_of(eye)));
+    };
+    if (session.room())
+        return write(session.kept_pictures().of_room(), "");
+    session.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
+        const std::size_t number = session.windows().number(i);
+        if (number >= names.windows.size()) // the operator's window is no wall
+            return;
+        const PictureNames::Window& named = names.windows[number];
+        if (options.eyes == "each") {
+            write_eyes(display, named);
+        } else if (stereo::upright(display.mode()) == stereo::StereoMode::quadbuffer) {
+            write(display.read_window(), named.suffix + "_left");
+            write(display.read_right_buffer(), named.suffix + "_right");
+        } else {
+            write(display.read_window(), named.suffix);
+        }
+    });
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw interaction::Error(
+            fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+}
+
+int report_differences(const std::vector<std::string>& lines, std::size_t frames) {
+    constexpr std::size_t kShown = 20;
+    for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i)
+        fmt::print(stderr, "differs: {}\n", lines[i]);
+    fmt::print("commands recomputed from devices: {} of {} frames differ\n", lines.size(), frames);
+    return lines.empty() ? 0 : 1;
+}
+
+void check(const Options& options) {
+    if ((options.every > 0 || options.stamps) && !options.out)
+        throw UsageError("--every and --stamps need --out DIR");
+    if (options.out && options.every == 0 && !options.stamps)
+        throw UsageError("--out writes nothing without --every N or --stamps");
+    if (options.live && (options.every > 0 || options.stamps || options.from_devices))
+        throw UsageError("--live does not go with --every, --stamps or --from-devices");
+    if (options.test_pattern && (options.live || options.report || options.from_devices))
+        throw UsageError("--test-pattern does not go with --live, --report or --from-devices");
+    if (options.report)
+        refuse_input_as_output({options.recording}, *options.report);
+}
+
+stereo::Windows open(const Options& options, const Config& config,
+                     const interaction::RecordingHeader& header, const ClusterJob& job) {
+    const std::string title = "Isochron: " + options.recording;
+    if (options.emulate) {
+        stereo::ContextOptions room{.title = title};
+        if (!options.size.empty())
+            room.size = {options.size[0], options.size[1]};
+        return open_room(config.context, config.installation, room);
+    }
+    const std::string mode = options.stereo.value_or(header.start.stereo.value_or(""));
+    return open_windows(config.context, config.installation,
+                        {.title = title,
+                         .vsync = config.vsync,
+                         .stereo = stereo::stereo_mode_from_name(mode).value_or(
+                             config.installation.windows.front().stereo),
+                         .rank = job.rank(),
+                         .ranks = job.size()});
+}
+
+/// Of one frame, where the options ask for them.
+template <class Show>
+void write_pictures(Show& show, const Options& options, const PictureNames& names,
+                    std::size_t number, const interaction::RecordedFrame& frame,
+                    std::vector<fs::path>& written) {
+    if (options.every > 0 && number % options.every == 0)
+        write_pictures(show, options, names, fmt::format("frame_{:05}", number), written);
+    if (options.stamps)
+        for (const std::string& stamp : frame.commands.stamps)
+            write_pictures(show, options, names,
+                           fmt::format("stamp_{:05}_{}", number, file_name(stamp)), written);
+}
+
+/// The recorded heads and hands before the test pattern; needs no data.
+void replay_test_pattern(const Options& options, const ClusterJob& job) {
+    check(options);
+    if (job.size() > 1)
+        throw UsageError("--test-pattern is shown by one process, without mpirun");
+    const interaction::Recording recording = interaction::read_recording(options.recording);
+    const Config config = configure(options, recording.header);
+    if (options.out)
+        make_folder(*options.out);
+    PatternShow show(config, open(options, config, recording.header, job));
+    show.obey(recording.header.start);
+    const PictureNames names = picture_names(config.installation);
+    std::vector<fs::path> written;
+    for (std::size_t number = 0; number < recording.frames.size(); ++number) {
+        const interaction::RecordedFrame& frame = recording.frames[number];
+        show.obey(frame.commands);
+        if (options.stereo)
+            show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
+        show.frame(frame.input, [&frame] { return frame.latched; });
+        write_pictures(show, options, names, number, frame, written);
+    }
+    show.pictures().finish();
+    for (const fs::path& path : written)
+        fmt::print("wrote {}\n", path.string());
+}
+
+/// Everything that is read before the first frame.
+struct Prepared {
+    interaction::Recording recording;
+    Config config;
+    PictureNames names;
+    std::shared_ptr<const index::IndexFile> file;
+    ReplayOptions replay;
+};
+
+Prepared prepare(const Options& options, const ClusterJob& job) {
+    check(options);
+    Prepared all;
+    all.recording = interaction::read_recording(options.recording);
+    if (!all.recording.note.empty() && job.leads())
+        fmt::print(stderr, "note: {}\n", all.recording.note);
+    all.config = configure(options, all.recording.header);
+    all.names = picture_names(all.config.installation);
+    prepare_walls(all.config, job, options.emulate);
+    all.file = open_data(options, all.recording.header);
+    all.replay.from_devices = options.from_devices;
+    if (options.stereo)
+        all.replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
+    if (options.quality)
+        all.replay.quality = quality_mode_from_name(*options.quality);
+    return all;
+}
+
+/// @return one line per frame whose recomputed commands differ
+std::vector<std::string> show(Session& session, const Prepared& all, bool live, ClusterJob& job,
+                              const FrameDone& done) {
+    std::vector<std::string> different;
+    if (!job.leads()) {
+        job.follow(session, done);
+    } else if (live) {
+        replay_live(session, all.recording, all.replay);
+    } else {
+        ProgressBar bar;
+        const auto frames = static_cast<double>(all.recording.frames.size());
+        different =
+            replay_fixed_step(session, all.recording, all.replay,
+                              [&](std::size_t number, const interaction::RecordedFrame& frame) {
+                                  done(number, frame);
+                                  bar.show("replaying", static_cast<double>(number + 1) / frames);
+                              });
+    }
+    job.end_frames();
+    return different;
+}
+
+void replay(const Options& options, ClusterJob& job) {
+    if (options.test_pattern)
+        return job.together([&] { replay_test_pattern(options, job); });
+    std::optional<Prepared> prepared;
+    job.together([&] { prepared = prepare(options, job); });
+    const Prepared& all = *prepared;
+    job.require_same(facts_of(all.config, *all.file));
+    job.set_limits(all.config.cluster.limits);
+    std::optional<Session> opened;
+    job.together([&] {
+        opened.emplace(all.config, all.file, open(options, all.config, all.recording.header, job));
+        opened->set_state(
+            start_of(all.recording.header, opened->state(), all.file->info().steps(), all.replay));
+        if (options.out)
+            make_folder(*options.out);
+    });
+    Session& session = *opened;
+    job.require_same(start_fact(session));
+    job.share_frames(session);
+
+    std::vector<fs::path> written;
+    const auto done = [&](std::size_t number, const interaction::RecordedFrame& frame) {
+        write_pictures(session, options, all.names, number, frame, written);
+    };
+    const std::vector<std::string> different = show(session, all, options.live, job, done);
+    session.pictures().finish();
+    for (const fs::path& path : written)
+        fmt::print("wrote {}\n", path.string());
+    if (options.report)
+        session.log().write(job.own_file(*options.report),
+                            session.windows().drawing().description());
+    job.finish();
+    if (!job.leads())
+        return;
+    fmt::print("{}\n{}", session.windows().drawing().description(), session.log().table());
+    if (options.from_devices && report_differences(different, all.recording.frames.size()) != 0)
+        throw interaction::Error(options.recording +
+                                 ": the devices no longer lead to its commands");
+}
+
+} // namespace
+
+void add_replay(Command& program) {
+    auto options = std::make_shared<Options>();
+    Command command = program.subcommand(
+        "replay", "Replay a recording: to pictures, to a timing report, or live in a window.");
+    command.option("recording", options->recording, "Recording made by `explore --record`")
+        .required();
+    command.option("--data", options->data,
+                   "Index to use instead of the recorded path (which may also be relative "
+                   "to the recording)");
+    command.flag("--any-data", options->any_data,
+                 "Accept data other than the recorded (another hash)");
+    command.option("--out", options->out, "Folder for the pictures; made where it is missing");
+    command.option("--every", options->every, "Write a picture every N frames").positive();
+    command.flag("--stamps", options->stamps, "Write a picture at every stamp");
+    command
+        .option("--eyes", options->eyes,
+                "window: one picture, composed as the stereo mode says; "
+                "each: one picture per eye and viewport")
+        .one_of({"window", "each"})
+        .shows_default();
+    command.option("--format", options->format, "png, or exr (linear)")
+        .one_of({"png", "exr"})
+        .shows_default();
+    command
+        .option(
+            "--size", options->size,
+            "Size of every window's pictures, or of the room's, in pixels (default: as recorded)")
+        .values(2)
+        .between(16, 16384);
+    command
+        .option("--samples", options->samples,
+                "Samples of each pixel of the pictures (default: as configured, 4 where "
+                "nothing is)")
+        .between(1, 64);
+    command.flag("--emulate", options->emulate,
+                 "Show the room from outside, with what every wall shows, instead");
+    command.option("--stereo", options->stereo, "Stereo mode instead of the recorded one")
+        .one_of(stereo_mode_names());
+    command.option("--quality", options->quality, "Quality mode instead of the recorded one")
+        .one_of(quality_mode_names());
+    command
+        .option("--footprint", options->footprint,
+                "What a settled picture is drawn with, instead of the configured: auto (the "
+                "best there is; with --live the best that fits the frame budget), gaussian or "
+                "surface")
+        .one_of(settled_footprint_names());
+    command.option("--config", options->config,
+                   "TOML file or shipped name instead of the recorded configuration");
+    command
+        .option("--context", options->context,
+                "GL context: egl (default), osmesa, glfw (default with --live)")
+        .one_of({"glfw", "egl", "osmesa"});
+    command.option("--report", options->report,
+                   "Write times and states of every frame to this JSON file");
+    command.flag("--from-devices", options->from_devices,
+                 "Recompute the commands from the recorded devices; differences are an error");
+    command.flag("--test-pattern", options->test_pattern,
+                 "Show the pattern that tells eyes, walls and trackers apart; needs no index");
+    command.flag("--live", options->live,
+                 "Play on the wall clock in a window; frames wait for nothing");
+    command.footer("In every process of a job: mpirun -n N isochron replay ...: each writes the "
+                   "pictures of its "
+                   "own windows. Exit status: 0 done, 1 bad input, 2 bad usage.");
+    command.on_run([options] { run_in_cluster([&](ClusterJob& job) { replay(*options, job); }); });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,44 @@
+// `isochron verify`: whether an index is intact.
+#include "app/commands/cancel.h"
+#include "app/commands/progress_bar.h"
+#include "app/commands/subcommands.h"
+#include "app/text.h"
+#include "index/file/index_file.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <memory>
+
+namespace isochron::app {
+namespace {
+
+void run_verify(const std::filesystem::path& path) {
+    const CancelOnSignal signals;
+    const auto file = index::IndexFile::open(path);
+    {
+        ProgressBar bar(stderr, static_cast<double>(file->stats().file_bytes));
+        file->verify([&](std::string_view phase, double fraction) {
+            signals.check();
+            if (isatty(STDERR_FILENO))
+                bar.show(phase, fraction);
+        });
+    }
+    fmt::print("{}: every checksum matches{}\n", path.string(),
+               file->referral() ? ", those of its sources too" : "");
+}
+
+} // namespace
+
+void add_verify(Command& program) {
+    auto path = std::make_shared<std::filesystem::path>();
+    Command command =
+        program.subcommand("verify", "Compare every checksum of an index: reads the whole file.");
+    command.option("file", *path, "Index").required().type_name("NAME.isochron");
+    command.footer("Reads the sources too where the index refers to them. Exit status: 0 intact, "
+                   "1 damaged, and one line that says where.");
+    command.on_run([path] { run_verify(*path); });
+}
+
+} // namespace isochron::app

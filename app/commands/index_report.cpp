@@ -1,0 +1,264 @@
+// What an index holds, as text and as JSON.
+#include "app/commands/index_report.h"
+
+#include "app/config/placement.h"
+#include "app/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+using index::Grid;
+using index::SeriesInfo;
+
+constexpr std::array kAnatomies{"none", "ras", "lps", "enu"};
+
+std::array<double, 3> numbers(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+bool right_handed(const Grid& grid) {
+    return glm::determinant(grid.direction) > 0;
+}
+
+/// Equal steps, as far as the rounding of decimal times lets them be.
+bool uniform(const std::vector<double>& times) {
+    if (times.size() < 3)
+        return true;
+    const double mean = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    const double tolerance =
+        1e-6 * mean + 1e-12 * std::max(std::abs(times.front()), std::abs(times.back()));
+    for (std::size_t t = 1; t < times.size(); ++t)
+        if (std::abs(times[t] - times[t - 1] - mean) > tolerance)
+            return false;
+    return true;
+}
+
+double raw_bytes(const SeriesInfo& info) {
+    return static_cast<double>(info.steps()) * static_cast<double>(info.grid.cell_count()) * 24;
+}
+
+double percent_of_raw(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    return 100 * static_cast<double>(stats.file_bytes - stats.volume_bytes) /
+           raw_bytes(file.info());
+}
+
+/// Of the paper's tree where there is one, else of the cells; empty without both.
+std::vector<index::TimeNodeCells> time_nodes(const index::IndexFile& file) {
+    if (file.tree())
+        return file.tree()->nodes();
+    return file.cells() ? file.cells()->nodes() : std::vector<index::TimeNodeCells>{};
+}
+
+/// In the same tree; 0 without one.
+std::uint64_t entries_of(const index::IndexFile& file) {
+    return file.tree() ? file.tree()->entries() : file.stats().cell_entries;
+}
+
+/// Entries per cell-step.
+double coherence(const index::IndexFile& file) {
+    return static_cast<double>(entries_of(file)) /
+           (static_cast<double>(file.info().grid.cell_count()) *
+            static_cast<double>(file.info().steps()));
+}
+
+std::string times_text(const SeriesInfo& info) {
+    if (info.steps() == 1)
+        return fmt::format("1 at time {}{}", human_number(info.times.front()),
+                           with_space(info.time_unit));
+    return fmt::format("{}, times {} to {}{}, {}", info.steps(), human_number(info.times.front()),
+                       human_number(info.times.back()), with_space(info.time_unit),
+                       uniform(info.times) ? "uniform" : "not uniform");
+}
+
+std::string sources_text(const std::vector<std::string>& sources) {
+    constexpr std::size_t kListed = 8;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kListed, sources.size()); ++i)
+        text += fmt::format("source        {}\n", sources[i]);
+    if (sources.size() > kListed)
+        text += fmt::format("source        ... {} more, the last {}\n", sources.size() - kListed,
+                            sources.back());
+    return text;
+}
+
+std::string tree_text(const index::IndexFile& file) {
+    const auto nodes = time_nodes(file);
+    if (nodes.empty())
+        return "time nodes    none: bricks and the scan have none; build --lattice adds the "
+               "paper's tree\n";
+    std::string text;
+    for (const auto& node : nodes)
+        text += fmt::format("{:{}}[{},{}] {} cells\n", "", 2 * node.depth, node.first_step,
+                            node.last_step, grouped(node.cells));
+    return text;
+}
+
+} // namespace
+
+std::string sizes(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    const auto bytes = [](std::uint64_t n) { return human_bytes(static_cast<double>(n)); };
+    std::string text = bytes(stats.file_bytes);
+    text += file.referral() ? ": volume in its sources"
+                            : fmt::format(": volume {}", bytes(stats.volume_bytes));
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (const auto tier = static_cast<index::Tier>(i); file.plan().tiers.has(tier))
+            text += fmt::format(", {} {}", index::kTierNames[i], bytes(stats.bytes_of(tier)));
+    if (stats.color_bytes > 0)
+        text += fmt::format(", colours {}", bytes(stats.color_bytes));
+    return text;
+}
+
+std::string as_text(const IndexReport& report) {
+    const index::IndexFile& file = report.file;
+    const SeriesInfo& info = file.info();
+    const index::IndexStats& stats = file.stats();
+    const Grid& grid = info.grid;
+    const std::string length = with_space(info.length_unit);
+
+    std::string text = fmt::format("{}\n", report.name);
+    const auto line = [&](std::string_view label, const std::string& value) {
+        text += fmt::format("{:<13} {}\n", label, value);
+    };
+    line("array", info.array.empty() ? "unnamed" : info.array);
+    line("vertices", fmt::format("{}", fmt::join(grid.vertices, " x ")));
+    line("cells",
+         fmt::format("{} = {}", fmt::join(grid.cells(), " x "), grouped(grid.cell_count())));
+    line("spacing", fmt::format("{:.10g}{}", fmt::join(numbers(grid.spacing), " x "), length));
+    line("size", fmt::format("{:.10g}{}", fmt::join(numbers(physical_size(grid)), " x "), length));
+    line("origin", fmt::format("{:.10g}{}", fmt::join(numbers(grid.origin), " "), length));
+    for (int axis = 0; axis < 3; ++axis)
+        line(
+            axis == 0 ? "direction" : "",
+            fmt::format("{}: {:.10g}", "xyz"[axis], fmt::join(numbers(grid.direction[axis]), " ")));
+    line("handedness", right_handed(grid) ? "right" : "left");
+    switch (info.anatomy) {
+    case index::Anatomy::ras: line("anatomy", "RAS"); break;
+    case index::Anatomy::lps: line("anatomy", "LPS"); break;
+    case index::Anatomy::enu: line("up", "z"); break;
+    case index::Anatomy::none: break;
+    }
+    line("steps", times_text(info));
+    line("type", std::string(index::name_of(info.type)));
+    if (info.scaling != index::Scaling{})
+        line("scaling",
+             fmt::format("{} * stored + {}", info.scaling.slope, info.scaling.intercept));
+    line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
+    line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
+    if (const index::ColorArray* color = file.color())
+        line("colours", fmt::format("{}, {}, {} to {}{}, {} NaN", color->array,
+                                    index::name_of(color->type), color->low, color->high,
+                                    with_space(color->value_unit), grouped(color->nan_values)));
+    line("file",
+         fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
+    for (const std::string& reason : file.plan().reasons)
+        line("plan", reason);
+    line("levels", fmt::format("{}, {}", file.levels().levels(),
+                               file.levels().lossless() ? "one for every value"
+                                                        : "shared by several values"));
+    if (entries_of(file) > 0)
+        line("coherence", fmt::format("{:.4f} entries per cell-step ({} entries{})",
+                                      coherence(file), grouped(entries_of(file)),
+                                      file.tree() ? fmt::format("; lattice {}, max variation {}",
+                                                                file.tree_options().lattice,
+                                                                file.tree_options().max_variation)
+                                                  : ""));
+    line("content hash", fmt::format("{:016x}", file.content_hash()));
+    text += sources_text(info.sources);
+    for (const std::string& note : info.notes)
+        line("note", note);
+    if (report.tree)
+        text += tree_text(file);
+    return text;
+}
+
+std::string as_json(const IndexReport& report) {
+    const index::IndexFile& file = report.file;
+    const SeriesInfo& info = file.info();
+    const index::IndexStats& stats = file.stats();
+    const Grid& grid = info.grid;
+    nlohmann::ordered_json j{
+        {"file", report.name},
+        {"array", info.array},
+        {"vertices", grid.vertices},
+        {"cells", grid.cells()},
+        {"spacing", numbers(grid.spacing)},
+        {"origin", numbers(grid.origin)},
+        {"direction",
+         {numbers(grid.direction[0]), numbers(grid.direction[1]), numbers(grid.direction[2])}},
+        {"handedness", right_handed(grid) ? "right" : "left"},
+        {"physical_size", numbers(physical_size(grid))},
+        {"length_unit", info.length_unit},
+        {"anatomy", kAnatomies[static_cast<std::size_t>(info.anatomy)]},
+        {"steps", info.steps()},
+        {"times", info.times},
+        {"time_unit", info.time_unit},
+        {"uniform_time", uniform(info.times)},
+        {"type", index::name_of(info.type)},
+        {"slope", info.scaling.slope},
+        {"intercept", info.scaling.intercept},
+        {"low", stats.low},
+        {"high", stats.high},
+        {"value_unit", info.value_unit},
+        {"nan_values", stats.nan_values},
+        {"histogram", stats.histogram},
+        {"file_bytes", stats.file_bytes},
+        {"volume_bytes", stats.volume_bytes},
+        {"bricks_bytes", stats.bricks_bytes},
+        {"cells_bytes", stats.cells_bytes},
+        {"deltas_bytes", stats.deltas_bytes},
+        {"tree_bytes", stats.tree_bytes},
+        {"raw_bytes", raw_bytes(info)},
+        {"percent_of_raw", percent_of_raw(file)},
+        {"tiers", nlohmann::ordered_json::array()},
+        {"plan", file.plan().reasons},
+        {"levels", file.levels().levels()},
+        {"lossless", file.levels().lossless()},
+        {"refers_to", nullptr},
+        {"lattice", file.tree_options().lattice},
+        {"max_variation", file.tree_options().max_variation},
+    };
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (file.plan().tiers.has(static_cast<index::Tier>(i)))
+            j["tiers"].push_back(index::kTierNames[i]);
+    if (const index::ColorArray* color = file.color())
+        j["colour"] = {{"array", color->array},
+                       {"value_unit", color->value_unit},
+                       {"type", index::name_of(color->type)},
+                       {"low", color->low},
+                       {"high", color->high},
+                       {"nan_values", color->nan_values},
+                       {"bytes", stats.color_bytes}};
+    if (file.referral()) {
+        j["refers_to"] = nlohmann::ordered_json::array();
+        for (const std::filesystem::path& source : file.referral()->files)
+            j["refers_to"].push_back(source.string());
+    }
+    if (entries_of(file) > 0) {
+        j["tree_entries"] = entries_of(file);
+        j["coherence"] = coherence(file);
+    }
+    j["content_hash"] = fmt::format("{:016x}", file.content_hash());
+    j["sources"] = info.sources;
+    j["notes"] = info.notes;
+    if (report.tree) {
+        j["tree"] = nlohmann::ordered_json::array();
+        for (const auto& node : time_nodes(file))
+            j["tree"].push_back({{"first_step", node.first_step},
+                                 {"last_step", node.last_step},
+                                 {"depth", node.depth},
+                                 {"cells", node.cells}});
+    }
+    return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+} // namespace isochron::app

@@ -1,0 +1,23 @@
+// What an index holds, as text and as JSON.
+#pragma once
+
+#include "index/file/index_file.h"
+
+#include <string>
+
+namespace isochron::app {
+
+struct IndexReport {
+    std::string name; ///< as the user gave it
+    const index::IndexFile& file;
+    bool tree = false; ///< with the cells of every time node
+};
+
+/// `4.10 MiB: volume 3.00 MiB, bricks 12 KiB, cells 1.05 MiB`.
+std::string sizes(const index::IndexFile& file);
+
+/// @throws index::Error when the tree is damaged
+std::string as_text(const IndexReport& report);
+std::string as_json(const IndexReport& report);
+
+} // namespace isochron::app

@@ -1,0 +1,18 @@
+// The subcommands: each adds itself to the command line and runs in its callback.
+#pragma once
+
+#include "app/commands/command_line.h"
+
+namespace isochron::app {
+
+void add_generate(Command& program);
+void add_build(Command& program);
+void add_query(Command& program);
+void add_change(Command& program);
+void add_info(Command& program);
+void add_verify(Command& program);
+void add_explore(Command& program);
+void add_replay(Command& program);
+void add_config(Command& program);
+
+} // namespace isochron::app

@@ -1,0 +1,289 @@
+// Lists an installation and judges it.
+#include "app/config/check_config.h"
+
+#include "app/config/tracker_setup.h"
+#include "stereo/nodes.h"
+#include "stereo/screen.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace isochron::app {
+namespace {
+
+constexpr float kSmallest = 0.02f, kLargest = 30.0f; ///< [m] sides of screens that people build
+constexpr float kSquare = 0.02f;     ///< pixels' width and height may differ by this fraction
+constexpr float kNeighbours = 0.10f; ///< [m] corners this near are meant to be one
+constexpr float kSeam = 0.005f;      ///< [m] and this is what a seam may take
+constexpr const char* kScreenKey = "windows.viewports.projection";
+
+struct PlacedViewport {
+    const stereo::Window& window;
+    const stereo::Viewport& viewport;
+    std::size_t number; ///< of the viewport in its window, from 1
+    int line;
+};
+
+/// A line of the file that `places` knows, or 0.
+int line_at(const std::vector<int>& lines, std::size_t index) {
+    return index < lines.size() ? lines[index] : 0;
+}
+
+DisplayPlaces::Window place_of_window(const Config& config, std::size_t index) {
+    return index < config.places.windows.size() ? config.places.windows[index]
+                                                : DisplayPlaces::Window{};
+}
+
+std::vector<PlacedViewport> viewports_of(const Config& config) {
+    std::vector<PlacedViewport> all;
+    const auto& windows = config.installation.windows;
+    for (std::size_t w = 0; w < windows.size(); ++w)
+        for (std::size_t v = 0; v < windows[w].viewports.size(); ++v)
+            all.push_back({windows[w], windows[w].viewports[v], v + 1,
+                           line_at(place_of_window(config, w).viewports, v)});
+    return all;
+}
+
+std::string name_of(const PlacedViewport& place) {
+    if (!place.viewport.name.empty())
+        return fmt::format("{} of window {}", place.viewport.name, place.window.name);
+    if (place.window.viewports.size() > 1)
+        return fmt::format("viewport {} of window {}", place.number, place.window.name);
+    return fmt::format("window {}", place.window.name);
+}
+
+glm::vec2 pixels_of(const PlacedViewport& place) {
+    return place.viewport.size * glm::vec2(place.window.size);
+}
+
+/// A pixel on the screen [m]. An eye that has half of the window is either stretched over the whole
+/// screen or comes from a projector of its own: of both, the squarer.
+glm::vec2 pixel_size(const PlacedViewport& place) {
+    const glm::vec2 whole = stereo::size_of(place.viewport.screen) / pixels_of(place);
+    glm::vec2 half = whole;
+    const stereo::StereoMode mode = stereo::upright(place.window.stereo);
+    if (mode == stereo::StereoMode::side_by_side)
+        half.x *= 2.0f;
+    else if (mode == stereo::StereoMode::top_bottom)
+        half.y *= 2.0f;
+    const auto oblong = [](glm::vec2 size) { return std::abs(std::log(size.x / size.y)); };
+    return oblong(half) < oblong(whole) ? half : whole;
+}
+
+class Judge {
+  public:
+    explicit Judge(const Config& config) : config_(config) {}
+
+    std::vector<ConfigProblem> judge() {
+        const auto all = viewports_of(config_);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            screen(all[i]);
+            for (std::size_t j = 0; j < i; ++j)
+                pair(all[j], all[i]);
+        }
+        windows();
+        viewers(all);
+        const std::string misfit = stereo::misfit(config_.installation, 1);
+        if (!misfit.empty())
+            add(0, "windows.node", misfit);
+        if (config_.installation.near_plane >= config_.installation.far_plane)
+            add(0, "rendering.near", "it is not nearer than rendering.far");
+        return std::move(found_);
+    }
+
+  private:
+    void add(int line, const std::string& key, const std::string& text, bool wrong = true) {
+        found_.push_back({line, key, text, wrong});
+    }
+
+    void screen(const PlacedViewport& place) {
+        const stereo::Screen& screen = place.viewport.screen;
+        const stereo::Viewer& viewer = config_.installation.viewers[place.viewport.viewer];
+        for (const std::string& problem : stereo::problems(screen, viewer.position))
+            add(place.line, kScreenKey, fmt::format("{}: {}", name_of(place), problem));
+        const glm::vec2 size = stereo::size_of(screen);
+        if (std::max(size.x, size.y) > kLargest || std::min(size.x, size.y) < kSmallest)
+            add(place.line, kScreenKey,
+                fmt::format("{}: {:.4g} x {:.4g} m is no size of a screen: corners are in metres",
+                            name_of(place), size.x, size.y));
+        const glm::vec2 pixel = pixel_size(place);
+        const float aspect = pixel.x / pixel.y;
+        if (!screen.fit_aspect && std::abs(aspect - 1.0f) > kSquare)
+            add(place.line, kScreenKey,
+                fmt::format("{}: its pixels are not square: {:.2f} times as wide as high "
+                            "({:.0f} x {:.0f} pixels on {:.2f} x {:.2f} m)",
+                            name_of(place), aspect, pixels_of(place).x, pixels_of(place).y, size.x,
+                            size.y),
+                false);
+    }
+
+    void pair(const PlacedViewport& a, const PlacedViewport& b) {
+        if (&a.window == &b.window) {
+            const glm::vec2 low = glm::max(a.viewport.position, b.viewport.position);
+            const glm::vec2 high = glm::min(a.viewport.position + a.viewport.size,
+                                            b.viewport.position + b.viewport.size);
+            const glm::vec2 overlap = (high - low) * glm::vec2(a.window.size);
+            if (std::min(overlap.x, overlap.y) > 0.5f)
+                add(b.line, "windows.viewports",
+                    fmt::format("{} overlaps another of the window's viewports by {:.0f} x {:.0f} "
+                                "pixels",
+                                name_of(b), overlap.x, overlap.y));
+        }
+        if (!a.viewport.screen.carried_by_head && !b.viewport.screen.carried_by_head)
+            seam(a, b);
+    }
+
+    /// Walls that meet in a corner of the room share it to the width of a seam.
+    void seam(const PlacedViewport& a, const PlacedViewport& b) {
+        const interaction::Pose anywhere;
+        float widest = 0;
+        for (const glm::vec3& p : corners_in_room(a.viewport.screen, anywhere, a.window.size))
+            for (const glm::vec3& q : corners_in_room(b.viewport.screen, anywhere, b.window.size))
+                if (glm::distance(p, q) < kNeighbours)
+                    widest = std::max(widest, glm::distance(p, q));
+        if (widest > kSeam)
+            add(b.line, kScreenKey,
+                fmt::format("{}: a corner is {:.0f} mm from one of {}, where walls meet within "
+                            "{:.0f} mm",
+                            name_of(b), 1000.0f * widest, name_of(a), 1000.0f * kSeam),
+                false);
+    }
+
+    void windows() {
+        const auto& windows = config_.installation.windows;
+        for (std::size_t i = 0; i < windows.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (windows[i].fullscreen && windows[j].fullscreen &&
+                    windows[i].monitor != stereo::kNextMonitor &&
+                    windows[i].monitor == windows[j].monitor && windows[i].node == windows[j].node)
+                    add(place_of_window(config_, i).line, "windows.monitor",
+                        fmt::format("window {} covers monitor {}, as window {} does",
+                                    windows[i].name, windows[i].monitor, windows[j].name));
+    }
+
+    void viewers(const std::vector<PlacedViewport>& all) {
+        const auto& viewers = config_.installation.viewers;
+        for (std::size_t i = 0; i < viewers.size(); ++i) {
+            if (std::ranges::none_of(
+                    all, [&](const PlacedViewport& place) { return place.viewport.viewer == i; }))
+                add(line_at(config_.places.viewers, i), "viewers",
+                    fmt::format("no viewport is for viewer {}", viewers[i].name), false);
+            for (std::size_t j = 0; j < i; ++j)
+                if (viewers[i].head == viewers[j].head)
+                    add(line_at(config_.places.viewers, i), "viewers.head",
+                        fmt::format("device {} tracks viewer {} and viewer {}", viewers[i].head,
+                                    viewers[j].name, viewers[i].name));
+        }
+    }
+
+    const Config& config_;
+    std::vector<ConfigProblem> found_;
+};
+
+std::string place_on_desktop(const stereo::Window& window) {
+    if (window.fullscreen && window.monitor == stereo::kNextMonitor)
+        return "fullscreen on the next monitor";
+    if (window.fullscreen)
+        return fmt::format("fullscreen on monitor {}", window.monitor);
+    if (window.position == glm::ivec2(-1))
+        return "placed by the desktop";
+    return fmt::format("at {}, {}", window.position.x, window.position.y);
+}
+
+std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer& viewer) {
+    const stereo::Screen& screen = place.viewport.screen;
+    const glm::vec2 low = place.viewport.position * glm::vec2(place.window.size);
+    const glm::vec2 pixels = pixels_of(place), size = stereo::size_of(screen);
+    const glm::vec2 millimetres = 1000.0f * pixel_size(place);
+    const double angle = stereo::corner_angle(screen);
+    const glm::vec3 eyes = screen.carried_by_head ? glm::vec3(0.0f) : viewer.position;
+    return fmt::format(
+        "  viewport {}: {:.0f} x {:.0f} pixels at {:.0f}, {:.0f}; for {}\n"
+        "    screen: {:.2f} x {:.2f} m, {}, {}, {}, {:.2f} m from the viewer{}\n",
+        place.viewport.name.empty() ? std::to_string(place.number) : place.viewport.name, pixels.x,
+        pixels.y, low.x, low.y, viewer.name, size.x, size.y,
+        screen.carried_by_head ? "carried by the head" : "fixed in the room",
+        std::abs(angle - 90.0) <= stereo::kSquareCorner
+            ? "corners square"
+            : fmt::format("corners of {:.1f} degrees", angle),
+        stereo::faces(screen, eyes) ? "faces the viewer" : "faces away from the viewer",
+        stereo::distance_to(screen, {viewer.position, {1, 0, 0, 0}}),
+        screen.fit_aspect
+            ? "; fitted to the window's shape"
+            : fmt::format("; pixels {:.2f} x {:.2f} mm", millimetres.x, millimetres.y));
+}
+
+/// Which windows each node opens; nothing where there is one node.
+std::string describe_nodes(const stereo::Installation& installation) {
+    std::string text;
+    const int nodes = stereo::node_count(installation);
+    for (int node = 0; nodes > 1 && node < nodes; ++node) {
+        std::vector<std::string> names;
+        for (const std::size_t number : stereo::windows_of(installation, node, nodes))
+            names.push_back(installation.windows[number].name);
+        text += fmt::format("node {}: {}\n", node,
+                            names.empty() ? "the operator's window"
+                                          : fmt::to_string(fmt::join(names, ", ")));
+    }
+    return text;
+}
+
+} // namespace
+
+std::vector<ConfigProblem> problems_of(const Config& config) {
+    return Judge(config).judge();
+}
+
+std::string line_of(const ConfigProblem& problem, const Config& config) {
+    const std::string name = config.name.empty() ? "built-in configuration" : config.name;
+    return fmt::format("{}{}: {}{}: {}", name,
+                       problem.line > 0 ? fmt::format(":{}", problem.line) : "",
+                       problem.wrong ? "" : "warning: ", problem.key, problem.text);
+}
+
+std::string describe(const Config& config) {
+    const stereo::Installation& installation = config.installation;
+    std::string text;
+    for (const stereo::Viewer& viewer : installation.viewers)
+        text += fmt::format("viewer {}: head {}, at {:g} {:g} {:g} m until it is tracked, eyes "
+                            "{:.1f} mm apart\n",
+                            viewer.name, viewer.head, viewer.position.x, viewer.position.y,
+                            viewer.position.z, 1000.0f * viewer.eye_separation);
+    const stereo::Window* last = nullptr;
+    for (const PlacedViewport& place : viewports_of(config)) {
+        const stereo::Window& window = place.window;
+        if (&window != last)
+            text += fmt::format("window {}: {} x {} pixels, {}, {}\n", window.name, window.size.x,
+                                window.size.y, place_on_desktop(window),
+                                stereo::name_of(window.stereo));
+        last = &window;
+        text += describe_viewport(place, installation.viewers[place.viewport.viewer]);
+    }
+    text += describe_nodes(installation);
+    for (const std::string& line : describe_devices(config))
+        text += fmt::format("devices: {}\n", line);
+    return text;
+}
+
+void check_config(const std::filesystem::path& path) {
+    const Config config = read_config(path);
+    fmt::print("{}", describe(config));
+    std::fflush(stdout); // before what is wrong with it
+    const std::vector<ConfigProblem> problems = problems_of(config);
+    for (const ConfigProblem& problem : problems)
+        fmt::print(stderr, "{}\n", line_of(problem, config));
+    for (const std::string& warning : device_warnings(config))
+        fmt::print(stderr, "{}: warning: {}\n", path.string(), warning);
+    const auto wrong = std::ranges::count(problems, true, &ConfigProblem::wrong);
+    if (wrong > 0)
+        throw ConfigError(fmt::format("{}: {} {} wrong", path.string(), wrong,
+                                      wrong == 1 ? "thing is" : "things are"));
+    fmt::print("nothing is wrong\n");
+}
+
+} // namespace isochron::app

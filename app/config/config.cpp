@@ -1,0 +1,252 @@
+// Reading of the TOML configuration: the only file that knows its keys.
+#include "app/config/config.h"
+
+#include "app/config/shipped_configs.h"
+#include "app/config/toml_reader.h"
+#include "render/passes/color_map.h"
+#include "stereo/screen.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using interaction::QualityMode;
+
+const std::vector<std::pair<QualityMode, std::string>> kQualityModes{
+    {QualityMode::automatic, "auto"},
+    {QualityMode::fast, "fast"},
+    {QualityMode::quality, "quality"}};
+
+constexpr const char* kAnyFootprint = "auto";
+constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::surface};
+
+void read_emulation(TomlReader& reader, interaction::EmulationOptions& emulation) {
+    reader.number("walk_speed", 0.01, 100.0, emulation.walk_speed);
+    reader.number("look_speed", 0.01, 100.0, emulation.look_speed);
+    reader.number("wand_reach", 0.05, 5.0, emulation.wand_reach);
+}
+
+void read_quality(TomlReader& reader, Config& config) {
+    reader.word("mode", quality_mode_names(),
+                [&](const std::string& word) { config.quality = quality_mode_from_name(word); });
+    reader.word("settled", settled_footprint_names(), [&](const std::string& word) {
+        config.settled_footprint = settled_footprint_from_name(word);
+    });
+    reader.number("frame_budget_ms", 0.0, 1000.0, config.frame_budget_ms);
+    reader.number("still_budget_ms", 0.0, 10000.0, config.still_budget_ms);
+    reader.number("still_linear", 0.0, 10.0, config.stillness.linear);
+    reader.number("still_angular", 0.0, 10.0, config.stillness.angular);
+    reader.number("leave_factor", 1.0, 100.0, config.stillness.leave_factor);
+    double settle_ms = config.stillness.settle.count() * 1e3;
+    reader.number("settle_ms", 0.0, 10000.0, settle_ms);
+    config.stillness.settle = interaction::Seconds(settle_ms / 1e3);
+}
+
+void check_color(TomlReader& reader, std::string_view key, const glm::vec3& color) {
+    for (int channel = 0; channel < 3; ++channel)
+        if (color[channel] < 0 || color[channel] > 1)
+            reader.fail(key, fmt::format("expected sRGB from 0 to 1, got {}", color[channel]));
+}
+
+void read_surface(TomlReader& reader, std::vector<ConfiguredSurface>& surfaces) {
+    const auto& palette = render::surface_palette();
+    ConfiguredSurface& surface = surfaces.emplace_back(
+        ConfiguredSurface{std::nullopt, kFirstQuantile, palette[surfaces.size() % palette.size()]});
+    double isovalue = 0;
+    constexpr double kMost = std::numeric_limits<double>::max();
+    reader.number("isovalue", -kMost, kMost, isovalue);
+    if (reader.has("isovalue") && reader.has("quantile"))
+        reader.fail("quantile", "a surface has either an isovalue or a quantile");
+    if (reader.has("isovalue"))
+        surface.isovalue = isovalue;
+    reader.number("quantile", 0.0, 1.0, surface.quantile);
+    reader.vector("colour", surface.color);
+    check_color(reader, "colour", surface.color);
+    reader.number("opacity", 0.0, 1.0, surface.opacity);
+}
+
+void read_surfaces(TomlReader& reader, Config& config) {
+    reader.tables("surfaces", [&](TomlReader& inner) { read_surface(inner, config.surfaces); });
+    if (config.surfaces.size() > interaction::kMostIsosurfaces)
+        reader.fail("surfaces", fmt::format("expected at most {}, got {}",
+                                            interaction::kMostIsosurfaces, config.surfaces.size()));
+}
+
+void read_colouring(TomlReader& reader, interaction::Coloring& coloring) {
+    const auto words = [](const auto& names) {
+        return std::vector<std::string>(names.begin(), names.end());
+    };
+    reader.word("by", words(interaction::kColorByNames), [&](const std::string& word) {
+        coloring.by =
+            static_cast<interaction::ColorBy>(std::ranges::find(interaction::kColorByNames, word) -
+                                              interaction::kColorByNames.begin());
+    });
+    reader.word("map", words(render::kColorMapNames),
+                [&](const std::string& word) { coloring.map = word; });
+    glm::dvec2 range(0.0);
+    reader.vector("range", range);
+    if (!reader.has("range"))
+        return;
+    if (!(range.x < range.y))
+        reader.fail("range",
+                    fmt::format("expected two ascending numbers, got {} and {}", range.x, range.y));
+    coloring.range = {range.x, range.y};
+}
+
+void read_lighting(TomlReader& reader, render::CellAppearance& look) {
+    constexpr double kBrightest = 4.0;
+    reader.number("ambient", 0.0, kBrightest, look.ambient);
+    reader.number("head_light", 0.0, kBrightest, look.head_light);
+    reader.number("key_light", 0.0, kBrightest, look.key_light);
+    reader.vector("key_direction", look.key_direction);
+    if (glm::length(look.key_direction) < 1e-6f)
+        reader.fail("key_direction", "expected a direction towards the light, got 0 0 0");
+    reader.number("ground", 0.0, 1.0, look.ground);
+    reader.number("reflectance", 0.0, 1.0, look.reflectance);
+    reader.number("shininess", 1.0, 1000.0, look.shininess);
+    reader.number("outline", 0.0, 1.0, look.outline);
+    reader.number("depth_cue", 0.0, 1.0, look.depth_cue);
+}
+
+void read_rendering(TomlReader& reader, Config& config) {
+    reader.word("context", {"glfw", "egl", "osmesa"}, [&](const std::string& word) {
+        config.context = *stereo::context_kind_from_name(word);
+    });
+    reader.flag("vsync", config.vsync);
+    reader.number("frame_rate_limit", 1.0, 1000.0, config.frame_rate_limit);
+    reader.integer("upload_kilobytes_per_frame", 16, 1 << 20, config.upload_kilobytes_per_frame);
+    reader.number("near", 1e-3, 10.0, config.installation.near_plane);
+    reader.number("far", 1.0, 1e5, config.installation.far_plane);
+    reader.vector("background", config.background);
+    reader.vector("surface_colour", config.surface_colour);
+    check_color(reader, "background", config.background);
+    check_color(reader, "surface_colour", config.surface_colour);
+    reader.integer("samples", 0, 64, config.samples);
+    reader.integer("picture_samples", 0, 64, config.picture_samples);
+    reader.word("blending", {"auto", "linear", "display"}, [&](const std::string& word) {
+        config.blending = word == "auto"     ? Blending::automatic
+                          : word == "linear" ? Blending::linear
+                                             : Blending::display;
+    });
+    reader.flag("bounding_box", config.bounding_box);
+    reader.flag("wand_ray", config.wand_ray);
+}
+
+void read_placement(TomlReader& reader, PlacementOptions& placement) {
+    reader.number("size", 0.01, 100.0, placement.size);
+    reader.number("height", -100.0, 100.0, placement.height);
+    reader.number("distance", -100.0, 100.0, placement.distance);
+}
+
+void read_root(TomlReader& reader, Config& config) {
+    int version = 1;
+    reader.integer("version", 1, 1, version);
+    config.places = read_displays(reader, config.installation);
+    config.emulation.head.position = config.installation.viewers.front().position;
+    reader.table("emulation", [&](TomlReader& inner) { read_emulation(inner, config.emulation); });
+    read_devices(reader, config.devices, config.emulation);
+    read_panel(reader, config.panel);
+    read_cluster(reader, config.cluster);
+    reader.table("openxr", [&](TomlReader& inner) { read_openxr(inner, config.openxr); });
+    read_comfort(reader, config.comfort, config.grid);
+    reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
+    reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });
+    reader.table("lighting", [&](TomlReader& inner) { read_lighting(inner, config.appearance); });
+    reader.table("colouring", [&](TomlReader& inner) { read_colouring(inner, config.coloring); });
+    read_surfaces(reader, config);
+    reader.table("placement", [&](TomlReader& inner) { read_placement(inner, config.placement); });
+}
+
+} // namespace
+
+std::string name_of(QualityMode mode) {
+    for (const auto& [candidate, name] : kQualityModes)
+        if (candidate == mode)
+            return name;
+    return {};
+}
+
+QualityMode quality_mode_from_name(const std::string& name) {
+    for (const auto& [mode, candidate] : kQualityModes)
+        if (candidate == name)
+            return mode;
+    throw ConfigError(
+        fmt::format("unknown quality mode '{}', expected auto, fast or quality", name));
+}
+
+std::vector<std::string> quality_mode_names() {
+    std::vector<std::string> names;
+    names.reserve(kQualityModes.size());
+    for (const auto& row : kQualityModes)
+        names.push_back(row.second);
+    return names;
+}
+
+std::optional<render::Footprint> settled_footprint_from_name(const std::string& name) {
+    for (const render::Footprint footprint : kSettledFootprints)
+        if (name == render::name_of(footprint))
+            return footprint;
+    if (name == kAnyFootprint)
+        return std::nullopt;
+    throw ConfigError(
+        fmt::format("unknown footprint '{}', expected auto, gaussian or surface", name));
+}
+
+std::vector<std::string> settled_footprint_names() {
+    std::vector<std::string> names{kAnyFootprint};
+    for (const render::Footprint footprint : kSettledFootprints)
+        names.emplace_back(render::name_of(footprint));
+    return names;
+}
+
+std::vector<std::string> stereo_mode_names() {
+    std::vector<std::string> names;
+    for (const std::string_view word : stereo::stereo_mode_words())
+        names.emplace_back(word);
+    return names;
+}
+
+interaction::EmulationOptions emulation_for(const Config& config) {
+    interaction::EmulationOptions options = config.emulation;
+    const stereo::Window& window = config.installation.windows.front();
+    options.vertical_fov =
+        stereo::vertical_field_of_view(window.viewports.front().screen, options.head);
+    return options;
+}
+
+Config parse_config(const std::string& text, const std::string& name) {
+    Config config;
+    config.name = name;
+    config.text = text;
+    try {
+        const toml::table table = toml::parse(text, name);
+        TomlReader reader(table, name, "");
+        read_root(reader, config);
+        reader.finish();
+    } catch (const toml::parse_error& error) {
+        throw ConfigError(
+            fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+    }
+    return config;
+}
+
+Config read_config(const std::filesystem::path& path) {
+    if (const auto shipped = shipped_config(path.string());
+        shipped && !std::filesystem::exists(path))
+        return parse_config(*shipped, path.string());
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path))
+        throw ConfigError(fmt::format("{}: cannot be read, expected a TOML file or the name of a "
+                                      "shipped configuration ({})",
+                                      path.string(), fmt::join(shipped_config_names(), ", ")));
+    return parse_config({std::istreambuf_iterator<char>(file), {}}, path.string());
+}
+
+} // namespace isochron::app

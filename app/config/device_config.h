@@ -1,0 +1,30 @@
+// The trackers and other devices of an installation, as configuration files describe them.
+#pragma once
+
+#include "app/config/toml_reader.h"
+#include "interaction/comfort.h"
+#include "interaction/desktop_emulation.h"
+#include "interaction/trackers/dtrack_input.h"
+#include "interaction/trackers/osc_input.h"
+#include "interaction/trackers/vrpn_input.h"
+
+#include <vector>
+
+namespace isochron::app {
+
+/// Each source may appear several times.
+struct DeviceConfig {
+    std::vector<interaction::DTrackOptions> dtrack;
+    std::vector<interaction::OscOptions> osc;
+    std::vector<interaction::VrpnOptions> vrpn;
+    bool empty() const { return dtrack.empty() && osc.empty() && vrpn.empty(); }
+};
+
+/// Reads the tables `tracking`, `dtrack`, `osc`, `vrpn` and `gamepad` of a configuration file.
+void read_devices(TomlReader& root, DeviceConfig& devices,
+                  interaction::EmulationOptions& emulation);
+
+/// Reads the table `comfort`.
+void read_comfort(TomlReader& root, interaction::ComfortOptions& comfort, bool& grid);
+
+} // namespace isochron::app

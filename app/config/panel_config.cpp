@@ -1,0 +1,31 @@
+// Reading of the tables about panels.
+#include "app/config/panel_config.h"
+
+#include <fmt/format.h>
+
+namespace isochron::app {
+namespace {
+
+constexpr int kSmallest = 200, kLargest = 16384; ///< [pixel] sides of the console
+
+stereo::Window read_console(TomlReader& reader) {
+    stereo::Window window;
+    window.name = "console";
+    window.size = {480, 900};
+    reader.integers("size", kSmallest, kLargest, window.size);
+    reader.integers("position", 0, kLargest, window.position);
+    return window;
+}
+
+} // namespace
+
+void read_panel(TomlReader& root, PanelConfig& panel) {
+    root.table("panel", [&](TomlReader& reader) {
+        reader.flag("room", panel.room);
+        reader.number("width", 0.2, 2.0, panel.width);
+        reader.number("distance", 0.3, 5.0, panel.distance);
+    });
+    root.table("console", [&](TomlReader& reader) { panel.console = read_console(reader); });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,22 @@
+// The panel in the room and the operator's console, as configuration files describe them.
+#pragma once
+
+#include "app/config/toml_reader.h"
+#include "stereo/installation.h"
+
+#include <optional>
+
+namespace isochron::app {
+
+struct PanelConfig {
+    bool room = false;      ///< the panel stands in the room from the start
+    float width = 0.46f;    ///< [m] of the panel in the room
+    float distance = 0.65f; ///< [m] from the eyes at which it appears
+    /// A window that shows nothing but the panel; viewports and stereo mode count for nothing.
+    std::optional<stereo::Window> console;
+};
+
+/// Reads the tables `panel` and `console` of a configuration file.
+void read_panel(TomlReader& root, PanelConfig& panel);
+
+} // namespace isochron::app

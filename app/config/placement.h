@@ -1,0 +1,26 @@
+// Where a volume first stands in the room.
+#pragma once
+
+#include "index/volume/volume_series.h"
+#include "interaction/pose.h"
+
+namespace isochron::app {
+
+/// The longest physical side becomes `size` metres; the centre is `height` metres high and
+/// `distance` metres ahead of a viewer at the room's origin.
+struct PlacementOptions {
+    double size = 1.5, height = 1.3, distance = 1.5;
+};
+
+/// Plain data keep their axes (x right, y up, z towards the viewer). Anatomical data stand with the
+/// head up and face the viewer, so the patient's left is on the viewer's right. Data of the
+/// Earth have the sky above and are seen from the south. Never mirrors.
+interaction::Similarity place(const index::SeriesInfo& info, const PlacementOptions& options = {});
+
+/// Distance between the first and the last vertex along each index axis, in physical units.
+glm::dvec3 physical_size(const index::Grid& grid);
+
+/// Centre of the volume in physical space.
+glm::dvec3 physical_centre(const index::Grid& grid);
+
+} // namespace isochron::app

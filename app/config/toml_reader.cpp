@@ -1,0 +1,249 @@
+// Checked reading of a TOML table.
+#include "app/config/toml_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace isochron::app {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+        }
+    }
+    return row.back();
+}
+
+std::string type_name(const toml::node& node) {
+    switch (node.type()) {
+    case toml::node_type::table: return "a table";
+    case toml::node_type::array: return "an array";
+    case toml::node_type::string: return "a string";
+    case toml::node_type::integer: return "an integer";
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "true or false";
+    default: return "a date or time";
+    }
+}
+
+} // namespace
+
+std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
+    std::string nearest;
+    std::size_t best = std::numeric_limits<std::size_t>::max();
+    for (const std::string& candidate : words) {
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best) {
+            best = distance;
+            nearest = candidate;
+        }
+    }
+    // Farther than half of the word is a different word, not a slip.
+    return best <= std::max<std::size_t>(2, word.size() / 2) ? nearest : std::string();
+}
+
+TomlReader::TomlReader(const toml::table& table, std::string file, std::string where)
+    : table_(table), file_(std::move(file)), where_(std::move(where)) {}
+
+const toml::node* TomlReader::get(std::string_view key) {
+    known_.emplace_back(key);
+    return table_.get(key);
+}
+
+void TomlReader::fail(std::string_view key, const std::string& message) const {
+    const toml::node* node = table_.get(key);
+    const auto line = (node ? node->source() : table_.source()).begin.line;
+    const std::string place = where_.empty() ? std::string(key) : where_ + "." + std::string(key);
+    throw ConfigError(fmt::format("{}:{}: {}: {}", file_, line, place, message));
+}
+
+double TomlReader::finite_number(std::string_view key, const toml::node& node, double low,
+                                 double high) const {
+    const auto value = node.value<double>();
+    if (!value || node.is_boolean())
+        fail(key, fmt::format("expected a number, got {}", type_name(node)));
+    if (!std::isfinite(*value) || *value < low || *value > high)
+        fail(key, fmt::format("expected a number from {} to {}, got {}", low, high, *value));
+    return *value;
+}
+
+void TomlReader::number(std::string_view key, double low, double high, double& into) {
+    if (const toml::node* node = get(key))
+        into = finite_number(key, *node, low, high);
+}
+
+void TomlReader::number(std::string_view key, double low, double high, float& into) {
+    double value = into;
+    number(key, low, high, value);
+    into = static_cast<float>(value);
+}
+
+void TomlReader::integer(std::string_view key, int low, int high, int& into) {
+    const toml::node* node = get(key);
+    if (!node)
+        return;
+    const auto value = node->value_exact<std::int64_t>();
+    if (!value)
+        fail(key, fmt::format("expected an integer, got {}", type_name(*node)));
+    if (*value < low || *value > high)
+        fail(key, fmt::format("expected an integer from {} to {}, got {}", low, high, *value));
+    into = static_cast<int>(*value);
+}
+
+void TomlReader::flag(std::string_view key, bool& into) {
+    const toml::node* node = get(key);
+    if (!node)
+        return;
+    const auto value = node->value_exact<bool>();
+    if (!value)
+        fail(key, fmt::format("expected true or false, got {}", type_name(*node)));
+    into = *value;
+}
+
+void TomlReader::text(std::string_view key, std::string& into) {
+    const toml::node* node = get(key);
+    if (!node)
+        return;
+    const auto value = node->value_exact<std::string>();
+    if (!value)
+        fail(key, fmt::format("expected a string, got {}", type_name(*node)));
+    into = *value;
+}
+
+std::vector<double> TomlReader::numbers(std::string_view key, const toml::node& node,
+                                        std::size_t count) const {
+    const toml::array* array = node.as_array();
+    if (!array || array->size() != count)
+        fail(key, fmt::format("expected an array of {} numbers, got {}", count,
+                              array ? fmt::format("one of {}", array->size()) : type_name(node)));
+    constexpr double kFar = 1e6; // metres or pixels: beyond any installation
+    std::vector<double> values;
+    for (const toml::node& element : *array)
+        values.push_back(finite_number(key, element, -kFar, kFar));
+    return values;
+}
+
+void TomlReader::vector(std::string_view key, glm::dvec2& into) {
+    if (const toml::node* node = get(key)) {
+        const auto v = numbers(key, *node, 2);
+        into = {v[0], v[1]};
+    }
+}
+
+void TomlReader::vector(std::string_view key, glm::vec2& into) {
+    glm::dvec2 wide(into);
+    vector(key, wide);
+    into = glm::vec2(wide);
+}
+
+void TomlReader::vector(std::string_view key, glm::vec3& into) {
+    if (const toml::node* node = get(key)) {
+        const auto v = numbers(key, *node, 3);
+        into = glm::vec3(v[0], v[1], v[2]);
+    }
+}
+
+void TomlReader::list(std::string_view key, double low, double high, std::size_t longest,
+                      std::vector<double>& into) {
+    const toml::node* node = get(key);
+    if (!node)
+        return;
+    const toml::array* array = node->as_array();
+    if (!array || array->size() > longest)
+        fail(key, fmt::format("expected an array of at most {} numbers, got {}", longest,
+                              array ? fmt::format("one of {}", array->size()) : type_name(*node)));
+    into.clear();
+    for (const toml::node& element : *array)
+        into.push_back(finite_number(key, element, low, high));
+}
+
+void TomlReader::integers(std::string_view key, int low, int high, glm::ivec2& into) {
+    const toml::node* node = get(key);
+    if (!node)
+        return;
+    for (double value : numbers(key, *node, 2))
+        if (value != std::floor(value) || value < low || value > high)
+            fail(key, fmt::format("expected two integers from {} to {}, got {}", low, high, value));
+    const auto v = numbers(key, *node, 2);
+    into = glm::ivec2(v[0], v[1]);
+}
+
+void TomlReader::word(std::string_view key, const std::vector<std::string>& words,
+                      const std::function<void(const std::string&)>& take) {
+    std::string value;
+    text(key, value);
+    if (!table_.contains(key))
+        return;
+    if (std::find(words.begin(), words.end(), value) == words.end()) {
+        const std::string near = nearest_word(value, words);
+        fail(key,
+             fmt::format("unknown value '{}', expected one of {}{}", value, fmt::join(words, ", "),
+                         near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    }
+    take(value);
+}
+
+bool TomlReader::table(std::string_view key, const std::function<void(TomlReader&)>& read) {
+    const toml::node* node = get(key);
+    if (!node)
+        return false;
+    const toml::table* inner = node->as_table();
+    if (!inner)
+        fail(key, fmt::format("expected a table, got {}", type_name(*node)));
+    TomlReader reader(*inner, file_,
+                      where_.empty() ? std::string(key) : fmt::format("{}.{}", where_, key));
+    read(reader);
+    reader.finish();
+    return true;
+}
+
+bool TomlReader::tables(std::string_view key, const std::function<void(TomlReader&)>& read) {
+    const toml::node* node = get(key);
+    if (!node)
+        return false;
+    const toml::array* array = node->as_array();
+    if (!array || array->empty() || !array->is_homogeneous(toml::node_type::table))
+        fail(key, fmt::format("expected [[{}]] tables, got {}", key, type_name(*node)));
+    for (const toml::node& element : *array) {
+        TomlReader reader(*element.as_table(), file_,
+                          where_.empty() ? std::string(key) : fmt::format("{}.{}", where_, key));
+        read(reader);
+        reader.finish();
+    }
+    return true;
+}
+
+bool TomlReader::table_or_tables(std::string_view key,
+                                 const std::function<void(TomlReader&)>& read) {
+    const toml::node* node = table_.get(key);
+    return node && node->is_array() ? tables(key, read) : table(key, read);
+}
+
+void TomlReader::finish() const {
+    for (const auto& [key, node] : table_) {
+        const std::string name(key.str());
+        if (std::find(known_.begin(), known_.end(), name) != known_.end())
+            continue;
+        const std::string near = nearest_word(name, known_);
+        throw ConfigError(fmt::format("{}:{}: unknown key '{}'{}{}", file_, key.source().begin.line,
+                                      name, where_.empty() ? "" : fmt::format(" in [{}]", where_),
+                                      near.empty()
+                                          ? fmt::format("; known: {}", fmt::join(known_, ", "))
+                                          : fmt::format("; did you mean '{}'?", near)));
+    }
+}
+
+} // namespace isochron::app

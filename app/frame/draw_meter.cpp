@@ -1,0 +1,36 @@
+// What the frames' drawing took.
+#include "app/frame/draw_meter.h"
+
+#include <cassert>
+#include <utility>
+
+namespace isochron::app {
+
+void DrawMeter::begin(std::uint64_t frame) {
+    frame_ = frame;
+    timed_ = timer_.begin(frame, Clock::now());
+}
+
+void DrawMeter::end(render::Footprint footprint, const DrawLoad& load, Milliseconds processor) {
+    timer_.end();
+    DrawSample sample{frame_, footprint, load, processor, std::nullopt};
+    if (timed_)
+        under_way_.push_back(std::move(sample));
+    else if (!timer_.works())
+        finished_.push_back(std::move(sample));
+}
+
+std::vector<DrawSample> DrawMeter::finished() {
+    std::vector<DrawSample> done;
+    while (const auto span = timer_.take(Clock::now())) {
+        assert(!under_way_.empty() && under_way_.front().frame == span->tag);
+        under_way_.front().gpu = span->time;
+        done.push_back(under_way_.front());
+        under_way_.pop_front();
+    }
+    done.insert(done.end(), finished_.begin(), finished_.end());
+    finished_.clear();
+    return done;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,214 @@
+// What every frame did and how long each stage took.
+#include "app/frame/frame_log.h"
+
+#include "app/version.h"
+#include "index/system/new_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using Stage = Milliseconds FrameReport::*;
+constexpr std::array<std::pair<const char*, Stage>, 9> kStages{{
+    {"search", &FrameReport::search},
+    {"gather", &FrameReport::gather},
+    {"wait", &FrameReport::wait},
+    {"upload", &FrameReport::upload},
+    {"draw", &FrameReport::draw},
+    {"barrier", &FrameReport::barrier},
+    {"present", &FrameReport::present},
+    {"total", &FrameReport::total},
+    {"latency", &FrameReport::latency},
+}};
+/// Times that are not known of every frame.
+using Sometimes = std::optional<Milliseconds> FrameReport::*;
+constexpr std::array<std::pair<const char*, Sometimes>, 2> kSometimes{{
+    {"gpu", &FrameReport::gpu},
+    {"pose_age", &FrameReport::pose_age},
+}};
+
+constexpr std::array kFootprints{render::Footprint::quad, render::Footprint::gaussian,
+                                 render::Footprint::surface};
+
+nlohmann::json time_json(const std::optional<Milliseconds>& time) {
+    return time ? nlohmann::json(time->count()) : nlohmann::json();
+}
+
+nlohmann::json query_json(const index::SurfacesQuery& query) {
+    nlohmann::json json{{"step", query.step}, {"isovalue", query.isovalues.front()}};
+    if (query.isovalues.size() > 1)
+        json["more_isovalues"] = std::vector(query.isovalues.begin() + 1, query.isovalues.end());
+    if (query.coloring != index::CellColoring::none)
+        json["coloring"] = index::kCellColoringNames[static_cast<std::size_t>(query.coloring)];
+    return json;
+}
+
+nlohmann::json upload_json(const render::UploadCount& count) {
+    return {{"sets", count.sets},
+            {"ids", count.ids},
+            {"whole_ids", count.whole_ids},
+            {"id_bytes", count.id_bytes},
+            {"brick_bytes", count.brick_bytes},
+            {"color_bytes", count.color_bytes}};
+}
+
+nlohmann::json summary_json(const TimeSummary& summary) {
+    return {{"median", summary.median}, {"p99", summary.p99}, {"worst", summary.worst}};
+}
+
+nlohmann::json tracking_json(const std::vector<DeviceTracking>& devices) {
+    nlohmann::json result;
+    for (const DeviceTracking& device : devices) {
+        result[device.name]["state"] = name_of(device.tracking);
+        if (device.age)
+            result[device.name]["age_ms"] = Milliseconds(*device.age).count();
+    }
+    return result;
+}
+
+} // namespace
+
+TimeSummary summarize(std::vector<double> milliseconds) {
+    if (milliseconds.empty())
+        return {};
+    std::sort(milliseconds.begin(), milliseconds.end());
+    const std::size_t last = milliseconds.size() - 1;
+    return {milliseconds[last / 2], milliseconds[last * 99 / 100], milliseconds[last]};
+}
+
+void FrameLog::add(const FrameReport& frame) {
+    constexpr std::size_t kKept = 60 * 60 * 60;
+    if (frames_.size() == kKept) {
+        frames_.pop_front();
+        ++dropped_;
+    }
+    frames_.push_back(frame);
+}
+
+void FrameLog::set_gpu(std::uint64_t frame, Milliseconds time) {
+    if (frame >= dropped_ && frame < next())
+        frames_[frame - dropped_].gpu = time;
+}
+
+TimeSummary FrameLog::known(Sometimes time) const {
+    std::vector<double> times;
+    for (const FrameReport& frame : frames_)
+        if (frame.*time)
+            times.push_back((frame.*time)->count());
+    return summarize(std::move(times));
+}
+
+unsigned FrameLog::missed() const {
+    return std::accumulate(
+        frames_.begin(), frames_.end(), 0u,
+        [](unsigned sum, const FrameReport& frame) { return sum + frame.missed; });
+}
+
+std::uint64_t FrameLog::frames_with(render::Footprint footprint) const {
+    return static_cast<std::uint64_t>(
+        std::ranges::count(frames_, footprint, &FrameReport::footprint));
+}
+
+TimeSummary FrameLog::stage(Stage stage, std::size_t count) const {
+    const std::size_t first = count == 0 || count > frames_.size() ? 0 : frames_.size() - count;
+    std::vector<double> times;
+    for (std::size_t i = first; i < frames_.size(); ++i)
+        if (stage != &FrameReport::draw || frames_[i].redrawn)
+            times.push_back((frames_[i].*stage).count());
+    return summarize(std::move(times));
+}
+
+double FrameLog::frames_per_second(std::size_t count) const {
+    const std::size_t frames = std::min(count, frames_.size());
+    if (frames < 2)
+        return 0;
+    const auto span = frames_.back().time - frames_[frames_.size() - frames].time;
+    return span.count() > 0 ? static_cast<double>(frames - 1) / span.count() : 0;
+}
+
+void FrameLog::write(const std::filesystem::path& path, const std::string& context) const {
+    nlohmann::json report{{"program", kProgram}, {"context", context}, {"frames", frames_.size()}};
+    for (const auto& [name, member] : kStages)
+        report["milliseconds"][name] = summary_json(stage(member));
+    for (const auto& [name, member] : kSometimes)
+        report["milliseconds"][name] = summary_json(known(member));
+    report["missed"] = missed();
+    for (const render::Footprint footprint : kFootprints)
+        report["footprints"][name_of(footprint)] = frames_with(footprint);
+    report["uploaded"] = upload_json(uploaded());
+    nlohmann::json& rows = report["rows"] = nlohmann::json::array();
+    for (const FrameReport& frame : frames_) {
+        nlohmann::json row{{"t", frame.time.count()},
+                           {"asked", query_json(frame.asked)},
+                           {"shown", frame.shown ? query_json(*frame.shown) : nlohmann::json()},
+                           {"pace", name_of(frame.pace)},
+                           {"footprint", name_of(frame.footprint)},
+                           {"reason", name_of(frame.reason)},
+                           {"budget_ms", frame.budget.count()},
+                           {"expected_ms", time_json(frame.expected)},
+                           {"missed", frame.missed},
+                           {"redrawn", frame.redrawn},
+                           {"cells", frame.cells},
+                           {"candidates", frame.candidates},
+                           {"reused", frame.reused},
+                           {"uploaded", upload_json(frame.uploaded)}};
+        for (const auto& [name, member] : kStages)
+            row[std::string(name) + "_ms"] = (frame.*member).count();
+        for (const auto& [name, member] : kSometimes)
+            row[std::string(name) + "_ms"] = time_json(frame.*member);
+        if (frame.comfort != interaction::ComfortState{}) {
+            row["fade"] = frame.comfort.fade;
+            row["vignette"] = frame.comfort.vignette;
+        }
+        if (!frame.tracking.empty())
+            row["tracking"] = tracking_json(frame.tracking);
+        rows.push_back(std::move(row));
+    }
+    const std::string text = report.dump(1) + "\n";
+    index::NewFile file(path);
+    file.write_at(0, std::as_bytes(std::span(text)));
+    file.commit();
+}
+
+render::UploadCount FrameLog::uploaded() const {
+    render::UploadCount all;
+    for (const FrameReport& frame : frames_)
+        all += frame.uploaded;
+    return all;
+}
+
+std::string FrameLog::table() const {
+    std::string text = fmt::format("{} frames{:>15} {:>8} {:>8}  [ms]\n", frames_.size(), "median",
+                                   "p99", "worst");
+    const auto line = [&](const char* name, const TimeSummary& summary) {
+        text += fmt::format("  {:<14}{:>8.2f} {:>8.2f} {:>8.2f}\n", name, summary.median,
+                            summary.p99, summary.worst);
+    };
+    for (const auto& [name, member] : kStages)
+        line(name, stage(member));
+    for (const auto& [name, member] : kSometimes)
+        line(name, known(member));
+    for (const render::Footprint footprint : kFootprints)
+        text += fmt::format("  {:<14}{:>8} frames\n", name_of(footprint), frames_with(footprint));
+    text += fmt::format("  {:<14}{:>8} refreshes of the display\n", "missed", missed());
+    const render::UploadCount sent = uploaded();
+    if (sent.whole_ids > 0)
+        text +=
+            fmt::format("  {} sets uploaded {}: {} bytes, and {} bytes of the volume\n", sent.sets,
+                        sent.ids == sent.whole_ids
+                            ? "whole"
+                            : fmt::format("with {:.1f} % of their ids",
+                                          100.0 * double(sent.ids) / double(sent.whole_ids)),
+                        sent.id_bytes, sent.brick_bytes);
+    return text;
+}
+
+} // namespace isochron::app

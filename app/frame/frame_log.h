@@ -1,0 +1,94 @@
+// What every frame did and how long each stage took: the program's own measurement.
+#pragma once
+
+#include "app/frame/device_tracking.h"
+#include "app/frame/milliseconds.h"
+#include "app/frame/quality_controller.h"
+#include "index/volume/query.h"
+#include "interaction/comfort.h"
+#include "interaction/motion_gate.h"
+#include "render/cells/upload_count.h"
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// One frame, stage after stage in the order of the frame.
+struct FrameReport {
+    interaction::Seconds time{0};              ///< session time of the frame
+    index::SurfacesQuery asked{0, {0.0}};      ///< at least one isovalue
+    std::optional<index::SurfacesQuery> shown; ///< of the cells drawn; empty before the first set
+    interaction::Pace pace = interaction::Pace::moving;
+    render::Footprint footprint = render::Footprint::quad;
+    QualityReason reason = QualityReason::moving; ///< for the footprint
+    bool final = false;                   ///< the picture is as good as it gets for these cells
+    Milliseconds budget{0};               ///< that drawing may take
+    std::optional<Milliseconds> expected; ///< draw cost of the footprint, by earlier frames
+    std::optional<Milliseconds> better;   ///< of a better one that does not fit
+    std::optional<Milliseconds> gpu;      ///< of this frame; known some frames later
+    unsigned missed = 0;                  ///< refreshes of the display without a new frame before
+    bool redrawn = true;                  ///< false: nothing that the eyes see had changed
+    std::uint64_t cells = 0;              ///< drawn
+    std::uint64_t candidates = 0;         ///< of the search behind them
+    std::uint64_t reused = 0;             ///< of these, taken over by incremental search
+    render::UploadCount uploaded;         ///< in this frame
+    Milliseconds search{0}, gather{0};    ///< on the worker, of the shown set: cells, bricks
+    Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
+    Milliseconds upload{0}, draw{0}, present{0}, total{0};
+    Milliseconds barrier{0}; ///< between draw and present: until all processes have drawn
+    std::optional<Milliseconds> pose_age; ///< of the oldest head's, when the views were made
+    Milliseconds latency{0};              ///< from the poll of the devices until all was submitted
+    interaction::ComfortState comfort;
+    std::vector<DeviceTracking> tracking; ///< empty where nothing is tracked
+};
+
+/// The middle, the 99th percentile and the largest of some times.
+struct TimeSummary {
+    double median = 0, p99 = 0, worst = 0; ///< milliseconds
+};
+TimeSummary summarize(std::vector<double> milliseconds);
+
+/// Keeps the newest frames, an hour at 60 frames per second: a session may last for days.
+class FrameLog {
+  public:
+    void add(const FrameReport& frame);
+    /// Number of the next frame to be added, from 0.
+    std::uint64_t next() const { return dropped_ + frames_.size(); }
+    /// Completes a frame's report, if it is still kept.
+    void set_gpu(std::uint64_t frame, Milliseconds time);
+    const std::deque<FrameReport>& frames() const { return frames_; }
+
+    /// Times of one stage, of drawing over redrawn frames only, over the newest `count` frames (0:
+    /// all of them).
+    TimeSummary stage(Milliseconds FrameReport::*stage, std::size_t count = 0) const;
+
+    /// Times of all frames of which they are known.
+    TimeSummary known(std::optional<Milliseconds> FrameReport::*time) const;
+    unsigned missed() const; ///< of all frames kept
+    std::uint64_t frames_with(render::Footprint footprint) const;
+
+    /// Rate of the newest `count` frames, by their session times; 0 before the second frame.
+    double frames_per_second(std::size_t count) const;
+
+    /// JSON with a summary per stage and a row per frame, under a temporary name, renamed.
+    /// @param context description of the GL context, for the reader
+    /// @throws index::Error
+    void write(const std::filesystem::path& path, const std::string& context) const;
+
+    /// Of all frames.
+    render::UploadCount uploaded() const;
+
+    /// A few lines for a terminal.
+    std::string table() const;
+
+  private:
+    std::deque<FrameReport> frames_;
+    std::uint64_t dropped_ = 0; ///< frames before those kept
+};
+
+} // namespace isochron::app

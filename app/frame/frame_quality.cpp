@@ -1,0 +1,88 @@
+// The quality of a session's frames.
+#include "app/frame/frame_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+Milliseconds period_of(const Config& config, std::optional<double> refresh_rate) {
+    const double limit = config.frame_rate_limit;
+    return Milliseconds(1e3 / std::min(refresh_rate.value_or(limit), limit));
+}
+
+Milliseconds budget_of(const Config& config, Milliseconds period) {
+    return config.frame_budget_ms > 0 ? Milliseconds(config.frame_budget_ms) : period;
+}
+
+} // namespace
+
+FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
+                           std::optional<double> refresh_rate)
+    : settled_(config.settled_footprint), period_(period_of(config, refresh_rate)),
+      steady_(budget_of(config, period_)),
+      still_(std::max(steady_.budget(), Milliseconds(config.still_budget_ms))), meter_(gl) {}
+
+std::vector<DrawSample> FrameQuality::collect(FrameLog& log) {
+    std::vector<DrawSample> samples = meter_.finished();
+    for (const DrawSample& sample : samples)
+        if (sample.gpu)
+            log.set_gpu(sample.frame, *sample.gpu);
+    return samples;
+}
+
+void FrameQuality::learn(std::span<const DrawSample> samples) {
+    for (const DrawSample& sample : samples)
+        for (QualityController* controller : {&steady_, &still_})
+            controller->measured(sample.footprint, sample.load, sample.cost());
+}
+
+bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
+                          render::Footprint best, FrameReport& report) {
+    if (changed)
+        changed_at_ = report.time;
+    const bool still = report.time - changed_at_ >= kStillAfter;
+    QualityInput input;
+    input.pace = report.pace;
+    input.mode = state.quality;
+    input.playing = state.playback.playing;
+    input.best = best;
+    if (settled_)
+        input.settled = std::min(*settled_, best);
+    if (how == Choosing::by_pace)
+        input.settled = input.settled.value_or(best);
+    const DrawLoad each = charged_.value_or(view());
+    input.load = {static_cast<double>(report.cells) * each.cells, each.pixels};
+    QualityController& controller = still ? still_ : steady_;
+    const QualityChoice choice = controller.choose(input);
+    report.footprint = choice.footprint;
+    report.reason = choice.reason;
+    report.final = choice.final;
+    report.budget = controller.budget();
+    report.expected = choice.cost;
+    report.better = choice.better_cost;
+    return choice.measure;
+}
+
+void FrameQuality::begin(std::uint64_t frame) {
+    views_ = pixels_ = 0;
+    meter_.begin(frame);
+}
+
+void FrameQuality::viewed(const render::View& view) {
+    ++views_;
+    pixels_ += static_cast<double>(view.size.x) * static_cast<double>(view.size.y);
+}
+
+void FrameQuality::end(const FrameReport& report, Milliseconds processor) {
+    meter_.end(report.footprint, {static_cast<double>(report.cells) * views_, pixels_}, processor);
+}
+
+unsigned FrameQuality::missed(interaction::Seconds between) const {
+    // A budget longer than the display's period has allowed for missing some.
+    const double periods = between / std::max(period_, steady_.budget());
+    return static_cast<unsigned>(std::clamp(std::round(periods) - 1.0, 0.0, 1e9));
+}
+
+} // namespace isochron::app

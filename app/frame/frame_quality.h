@@ -1,0 +1,72 @@
+// The quality of a session's frames: budgets, measurement and choice brought together.
+//
+//     quality.learn(quality.collect(log));                  // every frame
+//     const bool redraw = quality.choose(state, changed, how, best, report) || changed;
+//     if (redraw) { quality.begin(log.next()); ... quality.viewed(view); ... quality.end(...); }
+#pragma once
+
+#include "app/config/config.h"
+#include "app/frame/draw_meter.h"
+#include "app/frame/explorer_state.h"
+#include "app/frame/frame_log.h"
+#include "app/frame/quality_controller.h"
+#include "render/gl/view.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::app {
+
+/// What a choice of footprint may depend on. A fixed-step replay repeats exactly: there a settled
+/// picture is drawn with what is configured, or the best there is, and nothing measured counts.
+enum class Choosing : std::uint8_t { by_measurement, by_pace };
+
+/// Frames that are drawn one after the other have the frame budget. A picture in which nothing has
+/// moved for a while is drawn once and then only shown: it has the still budget, the pause that may
+/// be felt when it comes to rest. Each has a controller, and both learn from all frames.
+class FrameQuality {
+  public:
+    /// A tracker slower than this does not look still between two of its poses.
+    static constexpr interaction::Seconds kStillAfter{0.1};
+
+    /// @param refresh_rate [Hz] of the display, if it is known
+    FrameQuality(const render::Gl& gl, const Config& config, std::optional<double> refresh_rate);
+
+    /// Frames whose times are known by now, each once; completes their reports.
+    std::vector<DrawSample> collect(FrameLog& log);
+    /// Learns from frames, in their order.
+    void learn(std::span<const DrawSample> samples);
+
+    /// What drawing one cell in every view of the last frame comes to.
+    DrawLoad view() const { return {views_, pixels_}; }
+    /// Other processes draw with the same footprint: from now on this is their slowest one's.
+    void charge(const DrawLoad& view) { charged_ = view; }
+
+    /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
+    /// and with its cells.
+    /// @param changed what the eyes see is not what they saw last, beside the footprint
+    /// @return true: draw even if nothing has changed, so that the cost gets known
+    bool choose(const ExplorerState& state, bool changed, Choosing how, render::Footprint best,
+                FrameReport& report);
+
+    /// Between these two, the frame is drawn.
+    void begin(std::uint64_t frame);
+    void viewed(const render::View& view);
+    /// @param processor time of giving the commands, with the upload
+    void end(const FrameReport& report, Milliseconds processor);
+
+    /// Refreshes of the display that passed without a new frame in the time between two frames.
+    unsigned missed(interaction::Seconds between) const;
+
+  private:
+    const std::optional<render::Footprint> settled_;
+    const Milliseconds period_; ///< of frames, as display and configuration allow
+    QualityController steady_, still_;
+    interaction::Seconds changed_at_{0};
+    DrawMeter meter_;
+    double views_ = 0, pixels_ = 0; ///< of the frame drawn last
+    std::optional<DrawLoad> charged_;
+};
+
+} // namespace isochron::app

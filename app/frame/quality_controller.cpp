@@ -1,0 +1,221 @@
+// Chooses the footprint of a frame by what drawing has cost.
+#include "app/frame/quality_controller.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Pace;
+using interaction::QualityMode;
+using render::Footprint;
+
+constexpr double kMargin = 0.8; ///< of the budget: what does not yet run is expected below it
+constexpr double kFallen = 0.7; ///< of the cost that failed: below it another load is at hand
+constexpr double kDearest = 8;  ///< budgets that a failed trial is reckoned at, at most
+constexpr double kGrown = 1.1;  ///< of the cost that was measured: likewise above it
+
+constexpr Footprint next_better(Footprint footprint) {
+    return static_cast<Footprint>(static_cast<int>(footprint) + 1);
+}
+constexpr Footprint next_faster(Footprint footprint) {
+    return static_cast<Footprint>(static_cast<int>(footprint) - 1);
+}
+
+} // namespace
+
+const char* name_of(QualityReason reason) {
+    switch (reason) {
+    case QualityReason::moving: return "moving";
+    case QualityReason::fast_mode: return "fast mode";
+    case QualityReason::best_mode: return "best mode";
+    case QualityReason::configured: return "configured";
+    case QualityReason::fits: return "fits";
+    case QualityReason::trial: return "trial";
+    case QualityReason::over_budget: break;
+    }
+    return "over budget";
+}
+
+void QualityController::measured(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
+    Candidate& candidate = of(footprint);
+    if (std::exchange(sampled_, footprint) != footprint && cost > budget_) {
+        candidate.sampled.reset(); // to be measured again
+        return;
+    }
+    candidate.cost.add(load, cost);
+    candidate.sampled = load;
+    candidate.known = true;
+    candidate.age = 0;
+    if (footprint != current_)
+        return; // a late one of what was left since: news, but no verdict
+    candidate.fits = cost <= budget_;
+    if (candidate.fits)
+        candidate.failed = false;
+    over_ = (budgeted_ && over_) || !candidate.fits;
+    if (!candidate.fits) {
+        over_load_ = load;
+        over_cost_ = cost;
+    }
+}
+
+QualityChoice QualityController::choose(const QualityInput& input) {
+    since_down_ = std::min(since_down_ + 1, kShortestWait);
+    if (input.mode == QualityMode::fast)
+        return regardless(Footprint::quad, QualityReason::fast_mode, input.load);
+    if (input.pace == Pace::moving)
+        return regardless(Footprint::quad, QualityReason::moving, input.load);
+    if (input.settled)
+        return regardless(std::min(*input.settled, input.best), QualityReason::configured,
+                          input.load);
+    if (input.mode == QualityMode::quality && !input.playing)
+        return regardless(input.best, QualityReason::best_mode, input.load);
+    return within_budget(input);
+}
+
+QualityChoice QualityController::regardless(Footprint footprint, QualityReason reason,
+                                            const DrawLoad& load) {
+    turn_to(footprint);
+    budgeted_ = false;
+    return {.footprint = footprint,
+            .reason = reason,
+            .final = reason != QualityReason::moving,
+            .measure = false,
+            .cost = of(footprint).cost.predict(load),
+            .better_cost = {}};
+}
+
+QualityChoice QualityController::within_budget(const QualityInput& input) {
+    turn_to(std::min(current_, input.best));
+    budgeted_ = true;
+    for (Candidate& candidate : candidates_)
+        if (&candidate != &of(current_))
+            ++candidate.age;
+    if (Candidate& now = of(current_); current_ == Footprint::quad) {
+        step_up(input);
+    } else if (over_ || outgrown(now, input.load)) {
+        if (over_)
+            fail(now, over_load_, over_cost_);
+        else
+            fail(now, input.load, *now.cost.predict(input.load));
+        step_down(input.load);
+    } else {
+        if (++now.lasted == kProven)
+            now.wait = kShortestWait / 2;
+        step_up(input);
+    }
+    return describe(input);
+}
+
+void QualityController::turn_to(Footprint footprint) {
+    if (footprint == current_)
+        return;
+    current_ = footprint;
+    over_ = false;
+    of(footprint).lasted = 0;
+}
+
+/// To the best one that is known to fit or was never tried.
+void QualityController::step_down(const DrawLoad& load) {
+    since_down_ = 0;
+    Footprint to = next_faster(current_);
+    for (; to != Footprint::quad; to = next_faster(to)) {
+        const Candidate& candidate = of(to);
+        const auto expected = candidate.cost.predict(load);
+        if (!candidate.failed && (!expected || *expected <= budget_))
+            break;
+    }
+    turn_to(to);
+}
+
+void QualityController::step_up(const QualityInput& input) {
+    if (since_down_ < kShortestWait)
+        return;
+    for (Footprint to = input.best; to != current_; to = next_faster(to))
+        if (returns(to, input.load))
+            return turn_to(to);
+}
+
+/// Whether the cells have changed so much that the next frame is expected over the budget.
+bool QualityController::outgrown(const Candidate& candidate, const DrawLoad& load) const {
+    if (!candidate.known || !candidate.sampled || load == candidate.sampled)
+        return false;
+    const Milliseconds expected = *candidate.cost.predict(load);
+    return expected > budget_ && expected > kGrown * *candidate.cost.predict(*candidate.sampled);
+}
+
+/// Whether a better footprint than the present one may be drawn now.
+bool QualityController::returns(Footprint footprint, const DrawLoad& load) {
+    Candidate& candidate = of(footprint);
+    if (!candidate.known && !candidate.failed) {
+        // One after the other, from the fastest, so that the first frame over the budget is not
+        // that of the slowest.
+        const Footprint below = next_faster(footprint);
+        return below == Footprint::quad || decided(of(below), load);
+    }
+    const auto expected = candidate.cost.predict(load);
+    // The bad news was of another load, and is forgotten soon.
+    const bool fallen = candidate.failed && expected &&
+                        *expected <= kFallen * *candidate.cost.predict(candidate.failed_at);
+    if (fallen) {
+        candidate.failed_at = load;
+        candidate.wait = kShortestWait / 2;
+    }
+    if ((fallen || !candidate.failed) && expected &&
+        *expected <= (candidate.fits ? 1.0 : kMargin) * budget_)
+        return true;
+    if (candidate.age < std::max(candidate.wait, kShortestWait))
+        return false;
+    candidate.cost.forget();
+    candidate.sampled.reset();
+    candidate.known = false;
+    candidate.fits = false;
+    return true;
+}
+
+/// Whether it is known that the footprint fits, or that it does not.
+bool QualityController::decided(const Candidate& candidate, const DrawLoad& load) const {
+    return candidate.fits || candidate.failed ||
+           (candidate.known && *candidate.cost.predict(load) > kMargin * budget_);
+}
+
+void QualityController::fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
+    // Of several loads the least, so that cells that vary are no reason to try again.
+    if (!candidate.failed ||
+        *candidate.cost.predict(load) < *candidate.cost.predict(candidate.failed_at))
+        candidate.failed_at = load;
+    candidate.failed = true;
+    candidate.fits = false;
+    candidate.failed_cost = cost;
+    candidate.age = 0;
+    // One that has lasted may have met an accident; a trial that took several budgets is dear.
+    const double dear =
+        candidate.lasted < kShortestWait ? std::clamp(cost / budget_, 1.0, kDearest) : 1.0;
+    candidate.wait = static_cast<unsigned>(
+        std::min(2.0 * dear * candidate.wait, static_cast<double>(kLongestWait)));
+}
+
+QualityChoice QualityController::describe(const QualityInput& input) const {
+    const Candidate& now = of(current_);
+    const bool measured_here = current_ == Footprint::quad || now.sampled == input.load;
+    QualityChoice choice;
+    choice.footprint = current_;
+    choice.reason = current_ == input.best ? QualityReason::fits : QualityReason::over_budget;
+    choice.final = measured_here || (input.playing && now.fits);
+    choice.measure = !measured_here;
+    choice.cost = now.cost.predict(input.load);
+    for (Footprint better = current_; better != input.best;) {
+        better = next_better(better);
+        if (!decided(of(better), input.load))
+            choice.final = false;
+        if (!choice.better_cost)
+            choice.better_cost =
+                of(better).failed ? of(better).failed_cost : of(better).cost.predict(input.load);
+    }
+    if (!choice.final)
+        choice.reason = QualityReason::trial;
+    return choice;
+}
+
+} // namespace isochron::app

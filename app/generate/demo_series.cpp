@@ -1,0 +1,106 @@
+// The series that the program can make by itself.
+#include "app/generate/demo_series.h"
+
+#include "index/error.h"
+#include "index/formats/series_writer.h"
+#include "index/system/new_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <span>
+#include <string>
+
+namespace isochron::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json recipe_of(const SphereSeries& series) {
+    return {
+        {"series", series.kName}, {"type", index::name_of(series.type)}, {"steps", series.steps}};
+}
+
+json recipe_of(const VorticitySeries& series) {
+    return {{"series", series.kName},
+            {"seed", series.seed},
+            {"type", index::name_of(series.type)},
+            {"size", series.size},
+            {"steps", series.steps},
+            {"viscosity", series.kViscosity},
+            {"spectrum_peak", series.kPeak},
+            {"first_enstrophy", series.kFirstEnstrophy},
+            {"time_step", static_cast<double>(series.kSubsteps) * series.substep()}};
+}
+
+json recipe_of(const FourierSeries& series) {
+    return {{"series", series.kName},
+            {"seed", series.seed},
+            {"type", index::name_of(series.type)},
+            {"size", series.size},
+            {"steps", series.steps}};
+}
+
+/// Where a series goes, and the note beside it of how it was made.
+struct Destination {
+    fs::path dir;
+    std::string name;
+    json recipe;
+
+    fs::path note() const { return dir / (name + ".json"); }
+
+    /// The .pvd appears last, so with it everything is there.
+    /// @throws Error when it is there with another recipe
+    bool complete() const {
+        const fs::path pvd = dir / (name + ".pvd");
+        if (!fs::exists(pvd))
+            return false;
+        std::ifstream file(note());
+        if (json::parse(file, nullptr, false) == recipe)
+            return true;
+        throw index::Error(fmt::format("{}: is another series than {}; remove it or choose another "
+                                       "folder",
+                                       pvd.string(), recipe.dump()));
+    }
+
+    void write_note() const {
+        const std::string text = recipe.dump(2) + "\n";
+        index::NewFile file(note());
+        file.write_at(0, std::as_bytes(std::span(text)));
+        file.commit();
+    }
+};
+
+template <class Series>
+bool generate_files(const Series& series, const fs::path& dir, const index::Progress& progress) {
+    const Destination destination{dir, series.kName, recipe_of(series)};
+    if (destination.complete())
+        return false;
+    const auto writer = index::write_pvd(dir, destination.name, describe(series));
+    make_steps(
+        series,
+        [&](std::span<const std::byte> values, double time) { writer->append(values, time); },
+        progress);
+    destination.write_note();
+    writer->finish();
+    return true;
+}
+
+} // namespace
+
+bool generate(const SphereSeries& series, const fs::path& dir, const index::Progress& progress) {
+    return generate_files(series, dir, progress);
+}
+
+bool generate(const VorticitySeries& series, const fs::path& dir, const index::Progress& progress) {
+    return generate_files(series, dir, progress);
+}
+
+bool generate(const FourierSeries& series, const fs::path& dir, const index::Progress& progress) {
+    return generate_files(series, dir, progress);
+}
+
+} // namespace isochron::app

@@ -1,0 +1,21 @@
+// The series that the program can make by itself, as files.
+#pragma once
+
+#include "app/generate/demo_fields.h"
+
+#include <filesystem>
+
+namespace isochron::app {
+
+/// Writes the series as `dir/NAME.pvd`, with its kName, and one .vti per step, and beside it how it
+/// was made, `dir/NAME.json`. The same request gives the same bytes.
+/// @return false when the folder held exactly this series already; then nothing is written
+/// @throws index::Error when the folder holds another series of that name, or cannot be written
+bool generate(const SphereSeries& series, const std::filesystem::path& dir,
+              const index::Progress& progress);
+bool generate(const VorticitySeries& series, const std::filesystem::path& dir,
+              const index::Progress& progress);
+bool generate(const FourierSeries& series, const std::filesystem::path& dir,
+              const index::Progress& progress);
+
+} // namespace isochron::app

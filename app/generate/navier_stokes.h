@@ -1,0 +1,70 @@
+// Incompressible flow in a periodic cube: the real turbulence behind the demo data.
+#pragma once
+
+#include "app/generate/fourier.h"
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+namespace isochron::app {
+
+/// Decaying flow of a viscous, incompressible fluid of density 1 in the periodic cube [0, 2 pi)^3,
+/// du/dt = u x curl u - grad(p + u^2/2) + nu laplace u, div u = 0, with nothing driving it.
+///
+/// Pseudo-spectral (Orszag and Patterson, Phys. Rev. Lett. 28, 1972,
+/// doi:10.1103/PhysRevLett.28.76): products are formed at the points, derivatives and the
+/// projection that stands for the pressure on the coefficients. Only wave vectors with 3 |k| < n
+/// are kept (the 2/3 rule), so products alias into nothing that is kept, and energy is lost to
+/// viscosity alone. Time: the classical fourth-order Runge-Kutta method, with viscosity integrated
+/// exactly.
+///
+///     NavierStokes flow(64, 0.01, random_velocity(...));
+///     while (flow.time() < 2.0)
+///         flow.advance(0.01);
+///     const Field vorticity = flow.vorticity_magnitude();
+class NavierStokes {
+  public:
+    using VectorField = std::array<Field, 3>;
+
+    /// @param n         points along each axis, at least 4
+    /// @param viscosity kinematic, at least 0
+    /// @param velocity  at time 0; its solenoidal part below the cutoff is taken
+    NavierStokes(std::size_t n, double viscosity, const VectorField& velocity);
+
+    /// Goes forward by one step. Stable while dt * n/3 * (highest speed) stays below some 2.8.
+    void advance(double dt);
+
+    double time() const { return time_; }
+    double energy() const;     ///< kinetic, mean of |u|^2 / 2
+    double enstrophy() const;  ///< mean of |curl u|^2 / 2; energy falls at 2 nu enstrophy
+    double divergence() const; ///< root mean square of div u over that of the velocity gradient
+    VectorField velocity() const;
+    Field vorticity_magnitude() const; ///< |curl u| at the points
+
+  private:
+    /// One kept Fourier coefficient of a vector field, and where it lies.
+    using Coefficient = std::array<std::complex<double>, 3>;
+    using Coefficients = std::vector<Coefficient>;
+    struct Mode {
+        std::array<double, 3> k; ///< wave vector
+        double k2;               ///< |k|^2
+        double weight;           ///< how often it counts in sums: 2 with its conjugate, else 1
+        std::size_t place;       ///< in a Spectrum
+    };
+
+    Coefficients kept(const VectorField& field) const;
+    VectorField field_of(const Coefficients& coefficients) const;
+    Coefficients curl(const Coefficients& coefficients) const;
+    void project(Coefficients& coefficients) const;
+    Coefficients advection(const Coefficients& velocity) const;
+
+    Fourier fourier_;
+    double viscosity_;
+    double time_ = 0.0;
+    std::vector<Mode> modes_;
+    Coefficients velocity_;
+};
+
+} // namespace isochron::app

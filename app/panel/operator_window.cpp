@@ -1,0 +1,43 @@
+// Events, drawing and presenting of the operator's window.
+#include "app/panel/operator_window.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace isochron::app {
+namespace {
+
+/// A minimised window has none.
+glm::ivec2 drawable(glm::ivec2 size) {
+    return glm::max(size, glm::ivec2(1));
+}
+
+} // namespace
+
+Console::Console(const render::Gl& gl, stereo::GlContext& drawing, stereo::GlContext& window)
+    : window_(window), layer_(gl), picture_(gl, drawable(window.framebuffer_size())),
+      presenter_(gl, drawing, window) {}
+
+std::vector<interaction::WindowEvent> Console::take_events() {
+    const auto events = window_.poll_events();
+    std::vector<interaction::WindowEvent> left = layer_.feed(events, true);
+    std::erase_if(left, [](const interaction::WindowEvent& event) {
+        return !std::holds_alternative<interaction::KeyEvent>(event);
+    });
+    return left;
+}
+
+interaction::Commands Console::draw(const PanelModel& model, interaction::Seconds time) {
+    picture_.resize(drawable(window_.framebuffer_size()));
+    picture_.clear({0, 0, 0, 1});
+    picture_.bind();
+    const interaction::Commands commands = layer_.lay_out(picture_.size(), model, time);
+    layer_.draw(picture_.size());
+    return commands;
+}
+
+void Console::present() {
+    presenter_.present(picture_, nullptr);
+}
+
+} // namespace isochron::app

@@ -1,0 +1,35 @@
+// The operator's window: nothing but the panel, beside the windows that viewers see.
+#pragma once
+
+#include "app/panel/panel_layer.h"
+#include "render/gl/render_target.h"
+#include "stereo/presenter.h"
+
+#include <vector>
+
+namespace isochron::app {
+
+class Console {
+  public:
+    /// @param drawing the context that draws, current; @param window the console's, which shares
+    /// its textures; both, and `gl`, outlive the console
+    Console(const render::Gl& gl, stereo::GlContext& drawing, stereo::GlContext& window);
+
+    /// Takes what happened in the window since the last call.
+    /// @return keys that the panel has no use for: they steer as in any other window
+    std::vector<interaction::WindowEvent> take_events();
+
+    /// Lays out and draws the panel over all of the window. @return what the operator did
+    interaction::Commands draw(const PanelModel& model, interaction::Seconds time);
+    void present();
+
+    render::Image read() const { return picture_.read(); } ///< as drawn last
+
+  private:
+    stereo::GlContext& window_;
+    PanelLayer layer_;
+    render::RenderTarget picture_;
+    stereo::Presenter presenter_;
+};
+
+} // namespace isochron::app

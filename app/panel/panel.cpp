@@ -1,0 +1,331 @@
+// The control panel.
+#include "app/panel/panel.h"
+
+#include "app/config/config.h"
+#include "app/config/placement.h"
+#include "app/panel/panel_colors.h"
+#include "app/scene/mark.h"
+#include "app/text.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+
+constexpr ImU32 kBarColour = IM_COL32(120, 128, 140, 255);
+constexpr ImU32 kAskedColour = IM_COL32(255, 196, 92, 255);
+constexpr ImU32 kShownColour = IM_COL32(120, 220, 160, 255);
+const ImVec4 kDim(0.62f, 0.65f, 0.70f, 1.0f);
+const ImVec4 kPaper(0.115f, 0.125f, 0.145f, 1.0f);
+const ImVec4 kWarning(1.0f, 0.55f, 0.40f, 1.0f);
+
+void text(const std::string& line) {
+    ImGui::TextUnformatted(line.c_str());
+}
+
+void note(const std::string& line, const ImVec4& colour) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::PushTextWrapPos(0.0f);
+    text(line);
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+/// On what changes by itself. In the room it never takes another line, which would move the
+/// controls below it: a replay must find them where the wand found them.
+void state_note(const PanelModel& model, const std::string& line, const ImVec4& colour) {
+    if (model.place == PanelPlace::in_room)
+        ImGui::TextColored(colour, "%s", line.c_str());
+    else
+        note(line, colour);
+}
+
+/// Histogram of all values on a logarithmic scale; pressing or dragging picks an isovalue.
+/// The picked surface among those shown, which may have been fewer.
+std::size_t shown_surface(const PanelModel& model) {
+    return std::min<std::size_t>(model.asked.picked, model.frame.shown->isovalues.size() - 1);
+}
+
+void histogram(const PanelModel& model, Commands& commands) {
+    const auto& bins = model.stats.histogram;
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, 64.0f);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("histogram", size);
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(20, 22, 26, 255),
+                        3.0f);
+    if (bins.empty())
+        return;
+    const auto most = static_cast<double>(*std::max_element(bins.begin(), bins.end()));
+    const float width = size.x / static_cast<float>(bins.size());
+    for (std::size_t bin = 0; bin < bins.size(); ++bin) {
+        const double height =
+            std::log1p(static_cast<double>(bins[bin])) / std::log1p(std::max(most, 1.0));
+        const float x = corner.x + width * static_cast<float>(bin);
+        list->AddRectFilled({x, corner.y + size.y * static_cast<float>(1.0 - height)},
+                            {x + width, corner.y + size.y}, kBarColour);
+    }
+    // Halves keep the span finite for any two doubles.
+    const double low = model.stats.low, high = model.stats.high, half_span = high / 2 - low / 2;
+    const auto mark = [&](double value, ImU32 colour) {
+        const double at =
+            half_span > 0 ? std::clamp((value / 2 - low / 2) / half_span, 0.0, 1.0) : 0.5;
+        const float x = corner.x + size.x * static_cast<float>(at);
+        list->AddLine({x, corner.y}, {x, corner.y + size.y}, colour, 2.0f);
+    };
+    if (model.frame.shown)
+        mark(model.frame.shown->isovalues[shown_surface(model)], kShownColour);
+    mark(model.asked.isovalue(), kAskedColour);
+    const double pointed = std::lerp(
+        low, high, std::clamp((ImGui::GetIO().MousePos.x - corner.x) / size.x, 0.0f, 1.0f));
+    if (ImGui::IsItemActive() && half_span > 0)
+        commands.isovalue = pointed;
+    if (ImGui::IsItemHovered() && half_span > 0)
+        ImGui::SetTooltip("%s", with_unit(pointed, model.info.value_unit).c_str());
+}
+
+/// A number with its unit as ImGui's sliders want it: a format, in which the unit is only text.
+std::string slider_format(const std::string& unit) {
+    std::string format = unit.empty() ? "%.6g" : "%.6g ";
+    for (char c : unit)
+        format += c == '%' ? "%%" : std::string(1, c);
+    return format;
+}
+
+void isovalue_section(const PanelModel& model, Commands& commands) {
+    histogram(model, commands);
+    ImGui::SetNextItemWidth(-1.0f);
+    double value = model.asked.isovalue();
+    // Beyond half of the doubles' range ImGui gives up.
+    constexpr double kMost = std::numeric_limits<double>::max() / 2;
+    const double low = std::clamp(model.stats.low, -kMost, kMost);
+    const double high = std::clamp(model.stats.high, -kMost, kMost);
+    if (ImGui::SliderScalar("##isovalue", ImGuiDataType_Double, &value, &low, &high,
+                            slider_format(model.info.value_unit).c_str()))
+        commands.isovalue = value;
+    const auto& shown = model.frame.shown;
+    state_note(
+        model,
+        fmt::format("isovalue: asked {}   shown {}",
+                    with_unit(model.asked.isovalue(), model.info.value_unit),
+                    shown ? with_unit(shown->isovalues[shown_surface(model)], model.info.value_unit)
+                          : "nothing yet"),
+        kDim);
+}
+
+void playback_buttons(const PanelModel& model, Commands& commands) {
+    interaction::PlaybackState playback = model.asked.playback;
+    const auto last = static_cast<std::uint32_t>(model.info.steps() - 1);
+    const auto go_to = [&](std::uint32_t step) {
+        commands.step = step;
+        playback.playing = false;
+    };
+    if (ImGui::Button("|<"))
+        go_to(0);
+    ImGui::SameLine();
+    if (ImGui::Button("<"))
+        go_to(model.asked.step == 0 ? (playback.loop ? last : 0) : model.asked.step - 1);
+    ImGui::SameLine();
+    if (ImGui::Button(playback.playing ? "Pause" : " Play "))
+        playback.playing = !playback.playing;
+    ImGui::SameLine();
+    if (ImGui::Button(">"))
+        go_to(model.asked.step == last ? (playback.loop ? 0 : last) : model.asked.step + 1);
+    ImGui::SameLine();
+    if (ImGui::Button(">|"))
+        go_to(last);
+    ImGui::SameLine();
+    ImGui::Checkbox("reverse", &playback.reverse);
+    ImGui::SameLine();
+    ImGui::Checkbox("loop", &playback.loop);
+    auto speed = static_cast<float>(playback.speed);
+    ImGui::SetNextItemWidth(-60.0f);
+    if (ImGui::SliderFloat("speed", &speed, 1.0f / 64, 64.0f, "x %.3g",
+                           ImGuiSliderFlags_Logarithmic))
+        playback.speed = speed;
+    if (playback != model.asked.playback)
+        commands.playback = playback;
+}
+
+void time_section(const PanelModel& model, Commands& commands) {
+    const auto& times = model.info.times;
+    int step = static_cast<int>(model.asked.step);
+    const int last = static_cast<int>(times.size()) - 1;
+    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::BeginDisabled(last == 0);
+    const std::string format = fmt::format("step %d of {}", last);
+    if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
+        commands.step = static_cast<std::uint32_t>(step);
+    const auto& shown = model.frame.shown;
+    state_note(
+        model,
+        fmt::format("time: asked {}   shown {}",
+                    with_unit(times[model.asked.step], model.info.time_unit),
+                    shown ? with_unit(times[shown->step], model.info.time_unit) : "nothing yet"),
+        kDim);
+    playback_buttons(model, commands);
+    ImGui::EndDisabled();
+}
+
+void view_section(const PanelModel& model, Commands& commands) {
+    int mode = static_cast<int>(model.asked.quality);
+    ImGui::SetNextItemWidth(110.0f);
+    if (ImGui::Combo("quality", &mode, "auto\0fast\0quality\0"))
+        commands.quality = static_cast<interaction::QualityMode>(mode);
+    const bool settled = model.frame.pace == interaction::Pace::settled;
+    // The footprint follows from what is drawn, and in the room the panel is a part of that.
+    state_note(model,
+               model.place == PanelPlace::in_room ? name_of(model.frame.pace)
+                                                  : quality_line(model.frame),
+               settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
+    ImGui::SetNextItemWidth(-60.0f);
+    const std::string current(stereo::name_of(model.asked.stereo));
+    if (ImGui::BeginCombo("stereo", current.c_str())) {
+        for (stereo::StereoMode candidate : stereo::all_stereo_modes()) {
+            if (upright(candidate) == stereo::StereoMode::quadbuffer && !model.quad_buffered)
+                continue;
+            const std::string name(stereo::name_of(candidate));
+            if (ImGui::Selectable(name.c_str(), candidate == model.asked.stereo))
+                commands.stereo = name;
+        }
+        ImGui::EndCombo();
+    }
+    float millimetres = model.asked.eye_separation * 1000.0f;
+    ImGui::SetNextItemWidth(-60.0f);
+    if (ImGui::SliderFloat("eyes", &millimetres, 0.0f, interaction::kWidestEyes * 1000.0f,
+                           "%.0f mm", ImGuiSliderFlags_AlwaysClamp))
+        commands.eye_separation = millimetres / 1000.0f;
+    if (ImGui::Button("Screenshot"))
+        commands.screenshot = true;
+    if (model.recording) {
+        ImGui::SameLine();
+        note("recording", kWarning);
+    }
+}
+
+void measurements(const PanelModel& model) {
+    const FrameReport& frame = model.frame;
+    text(fmt::format("{} cells", frame.cells));
+    ImGui::SameLine();
+    note(model.searching
+             ? "searching ..."
+             : fmt::format("of {} candidates, {} reused", frame.candidates, frame.reused),
+         kDim);
+    const glm::dvec3 size = physical_size(model.info.grid);
+    note(fmt::format("volume {:.4g} x {:.4g} x {:.4g}{}{}   shown at {:.3g} m", size.x, size.y,
+                     size.z, model.info.length_unit.empty() ? "" : " ", model.info.length_unit,
+                     std::max({size.x, size.y, size.z}) * model.asked.room_from_physical.scale),
+         kDim);
+    note(fmt::format("search {:.2f} ms   bricks {:.2f} ms", frame.search.count(),
+                     frame.gather.count()),
+         kDim);
+    note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms", model.frames_per_second,
+                     model.frame_times.median, model.frame_times.p99),
+         kDim);
+    for (const DeviceTracking& device : frame.tracking)
+        note(in_words(device), device.tracking == interaction::Tracking::tracked ? kDim : kWarning);
+}
+
+/// Notes come when a disk is done: not in the room, where every replay shows the same.
+void complaints(const PanelModel& model) {
+    if (!model.failure.empty())
+        note(model.failure, kWarning);
+    if (!model.message.empty() && model.place != PanelPlace::in_room)
+        note(model.message, kDim);
+}
+
+/// The place that somebody picked, and what to do with it.
+void mark_section(const PanelModel& model, Commands& commands) {
+    const auto& point = model.asked.mark.point;
+    if (!point)
+        return;
+    note(fmt::format("picked: {}", mark_text(*point, model.info)), kDim);
+    if (ImGui::SmallButton("isovalue through it"))
+        commands.isovalue = point->value;
+    ImGui::SameLine();
+    if (ImGui::SmallButton("forget it"))
+        commands.mark = interaction::Mark{};
+    ImGui::Separator();
+}
+
+/// In two columns: the control, and behind the run of spaces that pads it, its effect.
+void keys_and_mouse(const std::vector<std::string>& lines) {
+    if (!ImGui::BeginTable("controls", 2))
+        return;
+    ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthFixed, 130.0f);
+    ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthStretch);
+    for (const std::string& line : lines) {
+        const std::size_t end = line.find("  ");
+        const std::size_t effect = line.find_first_not_of(' ', end);
+        ImGui::TableNextColumn();
+        note(line.substr(0, end), ImGui::GetStyleColorVec4(ImGuiCol_Text));
+        ImGui::TableNextColumn();
+        if (effect != std::string::npos)
+            note(line.substr(effect), kDim);
+    }
+    ImGui::EndTable();
+}
+
+} // namespace
+
+std::string quality_line(const FrameReport& frame) {
+    std::string line = fmt::format("{}: {}", name_of(frame.pace), name_of(frame.footprint));
+    if (frame.expected)
+        line += fmt::format(", {:.1f} of {:.1f} ms", frame.expected->count(), frame.budget.count());
+    if (frame.reason == QualityReason::over_budget && frame.better)
+        line += fmt::format(" (better takes {:.1f})", frame.better->count());
+    // That it moves or fits is said by the line already.
+    else if (frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
+        line += fmt::format(" ({})", name_of(frame.reason));
+    return line;
+}
+
+Commands draw_panel(const PanelModel& model, PanelArea& area) {
+    Commands commands;
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings;
+    if (model.place == PanelPlace::over) {
+        ImGui::SetNextWindowPos({12.0f, 12.0f}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSize({380.0f, 0.0f}, ImGuiCond_Always);
+        ImGui::SetNextWindowBgAlpha(0.86f);
+    } else {
+        ImGui::SetNextWindowPos({0.0f, 0.0f});
+        ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+        ImGui::SetNextWindowBgAlpha(1.0f);
+        ImGui::PushStyleColor(ImGuiCol_WindowBg, kPaper);
+        flags |= ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse;
+    }
+    ImGui::Begin(("Isochron: " + model.info.array + "###panel").c_str(), nullptr, flags);
+    isovalue_section(model, commands);
+    surfaces_section(model, commands);
+    ImGui::Separator();
+    colouring_section(model, commands);
+    ImGui::Separator();
+    time_section(model, commands);
+    ImGui::Separator();
+    mark_section(model, commands);
+    view_section(model, commands);
+    ImGui::Separator();
+    if (model.place != PanelPlace::in_room) {
+        measurements(model);
+        complaints(model);
+    }
+    if (ImGui::CollapsingHeader("keys and mouse"))
+        keys_and_mouse(model.controls);
+    if (model.place == PanelPlace::in_room) // below all controls, which it must not move
+        complaints(model);
+    const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    area = {corner.x, corner.y, corner.x + size.x, corner.y + size.y, ImGui::GetFrameHeight()};
+    ImGui::End();
+    if (model.place != PanelPlace::over)
+        ImGui::PopStyleColor();
+    return commands;
+}
+
+} // namespace isochron::app

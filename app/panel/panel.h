@@ -1,0 +1,26 @@
+// The control panel: shows what is asked for and what is shown, and turns clicks into commands.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "interaction/commands.h"
+
+#include <string>
+
+namespace isochron::app {
+
+/// The rectangle that the panel covers: pixels from the top left.
+struct PanelArea {
+    float left = 0, top = 0, right = 0, bottom = 0;
+    float title = 0; ///< height of its title
+    bool contains(float x, float y) const {
+        return x >= left && x < right && y >= top && y < bottom;
+    }
+};
+
+/// Lays the panel out in the current Dear ImGui frame. @return what the user did to it
+interaction::Commands draw_panel(const PanelModel& model, PanelArea& area);
+
+/// How the picture is drawn, and why: `settled: surface, 7.2 of 11.1 ms`.
+std::string quality_line(const FrameReport& frame);
+
+} // namespace isochron::app

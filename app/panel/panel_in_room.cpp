@@ -1,0 +1,100 @@
+// From the wand's ray to the panel's mouse, and from its clicks to commands.
+#include "app/panel/panel_in_room.h"
+
+#include "interaction/device_reading.h"
+
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::RoomPanel;
+using interaction::Seconds;
+
+/// Pixels of the picture for each of these: from 0.65 m the picture is then as fine as a headset
+/// with 25 pixels for each degree.
+constexpr float kScale = 2.5f;
+constexpr double kScroll = 12.0; ///< [notch/s] of the wheel, with the stick pushed all the way
+constexpr interaction::HapticPulse kTick{"wand", 0.01, 0.25f}, kClick{"wand", 0.02, 0.6f};
+
+} // namespace
+
+PanelInRoom::PanelInRoom(const render::Gl& gl, const PanelConfig& config)
+    : size_{config.width, config.width * kPixels.y / kPixels.x}, distance_(config.distance),
+      layer_(gl, kScale), picture_(gl, glm::ivec2(kScale * kPixels)) {}
+
+interaction::TouchedPanel PanelInRoom::touched(const interaction::InputState& input,
+                                               const RoomPanel& panel) const {
+    return {panel, size_, layer_.area().title / kPixels.y,
+            interaction::Reading(input).viewer().position};
+}
+
+PanelInRoom::Outcome PanelInRoom::outcome(const interaction::InputState& input,
+                                          const RoomPanel& panel) {
+    interaction::PanelPointer next = pointer_;
+    next.update(input, touched(input, panel));
+    Outcome result{next.rest_of(input), next.touch().hit.has_value(), std::exchange(pending_, {})};
+    if (next.carried() && *next.carried() != panel.pose)
+        result.commands.room_panel = RoomPanel{panel.shown, *next.carried()};
+    return result;
+}
+
+interaction::InputState PanelInRoom::update(const interaction::InputState& input,
+                                            const RoomPanel& panel) {
+    pointer_.update(input, touched(input, panel));
+    return pointer_.rest_of(input);
+}
+
+void PanelInRoom::feel(Commands& commands) {
+    const std::uint32_t hovered = layer_.hovered(), held = layer_.held();
+    if (held != 0 && held != held_)
+        commands.haptics.push_back(kClick);
+    else if (hovered != 0 && hovered != hovered_ && held == 0)
+        commands.haptics.push_back(kTick);
+    hovered_ = hovered;
+    held_ = held;
+}
+
+void PanelInRoom::leave_out() {
+    pending_ = {};
+    laid_out_.reset();
+}
+
+void PanelInRoom::lay_out(const PanelModel& model, Seconds time) {
+    const Seconds elapsed = laid_out_ ? time - *laid_out_ : Seconds(0);
+    laid_out_ = time;
+    const interaction::PanelTouch& touch = pointer_.touch();
+    std::optional<glm::vec2> at;
+    if (touch.hit)
+        at = kPixels * touch.hit->at;
+    // While it is carried nothing on it is pressed.
+    const bool pressed = touch.pressed && !pointer_.carried();
+    layer_.point(at, pressed,
+                 static_cast<float>(touch.notches + touch.scroll * kScroll * elapsed.count()));
+    pending_ = layer_.lay_out(picture_.size(), model, time);
+    feel(pending_);
+    if (const std::size_t digest = layer_.digest(); digest != std::exchange(digest_, digest)) {
+        picture_.begin();
+        layer_.draw(picture_.size());
+        picture_.end();
+    }
+}
+
+std::optional<ShownPanel> PanelInRoom::shown(const RoomPanel& panel) const {
+    if (!panel.shown)
+        return std::nullopt;
+    ShownPanel result{.quad = {.corners = corners_of(panel.pose, size_),
+                               .texture = picture_.texture(),
+                               .dot = {}},
+                      .digest = digest_,
+                      .ray = {}};
+    if (const auto& hit = pointer_.touch().hit) {
+        result.ray = hit->distance;
+        if (hit->inside())
+            result.quad.dot = hit->at;
+    }
+    return result;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,268 @@
+// Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
+#include "app/panel/panel_layer.h"
+
+#include "app/scene/font.h"
+#include "render/gl/shader.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace isochron::app {
+namespace {
+
+using namespace interaction;
+
+/// Keys that ImGui's text fields and sliders understand, with ours.
+constexpr std::pair<ImGuiKey_, Key> kKeys[]{
+    {ImGuiKey_Tab, Key::tab},
+    {ImGuiKey_LeftArrow, Key::left},
+    {ImGuiKey_RightArrow, Key::right},
+    {ImGuiKey_UpArrow, Key::up},
+    {ImGuiKey_DownArrow, Key::down},
+    {ImGuiKey_Home, Key::home},
+    {ImGuiKey_End, Key::end},
+    {ImGuiKey_Delete, Key::del},
+    {ImGuiKey_Backspace, Key::backspace},
+    {ImGuiKey_Enter, Key::enter},
+    {ImGuiKey_Escape, Key::escape},
+    {ImGuiKey_A, Key{'A'}},
+    {ImGuiKey_C, Key{'C'}},
+    {ImGuiKey_V, Key{'V'}},
+    {ImGuiKey_X, Key{'X'}},
+    {ImGuiKey_Z, Key{'Z'}},
+};
+
+/// One event taken into ImGui's state. @return whether the panel has use for it
+struct Taker {
+    ImGuiIO& io;
+    const PanelArea& area;
+    std::uint32_t& late_releases;
+    std::optional<glm::vec2>& cursor;
+    std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
+
+    /// ImGui's own answer is from the last frame; a quick hand moves and presses within one.
+    bool captures_mouse() const {
+        return io.WantCaptureMouse || area.contains(io.MousePos.x, io.MousePos.y);
+    }
+    bool operator()(const KeyEvent& event) const {
+        const auto code = static_cast<std::size_t>(event.key);
+        if (code < std::size(io.KeysDown))
+            io.KeysDown[code] = event.down;
+        if (event.key == Key::left_control || event.key == Key::right_control)
+            io.KeyCtrl = event.down;
+        if (event.key == Key::left_shift || event.key == Key::right_shift)
+            io.KeyShift = event.down;
+        return event.down && io.WantTextInput;
+    }
+    bool operator()(const TextEvent& event) const {
+        if (io.WantTextInput)
+            io.AddInputCharacter(event.character);
+        return io.WantTextInput;
+    }
+    bool operator()(const MouseButtonEvent& event) {
+        const auto button = static_cast<std::size_t>(event.button);
+        const std::uint32_t bit = 1u << button;
+        // ImGui sees levels, once per frame: a click within one frame lasts until the next.
+        if (event.down)
+            pressed |= bit;
+        if (!event.down && (pressed & bit))
+            late_releases |= bit;
+        else
+            io.MouseDown[button] = event.down;
+        return event.down && captures_mouse();
+    }
+    bool operator()(const MouseMoveEvent& event) const {
+        cursor = glm::vec2(event.x, event.y);
+        io.MousePos = {event.x * io.DisplaySize.x, event.y * io.DisplaySize.y};
+        return false;
+    }
+    bool operator()(const ScrollEvent& event) const {
+        if (captures_mouse())
+            io.MouseWheel += event.dy;
+        return captures_mouse();
+    }
+    bool operator()(const FocusEvent& event) const {
+        if (!event.focused) {
+            std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
+            std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+            io.KeyCtrl = io.KeyShift = false;
+        }
+        return false;
+    }
+    bool operator()(const GamepadEvent&) const { return false; }
+};
+
+void style_dark_and_round() {
+    ImGui::StyleColorsDark();
+    ImGuiStyle& style = ImGui::GetStyle();
+    style.WindowRounding = 6.0f;
+    style.FrameRounding = 4.0f;
+    style.GrabRounding = 4.0f;
+    style.ItemSpacing = {8.0f, 6.0f};
+    style.WindowBorderSize = 0.0f;
+}
+
+} // namespace
+
+PanelLayer::PanelLayer(const render::Gl& gl, float scale)
+    : gl_(gl), imgui_(ImGui::CreateContext()), scale_(scale),
+      program_(render::link_program(
+          gl, {render::shader_file("panel.vert"), render::shader_file("panel.frag")})),
+      vertex_array_(gl), vertices_(gl), elements_(gl), font_(gl, GL_TEXTURE_2D) {
+    ImGui::SetCurrentContext(imgui_);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    for (const auto& [imgui_key, key] : kKeys)
+        io.KeyMap[imgui_key] = static_cast<int>(key);
+    style_dark_and_round();
+    make_font_texture();
+    const GLuint array = vertex_array_.name();
+    const auto attribute = [&](GLuint index, GLint count, GLenum type, GLboolean normalized,
+                               std::size_t offset) {
+        gl_.EnableVertexArrayAttrib(array, index);
+        gl_.VertexArrayAttribFormat(array, index, count, type, normalized,
+                                    static_cast<GLuint>(offset));
+        gl_.VertexArrayAttribBinding(array, index, 0);
+    };
+    attribute(0, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, pos));
+    attribute(1, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, uv));
+    attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ImDrawVert, col));
+    gl_.VertexArrayVertexBuffer(array, 0, vertices_.name(), 0, sizeof(ImDrawVert));
+    gl_.VertexArrayElementBuffer(array, elements_.name());
+}
+
+PanelLayer::~PanelLayer() {
+    ImGui::DestroyContext(imgui_);
+}
+
+void PanelLayer::make_font_texture() {
+    ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    add_font(fonts, kFontPixels * scale_);
+    ImGui::GetIO().FontGlobalScale = 1.0f / scale_;
+    unsigned char* pixels = nullptr;
+    int width = 0, height = 0;
+    fonts.GetTexDataAsRGBA32(&pixels, &width, &height);
+    gl_.TextureStorage2D(font_.name(), 1, GL_RGBA8, width, height);
+    gl_.TextureSubImage2D(font_.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    gl_.TextureParameteri(font_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_.TextureParameteri(font_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, bool shown) {
+    ImGui::SetCurrentContext(imgui_);
+    std::vector<WindowEvent> left;
+    ImGuiIO& io = ImGui::GetIO();
+    for (std::size_t button = 0; button < std::size(io.MouseDown); ++button)
+        if (late_releases_ & (1u << button))
+            io.MouseDown[button] = false;
+    late_releases_ = 0;
+    Taker taker{io, area_, late_releases_, cursor_};
+    for (const WindowEvent& event : events) {
+        const bool taken = std::visit(taker, event);
+        if (!taken || !shown)
+            left.push_back(event);
+    }
+    return left;
+}
+
+void PanelLayer::point(const std::optional<glm::vec2>& at, bool pressed, float notches) {
+    ImGui::SetCurrentContext(imgui_);
+    ImGuiIO& io = ImGui::GetIO();
+    constexpr float kAway = -std::numeric_limits<float>::max(); // as ImGui wants it
+    io.MousePos = at ? ImVec2(at->x, at->y) : ImVec2(kAway, kAway);
+    io.MouseDown[0] = pressed;
+    io.MouseWheel = notches;
+}
+
+Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {
+    constexpr double kShortest = 1e-4, kLongest = 0.1; // ImGui wants time to pass
+    ImGui::SetCurrentContext(imgui_);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(picture.x) / scale_,
+                      static_cast<float>(picture.y) / scale_};
+    if (cursor_) // it may have come before there was a size, or before another
+        io.MousePos = {cursor_->x * io.DisplaySize.x, cursor_->y * io.DisplaySize.y};
+    const Seconds elapsed = time - std::exchange(laid_out_, time);
+    io.DeltaTime = static_cast<float>(std::clamp(elapsed.count(), kShortest, kLongest));
+    ImGui::NewFrame();
+    const Commands commands = draw_panel(model, area_);
+    ImGui::Render();
+    return commands;
+}
+
+std::uint32_t PanelLayer::hovered() const {
+    return imgui_->HoveredId;
+}
+
+std::uint32_t PanelLayer::held() const {
+    return imgui_->ActiveId;
+}
+
+std::size_t PanelLayer::digest() const {
+    ImGui::SetCurrentContext(imgui_);
+    const ImDrawData& data = *ImGui::GetDrawData();
+    std::size_t digest = 0;
+    const auto add = [&](const void* bytes, int size) {
+        const std::string_view text(static_cast<const char*>(bytes),
+                                    static_cast<std::size_t>(size));
+        digest = digest * 31 + std::hash<std::string_view>()(text);
+    };
+    for (int n = 0; n < data.CmdListsCount; ++n) {
+        const ImDrawList& list = *data.CmdLists[n];
+        add(list.VtxBuffer.Data, list.VtxBuffer.size_in_bytes());
+        add(list.IdxBuffer.Data, list.IdxBuffer.size_in_bytes());
+        for (const ImDrawCmd& command : list.CmdBuffer)
+            add(&command.ClipRect, sizeof command.ClipRect);
+    }
+    return digest;
+}
+
+void PanelLayer::draw(glm::ivec2 picture) {
+    ImGui::SetCurrentContext(imgui_);
+    const ImDrawData& data = *ImGui::GetDrawData();
+    gl_.Viewport(0, 0, picture.x, picture.y);
+    gl_.Disable(GL_DEPTH_TEST);
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl_.Enable(GL_SCISSOR_TEST);
+    gl_.UseProgram(program_.name());
+    gl_.ProgramUniform2f(program_.name(), gl_.GetUniformLocation(program_.name(), "display_size"),
+                         data.DisplaySize.x, data.DisplaySize.y);
+    gl_.BindTextureUnit(0, font_.name());
+    gl_.BindVertexArray(vertex_array_.name());
+    static_assert(sizeof(ImDrawIdx) == 2);
+    for (int n = 0; n < data.CmdListsCount; ++n) {
+        const ImDrawList& list = *data.CmdLists[n];
+        gl_.NamedBufferData(vertices_.name(), list.VtxBuffer.size_in_bytes(), list.VtxBuffer.Data,
+                            GL_STREAM_DRAW);
+        gl_.NamedBufferData(elements_.name(), list.IdxBuffer.size_in_bytes(), list.IdxBuffer.Data,
+                            GL_STREAM_DRAW);
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            const ImVec4& clip = command.ClipRect;
+            const int left = static_cast<int>(scale_ * clip.x);
+            const int bottom = static_cast<int>(scale_ * clip.w);
+            const int width = static_cast<int>(scale_ * (clip.z - clip.x));
+            const int height = static_cast<int>(scale_ * (clip.w - clip.y));
+            if (width <= 0 || height <= 0)
+                continue;
+            gl_.Scissor(left, picture.y - bottom, width, height);
+            gl_.DrawElementsBaseVertex(
+                GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,
+                reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)),
+                static_cast<GLint>(command.VtxOffset));
+        }
+    }
+    gl_.Disable(GL_SCISSOR_TEST);
+    gl_.Disable(GL_BLEND);
+}
+
+} // namespace isochron::app

@@ -1,0 +1,72 @@
+// Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
+#pragma once
+
+#include "app/panel/panel.h"
+#include "interaction/pose.h"
+#include "interaction/window_event.h"
+#include "render/gl/gl_objects.h"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+struct ImGuiContext;
+
+namespace isochron::app {
+
+class PanelLayer {
+  public:
+    static constexpr float kFontPixels = 15.0f; ///< height of a line, in the panel's own pixels
+
+    /// @param scale pixels of what is drawn on for each of the panel's own
+    explicit PanelLayer(const render::Gl& gl, float scale = 1.0f);
+    ~PanelLayer();
+    PanelLayer(const PanelLayer&) = delete;
+    PanelLayer& operator=(const PanelLayer&) = delete;
+
+    /// Takes events into account. @return those that the panel has no use for; releases always
+    /// pass, so that nothing sticks
+    std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,
+                                               bool shown);
+
+    /// The mouse of a panel that gets no events.
+    /// @param at the panel's own pixels from the top left; nothing: away from it
+    /// @param notches of the wheel, up positive
+    void point(const std::optional<glm::vec2>& at, bool pressed, float notches);
+
+    /// One frame of the panel.
+    /// @param picture size of what it will be drawn on, pixels
+    /// @param time of the session
+    /// @return what the user did
+    interaction::Commands lay_out(glm::ivec2 picture, const PanelModel& model,
+                                  interaction::Seconds time);
+
+    /// Draws what was laid out last onto the bound framebuffer, which is of that size.
+    void draw(glm::ivec2 picture);
+
+    /// Of all that `draw` would draw: a panel that looks the same has the same one.
+    std::size_t digest() const;
+    const PanelArea& area() const { return area_; }
+    /// What is under the pointer, and what is held; 0: nothing.
+    std::uint32_t hovered() const;
+    std::uint32_t held() const;
+
+  private:
+    void make_font_texture();
+
+    const render::Gl& gl_;
+    ImGuiContext* imgui_;
+    float scale_;
+    interaction::Seconds laid_out_{0}; ///< session time
+    PanelArea area_;                   ///< of the panel when it was laid out last
+    std::uint32_t late_releases_ = 0;  ///< mouse buttons, by bit, that go up with the next events
+    std::optional<glm::vec2> cursor_;  ///< of the window, fractions from the top left
+    render::Program program_;
+    render::VertexArray vertex_array_;
+    render::Buffer vertices_, elements_;
+    render::Texture font_;
+};
+
+} // namespace isochron::app

@@ -1,0 +1,40 @@
+// What the panel shows in one frame.
+#pragma once
+
+#include "app/frame/explorer_state.h"
+#include "app/frame/frame_log.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// Where a panel is laid out.
+enum class PanelPlace : std::uint8_t {
+    over,   ///< a picture, as a window that can be moved
+    whole,  ///< a window of its own, which it fills
+    in_room ///< likewise; it says only what is the same on every wall and in every replay
+};
+
+/// What the panel shows in one frame; nothing in it is changed by showing it.
+struct PanelModel {
+    const index::SeriesInfo& info;
+    const index::IndexStats& stats;
+    const ExplorerState& asked;
+    bool second_array = false;           ///< there is one to colour by
+    std::array<double, 2> whole_range{}; ///< of what is coloured by
+    const FrameReport& frame;
+    TimeSummary frame_times; ///< of the last frames
+    double frames_per_second = 0;
+    bool searching = false; ///< the worker has not answered yet
+    bool recording = false;
+    std::string failure;                      ///< of the worker; empty when all is well
+    std::string message;                      ///< newest note, such as a saved screenshot
+    const std::vector<std::string>& controls; ///< one line per key
+    PanelPlace place = PanelPlace::over;
+    bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
+};
+
+} // namespace isochron::app

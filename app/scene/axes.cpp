@@ -1,0 +1,141 @@
+// Ticks, numbers and titles along the edges of the volume's box.
+#include "app/scene/axes.h"
+
+#include "app/scene/ticks.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+constexpr glm::vec4 kTickColour(0.72f, 0.76f, 0.82f, 0.9f);
+constexpr glm::vec4 kTextColour(0.86f, 0.89f, 0.93f, 1.0f);
+constexpr float kTickLength = 0.02f; ///< of the longest side
+constexpr int kMostTicks = 6;        ///< along the longest side
+constexpr float kLeftness = 0.35f;   ///< how much being left counts beside being low
+
+glm::vec3 in_room(const render::Placement& placement, const glm::vec3& at) {
+    return glm::vec3(placement.room_from_index * glm::vec4(at, 1.0f));
+}
+
+glm::vec3 edge_middle(int axis, const EdgeSides& sides, const glm::vec3& extent) {
+    glm::vec3 middle = 0.5f * extent;
+    for (int i = 0; i < 2; ++i) {
+        const int other = (axis + 1 + i) % 3;
+        middle[other] = sides[i] ? extent[other] : 0.0f;
+    }
+    return middle;
+}
+
+/// Lengths of the box's sides in the room.
+glm::vec3 side_lengths(const render::Placement& placement) {
+    glm::vec3 lengths;
+    for (int axis = 0; axis < 3; ++axis)
+        lengths[axis] =
+            placement.extent[axis] * glm::length(glm::vec3(placement.room_from_index[axis]));
+    return lengths;
+}
+
+/// Where the box ends on the viewer's own axes: labels lean away from it.
+glm::vec2 on_view(const glm::vec3& direction, const interaction::Pose& head) {
+    const glm::vec3 seen = glm::inverse(head.orientation) * direction;
+    const float length = glm::length(glm::vec2(seen));
+    return length > 1e-6f ? glm::vec2(seen) / length : glm::vec2(0.0f, -1.0f);
+}
+
+} // namespace
+
+AxisScale axis_scale(const index::SeriesInfo& info, int axis) {
+    const index::Grid& grid = info.grid;
+    const std::string unit = info.length_unit.empty() ? "" : fmt::format(" [{}]", info.length_unit);
+    const double length = grid.spacing[axis] * (grid.vertices[axis] - 1);
+    for (int physical = 0; physical < 3; ++physical) {
+        const double along = grid.direction[axis][physical];
+        constexpr double kParallel = 1.0 - 1e-6;
+        if (std::abs(along) > kParallel)
+            return {fmt::format("{}{}", "xyz"[physical], unit), grid.origin[physical],
+                    grid.origin[physical] + std::copysign(length, along)};
+    }
+    return {fmt::format("{}{}", "ijk"[axis], unit), 0.0, length};
+}
+
+std::optional<EdgeSides> labelled_edge(int axis, const render::Placement& placement,
+                                       const interaction::Pose& head) {
+    const glm::vec3 eye(glm::inverse(placement.room_from_index) * glm::vec4(head.position, 1.0f));
+    const glm::vec3 centre = in_room(placement, 0.5f * placement.extent);
+    const auto faces_viewer = [&](int face_axis, bool far) {
+        return far ? eye[face_axis] > placement.extent[face_axis] : eye[face_axis] < 0.0f;
+    };
+    std::optional<EdgeSides> best;
+    float best_score = 0.0f;
+    for (int edge = 0; edge < 4; ++edge) {
+        const EdgeSides sides{(edge & 1) != 0, (edge & 2) != 0};
+        if (faces_viewer((axis + 1) % 3, sides[0]) == faces_viewer((axis + 2) % 3, sides[1]))
+            continue;
+        const glm::vec3 seen =
+            glm::inverse(head.orientation) *
+            (in_room(placement, edge_middle(axis, sides, placement.extent)) - centre);
+        const float score = -seen.y - kLeftness * seen.x;
+        if (!best || score > best_score) {
+            best = sides;
+            best_score = score;
+        }
+    }
+    return best;
+}
+
+Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
+              const interaction::Pose& head) {
+    Axes axes;
+    const glm::vec3 lengths = side_lengths(placement);
+    const float longest = std::max({lengths.x, lengths.y, lengths.z});
+    const glm::mat3 index_from_room = glm::inverse(glm::mat3(placement.room_from_index));
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto sides = labelled_edge(axis, placement, head);
+        if (!sides)
+            continue;
+        const AxisScale scale = axis_scale(info, axis);
+        const int most = std::max(2, static_cast<int>(kMostTicks * lengths[axis] / longest));
+        const auto [low, high] = std::minmax(scale.low, scale.high);
+        const Ticks ticks = nice_ticks(low, high, most);
+        const glm::vec3 middle = edge_middle(axis, *sides, placement.extent);
+        const glm::vec3 outwards = glm::normalize(in_room(placement, middle) -
+                                                  in_room(placement, 0.5f * placement.extent));
+        const glm::vec3 tick = index_from_room * (kTickLength * longest * outwards);
+        const glm::vec2 away = on_view(outwards, head);
+        const glm::vec2 anchor =
+            0.5f - 0.5f * away; // the side of the text that is next to the tick
+        std::size_t widest = 0;
+        AxisLabels& labels = axes.labels.emplace_back();
+        for (const double value : ticks.values) {
+            glm::vec3 at = middle;
+            at[axis] = placement.extent[axis] *
+                       static_cast<float>((value - scale.low) / (scale.high - scale.low));
+            axes.ticks.push_back({at, at + tick, kTickColour});
+            const std::string text = tick_text(value, ticks.step);
+            widest = std::max(widest, text.size());
+            labels.numbers.push_back({.label = {.text = text,
+                                                .at = at + 1.4f * tick,
+                                                .anchor = anchor,
+                                                .color = kTextColour},
+                                      .multiple = std::llround(value / ticks.step)});
+        }
+        // The title stands beyond the numbers.
+        const glm::vec2 room(0.6f * static_cast<float>(widest) + 0.8f, 1.3f);
+        labels.title = {.text = scale.title,
+                        .at = middle + 1.4f * tick,
+                        .anchor = anchor,
+                        .offset = away * room,
+                        .color = kTextColour};
+    }
+    return axes;
+}
+
+} // namespace isochron::app

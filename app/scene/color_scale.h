@@ -1,0 +1,25 @@
+// What the colours on the surfaces stand for.
+#pragma once
+
+#include "app/frame/explorer_state.h"
+#include "render/passes/color_map.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace isochron::app {
+
+/// Values and their colours.
+struct ColorScale {
+    std::string title;             ///< `temperature [K]`
+    std::array<double, 2> range{}; ///< values at the ends of the map
+    std::array<double, 2> whole{}; ///< all that occur: what cells' colour coordinates span
+    render::ColorMap map{};
+    bool operator==(const ColorScale&) const = default;
+};
+
+/// Nothing when colours tell surfaces apart, or when there is no second array to colour by.
+std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file);
+
+} // namespace isochron::app

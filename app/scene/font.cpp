@@ -1,0 +1,59 @@
+// The font, rasterised by Dear ImGui.
+#include "app/scene/font.h"
+
+#include <imgui.h>
+
+#include <filesystem>
+
+namespace isochron::app {
+namespace {
+
+constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+/// A glyph whose rectangle reaches a little beyond it, so that its edge is filtered and lies where
+/// it should, at any place between pixels.
+render::Glyph with_margin(const ImFontGlyph& glyph, float line) {
+    render::Glyph result{.advance = glyph.AdvanceX / line};
+    if (!glyph.Visible || !(glyph.X1 > glyph.X0) || !(glyph.Y1 > glyph.Y0))
+        return result;
+    constexpr float kMargin = 1.5f; // pixels; the atlas has more room between glyphs
+    const glm::vec2 low(glyph.X0, glyph.Y0), high(glyph.X1, glyph.Y1);
+    const glm::vec2 texture_low(glyph.U0, glyph.V0), texture_high(glyph.U1, glyph.V1);
+    const glm::vec2 texture_margin = kMargin * (texture_high - texture_low) / (high - low);
+    result.low = (low - kMargin) / line;
+    result.high = (high + kMargin) / line;
+    result.texture_low = texture_low - texture_margin;
+    result.texture_high = texture_high + texture_margin;
+    return result;
+}
+
+} // namespace
+
+void add_font(ImFontAtlas& fonts, float pixels) {
+    // Latin, Greek, punctuation and superscripts, letter-like signs, mathematics: what units need.
+    static constexpr ImWchar kGlyphs[]{0x20,   0xff,   0x370,  0x3ff,  0x2010, 0x209f,
+                                       0x2100, 0x214f, 0x2190, 0x22ff, 0};
+    // The built-in bitmap font is readable but small; a desktop nearly always has this one.
+    if (std::filesystem::exists(kFontFile))
+        fonts.AddFontFromFileTTF(kFontFile, pixels, nullptr, kGlyphs);
+    else
+        fonts.AddFontDefault();
+}
+
+render::GlyphAtlas room_font(float pixels) {
+    ImFontAtlas fonts;
+    fonts.TexGlyphPadding = 8; // coarser mip levels must not mix neighbours
+    add_font(fonts, pixels);
+    unsigned char* coverage = nullptr;
+    render::GlyphAtlas atlas;
+    fonts.GetTexDataAsAlpha8(&coverage, &atlas.size.x, &atlas.size.y);
+    atlas.coverage.assign(coverage, coverage + std::size_t{1} * atlas.size.x * atlas.size.y);
+    atlas.solid = {fonts.TexUvWhitePixel.x, fonts.TexUvWhitePixel.y};
+    const ImFont& font = *fonts.Fonts.front();
+    const float line = font.FontSize;
+    for (const ImFontGlyph& glyph : font.Glyphs)
+        atlas.glyphs[glyph.Codepoint] = with_margin(glyph, line);
+    return atlas;
+}
+
+} // namespace isochron::app

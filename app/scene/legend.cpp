@@ -1,0 +1,115 @@
+// Layout of the legend.
+#include "app/scene/legend.h"
+
+#include "app/scene/ticks.h"
+#include "app/text.h"
+#include "render/gl/srgb.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <algorithm>
+
+namespace isochron::app {
+namespace {
+
+constexpr glm::vec4 kPaper(0.05f, 0.06f, 0.07f, 0.72f);
+constexpr glm::vec4 kInk(0.90f, 0.92f, 0.95f, 1.0f);
+constexpr int kPatches = 64; ///< of which the bar is made
+constexpr int kMostTicks = 6;
+constexpr float kBarHeight = 11.0f, kBarWidth = 1.0f, kMargin = 1.0f; ///< heights of the text
+
+class Layout {
+  public:
+    Layout(const render::TextPass& text, const glm::ivec2& picture)
+        : text_(text), picture_(picture), height_(text_height(picture)) {}
+
+    /// @param at, size in heights of the text, from the legend's lower left
+    void fill(glm::vec2 at, glm::vec2 size, const glm::vec4& color) {
+        text_.fill({}, height_ * at, height_ * (at + size), color, quads_);
+    }
+    void write(const std::string& line, glm::vec2 at) {
+        text_.set({.text = line, .anchor = {0.0f, 0.5f}, .offset = at, .color = kInk}, height_,
+                  quads_);
+        right_ = std::max(right_, at.x + render::text_width(text_.atlas(), line));
+        top_ = std::max(top_, at.y + 0.5f);
+    }
+
+    /// Moves all to its corner of the picture, on paper.
+    std::vector<render::ScreenQuad> finish() {
+        const glm::vec2 size = height_ * (glm::vec2(right_, top_) + kMargin);
+        const glm::vec2 corner =
+            glm::vec2(static_cast<float>(picture_.x), 0.0f) + glm::vec2(-size.x - height_, height_);
+        if (corner.x < 0.0f || corner.y + size.y > static_cast<float>(picture_.y))
+            return {};
+        std::vector<render::ScreenQuad> all;
+        text_.fill({}, glm::vec2(-0.5f * kMargin * height_), size - 0.5f * kMargin * height_,
+                   kPaper, all);
+        all.insert(all.end(), quads_.begin(), quads_.end());
+        // Whole pixels: a legend has no depth to lose.
+        const glm::vec2 origin = glm::floor(corner + 0.5f * kMargin * height_);
+        for (render::ScreenQuad& quad : all)
+            quad.at = glm::vec3(origin, 0.0f);
+        return all;
+    }
+    float top() const { return top_; }
+
+  private:
+    const render::TextPass& text_;
+    glm::vec2 picture_;
+    float height_; ///< of the text, pixels
+    float right_ = 0.0f, top_ = 0.0f;
+    std::vector<render::ScreenQuad> quads_;
+};
+
+void write_scale(const ColorScale& scale, Layout& layout) {
+    const std::vector<glm::vec3> colors = render::color_map(scale.map);
+    for (int i = 0; i < kPatches; ++i) {
+        const std::size_t at = i * (colors.size() - 1) / (kPatches - 1);
+        layout.fill({0.0f, 0.5f + kBarHeight * static_cast<float>(i) / kPatches},
+                    {kBarWidth, kBarHeight / kPatches},
+                    glm::vec4(render::srgb_from_linear(colors[at]), 1.0f));
+    }
+    const auto [low, high] = scale.range;
+    const Ticks ticks = nice_ticks(low, high, kMostTicks);
+    for (const double value : ticks.values) {
+        const auto up = static_cast<float>((value - low) / (high - low));
+        const float y = 0.5f + kBarHeight * up;
+        layout.fill({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, kInk);
+        layout.write(tick_text(value, ticks.step), {kBarWidth + 0.7f, y});
+    }
+    layout.write(scale.title, {0.0f, kBarHeight + 1.6f});
+}
+
+void write_surfaces(const Legend& legend, Layout& layout) {
+    float y = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
+    for (const interaction::Isosurface& surface : legend.surfaces) {
+        if (!legend.scale)
+            layout.fill({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(surface.color, 1.0f));
+        layout.write(fmt::format("{:.5g}{}", surface.isovalue, with_space(legend.value_unit)),
+                     {kBarWidth + 0.7f, y});
+        y += 1.3f;
+    }
+}
+
+} // namespace
+
+float text_height(const glm::ivec2& picture) {
+    constexpr float kLeast = 11.0f, kMost = 40.0f;
+    return std::clamp(static_cast<float>(picture.y) / 40.0f, kLeast, kMost);
+}
+
+std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
+                                             const glm::ivec2& picture) {
+    const bool several = legend.surfaces.size() > 1;
+    if (!legend.scale && !several)
+        return {};
+    Layout layout(text, picture);
+    if (legend.scale)
+        write_scale(*legend.scale, layout);
+    if (several)
+        write_surfaces(legend, layout);
+    return layout.finish();
+}
+
+} // namespace isochron::app

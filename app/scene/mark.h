@@ -1,0 +1,22 @@
+// The place in the data that somebody picked, as people see it: a cross and its read-out.
+#pragma once
+
+#include "index/volume/volume_series.h"
+#include "interaction/commands.h"
+#include "render/passes/text_pass.h"
+
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// `12.5, 3, -4.25 mm: 37.2 K at 0.35 s`: the place, the data there, and when.
+std::string mark_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info);
+
+/// A cross on the point and, beside it, the read-out on its paper, for a picture of that size: at
+/// the point's depth, to be drawn over the surface that it lies on.
+std::vector<render::ScreenQuad> mark_quads(const interaction::MarkedPoint& point,
+                                           const glm::vec3& in_room, const index::SeriesInfo& info,
+                                           const render::TextPass& text, const glm::ivec2& picture);
+
+} // namespace isochron::app

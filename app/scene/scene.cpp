@@ -1,0 +1,189 @@
+// What the eyes see: the cells, the volume's box, the legend, the wand and what lies on the floor.
+#include "app/scene/scene.h"
+
+#include "app/scene/axis_labels.h"
+#include "app/scene/font.h"
+#include "app/scene/mark.h"
+#include "interaction/navigation.h"
+#include "render/gl/driver.h"
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace isochron::app {
+namespace {
+
+constexpr float kWandLength = 1.2f;             // metres
+constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
+constexpr glm::vec4 kBoxColour(0.45f, 0.50f, 0.56f, 0.55f);
+constexpr glm::vec4 kWandColour(1.0f, 0.77f, 0.36f, 0.9f);
+constexpr float kFontPixels = 32.0f; ///< of glyphs, which are shown smaller
+
+bool blends_light(const render::Gl& gl, Blending blending) {
+    return blending == Blending::automatic ? !render::draws_in_software(gl)
+                                           : blending == Blending::linear;
+}
+
+} // namespace
+
+Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
+    : gl_(gl), info_(info), upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame),
+      appearance_(config.appearance), cells_(gl, info.grid), cell_pass_(gl), line_pass_(gl),
+      text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), veil_pass_(gl) {
+    appearance_.linear_light = blends_light(gl, config.blending);
+    // How values are held depends on their type only, not on their range.
+    cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
+}
+
+void Scene::upload(const index::ExtractionPtr& newest, render::SendVolume volume) {
+    cells_.upload(newest, upload_bytes_, volume);
+}
+
+render::Footprint Scene::best_footprint() const {
+    return cells_.size() <= cells_.corner_limit() ? render::kBestFootprint
+                                                  : render::Footprint::gaussian;
+}
+
+void Scene::look(const ExplorerState& state, const interaction::Pose& head,
+                 const std::optional<ColorScale>& scale) {
+    surfaces_ = state.isosurfaces;
+    for (std::size_t i = 0; i < surfaces_.size(); ++i)
+        appearance_.surfaces[i] = {surfaces_[i].color, surfaces_[i].opacity};
+    if (scale && (!scale_ || scale_->map != scale->map))
+        map_.emplace(render::color_map_texture(gl_, scale->map));
+    scale_ = scale;
+    appearance_.values.reset();
+    if (scale) {
+        const auto share = [&](double value) {
+            const double half = scale->whole[1] / 2 - scale->whole[0] / 2;
+            return half > 0 ? static_cast<float>((value / 2 - scale->whole[0] / 2) / half) : 0.0f;
+        };
+        appearance_.values = {
+            .map = map_->name(), .low = share(scale->range[0]), .high = share(scale->range[1])};
+    }
+    mark_ = state.mark;
+    box_ = state.axes;
+    axes_ =
+        box_ ? axes_for(info_, render::Placement::of(info_.grid, matrix(state.room_from_physical)),
+                        head)
+             : Axes{};
+}
+
+void Scene::set_near_fade(const interaction::ComfortOptions& comfort,
+                          std::span<const stereo::Viewpoint> viewers) {
+    heads_.clear();
+    appearance_.near_fade.reset();
+    if (!(comfort.near_whole > 0))
+        return;
+    appearance_.near_fade = {.gone = comfort.near_gone, .whole = comfort.near_whole};
+    for (const stereo::Viewpoint& viewer : viewers)
+        heads_.push_back(viewer.head.position);
+}
+
+/// That of the viewer whose eye it is: between two eyes is less room than between two heads.
+glm::vec3 Scene::head_of(const render::View& view) const {
+    const glm::vec3 eye = view.eye_in_room();
+    return *std::ranges::min_element(
+        heads_, {}, [&](const glm::vec3& head) { return glm::distance(head, eye); });
+}
+
+/// Over the surface that it lies on, but not over the panel.
+void Scene::draw_mark(const render::View& view, const interaction::Similarity& room_from_physical) {
+    const glm::vec3 at(interaction::transform(room_from_physical, mark_.point->position));
+    if (panel_ && render::hides(panel_->quad, view.eye_in_room(), at))
+        return;
+    text_pass_.draw(view, glm::mat4(1.0f),
+                    mark_quads(*mark_.point, at, info_, text_pass_, view.size),
+                    render::TextPass::Depth::none);
+}
+
+void Scene::draw(std::span<const render::View> views,
+                 const interaction::Similarity& room_from_physical, render::Footprint footprint,
+                 const std::optional<interaction::Pose>& wand) {
+    const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
+    // Soft edges blend with what is drawn before them. What splats may hide must come before these
+    // all the same, since they write no depth.
+    const bool depth = writes_depth(footprint);
+    if (!depth)
+        draw_among_cells(views, placement, wand);
+    if (footprint == render::Footprint::surface)
+        cells_.compute_corners();
+    if (appearance_.near_fade && !views.empty()) // of one viewer, all of them
+        appearance_.near_fade->between_eyes = head_of(views.front());
+    cell_pass_.draw(views, placement, cells_, footprint, appearance_);
+    if (depth)
+        draw_among_cells(views, placement, wand);
+    draw_before_cells(views, placement);
+    for (const render::View& view : views)
+        draw_over_cells(view, room_from_physical);
+}
+
+/// Whether the cells hide what is drawn after them and lies behind.
+bool Scene::writes_depth(render::Footprint footprint) const {
+    return footprint == render::Footprint::quad ||
+           (footprint == render::Footprint::surface &&
+            std::ranges::all_of(appearance_.surfaces, [](const render::SurfaceAppearance& surface) {
+                return surface.opacity >= 1.0f;
+            }));
+}
+
+render::BoxLines Scene::box_in(const render::View& view, const render::Placement& placement) const {
+    const glm::vec4 eye(view.eye_in_room(), 1.0f);
+    return render::box_lines(placement.extent, kBoxColour,
+                             glm::vec3(glm::inverse(placement.room_from_index) * eye));
+}
+
+void Scene::draw_among_cells(std::span<const render::View> views,
+                             const render::Placement& placement,
+                             const std::optional<interaction::Pose>& wand) {
+    for (const render::View& view : views) {
+        if (box_)
+            line_pass_.draw(view, placement.room_from_index, box_in(view, placement).far);
+        draw_guides(view, wand);
+    }
+}
+
+/// The edges of the box that no cell hides. The numbers stand at its outline, where there is no
+/// cell before them, nor behind.
+void Scene::draw_before_cells(std::span<const render::View> views,
+                              const render::Placement& placement) {
+    if (!box_)
+        return;
+    const std::vector<render::Label> labels =
+        labels_with_room(axes_.labels, text_pass_.atlas(), placement.room_from_index, views);
+    for (const render::View& view : views) {
+        std::vector<render::Line> lines = box_in(view, placement).near;
+        lines.insert(lines.end(), axes_.ticks.begin(), axes_.ticks.end());
+        line_pass_.draw(view, placement.room_from_index, lines);
+        std::vector<render::ScreenQuad> quads;
+        for (const render::Label& label : labels)
+            text_pass_.set(label, text_height(view.size), quads);
+        text_pass_.draw(view, placement.room_from_index, quads);
+    }
+}
+
+void Scene::draw_guides(const render::View& view, const std::optional<interaction::Pose>& wand) {
+    if (!guides_.empty())
+        line_pass_.draw(view, glm::mat4(1.0f), guides_);
+    if (wand) {
+        const float length = panel_ && panel_->ray ? *panel_->ray : kWandLength;
+        const std::array ray{render::Line{{0, 0, 0}, {0, 0, -length}, kWandColour}};
+        line_pass_.draw(view, room_from(*wand), ray, panel_ ? kPointing : kThin);
+    }
+    if (panel_)
+        panel_pass_.draw(view, panel_->quad);
+}
+
+void Scene::draw_over_cells(const render::View& view,
+                            const interaction::Similarity& room_from_physical) {
+    if (mark_.point)
+        draw_mark(view, room_from_physical);
+    veil_pass_.draw(view, veil_);
+    text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
+                    legend_quads({surfaces_, info_.value_unit, scale_}, text_pass_, view.size),
+                    render::TextPass::Depth::none);
+}
+
+} // namespace isochron::app

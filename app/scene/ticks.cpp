@@ -1,0 +1,58 @@
+// Round numbers along an axis.
+#include "app/scene/ticks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+/// The least 1, 2 or 5 times a power of ten that is not below.
+double nice_above(double number) {
+    const double decade = std::pow(10.0, std::floor(std::log10(number)));
+    constexpr double kRounding = 1.0 + 1e-9;
+    for (const double factor : {1.0, 2.0, 5.0})
+        if (number <= factor * decade * kRounding)
+            return factor * decade;
+    return 10.0 * decade;
+}
+
+} // namespace
+
+Ticks nice_ticks(double low, double high, int most) {
+    const double span = high - low;
+    if (!(span > 0) || !std::isfinite(span) || !std::isfinite(1 / span))
+        return {};
+    Ticks ticks;
+    // A step may not be told apart from none next to numbers that are very large.
+    const double finest = 4e-16 * std::max(std::abs(low), std::abs(high));
+    ticks.step = nice_above(std::max(span / std::max(most, 2), finest));
+    const double inside = 1e-9; // of a step: ends that rounding has moved are still ends
+    for (;;) {
+        const double first = std::ceil(low / ticks.step - inside);
+        const double last = std::floor(high / ticks.step + inside);
+        if (last - first + 1 <= std::max(most, 2)) {
+            for (double k = first; k <= last; ++k)
+                ticks.values.push_back(k * ticks.step);
+            return ticks;
+        }
+        ticks.step = nice_above(ticks.step * 1.5);
+    }
+}
+
+std::string tick_text(double value, double step) {
+    if (std::abs(value) < 1e-6 * step)
+        value = 0;
+    const double size = std::max(std::abs(value), step);
+    const int digits =
+        static_cast<int>(std::floor(std::log10(size)) - std::floor(std::log10(step) + 1e-9)) + 1;
+    const bool plain = size < 1e6 && step >= 1e-5;
+    if (!plain)
+        return value == 0 ? "0" : fmt::format("{:.{}e}", value, std::max(digits - 1, 0));
+    const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+    return fmt::format("{:.{}f}", value, decimals);
+}
+
+} // namespace isochron::app

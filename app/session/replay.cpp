@@ -1,0 +1,117 @@
+// Replaying a recording.
+#include "app/session/replay.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+
+/// What of a frame's commands a replay obeys: overridden switches stay as they were set.
+Commands obeyed(Commands commands, const ReplayOptions& options) {
+    if (options.stereo)
+        commands.stereo.reset();
+    if (options.quality)
+        commands.quality.reset();
+    commands.screenshot = false;
+    return commands;
+}
+
+/// Views as they were recorded.
+Latch latch_of(const interaction::RecordedFrame& frame) {
+    if (frame.latched.devices.empty())
+        return {};
+    return [&frame] { return frame.latched; };
+}
+
+} // namespace
+
+std::vector<std::string> differences(const Commands& a, const Commands& b) {
+    std::vector<std::string> names;
+    const auto compare = [&](const char* name, const auto& left, const auto& right) {
+        if (!(left == right))
+            names.emplace_back(name);
+    };
+    compare("isosurfaces", a.isosurfaces, b.isosurfaces);
+    compare("picked", a.picked, b.picked);
+    compare("isovalue", a.isovalue, b.isovalue);
+    compare("step", a.step, b.step);
+    compare("playback", a.playback, b.playback);
+    compare("room_from_physical", a.room_from_physical, b.room_from_physical);
+    compare("quality", a.quality, b.quality);
+    compare("eye_separation", a.eye_separation, b.eye_separation);
+    compare("stereo", a.stereo, b.stereo);
+    compare("panel", a.panel, b.panel);
+    compare("grid", a.grid, b.grid);
+    compare("room_panel", a.room_panel, b.room_panel);
+    compare("mark", a.mark, b.mark);
+    compare("haptics", a.haptics, b.haptics);
+    compare("views", a.views, b.views);
+    compare("axes", a.axes, b.axes);
+    compare("coloring", a.coloring, b.coloring);
+    compare("screenshot", a.screenshot, b.screenshot);
+    compare("quit", a.quit, b.quit);
+    compare("stamps", a.stamps, b.stamps);
+    return names;
+}
+
+ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,
+                       std::size_t steps, const ReplayOptions& options) {
+    ExplorerState state = fallback;
+    if (!state.apply(header.start, steps))
+        throw interaction::Error(
+            fmt::format("the recording's start state does not fit the data ({} steps)", steps));
+    state.stereo = options.stereo.value_or(state.stereo);
+    state.quality = options.quality.value_or(state.quality);
+    return state;
+}
+
+std::vector<std::string> replay_fixed_step(Session& session,
+                                           const interaction::Recording& recording,
+                                           const ReplayOptions& options, const FrameDone& done) {
+    std::vector<std::string> different;
+    for (std::size_t number = 0; number < recording.frames.size(); ++number) {
+        const interaction::RecordedFrame& frame = recording.frames[number];
+        if (options.from_devices) {
+            Commands recomputed = session.commands_from(frame.input);
+            interaction::merge(recomputed, frame.from_panel);
+            const auto fields = differences(frame.commands, recomputed);
+            if (!fields.empty())
+                different.push_back(fmt::format("frame {} at {:.3f} s: {}", number,
+                                                frame.input.time.count(), fmt::join(fields, ", ")));
+        }
+        session.frame(frame.input, obeyed(frame.commands, options), Waiting::for_cells,
+                      latch_of(frame));
+        done(number, frame);
+    }
+    return different;
+}
+
+void replay_live(Session& session, const interaction::Recording& recording,
+                 const ReplayOptions& options) {
+    const auto& frames = recording.frames;
+    const auto clock = [start = std::chrono::steady_clock::now(), &frames] {
+        return std::chrono::steady_clock::now() - start + frames.front().input.time;
+    };
+    session.set_clock(clock);
+    interaction::ReplayInput devices(recording);
+    while (!devices.finished() && !session.should_close()) {
+        session.windows().poll_events();
+        const interaction::Seconds now = clock();
+        Commands commands;
+        std::size_t next = devices.frames_played();
+        interaction::InputState input = devices.poll(now);
+        for (; next < devices.frames_played(); ++next)
+            interaction::merge(commands, obeyed(frames[next].commands, options));
+        input.time = now;
+        session.frame(input, commands, Waiting::never, [&] {
+            return interaction::InputState{clock(), frames[next - 1].latched.devices};
+        });
+    }
+}
+
+} // namespace isochron::app

@@ -1,0 +1,363 @@
+// One session: the data, the worker, the eyes, and the story of one frame.
+#include "app/session/session.h"
+
+#include "interaction/navigator.h"
+
+#include <chrono>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+
+/// Times stages that follow one another.
+class StopWatch {
+  public:
+    /// Time since the last lap, or since the start.
+    Milliseconds lap() {
+        const auto now = Clock::now();
+        return now - std::exchange(last_, now);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point last_ = Clock::now();
+};
+
+std::vector<interaction::Isosurface> first_surfaces(const Config& config,
+                                                    const index::IndexStats& stats) {
+    std::vector<interaction::Isosurface> surfaces;
+    for (const ConfiguredSurface& surface : config.surfaces)
+        surfaces.push_back({surface.isovalue.value_or(quantile(stats, surface.quantile)),
+                            surface.color, surface.opacity});
+    if (surfaces.empty())
+        surfaces.push_back({quantile(stats, kFirstQuantile), config.surface_colour, 1.0f});
+    return surfaces;
+}
+
+ExplorerState start_state(const Config& config, const index::IndexFile& file) {
+    ExplorerState state;
+    state.room_from_physical = place(file.info(), config.placement);
+    state.quality = config.quality;
+    state.grid = config.grid;
+    state.eye_separation = config.installation.viewers.front().eye_separation;
+    state.isosurfaces = first_surfaces(config, file.stats());
+    state.coloring = config.coloring;
+    state.axes = config.bounding_box;
+    const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
+    state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};
+    state.stereo = config.installation.windows.front().stereo;
+    return state;
+}
+
+} // namespace
+
+Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
+                 stereo::Windows windows, index::Extract extract,
+                 std::unique_ptr<stereo::Headset> headset)
+    : config_(std::move(config)), file_(std::move(file)), windows_(std::move(windows)),
+      gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
+      gate_(config_.stillness), comfort_(config_.comfort),
+      extractor_(extract ? std::move(extract)
+                         : index::extract_from(file_, std::nullopt,
+                                               render::CellBuffers::wanted_shading(gl_))),
+      scene_(gl_, file_->info(), config_),
+      displays_(headset ? std::deque<stereo::Display>() : make_displays(gl_, windows_, config_)),
+      headset_(std::move(headset)), panel_(gl_), room_panel_(gl_, config_.panel), picker_(file_),
+      stereo_modes_(live_stereo_modes(windows_)),
+      // A headset has its own rate, which the configuration tells.
+      quality_(gl_, config_, headset_ ? std::nullopt : windows_.first().refresh_rate()) {
+    if (headset_) {
+        headset_display_.emplace(gl_, windows_.drawing(), windows_[0], config_.openxr.mirror,
+                                 display_options(gl_, config_));
+        headset_->attach(windows_.drawing(), gl_);
+    }
+    if (windows_.room())
+        room_.emplace(gl_, *windows_.room(), config_.installation);
+    picture_options(gl_, config_, {1, 1}); // wrong ones are told now, not when the first is taken
+    if (windows_.console())
+        console_.emplace(gl_, windows_.drawing(), *windows_.console());
+}
+
+Session::~Session() {
+    if (headset_)
+        headset_->detach();
+}
+
+interaction::ControlContext Session::control_context() const {
+    interaction::ControlContext context;
+    context.isovalue = state_.isovalue();
+    context.isosurfaces = static_cast<std::uint32_t>(state_.isosurfaces.size());
+    context.picked = state_.picked;
+    context.coloring = state_.coloring;
+    context.axes = state_.axes;
+    context.has_second_array = file_->color() != nullptr;
+    context.low = file_->stats().low;
+    context.high = file_->stats().high;
+    context.step = state_.step;
+    context.times = &file_->info().times;
+    context.playback = state_.playback;
+    context.room_from_physical = state_.room_from_physical;
+    context.home = home_.room_from_physical;
+    context.pivot = physical_centre(file_->info().grid);
+    context.quality = state_.quality;
+    context.eye_separation = state_.eye_separation;
+    context.stereo = stereo::name_of(state_.stereo);
+    context.panel = state_.panel;
+    context.room_panel = state_.room_panel;
+    context.panel_distance = room_panel_.distance();
+    context.grid = state_.grid;
+    context.views = &state_.views;
+    context.stereo_modes = &stereo_modes_;
+    return context;
+}
+
+Commands Session::commands_from(const interaction::InputState& input) {
+    PanelInRoom::Outcome panel = room_panel_.outcome(input, state_.room_panel);
+    Commands commands = controls_.update(panel.rest, control_context());
+    interaction::merge(commands, panel.commands);
+    // What is found depends on what is shown: recorded with what the operator's panel leads to.
+    interaction::merge(panel_commands_,
+                       picker_.update(panel.rest, !panel.touched, state_, scene_.shown()));
+    return commands;
+}
+
+void Session::request_cells(Waiting waiting) {
+    index::Request request{state_.surfaces(), std::nullopt};
+    if (shared_ && waiting == Waiting::never)
+        request.query = shared_->cells().ask(request.query);
+    const auto steps = static_cast<std::uint32_t>(file_->info().steps());
+    if (state_.playback.playing && steps > 1)
+        request.next_step =
+            (request.query.step + (state_.playback.reverse ? steps - 1 : 1)) % steps;
+    extractor_.request(request);
+}
+
+void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
+    const render::UploadCount before = scene_.uploaded();
+    StopWatch watch;
+    if (waiting == Waiting::for_cells) {
+        extractor_.wait();
+        report.wait = watch.lap();
+    }
+    const index::ExtractionPtr newest = extractor_.newest();
+    const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
+    const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
+    if (shared_ && waiting == Waiting::never)
+        show_shared_cells();
+    else
+        scene_.upload(newest, volume);
+    // A replay shows what was asked for, however many upload budgets that takes.
+    while (waiting == Waiting::for_cells && newest && scene_.shown() != newest)
+        scene_.upload(newest);
+    if (!scene_.has_volume()) // the picture has not come to rest
+        report.pace = interaction::Pace::moving;
+    report.upload = watch.lap();
+    report.uploaded = scene_.uploaded().since(before);
+    if (const index::ExtractionPtr& shown = scene_.shown()) {
+        report.shown = shown->query;
+        report.cells = shown->cells();
+        report.candidates = shown->candidates();
+        report.reused = shown->reused();
+        report.search = shown->search_time();
+        report.gather = shown->gather_time;
+    }
+}
+
+std::vector<glm::ivec2> Session::window_sizes() const {
+    std::vector<glm::ivec2> sizes;
+    for (std::size_t i = 0; i < windows_.count(); ++i)
+        sizes.push_back(windows_[i].framebuffer_size());
+    return sizes;
+}
+
+/// Nothing as long as the cells that are drawn are not coloured by what they are to be: their
+/// coordinates would say something else.
+std::optional<ColorScale> Session::shown_scale() const {
+    const index::ExtractionPtr& shown = scene_.shown();
+    if (!shown || shown->query.coloring != state_.surfaces().coloring)
+        return std::nullopt;
+    return color_scale(state_, *file_);
+}
+
+/// With the footprint that was drawn last.
+Session::Picture Session::picture(const interaction::InputState& input,
+                                  const FrameReport& report) const {
+    const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
+    return {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
+            .eyes = headset_ ? headset_->eyes() : std::vector<stereo::HeadsetEye>(),
+            .wand = wand ? wand->pose : std::nullopt,
+            .panel = room_panel_.shown(state_.room_panel),
+            .mark = state_.mark,
+            .guides = {state_.grid, interaction::teleport_target(input)},
+            .veil = {static_cast<float>(report.comfort.fade),
+                     static_cast<float>(report.comfort.vignette)},
+            .room_from_physical = state_.room_from_physical,
+            .stereo = state_.stereo,
+            .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
+            .cells = scene_.shown(),
+            .isosurfaces = state_.isosurfaces,
+            .scale = shown_scale(),
+            .axes = state_.axes,
+            .windows = window_sizes()};
+}
+
+/// The devices that the views are made of, asked for as late as can be.
+interaction::InputState Session::seen(const interaction::InputState& input, const Latch& latch,
+                                      FrameReport& report) {
+    const interaction::InputState newest =
+        latch ? latch() : interaction::InputState{input.time, {}};
+    latched_ = viewers_heads(newest, config_.installation);
+    interaction::InputState seen = with_heads(input, latched_);
+    report.pose_age = pose_age(seen, newest.time, config_.installation);
+    return seen;
+}
+
+void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report) {
+    learn_costs();
+    const bool live = waiting == Waiting::never;
+    if (live && !log_.frames().empty())
+        report.missed = quality_.missed(report.time - log_.frames().back().time);
+    const bool changed = now != drawn_;
+    render::Footprint best = scene_.best_footprint();
+    if (shared_ && report.cells > shared_->surface_limit())
+        best = render::Footprint::gaussian;
+    bool measure = quality_.choose(
+        state_, changed, live ? Choosing::by_measurement : Choosing::by_pace, best, report);
+    if (shared_)
+        measure = take_shared_choice(measure, report);
+    now.footprint = report.footprint;
+    // While a headset wants no picture, there is nothing to draw and nothing to learn from it.
+    const bool wanted = !headset_ || !now.eyes.empty();
+    report.redrawn = wanted && (now != drawn_ || measure);
+}
+
+/// How a window shows a picture.
+stereo::StereoMode Session::mode_in(const stereo::Window& window, const Picture& now) const {
+    const stereo::StereoMode mode = mode_of(window, config_.installation, now.stereo);
+    return room_ ? RoomView::shown(mode) : mode;
+}
+
+void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
+                        FrameReport& report) {
+    const auto panel = [&](glm::ivec2 size) { draw_panel_overlay(size, report); };
+    panel_drawn_ = false;
+    StopWatch watch;
+    if (report.redrawn) {
+        quality_.begin(log_.next());
+        scene_.set_guides(now.guides);
+        scene_.set_panel(now.panel);
+        scene_.set_near_fade(config_.comfort, now.viewers);
+        scene_.set_veil(now.veil);
+        scene_.look(state_, now.viewers.front().head, now.scale);
+    }
+    for (std::size_t i = 0; i < displays_.size(); ++i) {
+        // The panel lies over one window.
+        const bool first = i == 0 && (!shared_ || shared_->leads());
+        const auto overlay = first && !room_ ? panel : stereo::Display::Overlay();
+        if (!report.redrawn) {
+            displays_[i].draw_overlay_again(overlay);
+            continue;
+        }
+        displays_[i].draw(
+            now.viewers, mode_in(displays_[i].window(), now),
+            [&](std::span<const render::View> views) { draw_for(views, now); }, overlay);
+    }
+    if (headset_)
+        draw_headset(now, report.redrawn, panel);
+    if (report.redrawn)
+        quality_.end(report, report.upload + watch.lap());
+    drawn_ = now;
+    if (room_) {
+        room_->set_panel(now.panel);
+        room_->draw(displays_, now.viewers, now.wand, input, panel);
+    }
+}
+
+void Session::draw_for(std::span<const render::View> views, const Picture& now) {
+    for (const render::View& view : views)
+        quality_.viewed(view);
+    scene_.draw(views, now.room_from_physical, now.footprint, now.wand);
+}
+
+void Session::draw_headset(const Picture& now, bool redrawn,
+                           const stereo::Display::Overlay& overlay) {
+    if (redrawn)
+        headset_display_->draw(now.eyes,
+                               [&](std::span<const render::View> views) { draw_for(views, now); });
+    headset_display_->submit(*headset_, now.eyes, !redrawn);
+    headset_display_->mirror(overlay);
+}
+
+bool Session::captures(const FrameReport& report) {
+    return captures_.take({.time = report.time,
+                           .asked = report.asked,
+                           .shown = report.shown,
+                           .failed = has_no_answer(),
+                           .final = report.final});
+}
+
+void Session::show_messages(std::vector<std::string> messages) {
+    if (!messages.empty())
+        message_ = std::move(messages.back());
+}
+
+const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
+                                  Waiting waiting, const Latch& latch) {
+    StopWatch whole, since_input;
+    Latch heads = latch;
+    if (shared_ && shared_->leads()) { // all walls are seen from the same heads
+        const auto newest = latch ? latch() : interaction::InputState{input.time, {}};
+        shared_->begin(input, commands, waiting, viewers_heads(newest, config_.installation));
+        heads = [newest] { return newest; };
+    }
+    FrameReport report;
+    report.time = input.time;
+    report.tracking = tracking_of(input);
+    panel_commands_ = {}; // a replay takes none
+    const interaction::InputState rest = room_panel_.update(input, state_.room_panel);
+    state_.apply(commands, file_->info().steps());
+    if (commands.screenshot)
+        captures_.ask();
+    report.comfort = comfort_.update(input, state_.room_from_physical);
+    report.asked = state_.surfaces();
+    report.pace = gate_.update(rest, commands, state_.quality);
+    request_cells(waiting);
+    take_newest_cells(waiting, report);
+    if (state_.room_panel.shown)
+        room_panel_.lay_out(panel_model(PanelPlace::in_room, report), report.time);
+    else
+        room_panel_.leave_out();
+    Picture now = picture(seen(rest, heads, report), report);
+    choose_quality(now, waiting, report);
+
+    StopWatch stages;
+    draw_eyes(now, input, report);
+    if (console_)
+        interaction::merge(panel_commands_,
+                           console_->draw(panel_model(PanelPlace::whole, report), report.time));
+    report.draw = stages.lap();
+    if (shared_)
+        wait_for_others();
+    report.barrier = stages.lap();
+    for (stereo::Display& display : displays_)
+        display.present();
+    if (room_)
+        room_->present();
+    if (console_)
+        console_->present();
+    if (headset_)
+        headset_display_->present();
+    report.present = stages.lap();
+    report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
+    if (captures(report))
+        take_screenshots();
+    show_messages(pictures_.messages());
+    show_messages(picker_.messages());
+    report.total = whole.lap();
+    log_.add(report);
+    return log_.frames().back();
+}
+
+} // namespace isochron::app

@@ -1,0 +1,82 @@
+// A series of which an index already holds the first steps.
+#include "index/build/appended_series.h"
+
+#include "index/error.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+/// One step of what the index holds.
+using Load = LoadedStep (IndexFile::*)(std::uint32_t) const;
+
+class AppendedSeries final : public VolumeSeries {
+  public:
+    AppendedSeries(std::shared_ptr<const IndexFile> index, std::unique_ptr<VolumeSeries> all,
+                   Load load)
+        : index_(std::move(index)), all_(std::move(all)), load_(load) {}
+
+    const SeriesInfo& info() const override { return all_->info(); }
+
+    void read(std::size_t step, std::span<std::byte> out) override {
+        if (step >= index_->info().steps())
+            return all_->read(step, out);
+        const LoadedStep held = ((*index_).*load_)(static_cast<std::uint32_t>(step));
+        std::memcpy(out.data(), held.values.step_bytes(step).data(), out.size());
+    }
+
+  private:
+    std::shared_ptr<const IndexFile> index_;
+    std::unique_ptr<VolumeSeries> all_;
+    Load load_;
+};
+
+template <class T>
+bool begins_with(const std::vector<T>& all, const std::vector<T>& first) {
+    return all.size() >= first.size() && std::equal(first.begin(), first.end(), all.begin());
+}
+
+} // namespace
+
+std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
+                                        const std::string& name,
+                                        std::unique_ptr<VolumeSeries> all) {
+    const SeriesInfo &held = index->info(), &given = all->info();
+    const auto refuse = [&](const std::string& what) {
+        throw Error(fmt::format("{}: cannot be appended to: {}", name, what));
+    };
+    if (given.grid != held.grid || given.type != held.type || given.scaling != held.scaling ||
+        given.array != held.array)
+        refuse("the files differ from it in grid, type, scaling or array");
+    if (!begins_with(given.sources, held.sources) || !begins_with(given.times, held.times))
+        refuse(fmt::format("the files given must begin with the {} steps that it holds, {} to {}",
+                           held.steps(), held.sources.empty() ? "?" : held.sources.front(),
+                           held.sources.empty() ? "?" : held.sources.back()));
+    if (given.steps() == held.steps())
+        return nullptr;
+    return std::make_unique<AppendedSeries>(std::move(index), std::move(all), &IndexFile::load);
+}
+
+std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> index,
+                                               const std::string& name,
+                                               std::unique_ptr<VolumeSeries> all) {
+    const ColorArray* held = index->color();
+    const std::string given = all ? all->info().array : "";
+    if ((held ? held->array : "") != given)
+        throw Error(fmt::format("{}: cannot be appended to: it holds {}, {} given", name,
+                                held ? "the colours " + held->array : "no colours",
+                                all ? "the colours " + given : "none"));
+    if (!all)
+        return nullptr;
+    if (held->type != all->info().type || held->scaling != all->info().scaling)
+        throw Error(fmt::format("{}: cannot be appended to: its colours {} differ in type or "
+                                "scaling",
+                                name, given));
+    return std::make_unique<AppendedSeries>(std::move(index), std::move(all),
+                                            &IndexFile::load_color);
+}
+
+} // namespace isochron::index

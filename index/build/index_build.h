@@ -1,0 +1,37 @@
+// Building of .isochron files.
+#pragma once
+
+#include "index/file/index_file.h"
+#include "index/progress.h"
+#include "index/system/team.h"
+
+namespace isochron::index {
+
+struct BuildOptions {
+    std::optional<TierSet> tiers =
+        {};                 ///< instead of the planner's choice, which leaves out the tree
+    bool with_tree = false; ///< besides
+    ThiOptions tree = {};
+    unsigned threads = 0; ///< 0 for as many as there are processors
+    /// When set the file refers to these instead of carrying a copy of the values.
+    std::optional<Referral> referral = {};
+    /// Carried to colour surfaces by: another array of the same files. Outlives the build.
+    VolumeSeries* color = nullptr;
+    /// What picks it in the files, for an index that refers to them.
+    std::optional<std::string> color_array = {}, color_component = {};
+};
+
+/// Reads a series once and writes NAME.isochron under a temporary name, then renames it.
+/// On any failure, also a cancelled one, nothing is left behind. An existing index is replaced;
+/// any other existing file is refused. The same series and options give the same bytes, whatever
+/// the number of threads and of processes. Memory: one decoded step for each process, and some
+/// 150 MiB for each thread; the paper's tree, where asked for, takes 30 bytes for each cell-step
+/// more.
+/// @param team all of whose members call this with the same series and options
+/// @throws Error: as the series reads, unwritable, disk full, larger than `CellId` can count
+void build_index(VolumeSeries& series, const std::filesystem::path& out,
+                 const BuildOptions& options, const Progress& progress = {});
+void build_index(VolumeSeries& series, const std::filesystem::path& out,
+                 const BuildOptions& options, const Progress& progress, Team& team);
+
+} // namespace isochron::index

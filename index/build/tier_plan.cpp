@@ -1,0 +1,118 @@
+// The choice of tiers for a series.
+#include "index/build/tier_plan.h"
+
+#include "index/cells/chunk_ranks.h"
+#include "index/error.h"
+#include "index/volume/chunking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::uint32_t kSampledChunks = 4, kSampledSteps = 17;
+/// Above this, cells take more than some 16 GiB.
+constexpr std::uint64_t kMaxCellSteps = std::uint64_t{6} << 30;
+
+/// Values between which both or only one of the half-open intervals lie.
+std::uint32_t difference(std::uint8_t a_low, std::uint8_t a_high, std::uint8_t b_low,
+                         std::uint8_t b_high) {
+    const auto length = [](int low, int high) {
+        return static_cast<std::uint32_t>(std::max(high - low, 0));
+    };
+    const std::uint32_t common = length(std::max(a_low, b_low), std::min(a_high, b_high));
+    return length(a_low, a_high) + length(b_low, b_high) - 2 * common;
+}
+
+} // namespace
+
+double churn(const StepValues& values, const LevelMap& levels) {
+    const Chunking chunking(values.grid);
+    const std::uint32_t chunks = std::min(kSampledChunks, chunking.count());
+    const auto steps =
+        static_cast<std::uint32_t>(std::min<std::size_t>(kSampledSteps, values.steps));
+    // From the middle of the series: beginnings are often at rest.
+    const auto first = static_cast<std::uint32_t>((values.steps - steps) / 2);
+    ChunkRanks ranks(values, levels);
+    std::uint64_t changed = 0, active = 0;
+    for (std::uint32_t i = 0; i < chunks; ++i) {
+        const std::uint32_t chunk = static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) *
+                                                               chunking.count() / (2 * chunks));
+        ranks.compute(chunk, first, steps);
+        for (std::uint32_t t = 0; t + 1 < steps; ++t) {
+            const ChunkRanks::Extremes now = ranks.at(t), next = ranks.at(t + 1);
+            for (std::uint32_t cell = 0; cell < ranks.cells(); ++cell) {
+                const std::uint8_t low = now.low[cell], high = now.high[cell];
+                changed += difference(low, high, next.low[cell], next.high[cell]);
+                active += high > low ? high - low : 0;
+            }
+        }
+    }
+    if (steps < 2)
+        return 0;
+    return active ? static_cast<double>(changed) / static_cast<double>(active)
+                  : std::numeric_limits<double>::infinity();
+}
+
+void check_tiers(const Grid& grid, const TierSet& asked) {
+    if (asked.has(Tier::cells) && grid.cells()[0] > Chunking::kMaxCells)
+        throw Error(fmt::format("rows of {} cells, expected at most {} for the tier cells",
+                                grid.cells()[0], Chunking::kMaxCells));
+    if (asked.has(Tier::deltas) && !asked.has(Tier::cells))
+        throw Error("the tier deltas needs the tier cells");
+}
+
+TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
+                    const std::optional<TierSet>& asked) {
+    const bool fits = values.grid.cells()[0] <= Chunking::kMaxCells;
+    if (asked) {
+        check_tiers(values.grid, *asked);
+        if (asked->has(Tier::deltas) && !levels.lossless())
+            throw Error("the tier deltas needs at most 256 distinct values in the series");
+        return {*asked, {"as asked for"}};
+    }
+    TierPlan plan;
+    const auto add = [&](Tier tier, const std::string& reason) {
+        plan.tiers = plan.tiers.with(tier);
+        plan.reasons.push_back(
+            fmt::format("{}: {}", kTierNames[static_cast<std::size_t>(tier)], reason));
+    };
+    const auto leave_out = [&](std::string_view tier, const std::string& reason) {
+        plan.reasons.push_back(fmt::format("no {}: {}", tier, reason));
+    };
+    add(Tier::bricks, "exact with the volume, for every type and size");
+    const std::uint64_t cell_steps = values.grid.cell_count() * values.steps;
+    if (!levels.lossless()) {
+        leave_out("cells", "more than 256 distinct values, so that entries do not merge in time");
+        return plan;
+    }
+    if (!fits) {
+        leave_out("cells", fmt::format("rows of {} cells, at most {} can be indexed",
+                                       values.grid.cells()[0], Chunking::kMaxCells));
+        return plan;
+    }
+    if (cell_steps > kMaxCellSteps) {
+        leave_out("cells", fmt::format("{} million cell-steps, which would take some {} GiB; "
+                                       "--tiers bricks,cells makes them all the same",
+                                       cell_steps / 1'000'000, cell_steps * 5 / 2 >> 30));
+        return plan;
+    }
+    add(Tier::cells,
+        fmt::format("at most {} levels, none of them shared by two values", levels.levels()));
+    const double changing = churn(values, levels);
+    if (values.steps < 2)
+        leave_out("deltas", "one step");
+    else if (changing < 1)
+        add(Tier::deltas,
+            fmt::format("a step changes {:.0f} % of the active cells", 100 * changing));
+    else
+        leave_out("deltas", fmt::format("a step changes {:.0f} % of the active cells: searching "
+                                        "anew is cheaper",
+                                        100 * changing));
+    return plan;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,27 @@
+// The choice of tiers for a series.
+#pragma once
+
+#include "index/file/tiers.h"
+#include "index/volume/level_map.h"
+#include "index/volume/step_values.h"
+
+#include <optional>
+
+namespace isochron::index {
+
+/// Whether what was asked for can be, as far as that shows before the values are read.
+/// @throws Error when it cannot
+void check_tiers(const Grid& grid, const TierSet& asked);
+
+/// Bricks always; cells where levels are lossless, so that an entry never needs the volume; deltas
+/// where a step changes fewer cells than a search finds. What was asked for overrides that.
+/// Looks at a sample of the steps and chunks, which depends on the series alone.
+/// @throws Error when something was asked for that cannot be
+TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
+                    const std::optional<TierSet>& asked);
+
+/// Mean over all isovalues of (added + removed cells) / (active cells), from step to step.
+/// Infinite where no cell is ever active; 0 for one step.
+double churn(const StepValues& values, const LevelMap& levels);
+
+} // namespace isochron::index

@@ -1,0 +1,188 @@
+// Search over the chunks of an epoch, with a check of every table at its first use.
+#include "index/cells/cell_tier.h"
+
+#include "index/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <string_view>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::uint32_t kEpoch = TimePath::kMaxSteps;
+
+template <class Unit>
+std::vector<Unit> views(std::string_view kind, const CellTier::Units& units,
+                        const Chunking& chunking, std::size_t expected) {
+    if (units.size() != expected)
+        throw Error(fmt::format("{}: {} units, {} expected", kind, units.size(), expected));
+    std::vector<Unit> all;
+    for (std::size_t i = 0; i < units.size(); ++i)
+        all.emplace_back(units[i],
+                         chunking.first_cell(static_cast<std::uint32_t>(i % chunking.count())));
+    return all;
+}
+
+[[noreturn]] void refuse(std::string_view kind, std::uint32_t epoch, std::uint32_t chunk) {
+    throw Error(fmt::format("{} of chunk {} in epoch {}: damaged", kind, chunk, epoch));
+}
+
+} // namespace
+
+CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
+                   const Units& deltas)
+    : chunking_(chunking), steps_(steps),
+      cells_(views<CellUnit>("cells", cells, chunking,
+                             std::size_t{chunking.count()} * epoch_count(steps))),
+      deltas_(views<DeltaUnit>("deltas", deltas, chunking, deltas.empty() ? 0 : cells.size())),
+      sound_steps_(cells.size() * kEpoch), sound_tables_(cells.size() * 2 * kEpoch),
+      sound_transitions_(deltas.size() * kEpoch) {}
+
+std::uint32_t CellTier::epoch_steps(std::uint32_t epoch) const {
+    return std::min(kEpoch, steps_ - epoch * kEpoch);
+}
+
+TimePath CellTier::path_to(std::uint32_t step) const {
+    return {TimeNode::root(epoch_steps(step / kEpoch)), step % kEpoch};
+}
+
+/// Checks what a search at a step needs of a unit and no other step has needed before.
+void CellTier::check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
+    const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
+    const CellUnit& unit = cells_[i];
+    if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
+        refuse("cells", epoch, chunk);
+    for (const std::uint32_t node : path_to(step)) {
+        const std::size_t mark = i * 2 * kEpoch + node;
+        if (sound_tables_[mark])
+            continue;
+        if (!unit.check_table(node))
+            refuse("cells", epoch, chunk);
+        sound_tables_.set(mark);
+    }
+    sound_steps_.set(i * kEpoch + step % kEpoch);
+}
+
+void CellTier::check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
+    const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
+    const DeltaUnit& unit = deltas_[i];
+    if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)) ||
+        !unit.check_transition(step % kEpoch))
+        refuse("deltas", epoch, chunk);
+    sound_transitions_.set(i * kEpoch + step % kEpoch);
+}
+
+/// Calls `f` with the cells of every chunk, sound as far as the step needs them, while the next
+/// chunk's first bytes are on their way.
+template <class F>
+void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
+    assert(step < steps_);
+    const std::uint32_t epoch = step / kEpoch, chunks = chunking_.count();
+    const TimePath path = path_to(step);
+    const std::size_t begin = std::size_t{epoch} * chunks;
+    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+        if (chunk + 1 < chunks)
+            cells_[begin + chunk + 1].prefetch(path);
+        if (!sound_steps_[(begin + chunk) * kEpoch + step % kEpoch])
+            check_cells(epoch, chunk, step);
+        f(cells_[begin + chunk]);
+    }
+}
+
+void CellTier::search(std::uint32_t step, LevelMap::Cut cut, std::vector<IdRun>& certain,
+                      std::vector<IdRun>& ambiguous) const {
+    const TimePath path = path_to(step);
+    RunBuffer certain_runs(certain), ambiguous_runs(ambiguous);
+    for_each_cells(
+        step, [&](const CellUnit& unit) { unit.search(path, cut, certain_runs, ambiguous_runs); });
+}
+
+void CellTier::change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut,
+                      std::vector<IdRun>& added, std::vector<IdRun>& removed) const {
+    assert(std::max(from, to) == std::min(from, to) + 1 && cut.exact && has_deltas());
+    if (from > to)
+        return change(to, from, cut, removed, added);
+    assert(to < steps_);
+    const std::uint32_t epoch = to / kEpoch, chunks = chunking_.count(), into = to % kEpoch;
+    const std::size_t begin = std::size_t{epoch} * chunks;
+    RunBuffer added_runs(added), removed_runs(removed);
+    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+        if (chunk + 1 < chunks)
+            deltas_[begin + chunk + 1].prefetch(into);
+        if (!sound_transitions_[(begin + chunk) * kEpoch + into])
+            check_deltas(epoch, chunk, to);
+        deltas_[begin + chunk].change(into, cut, added_runs, removed_runs);
+    }
+}
+
+void CellTier::difference(std::uint32_t step_a, std::uint32_t step_b, LevelMap::Cut cut,
+                          std::vector<IdRun>& only_a, std::vector<IdRun>& only_b) const {
+    assert(step_a < steps_ && step_b < steps_ && cut.exact);
+    if (step_a == step_b)
+        return;
+    std::vector<IdRun> none; // stays empty
+    const std::uint32_t epoch = step_a / kEpoch;
+    if (epoch != step_b / kEpoch) {
+        search(step_a, cut, only_a, none);
+        search(step_b, cut, only_b, none);
+        return;
+    }
+    const TimeNode common = TimePath::common(epoch_steps(epoch), step_a % kEpoch, step_b % kEpoch);
+    for (const auto& [step, out] : {std::pair(step_a, &only_a), std::pair(step_b, &only_b)}) {
+        const TimePath path(common.towards(step % kEpoch), step % kEpoch);
+        RunBuffer runs(*out), none_runs(none);
+        for_each_cells(step,
+                       [&](const CellUnit& unit) { unit.search(path, cut, runs, none_runs); });
+    }
+}
+
+void CellTier::level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
+                                std::vector<IdRun>& added, std::vector<IdRun>& removed) const {
+    const TimePath path = path_to(step);
+    RunBuffer added_runs(added), removed_runs(removed);
+    for_each_cells(step, [&](const CellUnit& unit) {
+        unit.level_difference(path, from, to, added_runs, removed_runs);
+    });
+}
+
+void CellTier::verify() const {
+    for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+        const std::uint32_t epoch = i / chunking_.count(), chunk = i % chunking_.count();
+        const std::uint32_t steps = epoch_steps(epoch), cells = chunking_.cells(chunk);
+        if (!cells_[i].check(steps, cells))
+            refuse("cells", epoch, chunk);
+        if (has_deltas() && !deltas_[i].check(steps, cells))
+            refuse("deltas", epoch, chunk);
+    }
+}
+
+std::vector<TimeNodeCells> CellTier::nodes() const {
+    std::vector<TimeNodeCells> all;
+    for (std::uint32_t epoch = 0; epoch < epoch_count(steps_); ++epoch) {
+        std::vector<std::uint64_t> cells(TimeNode::count(epoch_steps(epoch)));
+        for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk) {
+            const CellUnit& unit = cells_[std::size_t{epoch} * chunking_.count() + chunk];
+            if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
+                refuse("cells", epoch, chunk);
+            const std::vector<std::uint32_t> entries = unit.entries();
+            for (std::size_t node = 0; node < cells.size(); ++node)
+                cells[node] += entries[node];
+        }
+        const auto add = [&](const auto& self, const TimeNode& node) -> void {
+            all.push_back({epoch * kEpoch + node.first, epoch * kEpoch + node.last, node.depth,
+                           cells[node.number]});
+            if (node.is_leaf())
+                return;
+            self(self, node.left());
+            self(self, node.right());
+        };
+        add(add, TimeNode::root(epoch_steps(epoch)));
+    }
+    return all;
+}
+
+} // namespace isochron::index

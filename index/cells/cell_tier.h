@@ -1,0 +1,86 @@
+// The cells and deltas of a whole series: one search over the chunks of an epoch.
+#pragma once
+
+#include "index/cells/cell_unit.h"
+#include "index/volume/chunking.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// The units stay where they are, usually in a mapped file. A table is checked when it is first
+/// needed, which throws Error where its bytes are damaged; none is looked at before. Any number of
+/// threads may search at once; a search allocates nothing but what the results need.
+///
+///     index::CellTier cells(Chunking(grid), steps, cell_bytes, delta_bytes);
+///     cells.search(t, cut, certain, ambiguous);
+///     index::append_ids(certain, ids);
+class CellTier {
+  public:
+    /// One for each chunk of each epoch: [epoch][chunk], epochs of TimePath::kMaxSteps steps.
+    using Units = std::vector<std::span<const std::byte>>;
+
+    /// @param deltas may be empty
+    CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
+             const Units& deltas);
+
+    bool has_deltas() const { return !deltas_.empty(); }
+
+    /// Appends the active cells, and apart from them those that only the volume decides.
+    void search(std::uint32_t step, LevelMap::Cut cut, std::vector<IdRun>& certain,
+                std::vector<IdRun>& ambiguous) const;
+    /// Appends what changes between neighbouring steps, either way. Needs deltas and an exact cut.
+    void change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut, std::vector<IdRun>& added,
+                std::vector<IdRun>& removed) const;
+    /// Appends what may be active at one of two steps only: the entries of the time nodes that do
+    /// not span both. A cell whose extremes have changed may be in both sets. The cut is exact.
+    void difference(std::uint32_t step_a, std::uint32_t step_b, LevelMap::Cut cut,
+                    std::vector<IdRun>& only_a, std::vector<IdRun>& only_b) const;
+    /// Appends what is active at one of two isovalues only. Both cuts are exact.
+    void level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
+                          std::vector<IdRun>& added, std::vector<IdRun>& removed) const;
+
+    /// Entries of every time node of every epoch, over all chunks, in depth-first order.
+    std::vector<TimeNodeCells> nodes() const;
+    /// Checks everything, also what no search has needed yet; throws Error.
+    void verify() const;
+
+  private:
+    /// A bit for each of many things, set by any thread.
+    class Marks {
+      public:
+        explicit Marks(std::size_t count)
+            : words_(std::make_unique<std::atomic<std::uint64_t>[]>((count + 63) / 64)) {}
+        bool operator[](std::size_t i) const {
+            return words_[i / 64].load(std::memory_order_acquire) >> i % 64 & 1;
+        }
+        void set(std::size_t i) {
+            words_[i / 64].fetch_or(std::uint64_t{1} << i % 64, std::memory_order_release);
+        }
+
+      private:
+        std::unique_ptr<std::atomic<std::uint64_t>[]> words_;
+    };
+
+    template <class F>
+    void for_each_cells(std::uint32_t step, F&& f) const;
+    void check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
+    void check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
+
+    std::uint32_t epoch_steps(std::uint32_t epoch) const;
+    TimePath path_to(std::uint32_t step) const;
+
+    Chunking chunking_;
+    std::uint32_t steps_;
+    std::vector<CellUnit> cells_;
+    std::vector<DeltaUnit> deltas_;
+    /// Found sound: all that is needed at a step of a unit; a unit's head and its tables.
+    mutable Marks sound_steps_, sound_tables_, sound_transitions_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,204 @@
+// The cells, and the deltas, of one chunk in one epoch: tables by time node, and by transition.
+#pragma once
+
+#include "index/cells/cell_table.h"
+#include "index/volume/level_map.h"
+#include "index/volume/time_tree.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// Begins a unit; a TableRef for each table follows, then the tables, then IdRun::kSlack ids.
+struct CellUnitHead {
+    std::uint32_t magic;
+    std::uint32_t tables;
+    std::uint32_t steps; ///< of the epoch
+    std::uint32_t cells; ///< of the chunk
+    std::uint32_t lossless;
+    std::uint32_t checksum; ///< of the rest of the head and the references
+    std::uint64_t bytes;    ///< of the unit, a multiple of 8
+};
+static_assert(sizeof(CellUnitHead) == 32);
+
+/// Where a table lies and at which levels it has entries, so that most tables without need not be
+/// looked at.
+struct TableRef {
+    std::uint32_t offset = 0, size = 0; ///< in CellTableHead::kAlignment; offset 0: no entries
+    std::uint32_t checksum = 0; ///< of the table up to its ids, which a search does not go by
+    std::uint8_t first_column = 0, last_row = 0;
+    std::uint16_t reserved = 0;
+};
+static_assert(sizeof(TableRef) == 16);
+
+/// Of a table's bytes, and of a head and references with the head's own as 0.
+std::uint32_t cell_checksum(std::span<const std::byte> bytes);
+
+/// Tables in one block of bytes. A view; cheap to copy, and made without a look at the bytes.
+class CellTables {
+  public:
+    /// @param bytes aligned to 8
+    explicit CellTables(std::span<const std::byte> bytes)
+        : bytes_(bytes.data()), size_(bytes.size()) {}
+
+    /// What the head must say.
+    struct Expected {
+        std::uint32_t magic, tables, steps, cells;
+    };
+    /// Whether the head and the references are sound. Nothing else may be asked before.
+    bool check_head(const Expected& expected) const;
+    /// Whether a table is, so that a search in it stays inside; its ids are not read, and may be
+    /// those of no cell.
+    bool check_table(std::uint32_t table) const;
+    /// Whether all are, with their ids.
+    bool check_tables() const;
+
+    /// Asks for the bytes that say where a table lies, ahead of need.
+    void prefetch(std::uint32_t table) const { __builtin_prefetch(refs() + table); }
+
+    const CellUnitHead& head() const { return *reinterpret_cast<const CellUnitHead*>(bytes_); }
+    /// The table, where it has entries that count at the level.
+    std::optional<CellTable> at_level(std::uint32_t table, std::uint32_t level) const {
+        const TableRef& ref = refs()[table];
+        if (ref.offset == 0 || level < ref.first_column || level > ref.last_row)
+            return std::nullopt;
+        return this->table(ref);
+    }
+    /// The table, where it has entries.
+    std::optional<CellTable> at_any_level(std::uint32_t table) const {
+        const TableRef& ref = refs()[table];
+        return ref.offset ? std::optional(this->table(ref)) : std::nullopt;
+    }
+    /// Entries of every table, for reports.
+    std::vector<std::uint32_t> entries() const;
+
+  private:
+    bool lies_inside(const TableRef& ref) const;
+    const TableRef* refs() const {
+        return reinterpret_cast<const TableRef*>(bytes_ + sizeof(CellUnitHead));
+    }
+    CellTable table(const TableRef& ref) const {
+        return CellTable(bytes_ + std::size_t{ref.offset} * CellTableHead::kAlignment);
+    }
+
+    const std::byte* bytes_;
+    std::size_t size_;
+};
+
+/// The time nodes that span a step, from the root, or from another node on the way, to the leaf.
+class TimePath {
+  public:
+    /// Steps of an epoch, at most.
+    static constexpr std::uint32_t kMaxSteps = 256;
+
+    TimePath(TimeNode from, std::uint32_t step) {
+        for (; !from.is_leaf(); from = from.towards(step))
+            numbers_[count_++] = from.number;
+        numbers_[count_++] = from.number;
+    }
+    /// The lowest node that spans two different steps.
+    static TimeNode common(std::uint32_t steps, std::uint32_t step_a, std::uint32_t step_b) {
+        TimeNode node = TimeNode::root(steps);
+        while (node.towards(step_a).contains(step_b))
+            node = node.towards(step_a);
+        return node;
+    }
+
+    const std::uint32_t* begin() const { return numbers_.data(); }
+    const std::uint32_t* end() const { return numbers_.data() + count_; }
+
+  private:
+    std::array<std::uint32_t, std::bit_width(kMaxSteps - 1) + 1> numbers_;
+    std::size_t count_ = 0;
+};
+
+/// Epochs of a series: all but the last have TimePath::kMaxSteps steps.
+constexpr std::uint32_t epoch_count(std::size_t steps) {
+    return static_cast<std::uint32_t>((steps + TimePath::kMaxSteps - 1) / TimePath::kMaxSteps);
+}
+
+/// The cells of one chunk at the steps of one epoch, which count from 0 here. A cell is an entry of
+/// the highest time nodes over whose span its extremes are constant, but for spans over which those
+/// of only a few cells are: these are entries of the nodes below.
+///
+/// Of a lossless map an entry's levels are the ranks from `low` to `high - 1`: level k lies between
+/// rank k and rank k + 1. Of a lossy map they are `low` to `high`: level k is rank k, at which a
+/// cut may leave open what a vertex is.
+class CellUnit {
+  public:
+    static constexpr std::uint32_t kMagic = 0x4c4c4543; // "CELL"
+
+    /// @param bytes aligned to 8, not looked at @param first the chunk's first cell
+    CellUnit(std::span<const std::byte> bytes, CellId first) : tables_(bytes), first_(first) {}
+
+    /// Whether the head is sound and says so many steps and cells.
+    bool check_head(std::uint32_t steps, std::uint32_t cells) const;
+    /// Whether a time node's table is sound, when the head is: only then may it be searched.
+    bool check_table(std::uint32_t node) const { return tables_.check_table(node); }
+    /// Whether everything is sound.
+    bool check(std::uint32_t steps, std::uint32_t cells) const {
+        return check_head(steps, cells) && tables_.check_tables();
+    }
+
+    void prefetch(const TimePath& path) const {
+        for (const std::uint32_t node : path)
+            tables_.prefetch(node);
+    }
+    /// Appends the active cells of the time nodes on a path (of all cells, when it begins at the
+    /// root), and apart from them those that only the volume decides.
+    void search(const TimePath& path, LevelMap::Cut cut, RunBuffer& certain,
+                RunBuffer& ambiguous) const;
+    /// Appends what is active at one of two isovalues only. Both cuts are exact.
+    void level_difference(const TimePath& path, LevelMap::Cut from, LevelMap::Cut to,
+                          RunBuffer& added, RunBuffer& removed) const;
+
+    /// Number of entries of every time node, by its number (time_tree.h).
+    std::vector<std::uint32_t> entries() const { return tables_.entries(); }
+
+  private:
+    CellTables tables_;
+    CellId first_;
+};
+
+/// What changes in one chunk from each step to the next, as intervals of levels; of a lossless map.
+/// The first transition is that into the epoch's first step from the one before, and empty where
+/// there is none.
+class DeltaUnit {
+  public:
+    static constexpr std::uint32_t kMagic = 0x544c4544; // "DELT"
+
+    /// @param bytes aligned to 8, not looked at @param first the chunk's first cell
+    DeltaUnit(std::span<const std::byte> bytes, CellId first) : tables_(bytes), first_(first) {}
+
+    /// Whether the head is sound and says so many steps and cells.
+    bool check_head(std::uint32_t steps, std::uint32_t cells) const;
+    /// Whether a transition's tables are sound, when the head is: only then may it be searched.
+    bool check_transition(std::uint32_t into_step) const {
+        return tables_.check_table(2 * into_step) && tables_.check_table(2 * into_step + 1);
+    }
+    /// Whether everything is sound.
+    bool check(std::uint32_t steps, std::uint32_t cells) const {
+        return check_head(steps, cells) && tables_.check_tables();
+    }
+
+    void prefetch(std::uint32_t into_step) const { tables_.prefetch(2 * into_step); }
+    /// Appends the cells that become active from the step before to this one, and those that cease
+    /// to be; for the way back swap them. The cut is exact.
+    void change(std::uint32_t into_step, LevelMap::Cut cut, RunBuffer& added,
+                RunBuffer& removed) const;
+
+    /// Number of entries of every transition, added before removed.
+    std::vector<std::uint32_t> entries() const { return tables_.entries(); }
+
+  private:
+    CellTables tables_;
+    CellId first_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,33 @@
+// Builds the cells and the deltas of one chunk in one epoch.
+#pragma once
+
+#include "index/cells/cell_table_builder.h"
+#include "index/cells/chunk_ranks.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isochron::index {
+
+/// The bytes of CellUnit and DeltaUnit (cell_unit.h). The same bytes for the same ranks. Keeps its
+/// work space: one for each thread.
+class CellUnitBuilder {
+  public:
+    /// @param lossless of the level map @param first the epoch's first step among those of `ranks`,
+    ///   which end with the epoch
+    void build_cells(const ChunkRanks& ranks, std::uint32_t first, bool lossless,
+                     std::vector<std::byte>& out);
+    /// Of a lossless map. @param first the epoch's first step among those of `ranks`: 1 when the
+    ///   step before is among them, else 0
+    void build_deltas(const ChunkRanks& ranks, std::uint32_t first, std::vector<std::byte>& out);
+
+  private:
+    struct Cells;
+
+    CellTableBuilder table_;
+    std::vector<std::array<CellBits, 2>> bits_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,57 @@
+// The extremes of a chunk's cells at consecutive steps, as ranks: what cells and deltas are built
+// of.
+#pragma once
+
+#include "index/volume/chunking.h"
+#include "index/volume/level_map.h"
+#include "index/volume/step_values.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// Reads each step's stretch of a chunk once. Keeps its work space: one for each thread.
+class ChunkRanks {
+  public:
+    ChunkRanks(const StepValues& values, const LevelMap& levels);
+
+    /// That many ranks behind the last may be read too, and are of no meaning.
+    static constexpr std::size_t kSlack = 63;
+
+    /// Of each cell of a chunk at one step, in id order; low 1 and high 0 where a vertex is NaN.
+    struct Extremes {
+        std::span<const std::uint8_t> low, high;
+    };
+
+    /// Computes the extremes of a chunk at the steps `first` to `first + count - 1`.
+    void compute(std::uint32_t chunk, std::uint32_t first, std::uint32_t count);
+
+    std::uint32_t steps() const { return steps_; }
+    std::uint32_t cells() const { return cells_; }
+    /// @param step counted from the first one computed
+    Extremes at(std::uint32_t step) const {
+        const std::size_t begin = std::size_t{step} * cells_;
+        return {{low_.data() + begin, cells_}, {high_.data() + begin, cells_}};
+    }
+
+  private:
+    struct Stretch;
+
+    const std::uint8_t* ranks_of(std::span<const std::byte> stored);
+    bool find_nan(std::span<const std::byte> stored);
+    void reduce_columns(const std::uint8_t* ranks, std::size_t count);
+    void mark_nan(const Stretch& stretch, std::uint8_t* low, std::uint8_t* high);
+
+    StepValues values_;
+    const LevelMap& levels_;
+    Chunking chunking_;
+    bool identity_; ///< the stored bytes are the ranks
+    std::uint32_t steps_ = 0, cells_ = 0;
+    std::vector<std::uint8_t> low_, high_;                       ///< [step][cell]
+    std::vector<std::uint8_t> ranks_, square_low_, square_high_; ///< [vertex of the stretch]
+};
+
+} // namespace isochron::index

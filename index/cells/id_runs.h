@@ -1,0 +1,60 @@
+// Search results as runs: references to the ids where they lie in the index.
+#pragma once
+
+#include "index/volume/grid.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// The cells `first + ids[0]` to `first + ids[count - 1]` of one chunk. Up to kSlack ids behind the
+/// run may be read too (and are of no meaning), so that it can be copied in whole vectors.
+struct IdRun {
+    static constexpr std::size_t kSlack = 32;
+    const std::uint16_t* ids;
+    std::uint32_t count;
+    CellId first;
+};
+
+/// Gathers runs for a vector, which takes more time to grow by one than it takes to find one.
+class RunBuffer {
+  public:
+    explicit RunBuffer(std::vector<IdRun>& out) : out_(out) {}
+    ~RunBuffer() { flush(); }
+    RunBuffer(const RunBuffer&) = delete;
+    RunBuffer& operator=(const RunBuffer&) = delete;
+
+    /// Room for `count` runs, of which `took` says where those that were written end.
+    IdRun* room(std::size_t count) {
+        if (runs_.size() - size_ < count)
+            flush();
+        return runs_.data() + size_;
+    }
+    void took(const IdRun* end) { size_ = static_cast<std::size_t>(end - runs_.data()); }
+
+  private:
+    void flush() {
+        out_.insert(out_.end(), runs_.data(), runs_.data() + size_);
+        size_ = 0;
+    }
+
+    std::vector<IdRun>& out_;
+    std::size_t size_ = 0;
+    std::array<IdRun, 512> runs_;
+};
+
+/// Number of cells of the runs.
+std::size_t count_ids(std::span<const IdRun> runs);
+
+/// Writes the cells of the runs, in their order; what lies up to kSlack ids behind them may be
+/// overwritten too. @param out holds kSlack ids more than the runs @return number of ids written
+std::size_t copy_ids(std::span<const IdRun> runs, std::span<CellId> out);
+
+/// Appends the cells of the runs, in their order.
+void append_ids(std::span<const IdRun> runs, std::vector<CellId>& out);
+
+} // namespace isochron::index

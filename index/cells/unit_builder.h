@@ -1,0 +1,33 @@
+// Builds the units of cells and deltas of a series, one after the other.
+#pragma once
+
+#include "index/cells/cell_unit_build.h"
+#include "index/cells/chunk_ranks.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isochron::index {
+
+struct UnitBytes {
+    std::vector<std::byte> cells, deltas;
+    std::uint64_t entries = 0; ///< of the cells
+};
+
+/// Keeps its work space: one for each thread.
+class UnitBuilder {
+  public:
+    UnitBuilder(const StepValues& values, const LevelMap& levels);
+
+    /// Builds one chunk in one epoch. @param out its memory is used again
+    void build(std::uint32_t chunk, std::uint32_t epoch, bool deltas, UnitBytes& out);
+
+  private:
+    std::uint32_t steps_;
+    bool lossless_;
+    ChunkRanks ranks_;
+    CellUnitBuilder builder_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,63 @@
+// How a volume's bricks hold its values, so that a GPU sees every value on its side of an isovalue.
+#pragma once
+
+#include "index/volume/order_key.h"
+#include "index/volume/value_type.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// Where the isovalues of a query lie among held values.
+struct BrickLevels {
+    /// In the order of the query's isovalues, in brick units: a vertex is below isovalue i, as
+    /// `Query` defines it, if and only if `held * factor < units[i]`.
+    std::vector<float> units;
+    /// The same and the isovalues themselves, both ascending and without repetition.
+    std::vector<float> rounded;
+    std::vector<double> exact;
+};
+
+/// Values of 8 and 16 bits and f32 are held as they are stored. i32 and f64 become f32: the scaled
+/// value relative to the middle of the data's range, in units of a power of two, rounded to the
+/// nearest; where that would cross an isovalue, to the last f32 on its own side instead. Isovalues
+/// that f32 cannot tell apart get neighbouring levels, so that this can always be done.
+///
+/// *Brick units* are `held * factor`: in the order of the scaled values, at most about 1 (4 at the
+/// end of floating point's range) in size over the whole data set.
+class BrickValues {
+  public:
+    /// @param low, high range of the finite scaled values of the data set
+    BrickValues(ValueType type, Scaling scaling, double low, double high);
+
+    ValueType stored() const { return type_; }
+    /// i8, u8, i16, u16 or f32.
+    ValueType held() const { return held_; }
+    /// A power of two, negative where larger stored values are smaller scaled ones.
+    float factor() const { return factor_; }
+    /// `high - low` in brick units, at least the smallest normal f32.
+    float range() const { return range_; }
+
+    BrickLevels levels(std::span<const double> isovalues) const;
+
+    /// Stored values of one row as they are held.
+    /// @param stored aligned values of the stored type
+    /// @param out as many held values
+    void convert(const std::byte* stored, std::size_t count, const BrickLevels& levels,
+                 std::byte* out) const;
+
+  private:
+    bool converts() const { return type_ == ValueType::i32 || type_ == ValueType::f64; }
+    double relative(double scaled) const { return (scaled - middle_) * to_units_; }
+    float stored_level(double isovalue) const;
+
+    ValueType type_, held_;
+    Scaling scaling_;
+    KeyMap keys_;
+    double middle_ = 0, to_units_ = 1; ///< of values that are converted
+    float factor_ = 1, range_ = 1;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,139 @@
+// Incremental search: what changes in the set of active cells from one query to another.
+#include "index/extraction/cell_change.h"
+
+#include "index/error.h"
+#include "index/extraction/extractor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace isochron::index {
+namespace {
+
+/// Fewer ids than this are moved in less time than it takes to find out how many all are.
+constexpr std::size_t kFew = 4096;
+/// A longer chain of deltas touches more memory than the search for all.
+constexpr std::uint32_t kMaxChain = 8;
+
+using Cut = LevelMap::Cut;
+
+} // namespace
+
+struct ChangeSearch::WorkSpace {
+    explicit WorkSpace(const std::shared_ptr<const IndexFile>& file)
+        : levels(file->levels()), scaling(file->info().scaling), cells(file->cells()),
+          steps(static_cast<std::uint32_t>(file->info().steps())), search(search_in(file)) {}
+
+    /// Playback asks for the same isovalue again and again.
+    const std::optional<Cut>& cut_at(double isovalue) {
+        if (!(isovalue == last_isovalue)) {
+            last_cut = levels.cut(scaling, isovalue);
+            last_isovalue = isovalue;
+        }
+        return last_cut;
+    }
+
+    const LevelMap& levels;
+    const Scaling& scaling;
+    const CellTier* cells;
+    std::uint32_t steps;
+    double last_isovalue = std::numeric_limits<double>::quiet_NaN();
+    std::optional<Cut> last_cut;
+
+    Search search; ///< for indices without cells
+    std::vector<IdRun> added, removed, all, ambiguous;
+    std::vector<CellId> added_ids, removed_ids, come, gone;
+    CellSetPtr set; ///< of an index without cells
+
+    void clear() {
+        added.clear();
+        removed.clear();
+    }
+};
+
+ChangeSearch::ChangeSearch(std::shared_ptr<const IndexFile> file)
+    : file_(std::move(file)), work_(std::make_unique<WorkSpace>(file_)) {}
+
+ChangeSearch::~ChangeSearch() = default;
+
+namespace {
+
+/// The ids of the runs, in memory that only grows.
+std::span<CellId> ids_of(const std::vector<IdRun>& runs, std::vector<CellId>& memory) {
+    const std::size_t wanted = count_ids(runs) + IdRun::kSlack;
+    if (memory.size() < wanted)
+        memory.resize(wanted);
+    return {memory.data(), copy_ids(runs, memory)};
+}
+
+/// Keeps of either what is not in the other; a cell that came and went is in both, or in one more
+/// often than in the other.
+void drop_common(std::span<CellId> added, std::span<CellId> removed, std::vector<CellId>& come,
+                 std::vector<CellId>& gone) {
+    std::sort(added.begin(), added.end());
+    std::sort(removed.begin(), removed.end());
+    come.clear();
+    gone.clear();
+    std::set_difference(added.begin(), added.end(), removed.begin(), removed.end(),
+                        std::back_inserter(come));
+    std::set_difference(removed.begin(), removed.end(), added.begin(), added.end(),
+                        std::back_inserter(gone));
+}
+
+} // namespace
+
+CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
+    WorkSpace& work = *work_;
+    if (const std::uint32_t last = std::max(from.step, to.step); last >= work.steps)
+        throw Error(fmt::format("step {}: expected 0 to {}", last, work.steps - 1));
+    const CellTier* cells = work.cells;
+    const std::optional<Cut> from_cut = work.cut_at(from.isovalue);
+    const std::optional<Cut> to_cut =
+        from.isovalue == to.isovalue ? from_cut : work.cut_at(to.isovalue);
+    if (!to_cut)
+        return {true, {}, {}}; // nothing is active any more
+    if (from.step == to.step && from_cut == to_cut && to_cut->exact)
+        return {};
+    if (!cells || !to_cut->exact || !from_cut || !from_cut->exact) {
+        work.set = work.search(to, {});
+        return {true, work.set->ids, {}};
+    }
+    work.clear();
+    bool disjoint = true; // a cell is in one of the runs at most
+    bool found = true;
+    const std::uint32_t steps = from.step < to.step ? to.step - from.step : from.step - to.step;
+    if (steps == 0) {
+        cells->level_difference(to.step, *from_cut, *to_cut, work.added, work.removed);
+    } else if (*from_cut == *to_cut && cells->has_deltas() && steps <= kMaxChain) {
+        const bool forwards = from.step < to.step;
+        for (std::uint32_t step = from.step; step != to.step;) {
+            const std::uint32_t next = forwards ? step + 1 : step - 1;
+            cells->change(step, next, *to_cut, work.added, work.removed);
+            step = next;
+        }
+        disjoint = steps == 1;
+    } else if (*from_cut == *to_cut) {
+        cells->difference(from.step, to.step, *to_cut, work.removed, work.added);
+        disjoint = false;
+    } else {
+        found = false;
+    }
+    const std::span added = ids_of(work.added, work.added_ids);
+    const std::span removed = ids_of(work.removed, work.removed_ids);
+    if (!found || added.size() + removed.size() > kFew) {
+        work.all.clear();
+        work.ambiguous.clear();
+        cells->search(to.step, *to_cut, work.all, work.ambiguous);
+        if (!found || added.size() + removed.size() > count_ids(work.all))
+            return {true, ids_of(work.all, work.added_ids), {}};
+    }
+    if (disjoint)
+        return {false, added, removed};
+    drop_common(added, removed, work.come, work.gone);
+    return {false, work.come, work.gone};
+}
+
+} // namespace isochron::index

@@ -1,0 +1,235 @@
+// A walk from cell to cell, and the roots of the cubic that a trilinear value is along a ray.
+#include "index/extraction/cell_ray.h"
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+namespace isochron::index {
+namespace {
+
+/// How far a root may lie beside the stretch of its cell, as a share of it: one on a face is in
+/// both cells, whatever rounding does.
+constexpr double kSlack = 1e-9;
+
+using Corners = std::array<float, 8>; ///< brick units, x fastest
+
+/// The vertices of an extraction's bricks.
+class BrickVertices {
+  public:
+    BrickVertices(const VolumeBricks& bricks, const Grid& grid) : bricks_(bricks), tiling_(grid) {}
+
+    /// @return nothing where a brick is missing: then the cell is not active
+    std::optional<Corners> of_cell(const glm::ivec3& cell) {
+        Corners corners;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::ivec3 v = cell + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+            if (!find(v / kEdge))
+                return std::nullopt;
+            const glm::ivec3 in = v % kEdge;
+            corners[corner] = value((in.z * kEdge + in.y) * kEdge + in.x);
+        }
+        return corners;
+    }
+
+  private:
+    static constexpr int kEdge = static_cast<int>(kBrickEdge);
+
+    bool find(const glm::ivec3& brick) {
+        const auto id = static_cast<BrickId>(
+            (brick.z * tiling_.bricks[1] + brick.y) * tiling_.bricks[0] + brick.x);
+        if (id != id_) {
+            id_ = id;
+            const auto found = std::ranges::lower_bound(bricks_.ids, id);
+            const bool there = found != bricks_.ids.end() && *found == id;
+            bytes_ = there ? bricks_.brick(found - bricks_.ids.begin()).data() : nullptr;
+        }
+        return bytes_ != nullptr;
+    }
+    float value(int vertex) const {
+        return visit_value_type(bricks_.held, [&]<class T>(std::type_identity<T>) {
+            T held;
+            std::memcpy(&held, bytes_ + vertex * sizeof held, sizeof held);
+            return static_cast<float>(held) * bricks_.factor;
+        });
+    }
+
+    const VolumeBricks& bricks_;
+    BrickTiling tiling_;
+    std::optional<BrickId> id_; ///< looked up last
+    const std::byte* bytes_ = nullptr;
+};
+
+bool is_active(const Corners& corners, float level) {
+    bool below = false, above = false;
+    for (const float value : corners) {
+        if (std::isnan(value))
+            return false;
+        (value < level ? below : above) = true;
+    }
+    return below && above;
+}
+
+/// Value less level along a stretch of the ray, a cubic in s from 0 to 1: coefficients of 1, s, s^2
+/// and s^3.
+using Cubic = std::array<double, 4>;
+
+double value_at(const Cubic& k, double s) {
+    return ((k[3] * s + k[2]) * s + k[1]) * s + k[0];
+}
+
+/// @param from, step start and length of the stretch, from the cell's lowest vertex
+Cubic cubic_along(const Corners& corners, double level, const glm::dvec3& from,
+                  const glm::dvec3& step) {
+    // One axis after the other, each raising the degree by one.
+    std::array<Cubic, 8> values{};
+    for (int i = 0; i < 8; ++i)
+        values[i][0] = static_cast<double>(corners[i]) - level;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int i = 0; i < 4 >> axis; ++i) {
+            const Cubic low = values[2 * i], high = values[2 * i + 1];
+            Cubic& result = values[i];
+            for (int power = 0; power < 4; ++power) {
+                result[power] = low[power] + from[axis] * (high[power] - low[power]);
+                if (power > 0)
+                    result[power] += step[axis] * (high[power - 1] - low[power - 1]);
+            }
+        }
+    return values[0];
+}
+
+/// Where the slope is 0, ascending, within the stretch.
+std::vector<double> turning_points(const Cubic& k) {
+    const double a = 3 * k[3], b = k[2], c = k[1]; // a s^2 + 2 b s + c
+    const double d = b * b - a * c;
+    std::vector<double> points;
+    if (!(d > 0))
+        return points;
+    const double q = -(b + std::copysign(std::sqrt(d), b));
+    for (const double s : {q / a, c / q})
+        if (s > 0 && s < 1)
+            points.push_back(s);
+    std::ranges::sort(points);
+    return points;
+}
+
+/// The first place at which the cubic changes its sign. Between its turning points it is monotonic,
+/// so that the signs there tell where; halving goes on until the numbers end.
+std::optional<double> first_root(const Cubic& k) {
+    std::vector<double> ends = turning_points(k);
+    ends.push_back(1 + kSlack);
+    double low = -kSlack;
+    const bool above = value_at(k, low) >= 0;
+    for (double high : ends) {
+        if ((value_at(k, high) >= 0) == above) {
+            low = high;
+            continue;
+        }
+        for (;;) {
+            const double middle = std::midpoint(low, high);
+            if (!(middle > low && middle < high))
+                return high;
+            ((value_at(k, middle) >= 0) == above ? low : high) = middle;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The cells that a ray goes through, one after the other, and where along it.
+class CellRay {
+  public:
+    /// In vertex index coordinates.
+    CellRay(const glm::dvec3& origin, const glm::dvec3& direction, const glm::ivec3& cells)
+        : origin_(origin), direction_(direction), cells_(cells) {
+        double leave = std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            const double far = cells[axis];
+            if (direction[axis] == 0) {
+                if (!(origin[axis] >= 0 && origin[axis] <= far))
+                    leave = -1;
+                continue;
+            }
+            const double a = -origin[axis] / direction[axis];
+            const double b = (far - origin[axis]) / direction[axis];
+            enter_ = std::max(enter_, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        inside_ = enter_ <= leave;
+        const glm::dvec3 start = origin + enter_ * direction;
+        for (int axis = 0; axis < 3 && inside_; ++axis)
+            cell_[axis] = std::clamp(static_cast<int>(std::floor(start[axis])), 0, cells[axis] - 1);
+    }
+    bool inside() const { return inside_; }
+    const glm::ivec3& cell() const { return cell_; }
+    double enter() const { return enter_; }
+    double leave() const { return end_of(next_axis()); }
+
+    void advance() {
+        const int axis = next_axis();
+        enter_ = std::max(enter_, end_of(axis));
+        cell_[axis] += direction_[axis] > 0 ? 1 : -1;
+        inside_ = cell_[axis] >= 0 && cell_[axis] < cells_[axis];
+    }
+
+  private:
+    double end_of(int axis) const {
+        if (direction_[axis] == 0)
+            return std::numeric_limits<double>::infinity();
+        return (cell_[axis] + (direction_[axis] > 0 ? 1 : 0) - origin_[axis]) / direction_[axis];
+    }
+    int next_axis() const {
+        const double x = end_of(0), y = end_of(1), z = end_of(2);
+        return x <= y && x <= z ? 0 : y <= z ? 1 : 2;
+    }
+
+    glm::dvec3 origin_, direction_;
+    glm::ivec3 cells_, cell_{0};
+    double enter_ = 0;
+    bool inside_ = false;
+};
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+} // namespace
+
+std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const Ray& ray,
+                                std::uint32_t surfaces) {
+    const glm::dmat4 index_from_physical = glm::inverse(grid.physical_from_index());
+    const glm::dvec3 origin(index_from_physical * glm::dvec4(ray.origin, 1.0));
+    const glm::dvec3 direction(index_from_physical * glm::dvec4(ray.direction, 0.0));
+    if (!is_finite(origin) || !is_finite(direction) || direction == glm::dvec3(0.0))
+        return std::nullopt;
+    const auto cells = grid.cells();
+    BrickVertices vertices(shown.bricks, grid);
+    for (CellRay at(origin, direction, glm::ivec3(cells[0], cells[1], cells[2])); at.inside();
+         at.advance()) {
+        const auto corners = vertices.of_cell(at.cell());
+        if (!corners)
+            continue;
+        const double length = at.leave() - at.enter();
+        const glm::dvec3 from = origin + at.enter() * direction - glm::dvec3(at.cell());
+        std::optional<RayHit> nearest;
+        for (std::size_t i = 0; i < shown.levels.size(); ++i) {
+            const bool counts = (surfaces >> i & 1) && std::isfinite(shown.query.isovalues[i]);
+            if (!counts || !is_active(*corners, shown.levels[i]))
+                continue;
+            const auto s =
+                first_root(cubic_along(*corners, shown.levels[i], from, length * direction));
+            const double along = at.enter() + length * s.value_or(0.0);
+            if (s && along >= 0 && (!nearest || along < nearest->along))
+                nearest = RayHit{i, along, ray.origin + along * ray.direction};
+        }
+        if (nearest)
+            return nearest;
+    }
+    return std::nullopt;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,55 @@
+// The result of one query: immutable once frozen, shared between the worker and the renderer.
+#pragma once
+
+#include "index/volume/query.h"
+#include "index/volume/step_values.h"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// One cell as the GPU takes it: 12 bytes, no padding.
+struct CellPoint {
+    std::uint16_t x, y, z; ///< cell coordinates; the centre is at +0.5 in vertex index coordinates
+    /// Bits 0 to 2: which surface, 0 to kMostSurfaces - 1; bits 3 to 15: where its colour lies in a
+    /// colour map, 0 to 8191. Both 0 in a set of one query.
+    std::uint16_t style;
+    /// Unit normal in physical space, pointing towards lower values, as GL_INT_2_10_10_10_REV;
+    /// all zero where the gradient vanishes or is not finite.
+    std::uint32_t normal;
+};
+static_assert(sizeof(CellPoint) == 12);
+
+/// A stretch of cells with the same y and z: lets a renderer order cells in linear time.
+struct CellRow {
+    std::uint16_t y, z;
+    std::uint32_t begin; ///< into ids and points; ends where the next row begins
+};
+
+struct CellSet {
+    Query query;
+    SearchMethod method = SearchMethod::scan;
+    std::vector<CellId> ids;                  ///< ascending
+    std::vector<CellPoint> points;            ///< same order
+    std::vector<CellRow> rows;                ///< ascending (z, y), non-empty rows only
+    std::uint64_t candidates = 0;             ///< cells the search returned before the exact test
+    std::uint64_t reused = 0;                 ///< of these, taken over from the previous search
+    std::chrono::nanoseconds search_time{0};  ///< search and exact test
+    std::chrono::nanoseconds shading_time{0}; ///< positions and normals
+};
+
+using CellSetPtr = std::shared_ptr<const CellSet>;
+
+/// Fills `points` and `rows` from `ids`. The normal is the negated mean of the eight vertices'
+/// central-difference gradients (one-sided at the border) in physical space.
+/// @return false when it was stopped and the set is incomplete
+bool shade_cells(const StepValues& values, CellSet& set, const std::stop_token& stop = {});
+
+/// The normal of one cell as above, unpacked, for tests and reports; zero where it has none.
+glm::dvec3 cell_normal(const StepValues& values, std::uint32_t step, CellId cell);
+
+} // namespace isochron::index

@@ -1,0 +1,147 @@
+// Positions and normals of active cells: differences cell by cell, normals many cells at a time.
+#include "index/extraction/cell_set.h"
+#include "index/volume/cell_difference.h"
+#include "index/volume/cell_walk.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "index/extraction/cell_shading.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+
+#include "index/extraction/cell_normals_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace isochron::index::HWY_NAMESPACE {
+namespace {
+
+/// Collects cells, and gives them their normals when there are enough.
+template <class Batch>
+class Shader {
+  public:
+    Shader(Batch batch, const glm::dmat3& matrix) : batch_(std::move(batch)), maker_(matrix) {}
+
+    template <class Values>
+    HWY_INLINE void add(const Values& values, CellPoint& point) {
+        batch_.set(size_, values);
+        points_[size_] = &point;
+        if (++size_ == kBatch)
+            finish();
+    }
+
+    void finish() {
+        std::array<std::uint32_t, kBatch> normals;
+        for (std::size_t i = 0; i < size_; i += hn::Lanes(typename Batch::Maker::D()))
+            batch_.make(maker_, i, normals.data() + i);
+        for (std::size_t i = 0; i < size_; ++i)
+            points_[i]->normal = normals[i];
+        size_ = 0;
+    }
+
+  private:
+    Batch batch_;
+    typename Batch::Maker maker_;
+    std::array<CellPoint*, kBatch> points_;
+    std::size_t size_ = 0;
+};
+
+/// Scaled to a largest entry of 1, which does not change the direction of what it gives.
+glm::dmat3 scaled_to_one(glm::dmat3 matrix, double& smallest_column) {
+    double largest = 0;
+    smallest_column = std::numeric_limits<double>::infinity();
+    for (int column = 0; column < 3; ++column) {
+        const glm::dvec3 v = glm::abs(matrix[column]);
+        const double most = std::max({v.x, v.y, v.z});
+        largest = std::max(largest, most);
+        smallest_column = std::min(smallest_column, most);
+    }
+    smallest_column /= largest;
+    return matrix / largest;
+}
+
+/// With less than this between the spacings `float` has no digits to spare.
+constexpr double kFloatIsEnough = 1e-4;
+
+template <class T>
+bool shade_values(const StepValues& values, CellSet& set, const std::stop_token& stop) {
+    constexpr bool kSmall = sizeof(T) <= 2;
+    double smallest = 0;
+    const glm::dmat3 matrix = scaled_to_one(normal_from_difference(values), smallest);
+    Shader<DifferenceBatch> exact({}, matrix);
+    using Batch = ValueBatch<std::conditional_t<kSmall, T, std::uint8_t>>;
+    Shader<Batch> fast(Batch(values.grid), matrix);
+    const auto [width, height, depth] = values.grid.cells();
+    const std::size_t row_size = values.grid.vertices[0];
+    const std::size_t slice_size = row_size * values.grid.vertices[1];
+    const T* const volume = values.step<T>(set.query.step).data();
+    const bool float_is_enough = kSmall && smallest >= kFloatIsEnough;
+    CellWalk walk(values.grid);
+    // The current row:
+    std::uint32_t y = 0, z = 0, inner_width = 0; // cells from the second on that `fast` takes
+    const T* of_row = volume;
+    std::optional<CellDifferences<T>> differences;
+
+    const std::size_t count = set.ids.size();
+    const CellId* const ids = set.ids.data();
+    CellPoint* const points = set.points.data();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % 4096 == 0 && stop.stop_requested())
+            return false;
+        if (walk.to(ids[i])) {
+            y = walk.y();
+            z = walk.z();
+            set.rows.push_back({static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z),
+                                static_cast<std::uint32_t>(i)});
+            of_row = volume + z * slice_size + y * row_size;
+            const bool border = y == 0 || y + 1 == height || z == 0 || z + 1 == depth;
+            inner_width = float_is_enough && !border && width > 2 ? width - 2 : 0;
+            differences.reset();
+        }
+        const std::uint32_t x = walk.x();
+        points[i] = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                     static_cast<std::uint16_t>(z), 0, 0};
+        if constexpr (kSmall)
+            if (x - 1u < inner_width) { // not so for x = 0 either: the numbers are unsigned
+                fast.add(of_row + x, points[i]);
+                continue;
+            }
+        if (!differences)
+            differences.emplace(values, set.query.step, y, z);
+        exact.add((*differences)(x), points[i]);
+    }
+    fast.finish();
+    exact.finish();
+    return true;
+}
+
+bool shade_step(const StepValues& values, CellSet& set, const std::stop_token& stop) {
+    return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
+        return shade_values<T>(values, set, stop);
+    });
+}
+
+} // namespace
+} // namespace isochron::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace isochron::index {
+
+HWY_EXPORT(shade_step);
+
+bool shade_cells(const StepValues& values, CellSet& set, const std::stop_token& stop) {
+    set.points.resize(set.ids.size());
+    set.rows.clear();
+    set.rows.reserve(set.ids.size() / 2);
+    return HWY_DYNAMIC_DISPATCH(shade_step)(values, set, stop);
+}
+
+} // namespace isochron::index
+#endif

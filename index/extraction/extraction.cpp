@@ -1,0 +1,103 @@
+// Searches for every surface, copies the bricks that their cells need and colours the cells.
+#include "index/extraction/extraction.h"
+
+#include "index/error.h"
+#include "index/extraction/surface_colors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace isochron::index {
+namespace {
+
+class Extracting {
+  public:
+    Extracting(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+               Shading shading)
+        : file_(std::move(file)), method_(method), shading_(shading),
+          values_(file_->info().type, file_->info().scaling, file_->stats().low,
+                  file_->stats().high),
+          gatherer_(file_->info().grid, values_), colors_(file_, method) {}
+
+    ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
+        const std::size_t count = query.isovalues.size();
+        if (count < 1 || count > kMostSurfaces)
+            throw Error(fmt::format("{} isovalues: expected 1 to {}", count, kMostSurfaces));
+        auto result = std::make_shared<Extraction>();
+        result->query = query;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (searches_.size() == i)
+                searches_.push_back(search_in(file_, method_, shading_));
+            const CellSetPtr set = searches_[i](query.surface(i), stop);
+            if (!set)
+                return nullptr;
+            result->surfaces.push_back(*set);
+        }
+        return fill(*result, stop) ? result : nullptr;
+    }
+
+  private:
+    /// Adds the bricks and the colours. @return false when stopped
+    bool fill(Extraction& result, const std::stop_token& stop) {
+        const auto started = std::chrono::steady_clock::now();
+        const BrickLevels levels = values_.levels(result.query.isovalues);
+        result.levels = levels.units;
+        result.bricks = gatherer_.none();
+        if (result.cells() == 0) // no need to load, which may decode a file
+            return true;
+        const LoadedStep loaded = file_->load(result.query.step);
+        for (const CellSet& surface : result.surfaces)
+            gatherer_.need(surface.ids);
+        if (!gatherer_.gather(loaded.values, result.query.step, levels, result.bricks, stop))
+            return false;
+        result.gather_time = std::chrono::steady_clock::now() - started;
+        return colors_.fill(result.query, result.surfaces, loaded.values, result.colors, stop);
+    }
+
+    std::shared_ptr<const IndexFile> file_;
+    std::optional<SearchMethod> method_;
+    Shading shading_;
+    std::vector<Search> searches_; ///< by surface
+    BrickValues values_;
+    BrickGatherer gatherer_;
+    SurfaceColors colors_;
+};
+
+template <class Sum, class Of>
+Sum sum_of(const std::vector<CellSet>& surfaces, Of&& of) {
+    return std::transform_reduce(surfaces.begin(), surfaces.end(), Sum{}, std::plus{}, of);
+}
+
+} // namespace
+
+std::size_t Extraction::cells() const {
+    return sum_of<std::size_t>(surfaces, [](const CellSet& set) { return set.ids.size(); });
+}
+bool Extraction::shaded() const {
+    return std::ranges::all_of(
+        surfaces, [](const CellSet& set) { return set.points.size() == set.ids.size(); });
+}
+std::uint64_t Extraction::candidates() const {
+    return sum_of<std::uint64_t>(surfaces, [](const CellSet& set) { return set.candidates; });
+}
+std::uint64_t Extraction::reused() const {
+    return sum_of<std::uint64_t>(surfaces, [](const CellSet& set) { return set.reused; });
+}
+std::chrono::nanoseconds Extraction::search_time() const {
+    return sum_of<std::chrono::nanoseconds>(surfaces,
+                                            [](const CellSet& set) { return set.search_time; });
+}
+
+Extract extract_from(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+                     Shading shading) {
+    // `std::function` wants something that can be copied; the state of a search must not be.
+    auto extracting = std::make_shared<Extracting>(std::move(file), method, shading);
+    return [extracting = std::move(extracting)](const SurfacesQuery& query,
+                                                const std::stop_token& stop) {
+        return (*extracting)(query, stop);
+    };
+}
+
+} // namespace isochron::index

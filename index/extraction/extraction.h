@@ -1,0 +1,50 @@
+// The result of one request: the active cells of its surfaces and the bricks behind them.
+#pragma once
+
+#include "index/extraction/index_search.h"
+#include "index/extraction/volume_bricks.h"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Immutable once published; whoever shows it needs no mapped page.
+struct Extraction {
+    SurfacesQuery query;
+    std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows where asked for
+    std::vector<float> levels;     ///< of the isovalues, in brick units: see BrickLevels
+    /// Coordinates of the cells, surface after surface in the order of ids; empty where none were
+    /// asked for, and where the index has no second array to colour by.
+    std::vector<std::uint16_t> colors;
+    VolumeBricks bricks; ///< of the step, for all surfaces
+    std::chrono::nanoseconds gather_time{0};
+
+    std::size_t cells() const; ///< of all surfaces: one that is active in two counts twice
+    bool shaded() const;       ///< whether every cell has its point, with its normal
+    std::uint64_t candidates() const;
+    std::uint64_t reused() const;
+    std::chrono::nanoseconds search_time() const;
+};
+
+using ExtractionPtr = std::shared_ptr<const Extraction>;
+
+/// Computes one extraction; runs on the worker only, keeps the state of incremental search.
+/// Returns null when stopped. Throws to report a failure.
+using Extract = std::function<ExtractionPtr(const SurfacesQuery&, std::stop_token)>;
+
+/// The extraction from an open index: each surface has an incremental search of its own. Copies
+/// share their state. What it makes throws Error for a step that the series does not have and for
+/// other than 1 to kMostSurfaces isovalues.
+/// @param method instead of the cheapest; the file must have that tier
+/// @param shading whether the sets get points, for renderers that do not make normals themselves
+Extract extract_from(std::shared_ptr<const IndexFile> file,
+                     std::optional<SearchMethod> method = std::nullopt,
+                     Shading shading = Shading::none);
+
+} // namespace isochron::index

@@ -1,0 +1,228 @@
+// The one background worker.
+#include "index/extraction/extractor.h"
+
+#include <algorithm>
+#include <bit>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+/// Bitwise, so that a NaN equals itself: otherwise asking for one again would be something new.
+bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b) {
+    return a.coloring == b.coloring &&
+           std::ranges::equal(a.isovalues, b.isovalues, {}, std::bit_cast<std::uint64_t, double>,
+                              std::bit_cast<std::uint64_t, double>);
+}
+bool same(const SurfacesQuery& a, const SurfacesQuery& b) {
+    return a.step == b.step && same_but_for_step(a, b);
+}
+
+/// The newest few extractions, of answers and of prefetches.
+class RecentExtractions {
+  public:
+    ExtractionPtr find(const SurfacesQuery& query) const {
+        for (const ExtractionPtr& known : kept_)
+            if (same(known->query, query))
+                return known;
+        return nullptr;
+    }
+
+    /// @return the one that had to go, for the caller to free where it does not hold anybody up
+    ExtractionPtr add(ExtractionPtr extraction) {
+        kept_.push_front(std::move(extraction));
+        if (kept_.size() <= kKept)
+            return nullptr;
+        ExtractionPtr oldest = std::move(kept_.back());
+        kept_.pop_back();
+        return oldest;
+    }
+
+  private:
+    static constexpr std::size_t kKept = 3; ///< shown, prefetched, and one for stepping back
+    std::deque<ExtractionPtr> kept_;
+};
+
+} // namespace
+
+struct Extractor::State {
+    struct Job {
+        SurfacesQuery query;
+        bool prefetch;
+        std::stop_source stop;
+    };
+    struct Outcome {
+        ExtractionPtr extraction; ///< null: stopped or failed
+        std::string failure;      ///< empty unless failed
+    };
+
+    explicit State(Extract e) : extract(std::move(e)) {}
+
+    SurfacesQuery prefetched_query() const {
+        SurfacesQuery query = wanted->query;
+        query.step = *wanted->next_step;
+        return query;
+    }
+
+    bool prefetch_wanted() const {
+        return wanted && wanted->next_step && !in_flux && !prefetch_done &&
+               !recent.find(prefetched_query());
+    }
+    bool has_work() const { return (wanted && !answered) || prefetch_wanted(); }
+
+    void work(const std::stop_token& stop);
+    Outcome run(const Job& job);
+    void finish(const Job& job, Outcome outcome);
+
+    const Extract extract;
+    mutable std::mutex mutex; ///< of all below; held for a few assignments only
+    mutable std::condition_variable_any changed;
+    std::optional<Request> wanted;
+    bool answered = false;      ///< the wanted query has been shown or has failed
+    bool in_flux = false;       ///< the newest request is for other surfaces than the one before
+    bool prefetch_done = false; ///< the wanted prefetch need not be tried again
+    bool abandoned = false;     ///< the last search was given up: the next one is finished
+    std::optional<Job> running;
+    RecentExtractions recent;
+    ExtractionPtr shown;
+    std::optional<std::string> failure;
+    std::jthread worker; ///< last, so that it starts after and ends before everything it uses
+};
+
+void Extractor::State::work(const std::stop_token& stop) {
+    std::unique_lock lock(mutex);
+    while (changed.wait(lock, stop, [this] { return has_work(); })) {
+        if (stop.stop_requested())
+            return;
+        const bool prefetch = answered;
+        const SurfacesQuery query = prefetch ? prefetched_query() : wanted->query;
+        if (ExtractionPtr known =
+                recent.find(query)) { // only an answer: known prefetches are no work
+            answered = true;
+            failure.reset();
+            shown.swap(known);
+            changed.notify_all();
+            lock.unlock(); // what was shown may be freed here
+            known.reset();
+            lock.lock();
+            continue;
+        }
+        running = Job{query, prefetch, {}};
+        const Job job = *running;
+        lock.unlock();
+        Outcome outcome = run(job);
+        finish(job, std::move(outcome));
+        lock.lock();
+    }
+}
+
+Extractor::State::Outcome Extractor::State::run(const Job& job) {
+    try {
+        ExtractionPtr extraction = extract(job.query, job.stop.get_token());
+        if (!extraction && !job.stop.stop_requested())
+            return {nullptr, "the extraction gave no result"};
+        return {std::move(extraction), {}};
+    } catch (const std::exception& error) {
+        return {nullptr, error.what()};
+    } catch (...) {
+        return {nullptr, "unknown failure of the extraction"};
+    }
+}
+
+void Extractor::State::finish(const Job& job, Outcome outcome) {
+    ExtractionPtr dropped, replaced = outcome.extraction; // freed after the lock
+    {
+        const std::scoped_lock lock(mutex);
+        running.reset();
+        const bool stopped = job.stop.stop_requested();
+        const bool is_answer = same(job.query, wanted->query) && !answered;
+        if (outcome.extraction) {
+            dropped = recent.add(outcome.extraction);
+            if (is_answer)
+                answered = true;
+            if (is_answer || !job.prefetch) {
+                failure.reset();
+                shown.swap(replaced);
+            }
+        } else if (!outcome.failure.empty() && !stopped) {
+            // A failed prefetch is not reported: nobody has asked to see that step yet.
+            if (is_answer || !job.prefetch)
+                failure = outcome.failure;
+            if (is_answer)
+                answered = true;
+        }
+        if (job.prefetch && !stopped)
+            prefetch_done = wanted->next_step == job.query.step;
+        if (!job.prefetch)
+            abandoned = !outcome.extraction && stopped;
+    }
+    changed.notify_all();
+}
+
+Extractor::Extractor(Extract extract) : state_(std::make_unique<State>(std::move(extract))) {
+    state_->worker =
+        std::jthread([state = state_.get()](std::stop_token stop) { state->work(stop); });
+}
+
+Extractor::~Extractor() {
+    std::optional<std::stop_source> stop;
+    {
+        const std::scoped_lock lock(state_->mutex);
+        if (state_->running)
+            stop = state_->running->stop;
+    }
+    state_->worker.request_stop();
+    if (stop)
+        stop->request_stop();
+}
+
+void Extractor::request(const Request& request) {
+    std::optional<std::stop_source>
+        stop; // used after the lock: it may run callbacks of the extraction
+    {
+        const std::scoped_lock lock(state_->mutex);
+        State& s = *state_;
+        const bool same_query = s.wanted && same(s.wanted->query, request.query);
+        const bool was_in_flux = std::exchange(
+            s.in_flux, s.wanted && !same_but_for_step(s.wanted->query, request.query));
+        if (same_query && s.wanted->next_step == request.next_step && !was_in_flux)
+            return;
+        s.wanted = request;
+        s.prefetch_done = false;
+        if (!same_query) {
+            s.answered = false;
+            const bool obsolete = s.running && !same(s.running->query, request.query);
+            if (obsolete && (s.running->prefetch || !s.abandoned))
+                stop = s.running->stop;
+        }
+    }
+    if (stop)
+        stop->request_stop();
+    state_->changed.notify_all();
+}
+
+ExtractionPtr Extractor::newest() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->shown;
+}
+
+std::optional<std::string> Extractor::failure() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->failure;
+}
+
+bool Extractor::busy() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->wanted && !state_->answered;
+}
+
+void Extractor::wait() const {
+    std::unique_lock lock(state_->mutex);
+    state_->changed.wait(lock, [this] { return !state_->wanted || state_->answered; });
+}
+
+} // namespace isochron::index

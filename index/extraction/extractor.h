@@ -1,0 +1,56 @@
+// The one background worker: newest request in, newest finished extraction out, never a wait.
+//
+//     index::Extractor extractor(index::extract_from(file));
+//     extractor.request({.query = {step, {isovalue}}, .next_step = step + 1});
+//     if (auto newest = extractor.newest()) show(newest);      // every frame, never blocks
+#pragma once
+
+#include "index/extraction/extraction.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace isochron::index {
+
+struct Request {
+    SurfacesQuery query;
+    /// Prefetched once the query is answered (playback). Not while the isovalues are dragged: the
+    /// next query will be for others.
+    std::optional<std::uint32_t> next_step;
+};
+
+/// Requests may come faster than a search takes. After one abandoned search the next is therefore
+/// finished and shown although something newer has been asked for; so the picture follows a slider
+/// or a fast playback instead of standing still until they stop.
+class Extractor {
+  public:
+    explicit Extractor(Extract extract);
+    ~Extractor(); ///< stops and joins the worker
+    Extractor(const Extractor&) = delete;
+    Extractor& operator=(const Extractor&) = delete;
+
+    /// Replaces whatever was asked before; work for an older query is abandoned at its next check.
+    /// Asking again for what is already asked does nothing. Never waits for the worker.
+    void request(const Request& request);
+
+    /// The newest finished extraction, null before the first; stays the same until a newer one is
+    /// finished.
+    ExtractionPtr newest() const;
+
+    /// Message of the last failure, until a later query succeeds.
+    std::optional<std::string> failure() const;
+
+    /// True while the newest request has neither been answered nor failed.
+    bool busy() const;
+
+    /// Blocks until not busy: for fixed-step replay, captures and tests only, never in the live
+    /// loop.
+    void wait() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace isochron::index

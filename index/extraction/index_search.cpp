@@ -1,0 +1,180 @@
+// The search over an open index, as the worker runs it.
+#include "index/extraction/index_search.h"
+
+#include "index/error.h"
+#include "index/extraction/id_sort.h"
+#include "index/scan/bricks.h"
+#include "index/scan/scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::size_t kChunk = 1 << 16;     ///< candidates between two looks at the stop token
+constexpr std::size_t kScanChunk = 1 << 22; ///< cells between two looks at the stop token
+
+class IndexSearch {
+  public:
+    IndexSearch(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> forced,
+                Shading shading)
+        : file_(std::move(file)), method_(forced ? *forced : cheapest_method(*file_)),
+          shading_(shading), keys_(file_->info().type, file_->info().scaling) {}
+
+    CellSetPtr operator()(const Query& query, const std::stop_token& stop) {
+        const std::size_t steps = file_->info().steps();
+        if (query.step >= steps)
+            throw Error(fmt::format("step {}: expected 0 to {}", query.step, steps - 1));
+        const auto started = Clock::now();
+        auto set = std::make_shared<CellSet>();
+        set->query = query;
+        set->method = method_;
+        const bool searched = !std::isfinite(query.isovalue) || search(*set, stop);
+        const auto found = Clock::now();
+        if (!searched)
+            return nullptr;
+        // Loading may decode a file; a step without active cells does without.
+        if (shading_ == Shading::cells && !set->ids.empty() &&
+            !shade_cells(file_->load(query.step).values, *set, stop))
+            return nullptr;
+        set->search_time = found - started;
+        set->shading_time = Clock::now() - found;
+        return set;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    bool search(CellSet& set, const std::stop_token& stop) {
+        switch (method_) {
+        case SearchMethod::cells: return search_cells(set, stop);
+        case SearchMethod::bricks: return search_bricks_of(set, stop);
+        case SearchMethod::tree: return search_tree(set, stop);
+        case SearchMethod::scan: break;
+        }
+        return search_all(set, stop);
+    }
+
+    bool search_cells(CellSet& set, const std::stop_token& stop) {
+        const auto cut = file_->levels().cut(file_->info().scaling, set.query.isovalue);
+        if (!cut)
+            return true;
+        certain_.clear();
+        ambiguous_.clear();
+        file_->cells()->search(set.query.step, *cut, certain_, ambiguous_);
+        append_ids(certain_, set.ids);
+        set.candidates = set.ids.size();
+        if (!ambiguous_.empty()) {
+            candidates_.clear();
+            append_ids(ambiguous_, candidates_);
+            set.candidates += candidates_.size();
+            if (!test_candidates(set, stop))
+                return false;
+        }
+        sort_ids(set.ids, file_->info().grid.cell_count());
+        return !stop.stop_requested();
+    }
+
+    bool search_bricks_of(CellSet& set, const std::stop_token& stop) {
+        const LoadedStep loaded = file_->load(set.query.step);
+        set.candidates = search_bricks(loaded.values, file_->levels(),
+                                       file_->bricks(set.query.step), set.query, set.ids);
+        sort_ids(set.ids, file_->info().grid.cell_count());
+        return !stop.stop_requested();
+    }
+
+    bool search_tree(CellSet& set, const std::stop_token& stop) {
+        // First asked for here, on the worker: the tree is checked then.
+        set.reused = file_->tree()->search_incremental(cursor_, set.query.step,
+                                                       keys_.threshold(set.query.isovalue));
+        candidates_ = cursor_.cells;
+        set.candidates = candidates_.size();
+        return test_candidates(set, stop);
+    }
+
+    /// Appends those of `candidates_` that are active, ascending.
+    bool test_candidates(CellSet& set, const std::stop_token& stop) {
+        const LoadedStep loaded = file_->load(set.query.step);
+        // Ascending first: the test then walks through the volume instead of jumping about in it.
+        sort_ids(candidates_, loaded.values.grid.cell_count());
+        set.ids.reserve(set.ids.size() + candidates_.size());
+        for (std::size_t at = 0; at < candidates_.size(); at += kChunk) {
+            if (stop.stop_requested())
+                return false;
+            const auto first = candidates_.begin() + static_cast<std::ptrdiff_t>(at);
+            chunk_.assign(first, first + static_cast<std::ptrdiff_t>(
+                                             std::min(kChunk, candidates_.size() - at)));
+            keep_active(loaded.values, set.query, chunk_);
+            set.ids.insert(set.ids.end(), chunk_.begin(), chunk_.end());
+        }
+        return !stop.stop_requested();
+    }
+
+    /// Slab by slab of whole z layers, so that a stop is noticed within one.
+    bool search_all(CellSet& set, const std::stop_token& stop) {
+        const LoadedStep loaded = file_->load(set.query.step);
+        StepValues slab = loaded.values;
+        const auto [width, height, depth] = slab.grid.cells();
+        const std::uint64_t layer_cells = std::uint64_t{width} * height;
+        const std::uint64_t layer_bytes =
+            std::uint64_t{slab.grid.vertices[0]} * slab.grid.vertices[1] * size_of(slab.type);
+        const auto layers = static_cast<std::uint32_t>(
+            std::clamp<std::uint64_t>(kScanChunk / layer_cells, 1, depth));
+        for (std::uint32_t z = 0; z < depth; z += layers) {
+            if (stop.stop_requested())
+                return false;
+            slab.first = loaded.values.first + z * layer_bytes;
+            slab.grid.vertices[2] = std::min(layers, depth - z) + 1;
+            chunk_.clear();
+            scan(slab, set.query, chunk_);
+            for (const CellId id : chunk_)
+                set.ids.push_back(static_cast<CellId>(id + z * layer_cells));
+        }
+        set.candidates = set.ids.size();
+        return true;
+    }
+
+    std::shared_ptr<const IndexFile> file_;
+    SearchMethod method_;
+    Shading shading_;
+    KeyMap keys_;
+    ThiTree::Cursor cursor_;
+    // Kept for their memory:
+    std::vector<CellId> candidates_, chunk_;
+    std::vector<IdRun> certain_, ambiguous_;
+};
+
+} // namespace
+
+bool can_search(const IndexFile& file, SearchMethod method) {
+    switch (method) {
+    case SearchMethod::cells: return file.cells();
+    case SearchMethod::bricks: return !file.bricks(0).empty();
+    case SearchMethod::tree: return file.stats().tree_bytes > 0;
+    case SearchMethod::scan: break;
+    }
+    return true;
+}
+
+SearchMethod cheapest_method(const IndexFile& file) {
+    for (const SearchMethod method :
+         {SearchMethod::cells, SearchMethod::bricks, SearchMethod::tree})
+        if (can_search(file, method))
+            return method;
+    return SearchMethod::scan;
+}
+
+Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+                 Shading shading) {
+    // `std::function` wants something that can be copied; the state of a search must not be.
+    auto search = std::make_shared<IndexSearch>(std::move(file), method, shading);
+    return [search = std::move(search)](const Query& query, const std::stop_token& stop) {
+        return (*search)(query, stop);
+    };
+}
+
+} // namespace isochron::index

@@ -1,0 +1,33 @@
+// The search for active cells over an open index, by whatever the file has.
+#pragma once
+
+#include "index/extraction/cell_set.h"
+#include "index/file/index_file.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+namespace isochron::index {
+
+/// Computes one cell set; runs on the worker only, keeps the state of incremental search.
+/// Returns null when stopped. Throws to report a failure.
+using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
+
+/// What the file's tiers answer fastest: cells, else bricks, else the paper's tree, else the scan.
+SearchMethod cheapest_method(const IndexFile& file);
+/// Whether the file has what a method works on.
+bool can_search(const IndexFile& file, SearchMethod method);
+
+/// Whether a set gets its points and rows, or stays a list of ids.
+enum class Shading : std::uint8_t { none, cells };
+
+/// The search over an open index. Copies share their state.
+/// @param method instead of the cheapest; the file must have that tier
+/// @param shading whether `shade_cells` completes the sets
+Search search_in(std::shared_ptr<const IndexFile> file,
+                 std::optional<SearchMethod> method = std::nullopt,
+                 Shading shading = Shading::cells);
+
+} // namespace isochron::index

@@ -1,0 +1,68 @@
+// The colour coordinates of an extraction's cells.
+#include "index/extraction/surface_colors.h"
+
+#include "index/extraction/cell_colors.h"
+
+#include <algorithm>
+#include <span>
+
+namespace isochron::index {
+
+SurfaceColors::SurfaceColors(std::shared_ptr<const IndexFile> file,
+                             std::optional<SearchMethod> method)
+    : file_(std::move(file)), method_(method) {}
+
+bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>& surfaces,
+                         const StepValues& step, std::vector<std::uint16_t>& out,
+                         const std::stop_token& stop) {
+    forget_all_but(query);
+    out.clear();
+    const ColorArray* array = file_->color();
+    if (query.coloring == CellColoring::none || (query.coloring == CellColoring::value && !array))
+        return true;
+    std::optional<LoadedStep> colors;
+    std::size_t rank = 0;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        const auto& cells = surfaces[i].ids;
+        if (cells.empty())
+            continue;
+        out.resize(rank + cells.size());
+        const auto part = std::span(out).subspan(rank);
+        if (query.coloring == CellColoring::value) {
+            if (!colors)
+                colors = file_->load_color(query.step);
+            if (!color_cells(step, colors->values, query.surface(i), cells, array->low, array->high,
+                             part, stop))
+                return false;
+        } else {
+            const FirstCrossings* first = crossings(query.isovalues[i], stop);
+            if (!first)
+                return false;
+            color_by_first_crossing(*first, file_->info().times, cells, part);
+        }
+        rank = out.size();
+    }
+    return true;
+}
+
+void SurfaceColors::forget_all_but(const SurfacesQuery& query) {
+    std::erase_if(crossings_, [&](const FirstCrossingsPtr& known) {
+        return query.coloring != CellColoring::first_crossing ||
+               std::ranges::find(query.isovalues, known->isovalue) == query.isovalues.end();
+    });
+}
+
+/// @return null when stopped
+const FirstCrossings* SurfaceColors::crossings(double isovalue, const std::stop_token& stop) {
+    const auto known = std::ranges::find(crossings_, isovalue, &FirstCrossings::isovalue);
+    if (known != crossings_.end())
+        return known->get();
+    FirstCrossingsPtr found =
+        first_crossings(file_->info(), search_in(file_, method_, Shading::none), isovalue, stop);
+    if (!found)
+        return nullptr;
+    crossings_.push_back(std::move(found));
+    return crossings_.back().get();
+}
+
+} // namespace isochron::index

@@ -1,0 +1,38 @@
+// The colour coordinates of an extraction's cells.
+#pragma once
+
+#include "index/extraction/first_crossing.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Colours the cells of one set of surfaces after the other. For the first crossings of an isovalue
+/// the whole series is searched once, and again only after a query has done without them: they take
+/// two bytes for each cell of the grid. Not thread-safe.
+class SurfaceColors {
+  public:
+    /// @param method of the searches; the file must have that tier
+    SurfaceColors(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method);
+
+    /// The coordinates as `Extraction::colors` has them.
+    /// @param step the volume's values at the query's step
+    /// @return false when it was stopped and `out` is incomplete
+    /// @throws Error as loading a step and the search for first crossings do
+    bool fill(const SurfacesQuery& query, const std::vector<CellSet>& surfaces,
+              const StepValues& step, std::vector<std::uint16_t>& out, const std::stop_token& stop);
+
+  private:
+    void forget_all_but(const SurfacesQuery& query);
+    const FirstCrossings* crossings(double isovalue, const std::stop_token& stop);
+
+    std::shared_ptr<const IndexFile> file_;
+    std::optional<SearchMethod> method_;
+    std::vector<FirstCrossingsPtr> crossings_; ///< of isovalues that the last query had
+};
+
+} // namespace isochron::index

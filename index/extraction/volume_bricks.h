@@ -1,0 +1,77 @@
+// The parts of a step's volume that its active cells need, packed for a GPU.
+#pragma once
+
+#include "index/extraction/brick_values.h"
+#include "index/volume/step_values.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Vertices along each side of a brick.
+constexpr std::uint32_t kBrickEdge = 8;
+constexpr std::uint32_t kBrickVertices = kBrickEdge * kBrickEdge * kBrickEdge;
+
+using BrickId = std::uint32_t; ///< x fastest, then y, then z
+
+/// How bricks tile the vertices of a grid; the last ones of an axis may reach beyond it.
+struct BrickTiling {
+    explicit BrickTiling(const Grid& grid);
+    std::size_t count() const { return std::size_t{bricks[0]} * bricks[1] * bricks[2]; }
+    std::array<std::uint32_t, 3> bricks;
+};
+
+/// 128 bits of what a brick holds: equal digests mean equal bytes.
+struct BrickDigest {
+    std::uint64_t low = 0, high = 0;
+    bool operator==(const BrickDigest&) const = default;
+};
+
+/// Some bricks of one step.
+struct VolumeBricks {
+    ValueType held = ValueType::f32;  ///< of the values in `bytes`
+    float factor = 1;                 ///< see BrickValues
+    float range = 1;                  ///< of the whole data set, in brick units
+    std::vector<BrickId> ids;         ///< ascending
+    std::vector<BrickDigest> digests; ///< same order: whoever holds a brick of the same id and
+                                      ///< digest needs no other
+    std::vector<std::byte> bytes;     ///< same order; [z][y][x], x fastest; 0 beyond the grid
+
+    std::size_t brick_bytes() const { return kBrickVertices * size_of(held); }
+    std::span<const std::byte> brick(std::size_t i) const {
+        return std::span(bytes).subspan(i * brick_bytes(), brick_bytes());
+    }
+};
+
+/// Collects the bricks that hold the vertices of cells and what central differences there reach:
+/// the cells' vertices and their neighbours along each axis.
+class BrickGatherer {
+  public:
+    BrickGatherer(const Grid& grid, const BrickValues& values);
+
+    /// What `gather` gives where nothing is marked.
+    VolumeBricks none() const;
+    /// Marks what these cells (ascending) need.
+    void need(std::span<const CellId> cells);
+    /// Copies what has been marked since the last call, which is then forgotten.
+    /// @return false when it was stopped and the bricks are incomplete
+    bool gather(const StepValues& step, std::uint32_t number, const BrickLevels& levels,
+                VolumeBricks& bricks, const std::stop_token& stop = {});
+
+  private:
+    void mark_row(std::uint32_t y, std::uint32_t z);
+    void copy(const std::byte* first, BrickId brick, const BrickLevels& levels,
+              std::byte* out) const;
+
+    Grid grid_;
+    BrickTiling tiling_;
+    BrickValues values_;
+    std::vector<std::uint8_t> needed_;                ///< by brick id
+    std::vector<std::uint8_t> row_inner_, row_outer_; ///< of a row of cells, by brick along x
+};
+
+} // namespace isochron::index

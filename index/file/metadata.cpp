@@ -1,0 +1,324 @@
+// What an .isochron file knows about its volume, as JSON.
+#include "index/file/metadata.h"
+
+#include "index/error.h"
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isochron::index {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxDepth = 8;
+constexpr std::array kAnatomies{"none", "ras", "lps", "enu"};
+
+json numbers(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dvec3 vector_of(const json& value) {
+    const auto v = value.get<std::array<double, 3>>();
+    return {v[0], v[1], v[2]};
+}
+
+/// The library converts numbers of any kind and size without a word.
+template <class T>
+T whole(const json& value) {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<T>::max())
+        throw Error(fmt::format("expected a whole number up to {}, got {}",
+                                std::numeric_limits<T>::max(), value.dump()));
+    return value.get<T>();
+}
+
+template <class Numbers>
+void get_whole(const json& values, Numbers& out) {
+    if (!values.is_array() || values.size() != out.size())
+        throw Error(fmt::format("expected {} whole numbers", out.size()));
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = whole<typename Numbers::value_type>(values[i]);
+}
+
+/// The parser itself accepts any depth; ours is known.
+void check_depth(std::string_view text) {
+    std::size_t depth = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted && c == '\\')
+            ++i;
+        else if (c == '"')
+            quoted = !quoted;
+        else if (!quoted && (c == '[' || c == '{')) {
+            if (++depth > kMaxDepth)
+                throw Error(fmt::format("nested more than {} deep", kMaxDepth));
+        } else if (!quoted && (c == ']' || c == '}') && depth > 0)
+            --depth;
+    }
+}
+
+bool finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+SeriesInfo info_of(const json& j) {
+    SeriesInfo info;
+    j.at("array").get_to(info.array);
+    j.at("value_unit").get_to(info.value_unit);
+    j.at("length_unit").get_to(info.length_unit);
+    j.at("time_unit").get_to(info.time_unit);
+    const auto anatomy = std::ranges::find(kAnatomies, j.at("anatomy").get<std::string>());
+    if (anatomy == kAnatomies.end())
+        throw Error("unknown anatomy");
+    info.anatomy = static_cast<Anatomy>(anatomy - kAnatomies.begin());
+    get_whole(j.at("vertices"), info.grid.vertices);
+    info.grid.origin = vector_of(j.at("origin"));
+    info.grid.spacing = vector_of(j.at("spacing"));
+    const json& direction = j.at("direction");
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        info.grid.direction[static_cast<int>(axis)] = vector_of(direction.at(axis));
+    const auto type = value_type_from_name(j.at("type").get<std::string>());
+    if (!type)
+        throw Error("unknown value type");
+    info.type = *type;
+    j.at("slope").get_to(info.scaling.slope);
+    j.at("intercept").get_to(info.scaling.intercept);
+    j.at("times").get_to(info.times);
+    j.at("sources").get_to(info.sources);
+    j.at("notes").get_to(info.notes);
+    check_limits(info);
+    return info;
+}
+
+json json_of(const LevelMap& levels) {
+    if (size_of(levels.type()) == 1 && levels == LevelMap::of_type(levels.type()))
+        return "of the type";
+    if (levels.lossless())
+        return {{"values", levels.distinct()}};
+    return {{"thresholds", levels.thresholds()}};
+}
+
+std::vector<std::uint64_t> ascending(const json& values, std::size_t most) {
+    std::vector<std::uint64_t> numbers(values.is_array() ? values.size() : most + 1);
+    if (numbers.size() > most)
+        throw Error(fmt::format("expected at most {} levels", most));
+    get_whole(values, numbers);
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+        if (numbers[i] <= numbers[i - 1])
+            throw Error("levels that do not ascend");
+    return numbers;
+}
+
+LevelMap levels_of(const json& j, ValueType type) {
+    if (j.is_string()) {
+        if (size_of(type) != 1)
+            throw Error(fmt::format("levels of {}, which has too many values", name_of(type)));
+        return LevelMap::of_type(type);
+    }
+    if (j.contains("values"))
+        return LevelMap::of_values(type, ascending(j.at("values"), LevelMap::kMaxLevels));
+    return LevelMap::of_thresholds(type, ascending(j.at("thresholds"), LevelMap::kMaxLevels - 1));
+}
+
+json json_of(const TierPlan& plan) {
+    json tiers = json::array();
+    for (std::size_t i = 0; i < kTierNames.size(); ++i)
+        if (plan.tiers.has(static_cast<Tier>(i)))
+            tiers.push_back(kTierNames[i]);
+    return {{"tiers", tiers}, {"reasons", plan.reasons}};
+}
+
+TierPlan plan_of(const json& j) {
+    TierPlan plan;
+    for (const json& name : j.at("tiers")) {
+        const auto tier = tier_from_name(name.get<std::string>());
+        if (!tier)
+            throw Error(fmt::format("unknown tier {}", name.dump()));
+        plan.tiers = plan.tiers.with(*tier);
+    }
+    j.at("reasons").get_to(plan.reasons);
+    return plan;
+}
+
+template <class T>
+void put_optional(json& j, const char* key, const std::optional<T>& value) {
+    if (value)
+        j[key] = *value;
+}
+template <class T>
+void get_optional(const json& j, const char* key, std::optional<T>& value) {
+    if (j.contains(key))
+        value = j.at(key).get<T>();
+}
+
+json json_of(const Referral& referral) {
+    const ReadOptions& options = referral.options;
+    json j{{"files", json::array()},
+           {"big_endian", options.big_endian},
+           {"header_bytes", options.header_bytes}};
+    for (const std::filesystem::path& file : referral.files)
+        j["files"].push_back(file.string());
+    put_optional(j, "array", options.array);
+    put_optional(j, "component", options.component);
+    put_optional(j, "dims", options.dims);
+    if (options.type)
+        j["type"] = name_of(*options.type);
+    return j;
+}
+
+/// What the files leave open only: grid, times and units are those of the index itself.
+Referral referral_of(const json& j) {
+    Referral referral;
+    for (const json& file : j.at("files"))
+        referral.files.emplace_back(file.get<std::string>());
+    ReadOptions& options = referral.options;
+    j.at("big_endian").get_to(options.big_endian);
+    options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
+    get_optional(j, "array", options.array);
+    get_optional(j, "component", options.component);
+    if (j.contains("dims")) {
+        options.dims.emplace();
+        get_whole(j.at("dims"), *options.dims);
+    }
+    if (j.contains("type"))
+        options.type = value_type_from_name(j.at("type").get<std::string>());
+    return referral;
+}
+
+json json_of(const ColorArray& color) {
+    json j{{"array", color.array},
+           {"value_unit", color.value_unit},
+           {"type", name_of(color.type)},
+           {"slope", color.scaling.slope},
+           {"intercept", color.scaling.intercept},
+           {"low", color.low},
+           {"high", color.high},
+           {"nan_values", color.nan_values}};
+    put_optional(j, "chosen_array", color.chosen_array);
+    put_optional(j, "chosen_component", color.chosen_component);
+    return j;
+}
+
+ColorArray color_of(const json& j) {
+    ColorArray color;
+    j.at("array").get_to(color.array);
+    j.at("value_unit").get_to(color.value_unit);
+    const auto type = value_type_from_name(j.at("type").get<std::string>());
+    if (!type)
+        throw Error("unknown type of colours");
+    color.type = *type;
+    j.at("slope").get_to(color.scaling.slope);
+    j.at("intercept").get_to(color.scaling.intercept);
+    j.at("low").get_to(color.low);
+    j.at("high").get_to(color.high);
+    if (!(color.low <= color.high) || !std::isfinite(color.low) || !std::isfinite(color.high))
+        throw Error(fmt::format("colours from {} to {}", color.low, color.high));
+    color.nan_values = whole<std::uint64_t>(j.at("nan_values"));
+    get_optional(j, "chosen_array", color.chosen_array);
+    get_optional(j, "chosen_component", color.chosen_component);
+    return color;
+}
+
+} // namespace
+
+void check_limits(const SeriesInfo& info) {
+    const Grid& grid = info.grid;
+    for (const std::uint32_t n : grid.vertices)
+        if (n < 2 || n > 65537)
+            throw Error(fmt::format("{}x{}x{} vertices, expected 2 to 65537 along each axis",
+                                    grid.vertices[0], grid.vertices[1], grid.vertices[2]));
+    if (grid.cell_count() > std::numeric_limits<CellId>::max())
+        throw Error(fmt::format("{} cells, expected fewer than 2^32", grid.cell_count()));
+    if (!finite(grid.origin) || !finite(grid.spacing) || !finite(grid.direction[0]) ||
+        !finite(grid.direction[1]) || !finite(grid.direction[2]))
+        throw Error("origin, spacing or direction is not finite");
+    if (!(grid.spacing.x > 0 && grid.spacing.y > 0 && grid.spacing.z > 0))
+        throw Error(fmt::format("spacing {} {} {}, expected positive numbers", grid.spacing.x,
+                                grid.spacing.y, grid.spacing.z));
+    if (!(std::abs(glm::determinant(grid.direction)) > 1e-6))
+        throw Error("the direction's axes lie in one plane");
+    if (!std::isfinite(info.scaling.slope) || info.scaling.slope == 0 ||
+        !std::isfinite(info.scaling.intercept))
+        throw Error(fmt::format("scaling {} * stored + {}, expected finite numbers and no slope 0",
+                                info.scaling.slope, info.scaling.intercept));
+    if (info.times.empty() || info.times.size() >= std::numeric_limits<std::uint32_t>::max())
+        throw Error(fmt::format("{} steps, expected 1 to 2^32 - 2", info.times.size()));
+    for (std::size_t t = 0; t < info.times.size(); ++t)
+        if (!std::isfinite(info.times[t]) || (t > 0 && !(info.times[t] > info.times[t - 1])))
+            throw Error(fmt::format("step {} has time {}, expected finite and increasing times", t,
+                                    info.times[t]));
+}
+
+std::string to_json(const Metadata& metadata) {
+    const SeriesInfo& info = metadata.info;
+    const Grid& grid = info.grid;
+    const IndexStats& stats = metadata.stats;
+    json j{
+        {"array", info.array},
+        {"value_unit", info.value_unit},
+        {"length_unit", info.length_unit},
+        {"time_unit", info.time_unit},
+        {"anatomy", kAnatomies[static_cast<std::size_t>(info.anatomy)]},
+        {"vertices", grid.vertices},
+        {"origin", numbers(grid.origin)},
+        {"spacing", numbers(grid.spacing)},
+        {"direction",
+         {numbers(grid.direction[0]), numbers(grid.direction[1]), numbers(grid.direction[2])}},
+        {"type", name_of(info.type)},
+        {"slope", info.scaling.slope},
+        {"intercept", info.scaling.intercept},
+        {"times", info.times},
+        {"sources", info.sources},
+        {"notes", info.notes},
+        {"stats",
+         {{"low", stats.low},
+          {"high", stats.high},
+          {"nan_values", stats.nan_values},
+          {"cell_entries", stats.cell_entries},
+          {"histogram", stats.histogram}}},
+        {"levels", json_of(metadata.levels.value())},
+        {"plan", json_of(metadata.plan)},
+        {"tree",
+         {{"lattice", metadata.tree.lattice}, {"max_variation", metadata.tree.max_variation}}},
+    };
+    if (metadata.referral)
+        j["referral"] = json_of(*metadata.referral);
+    if (metadata.color)
+        j["color"] = json_of(*metadata.color);
+    // File names may be any bytes; JSON may not.
+    return j.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+Metadata metadata_from_json(std::string_view text) try {
+    check_depth(text);
+    const json j = json::parse(text);
+    Metadata metadata;
+    metadata.info = info_of(j);
+    const json& stats = j.at("stats");
+    stats.at("low").get_to(metadata.stats.low);
+    stats.at("high").get_to(metadata.stats.high);
+    metadata.stats.nan_values = whole<std::uint64_t>(stats.at("nan_values"));
+    metadata.stats.cell_entries = whole<std::uint64_t>(stats.at("cell_entries"));
+    metadata.stats.histogram.resize(kHistogramBins);
+    get_whole(stats.at("histogram"), metadata.stats.histogram);
+    metadata.levels = levels_of(j.at("levels"), metadata.info.type);
+    metadata.plan = plan_of(j.at("plan"));
+    const json& tree = j.at("tree");
+    metadata.tree.lattice = whole<std::uint32_t>(tree.at("lattice"));
+    metadata.tree.max_variation = whole<std::uint32_t>(tree.at("max_variation"));
+    if (j.contains("referral"))
+        metadata.referral = referral_of(j.at("referral"));
+    if (j.contains("color"))
+        metadata.color = color_of(j.at("color"));
+    return metadata;
+} catch (const json::exception& error) {
+    throw Error(error.what());
+}
+
+} // namespace isochron::index

@@ -1,0 +1,67 @@
+// Steps of an index that refers to its sources instead of carrying a copy.
+#include "index/file/step_source.h"
+
+#include "index/error.h"
+#include "index/file/file_layout.h"
+#include "index/file/metadata.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::size_t kKept = 4; // the step on screen, the one asked for, and a neighbour of each
+
+} // namespace
+
+StepSource::StepSource(std::filesystem::path index, const SeriesInfo& info,
+                       const Referral& referral, std::vector<std::uint64_t> checksums)
+    : index_(std::move(index)), info_(info), referral_(referral), checksums_(std::move(checksums)) {
+}
+
+LoadedStep StepSource::load(std::uint32_t step) {
+    const std::lock_guard lock(mutex_);
+    auto found = std::find_if(kept_.begin(), kept_.end(),
+                              [&](const Decoded& decoded) { return decoded.step == step; });
+    if (found == kept_.end()) {
+        if (!series_) {
+            std::vector<std::filesystem::path> files;
+            for (const std::filesystem::path& file : referral_.files)
+                files.push_back(index_.parent_path() / file);
+            series_ = open_series(files, referral_.options);
+        }
+        const SeriesInfo& now = series_->info();
+        if (now.grid.vertices != info_.grid.vertices || now.type != info_.type ||
+            step >= now.steps())
+            throw Error(fmt::format("{}: its sources have changed since it was built: {} steps, "
+                                    "expected {} of the same grid and type",
+                                    index_.string(), now.steps(), info_.steps()));
+        auto words = std::make_shared<std::vector<std::uint64_t>>(step_stride(info_.step_bytes()) /
+                                                                  sizeof(std::uint64_t));
+        const auto stored = std::as_writable_bytes(std::span(*words)).first(info_.step_bytes());
+        series_->read(step, stored);
+        if (checksum_of(stored) != checksums_[step])
+            throw Error(fmt::format(
+                "{}: its source {} has changed since it was built (step {})", index_.string(),
+                info_.sources.size() == info_.steps() ? info_.sources[step] : info_.sources.back(),
+                step));
+        if (kept_.size() == kKept)
+            kept_.erase(kept_.begin());
+        kept_.push_back({step, std::move(words)});
+        found = kept_.end() - 1;
+    }
+    std::rotate(found, found + 1, kept_.end());
+    const Decoded& decoded = kept_.back();
+    return {{.grid = info_.grid,
+             .type = info_.type,
+             .scaling = info_.scaling,
+             .steps = info_.steps(),
+             .first = reinterpret_cast<const std::byte*>(decoded.words->data()),
+             .stride = decoded.words->size() * sizeof(std::uint64_t),
+             .first_step = step},
+            decoded.words};
+}
+
+} // namespace isochron::index

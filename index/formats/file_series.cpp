@@ -1,0 +1,202 @@
+// Files held to the first of them, and their times.
+#include "index/formats/file_series.h"
+
+#include "index/error.h"
+#include "index/formats/stored_file.h"
+#include "index/formats/time_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+bool close(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& tolerance) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(a[axis] - b[axis]) <= tolerance[axis]))
+            return false;
+    return true;
+}
+
+std::string text(const glm::dvec3& v) {
+    return fmt::format("({} {} {})", v.x, v.y, v.z);
+}
+
+std::string text(Anatomy anatomy) {
+    switch (anatomy) {
+    case Anatomy::ras: return "right-anterior-superior";
+    case Anatomy::lps: return "left-posterior-superior";
+    case Anatomy::enu: return "east-north-up";
+    case Anatomy::none: break;
+    }
+    return "not anatomical";
+}
+
+// Geometry written as decimal text or f32 differs in its last digits between files.
+void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInfo& first,
+                 const std::string& first_file) {
+    const auto fail = [&](const std::string& what, const std::string& is, const std::string& was) {
+        throw Error(fmt::format("{}: {} {}, {} has {}", file, what, is, first_file, was));
+    };
+    const Grid &a = got.grid, &b = first.grid;
+    if (a.vertices != b.vertices)
+        fail("dimensions", fmt::format("{}x{}x{}", a.vertices[0], a.vertices[1], a.vertices[2]),
+             fmt::format("{}x{}x{}", b.vertices[0], b.vertices[1], b.vertices[2]));
+    if (got.array != first.array)
+        fail("array", got.array, first.array);
+    if (got.type != first.type)
+        fail("type", std::string(name_of(got.type)), std::string(name_of(first.type)));
+    if (!close(a.spacing, b.spacing, b.spacing * 1e-6))
+        fail("spacing", text(a.spacing), text(b.spacing));
+    if (!close(a.origin, b.origin,
+               glm::dvec3(1e-4 * std::min({b.spacing.x, b.spacing.y, b.spacing.z}))))
+        fail("origin", text(a.origin), text(b.origin));
+    for (int axis = 0; axis < 3; ++axis)
+        if (!close(a.direction[axis], b.direction[axis], glm::dvec3(1e-5)))
+            fail(fmt::format("direction of axis {}", axis), text(a.direction[axis]),
+                 text(b.direction[axis]));
+    if (got.scaling != first.scaling)
+        fail("scaling", fmt::format("{} x + {}", got.scaling.slope, got.scaling.intercept),
+             fmt::format("{} x + {}", first.scaling.slope, first.scaling.intercept));
+    if (got.anatomy != first.anatomy)
+        fail("space", text(got.anatomy), text(first.anatomy));
+}
+
+class FileSeries final : public VolumeSeries {
+  public:
+    FileSeries(std::vector<SeriesFile> files, ReadOptions options)
+        : files_(std::move(files)), options_(std::move(options)) {
+        for (std::size_t i = 0; i < files_.size(); ++i)
+            add(i);
+        if (!options_.time_step)
+            check_times();
+        override_info();
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+
+    void read(std::size_t step, std::span<std::byte> out) override {
+        const Place place = places_.at(step);
+        if (!open_ || place.file != open_index_)
+            reopen(place.file);
+        open_->read(place.step, out);
+    }
+
+  private:
+    struct Place {
+        std::size_t file, step;
+    };
+
+    std::string name(std::size_t file) const { return files_[file].path.string(); }
+
+    void add(std::size_t index) {
+        // Kept open only while it is the last: a long series has more files than descriptors.
+        open_ = files_[index].open(files_[index].path, options_);
+        open_index_ = index;
+        const SeriesInfo& info = open_->info();
+        if (index == 0) {
+            info_ = info;
+            info_.times.clear();
+            info_.sources.clear();
+            check_grid(info_.grid, name(0));
+            first_ = info_;
+        } else {
+            expect_same(info, name(index), first_, name(0));
+        }
+        info_.sources.push_back(files_[index].path.filename().string());
+        std::vector<double> times = info.times;
+        if (files_[index].time) {
+            if (open_->steps() != 1)
+                throw Error(fmt::format("{}: {} steps, expected 1 for time {}", name(index),
+                                        open_->steps(), *files_[index].time));
+            times = {*files_[index].time};
+        } else if (!times.empty() && !options_.time_step && !info.time_unit.empty() &&
+                   !first_.time_unit.empty()) {
+            // A file that gives no unit is taken to mean that of the first.
+            const auto same = times_in(first_.time_unit, info.time_unit, std::move(times));
+            if (!same)
+                throw Error(fmt::format("{}: times in {}, {} has {}; --time-step sets them all",
+                                        name(index), info.time_unit, name(0), first_.time_unit));
+            times = *same;
+        }
+        if (index == 0)
+            timed_ = !times.empty();
+        if (timed_ != !times.empty() && !options_.time_step)
+            throw Error(fmt::format("{}: gives {} time, {} gives {}; --time-step sets them all",
+                                    name(index), times.empty() ? "no" : "a", name(0),
+                                    times.empty() ? "one" : "none"));
+        for (std::size_t step = 0; step < open_->steps(); ++step) {
+            info_.times.push_back(times.empty() ? static_cast<double>(places_.size())
+                                                : times[step]);
+            places_.push_back({index, step});
+        }
+    }
+
+    void reopen(std::size_t index) {
+        open_ = files_[index].open(files_[index].path, options_);
+        open_index_ = index;
+        expect_same(open_->info(), name(index), first_, name(0));
+    }
+
+    void check_times() const {
+        for (std::size_t i = 0; i < info_.times.size(); ++i) {
+            if (!std::isfinite(info_.times[i]))
+                throw Error(fmt::format("{}: time {} is not finite", name(places_[i].file),
+                                        info_.times[i]));
+            if (i == 0 || info_.times[i] > info_.times[i - 1])
+                continue;
+            const std::string file = name(places_[i].file), before = name(places_[i - 1].file);
+            if (info_.times[i] == info_.times[i - 1])
+                throw Error(
+                    fmt::format("{}: time {}, {} has the same", file, info_.times[i], before));
+            throw Error(fmt::format("{}: time {}, expected more than {} of {} before it", file,
+                                    info_.times[i], info_.times[i - 1], before));
+        }
+    }
+
+    void override_info() {
+        if (options_.spacing) {
+            for (int axis = 0; axis < 3; ++axis)
+                if (!((*options_.spacing)[axis] > 0) || !std::isfinite((*options_.spacing)[axis]))
+                    throw Error(fmt::format("--spacing: {}, expected positive numbers",
+                                            text(*options_.spacing)));
+            info_.grid.spacing = *options_.spacing;
+        }
+        if (options_.origin)
+            info_.grid.origin = *options_.origin;
+        if (options_.time_step) {
+            if (!(*options_.time_step > 0) || !std::isfinite(*options_.time_step))
+                throw Error(fmt::format("--time-step: {}, expected a positive number",
+                                        *options_.time_step));
+            for (std::size_t i = 0; i < info_.times.size(); ++i)
+                info_.times[i] = static_cast<double>(i) * *options_.time_step;
+        }
+        if (options_.length_unit)
+            info_.length_unit = *options_.length_unit;
+        if (options_.time_unit)
+            info_.time_unit = *options_.time_unit;
+        if (options_.value_unit)
+            info_.value_unit = *options_.value_unit;
+    }
+
+    std::vector<SeriesFile> files_;
+    ReadOptions options_;
+    SeriesInfo info_;
+    SeriesInfo first_; ///< what the first file said, before overrides
+    bool timed_ = false;
+    std::vector<Place> places_; ///< of every step
+    std::unique_ptr<VolumeFile> open_;
+    std::size_t open_index_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
+                                               const ReadOptions& options) {
+    return std::make_unique<FileSeries>(std::move(files), options);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,190 @@
+// MetaImage (.mhd, .mha). Read by hand: VTK's reader drops TransformMatrix, and with it left and
+// right.
+//
+// Keys after "MetaIO documentation", https://itk.org/Wiki/MetaIO/Documentation; their geometry as
+// ITK's MetaImageIO takes it: TransformMatrix lists the directions of the axes one after another,
+// and space is LPS whatever AnatomicalOrientation says.
+#include "index/error.h"
+#include "index/formats/readers.h"
+#include "index/formats/stored_file.h"
+#include "index/formats/text_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::pair<std::string_view, StoredType>, 12> kTypes{{
+    {"MET_CHAR", StoredType::i8},
+    {"MET_UCHAR", StoredType::u8},
+    {"MET_SHORT", StoredType::i16},
+    {"MET_USHORT", StoredType::u16},
+    {"MET_INT", StoredType::i32},
+    {"MET_UINT", StoredType::u32},
+    {"MET_LONG", StoredType::i32}, // 4 bytes in MetaIO, on every system
+    {"MET_ULONG", StoredType::u32},
+    {"MET_LONG_LONG", StoredType::i64},
+    {"MET_ULONG_LONG", StoredType::u64},
+    {"MET_FLOAT", StoredType::f32},
+    {"MET_DOUBLE", StoredType::f64},
+}};
+
+class Header {
+  public:
+    explicit Header(const fs::path& path) : file_(path.string()) {
+        constexpr std::size_t kMost = 1 << 16;
+        const std::string head = head_of(path, kMost);
+        std::size_t at = 0;
+        while (at < head.size() && !fields_.contains("ElementDataFile")) {
+            const std::size_t end = std::min(head.find('\n', at), head.size());
+            const std::string_view line = std::string_view(head).substr(at, end - at);
+            at = end + 1;
+            const std::size_t equals = line.find('=');
+            if (equals == line.npos) {
+                if (trimmed(line).empty())
+                    continue;
+                break;
+            }
+            fields_[std::string(trimmed(line.substr(0, equals)))] =
+                trimmed(line.substr(equals + 1));
+        }
+        bytes_ = at;
+        if (!fields_.contains("ElementDataFile") || !fields_.contains("DimSize"))
+            throw Error(fmt::format("{}: not MetaImage: no DimSize or no ElementDataFile", file_));
+    }
+
+    /// First of the keys that is there.
+    std::optional<std::string> find(std::initializer_list<const char*> keys) const {
+        for (const char* key : keys)
+            if (const auto found = fields_.find(key); found != fields_.end())
+                return found->second;
+        return std::nullopt;
+    }
+
+    std::vector<double> numbers(std::initializer_list<const char*> keys, std::size_t count) const {
+        const auto text = find(keys);
+        if (!text)
+            return {};
+        std::vector<double> numbers = numbers_of(*text, *keys.begin(), file_);
+        if (numbers.size() != count)
+            throw Error(fmt::format("{}: {} has {} numbers, expected {}", file_, *keys.begin(),
+                                    numbers.size(), count));
+        return numbers;
+    }
+
+    bool truth(std::initializer_list<const char*> keys) const {
+        const std::string text = lower_case(find(keys).value_or("false"));
+        return text.starts_with('t') || text.starts_with('1') || text.starts_with('y');
+    }
+
+    std::uint64_t bytes() const { return bytes_; } ///< the header's, up to LOCAL data
+
+  private:
+    std::string file_;
+    std::map<std::string, std::string> fields_;
+    std::uint64_t bytes_ = 0;
+};
+
+void orient(const Header& header, std::size_t dimensions, const std::string& name, SeriesInfo& info,
+            double& time_step, double& first_time) {
+    std::vector<double> spacing = header.numbers({"ElementSpacing", "ElementSize"}, dimensions);
+    const auto matrix =
+        header.numbers({"TransformMatrix", "Rotation", "Orientation"}, dimensions * dimensions);
+    const auto origin = header.numbers({"Offset", "Position", "Origin"}, dimensions);
+    if (spacing.empty())
+        spacing.assign(dimensions, 1.0);
+    glm::dmat3 axes(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int row = 0; row < 3; ++row)
+            axes[axis][row] =
+                (matrix.empty() ? (axis == row ? 1.0 : 0.0) : matrix[axis * dimensions + row]) *
+                spacing[axis];
+        if (!origin.empty())
+            info.grid.origin[axis] = origin[axis];
+    }
+    set_axes(info.grid, axes, name);
+    info.anatomy = Anatomy::lps;
+    if (dimensions == 4) {
+        time_step = spacing[3];
+        first_time = origin.empty() ? 0.0 : origin[3];
+    }
+}
+
+void find_data(const Header& header, const fs::path& path, std::uint64_t vertices,
+               StoredLayout& layout) {
+    const std::string name = path.string();
+    const std::string file = *header.find({"ElementDataFile"});
+    layout.compression =
+        header.truth({"CompressedData"}) ? Compression::deflate : Compression::none;
+    layout.big_endian = header.truth({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"});
+    layout.ascii = header.find({"BinaryData"}) && !header.truth({"BinaryData"});
+    if (lower_case(file) == "local") {
+        layout.data = path;
+        layout.offset = header.bytes();
+        return;
+    }
+    if (file.find('%') != file.npos || lower_case(file).starts_with("list"))
+        throw Error(fmt::format("{}: ElementDataFile {}, expected LOCAL or one file", name, file));
+    layout.data = path.parent_path() / file;
+    const auto skipped = header.find({"HeaderSize"});
+    if (!skipped)
+        return;
+    const auto bytes = integers_of(*skipped, "HeaderSize", name);
+    if (bytes.size() != 1 || bytes[0] < -1)
+        throw Error(fmt::format("{}: HeaderSize {}, expected -1 or more", name, *skipped));
+    layout.offset = static_cast<std::uint64_t>(std::max<std::int64_t>(bytes[0], 0));
+    if (bytes[0] == -1) { // the values end the file, whatever comes before them
+        const std::uint64_t size = file_bytes(layout.data);
+        const std::uint64_t values =
+            vertices * layout.array.components * layout.steps * size_of(*layout.array.type);
+        layout.offset = size > values ? size - values : 0;
+    }
+}
+
+} // namespace
+
+std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptions& options) {
+    const std::string name = path.string();
+    const Header header(path);
+    const auto sizes = integers_of(*header.find({"DimSize"}), "DimSize", name);
+    if (sizes.size() != 3 && sizes.size() != 4)
+        throw Error(
+            fmt::format("{}: {} dimensions, expected 3, or 4 with time", name, sizes.size()));
+    SeriesInfo info;
+    info.grid.vertices = checked_vertices({sizes[0], sizes[1], sizes[2]}, name);
+    StoredLayout layout;
+    orient(header, sizes.size(), name, info, layout.time_step, layout.first_time);
+    info.length_unit = header.find({"DistanceUnits"}).value_or("");
+    if (sizes.size() == 4) {
+        if (sizes[3] < 1)
+            throw Error(fmt::format("{}: {} steps, expected at least 1", name, sizes[3]));
+        layout.steps = static_cast<std::size_t>(sizes[3]);
+    }
+
+    const std::string type = header.find({"ElementType"}).value_or("none");
+    const auto known = std::find_if(kTypes.begin(), kTypes.end(),
+                                    [&](const auto& entry) { return entry.first == type; });
+    if (known == kTypes.end())
+        throw Error(
+            fmt::format("{}: ElementType {}, expected MET_UCHAR to MET_DOUBLE", name, type));
+    layout.array = {"values", known->second};
+    if (const auto channels = header.find({"ElementNumberOfChannels"})) {
+        const auto number = integers_of(*channels, "ElementNumberOfChannels", name);
+        if (number.size() != 1 || number[0] < 1 || number[0] > 64)
+            throw Error(
+                fmt::format("{}: ElementNumberOfChannels {}, expected 1 to 64", name, *channels));
+        layout.array.components = static_cast<std::uint32_t>(number[0]);
+    }
+    find_data(header, path, info.grid.vertex_count(), layout);
+    return open_stored(path, std::move(info), layout, options);
+}
+
+} // namespace isochron::index

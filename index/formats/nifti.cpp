@@ -1,0 +1,270 @@
+// NIfTI-1 and -2, of either byte order. Read by hand: VTK's reader turns the slices around where
+// qfac is -1, and decompresses the whole file anew for every step.
+//
+// Cox et al., "A (sort of) new image data format standard: NIfTI-1", NeuroImage 22, 2004;
+// field meanings after the comments of nifti1.h, https://nifti.nimh.nih.gov/nifti-1.
+#include "index/error.h"
+#include "index/formats/readers.h"
+#include "index/formats/stored_file.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What both versions of the header say.
+struct Header {
+    std::int64_t dim[8];
+    double pixdim[8];
+    std::int32_t datatype, xyzt_units, qform_code, sform_code;
+    double vox_offset, scl_slope, scl_inter, toffset;
+    double quatern[3], qoffset[3];
+    double srow[3][4];
+    std::size_t bytes; ///< of the header itself
+    bool big_endian, pair;
+};
+
+/// Fields at byte offsets of the header, in its byte order.
+class Fields {
+  public:
+    Fields(const std::string& head, bool swapped) : head_(head), swapped_(swapped) {}
+
+    template <class T>
+    T at(std::size_t offset) const {
+        char bytes[sizeof(T)];
+        std::memcpy(bytes, head_.data() + offset, sizeof(T));
+        if (swapped_)
+            std::reverse(bytes, bytes + sizeof(T));
+        T value;
+        std::memcpy(&value, bytes, sizeof(T));
+        return value;
+    }
+
+  private:
+    const std::string& head_;
+    bool swapped_;
+};
+
+constexpr std::size_t kBytes1 = 348, kBytes2 = 540;
+
+template <class Real>
+void read_geometry(const Fields& f, std::size_t quatern, Header& h) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        h.quatern[i] = f.at<Real>(quatern + i * sizeof(Real));
+        h.qoffset[i] = f.at<Real>(quatern + (3 + i) * sizeof(Real));
+        for (std::size_t j = 0; j < 4; ++j)
+            h.srow[i][j] = f.at<Real>(quatern + (6 + 4 * i + j) * sizeof(Real));
+    }
+}
+
+Header header_1(const Fields& f) {
+    Header h{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        h.dim[i] = f.at<std::int16_t>(40 + 2 * i);
+        h.pixdim[i] = f.at<float>(76 + 4 * i);
+    }
+    h.datatype = f.at<std::int16_t>(70);
+    h.vox_offset = f.at<float>(108);
+    h.scl_slope = f.at<float>(112);
+    h.scl_inter = f.at<float>(116);
+    h.xyzt_units = f.at<std::uint8_t>(123);
+    h.toffset = f.at<float>(136);
+    h.qform_code = f.at<std::int16_t>(252);
+    h.sform_code = f.at<std::int16_t>(254);
+    read_geometry<float>(f, 256, h);
+    return h;
+}
+
+Header header_2(const Fields& f) {
+    Header h{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        h.dim[i] = f.at<std::int64_t>(16 + 8 * i);
+        h.pixdim[i] = f.at<double>(104 + 8 * i);
+    }
+    h.datatype = f.at<std::int16_t>(12);
+    h.vox_offset = static_cast<double>(f.at<std::int64_t>(168));
+    h.scl_slope = f.at<double>(176);
+    h.scl_inter = f.at<double>(184);
+    h.xyzt_units = f.at<std::int32_t>(500);
+    h.toffset = f.at<double>(216);
+    h.qform_code = f.at<std::int32_t>(344);
+    h.sform_code = f.at<std::int32_t>(348);
+    read_geometry<double>(f, 352, h);
+    return h;
+}
+
+Header read_header(const fs::path& path) {
+    const std::string name = path.string();
+    const std::string head = head_of(path, kBytes2);
+    if (head.size() < kBytes1)
+        throw Error(fmt::format("{}: truncated: {} bytes, a NIfTI header has {}", name, head.size(),
+                                kBytes1));
+    for (const bool swapped : {false, true}) {
+        const Fields fields(head, swapped);
+        const auto size = fields.at<std::int32_t>(0);
+        if (size != kBytes1 && (size != kBytes2 || head.size() < kBytes2))
+            continue;
+        const std::string magic = head.substr(size == kBytes1 ? 344 : 4, 4);
+        if (magic[0] != 'n' || (magic[1] != '+' && magic[1] != 'i') || magic[3] != '\0')
+            throw Error(fmt::format("{}: not NIfTI (an Analyze header has no orientation)", name));
+        Header header = size == kBytes1 ? header_1(fields) : header_2(fields);
+        header.bytes = static_cast<std::size_t>(size);
+        header.big_endian = swapped;
+        header.pair = magic[1] == 'i';
+        return header;
+    }
+    throw Error(fmt::format("{}: not NIfTI: the header's size is {}, expected {} or {}", name,
+                            Fields(head, false).at<std::int32_t>(0), kBytes1, kBytes2));
+}
+
+StoredType type_of(std::int32_t datatype, const std::string& name) {
+    switch (datatype) {
+    case 2: return StoredType::u8;
+    case 4: return StoredType::i16;
+    case 8: return StoredType::i32;
+    case 16: return StoredType::f32;
+    case 64: return StoredType::f64;
+    case 256: return StoredType::i8;
+    case 512: return StoredType::u16;
+    case 768: return StoredType::u32;
+    case 1024: return StoredType::i64;
+    case 1280: return StoredType::u64;
+    default:
+        throw Error(fmt::format("{}: NIfTI datatype {}, expected integers of up to 64 bits, f32 or "
+                                "f64",
+                                name, datatype));
+    }
+}
+
+// The rotation of nifti1.h's METHOD 2, columns scaled by pixdim, the third turned by qfac.
+glm::dmat3 quaternion_axes(const Header& h) {
+    double b = h.quatern[0], c = h.quatern[1], d = h.quatern[2];
+    double a = 1.0 - (b * b + c * c + d * d);
+    if (a < 1e-7) { // a rotation by half a turn: only rounding keeps a from 0
+        const double scale = 1.0 / std::sqrt(b * b + c * c + d * d);
+        b *= scale;
+        c *= scale;
+        d *= scale;
+        a = 0;
+    } else {
+        a = std::sqrt(a);
+    }
+    const double qfac = h.pixdim[0] < 0 ? -1.0 : 1.0;
+    const glm::dvec3 x(a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c));
+    const glm::dvec3 y(2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b));
+    const glm::dvec3 z(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c);
+    return {x * std::abs(h.pixdim[1]), y * std::abs(h.pixdim[2]),
+            z * (std::abs(h.pixdim[3]) * qfac)};
+}
+
+// The sform wins over the qform, as most tools have it; it alone may be sheared, which is kept.
+void orient(const Header& h, const std::string& name, SeriesInfo& info) {
+    glm::dmat3 axes(0.0);
+    if (h.sform_code > 0) {
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column)
+                axes[column][row] = h.srow[row][column];
+            info.grid.origin[row] = h.srow[row][3];
+        }
+        info.anatomy = Anatomy::ras;
+    } else if (h.qform_code > 0) {
+        axes = quaternion_axes(h);
+        info.grid.origin = {h.qoffset[0], h.qoffset[1], h.qoffset[2]};
+        info.anatomy = Anatomy::ras;
+    } else {
+        for (int axis = 0; axis < 3; ++axis)
+            axes[axis][axis] = h.pixdim[axis + 1] == 0 ? 1.0 : std::abs(h.pixdim[axis + 1]);
+        info.notes.push_back("the file says nothing of left and right");
+    }
+    set_axes(info.grid, axes, name);
+    const glm::dmat3& d = info.grid.direction;
+    const double skew = std::max({std::abs(glm::dot(d[0], d[1])), std::abs(glm::dot(d[1], d[2])),
+                                  std::abs(glm::dot(d[2], d[0]))});
+    if (skew > 1e-3)
+        info.notes.push_back("the axes are sheared");
+}
+
+std::string length_unit(std::int32_t units) {
+    switch (units & 7) {
+    case 1: return "m";
+    case 2: return "mm";
+    case 3: return "um";
+    default: return {};
+    }
+}
+
+std::string time_unit(std::int32_t units) {
+    switch (units & 56) {
+    case 8: return "s";
+    case 16: return "ms";
+    case 24: return "us";
+    case 32: return "Hz";
+    case 40: return "ppm";
+    case 48: return "rad/s";
+    default: return {};
+    }
+}
+
+fs::path image_beside(const fs::path& header) {
+    std::string name = header.string();
+    const std::size_t dot = name.rfind(".hdr");
+    for (const char* extension : {".img", ".img.gz"}) {
+        const fs::path image = name.substr(0, dot) + extension;
+        if (fs::exists(image))
+            return image;
+    }
+    throw Error(fmt::format("{}: its .img is not beside it", name));
+}
+
+} // namespace
+
+std::unique_ptr<VolumeFile> open_nifti(const fs::path& path, const ReadOptions& options) {
+    const std::string name = path.string();
+    const Header h = read_header(path);
+    const std::int64_t dimensions = h.dim[0];
+    if (dimensions < 3 || dimensions > 7)
+        throw Error(fmt::format("{}: {} dimensions, expected 3, or 4 with time", name, dimensions));
+    for (std::int64_t i = 5; i <= dimensions; ++i)
+        if (h.dim[i] > 1)
+            throw Error(fmt::format("{}: {} dimensions, the {}th with {} values; expected 3, or 4 "
+                                    "with time",
+                                    name, dimensions, i, h.dim[i]));
+
+    SeriesInfo info;
+    info.grid.vertices = checked_vertices({h.dim[1], h.dim[2], h.dim[3]}, name);
+    orient(h, name, info);
+    info.length_unit = length_unit(h.xyzt_units);
+    // scl_slope 0 says that there is no scaling.
+    if (h.scl_slope != 0 && std::isfinite(h.scl_slope) && std::isfinite(h.scl_inter))
+        info.scaling = {h.scl_slope, h.scl_inter};
+
+    StoredLayout layout;
+    layout.array = {"values", type_of(h.datatype, name)};
+    layout.big_endian = h.big_endian;
+    layout.data = h.pair ? image_beside(path) : path;
+    layout.compression = is_gzip(layout.data) ? Compression::deflate : Compression::none;
+    const double least = h.pair ? 0.0 : static_cast<double>(h.bytes);
+    if (!(h.vox_offset >= least) || h.vox_offset > 1e15)
+        throw Error(fmt::format("{}: the data's offset is {}, expected at least {}", name,
+                                h.vox_offset, least));
+    layout.skip = static_cast<std::uint64_t>(h.vox_offset);
+    if (dimensions >= 4) {
+        if (h.dim[4] < 1)
+            throw Error(fmt::format("{}: {} steps, expected at least 1", name, h.dim[4]));
+        layout.steps = static_cast<std::size_t>(h.dim[4]);
+    }
+    layout.first_time = h.toffset;
+    layout.time_step = h.pixdim[4];
+    info.time_unit = time_unit(h.xyzt_units);
+    return open_stored(path, std::move(info), layout, options);
+}
+
+} // namespace isochron::index

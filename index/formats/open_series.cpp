@@ -1,0 +1,80 @@
+// Dispatch of files to the formats that read them.
+#include "index/error.h"
+#include "index/formats/data_stream.h"
+#include "index/formats/file_series.h"
+#include "index/formats/natural_order.h"
+#include "index/formats/readers.h"
+#include "index/formats/text_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+    std::string_view extension;
+    OpenVolumeFile open;
+};
+
+/// One line per extension; the first that fits the end of the name counts.
+constexpr std::array kFormats{
+    Format{".vti", open_vti},       Format{".vtk", open_vtk},      Format{".mhd", open_metaimage},
+    Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},    Format{".nhdr", open_nrrd},
+    Format{".nii", open_nifti},     Format{".nii.gz", open_nifti}, Format{".hdr", open_nifti},
+    Format{".nc", open_netcdf},     Format{".nc4", open_netcdf},   Format{".cdf", open_netcdf},
+    Format{".raw", open_raw},
+};
+
+SeriesFile series_file(const fs::path& path, const ReadOptions& options,
+                       std::optional<double> time = {}) {
+    file_bytes(path);
+    const std::string name = lower_case(path.filename().string());
+    for (const Format& format : kFormats)
+        if (name.ends_with(format.extension))
+            return {path, format.open, time};
+    // Raw data have any name; their dimensions say that they are meant.
+    if (options.dims)
+        return {path, open_raw, time};
+    std::string known = ".pvd";
+    for (const Format& format : kFormats)
+        known += fmt::format(" {}", format.extension);
+    throw Error(fmt::format("{}: unknown format, expected one of {}, or raw values with --dims and "
+                            "--type",
+                            path.string(), known));
+}
+
+} // namespace
+
+std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
+                                          const ReadOptions& options) {
+    if (files.empty())
+        throw Error("no files given");
+    std::vector<SeriesFile> series;
+    const auto is_pvd = [](const fs::path& path) {
+        return lower_case(path.extension().string()) == ".pvd";
+    };
+    const auto pvd = std::find_if(files.begin(), files.end(), is_pvd);
+    if (pvd != files.end()) {
+        if (files.size() != 1)
+            throw Error(fmt::format("{}: a .pvd names its files itself, {} more given",
+                                    pvd->string(), files.size() - 1));
+        file_bytes(*pvd);
+        for (const auto& [path, time] : read_pvd(*pvd))
+            series.push_back(series_file(path, options, time));
+        return open_file_series(std::move(series), options);
+    }
+    for (const fs::path& path : files)
+        series.push_back(series_file(path, options));
+    std::stable_sort(series.begin(), series.end(), [](const SeriesFile& a, const SeriesFile& b) {
+        return natural_less(a.path.string(), b.path.string());
+    });
+    return open_file_series(std::move(series), options);
+}
+
+} // namespace isochron::index

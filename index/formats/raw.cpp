@@ -1,0 +1,35 @@
+// Headerless values.
+#include "index/error.h"
+#include "index/formats/readers.h"
+#include "index/formats/stored_file.h"
+
+#include <fmt/format.h>
+
+namespace isochron::index {
+
+std::unique_ptr<VolumeFile> open_raw(const std::filesystem::path& path,
+                                     const ReadOptions& options) {
+    const std::string name = path.string();
+    if (!options.dims || !options.type)
+        throw Error(fmt::format("{}: raw values need --dims NX NY NZ and --type", name));
+    const auto& dims = *options.dims;
+    SeriesInfo info;
+    info.grid.vertices = checked_vertices({dims[0], dims[1], dims[2]}, name);
+    StoredLayout layout;
+    layout.data = path;
+    layout.offset = options.header_bytes;
+    layout.big_endian = options.big_endian;
+    layout.array = {"values", stored_type_of(*options.type)};
+
+    const std::uint64_t size = file_bytes(path);
+    const std::uint64_t step = info.grid.vertex_count() * size_of(*options.type);
+    if (size <= options.header_bytes || (size - options.header_bytes) % step != 0)
+        throw Error(fmt::format(
+            "{}: {} bytes{}, expected a multiple of {} = {} x {} x {} values of {}", name, size,
+            options.header_bytes ? fmt::format(" with a header of {}", options.header_bytes) : "",
+            step, dims[0], dims[1], dims[2], name_of(*options.type)));
+    layout.steps = (size - options.header_bytes) / step;
+    return open_stored(path, std::move(info), layout, options);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,37 @@
+// The formats that can be read: one function each, in a file of its own.
+#pragma once
+
+#include "index/formats/file_series.h"
+
+namespace isochron::index {
+
+/// Headerless values: `dims` and `type` come from the options. A file whose size is a multiple of
+/// one step's holds several.
+std::unique_ptr<VolumeFile> open_raw(const std::filesystem::path& path, const ReadOptions& options);
+
+/// MetaImage: .mhd with its data beside it, .mha. Space is LPS, as ITK has it.
+std::unique_ptr<VolumeFile> open_metaimage(const std::filesystem::path& path,
+                                           const ReadOptions& options);
+
+/// NRRD: .nrrd, .nhdr. A slowest fourth axis is time.
+std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
+                                      const ReadOptions& options);
+
+/// NIfTI-1 and -2: .nii, .nii.gz, .hdr with .img. The fourth axis is time. Space is RAS.
+std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
+                                       const ReadOptions& options);
+
+/// VTK XML image data (.vti) and legacy structured points (.vtk); they load the module of readers.
+std::unique_ptr<VolumeFile> open_vti(const std::filesystem::path& path, const ReadOptions& options);
+std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path, const ReadOptions& options);
+
+/// NetCDF, classic and 4 (.nc, .nc4, .cdf); it loads a module of its own, which a build without the
+/// library lacks. Space is that of the coordinate variables, with z up where a file says so.
+std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
+                                        const ReadOptions& options);
+
+/// The files and times of a ParaView collection (.pvd), in its order, paths made relative to where
+/// the program runs. @throws Error naming the file
+std::vector<std::pair<std::filesystem::path, double>> read_pvd(const std::filesystem::path& path);
+
+} // namespace isochron::index

@@ -1,0 +1,41 @@
+// A file whose values lie as one plain array behind a header: raw, MetaImage, NRRD, NIfTI.
+#pragma once
+
+#include "index/formats/data_stream.h"
+#include "index/formats/stored_scalar.h"
+#include "index/formats/volume_file.h"
+
+namespace isochron::index {
+
+/// Where the values of a file are, and how they are written.
+struct StoredLayout {
+    std::filesystem::path data; ///< may be the header's own file
+    std::uint64_t offset = 0;   ///< of the first (compressed) byte; for deflate of a whole file,
+                                ///< see `skip`
+    std::uint64_t skip = 0;     ///< decompressed bytes before the first value
+    Compression compression = Compression::none;
+    bool ascii = false; ///< numbers as text, separated by blanks or commas
+    bool big_endian = false;
+    StoredArray array;
+    std::size_t steps = 1; ///< step after step, each [z][y][x][component]
+    double first_time = 0;
+    double time_step = 0; ///< between steps; 0 when the file does not say
+};
+
+/// @param info grid, scaling, units and times; array, type and notes are completed from the layout
+/// @throws Error when the data cannot be as long as the layout says
+std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, SeriesInfo info,
+                                        const StoredLayout& layout, const ReadOptions& options);
+
+/// Sets spacing and direction from the vectors between neighbouring vertices along the index axes.
+/// @throws Error naming the file when one vanishes, is not finite, or all lie in a plane
+void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file);
+
+/// @throws Error naming the file: fewer than 2 vertices along an axis, or more than 2^32-2 cells
+void check_grid(const Grid& grid, const std::string& file);
+
+/// As `check_grid`, for sizes that may not even fit a grid. @return the grid's vertices
+std::array<std::uint32_t, 3> checked_vertices(const std::array<std::int64_t, 3>& sizes,
+                                              const std::string& file);
+
+} // namespace isochron::index

@@ -1,0 +1,76 @@
+// The scalar arrays that files hold: choosing one, and turning it into values of a series.
+#pragma once
+
+#include "index/volume/volume_series.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace isochron::index {
+
+/// What files may hold; u32, i64 and u64 become f64 values, exactly or not at all.
+enum class StoredType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+
+std::size_t size_of(StoredType type);
+std::string_view name_of(StoredType type);
+StoredType stored_type_of(ValueType type);
+
+/// Calls `f(std::type_identity<T>{})` with the C++ type of `type`.
+template <class F>
+decltype(auto) visit_stored_type(StoredType type, F&& f) {
+    switch (type) {
+    case StoredType::i8: return f(std::type_identity<std::int8_t>{});
+    case StoredType::u8: return f(std::type_identity<std::uint8_t>{});
+    case StoredType::i16: return f(std::type_identity<std::int16_t>{});
+    case StoredType::u16: return f(std::type_identity<std::uint16_t>{});
+    case StoredType::i32: return f(std::type_identity<std::int32_t>{});
+    case StoredType::u32: return f(std::type_identity<std::uint32_t>{});
+    case StoredType::i64: return f(std::type_identity<std::int64_t>{});
+    case StoredType::u64: return f(std::type_identity<std::uint64_t>{});
+    case StoredType::f32: return f(std::type_identity<float>{});
+    case StoredType::f64: break;
+    }
+    return f(std::type_identity<double>{});
+}
+
+/// An array as a file offers it. Tuples lie x fastest, the components of a tuple together.
+struct StoredArray {
+    std::string name;
+    std::optional<StoredType> type; ///< none: a type that no volume can have (strings, bits, ...)
+    std::uint32_t components = 1;
+    bool on_cells = false; ///< one tuple per cell rather than per vertex
+    bool gaps = false;     ///< values may be missing, for which there is only NaN
+};
+
+/// An array, or one component of it, or its magnitude.
+struct ChosenScalar {
+    static constexpr std::uint32_t kMagnitude = ~0u;
+
+    StoredArray array;
+    std::uint32_t component = 0; ///< or kMagnitude
+
+    /// Type of the values: the stored one where a series can have it. Means over cells, magnitudes
+    /// and arrays with gaps are f32 for f32 and integers up to 16 bits, f64 for the others.
+    ValueType value_type() const;
+    std::string label() const;              ///< `speed`, `velocity.2`, `velocity.magnitude`
+    std::vector<std::string> notes() const; ///< what was done to the stored values
+};
+
+/// Picks what `options` ask for; a single array needs no name. Point data wins over cell data of
+/// the same name, and VTK's ghost flags are never offered.
+/// @throws Error listing the arrays, with type and components, when the choice is open or wrong
+ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOptions& options,
+                           const std::string& file);
+
+/// Converts all tuples of one step (native byte order) to values at the vertices.
+/// @throws Error naming `file` when a 64-bit integer has no exact f64
+void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, const Grid& grid,
+             std::span<std::byte> out, const std::string& file);
+
+} // namespace isochron::index

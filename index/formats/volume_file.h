@@ -1,0 +1,31 @@
+// One opened file of a series: what each format implements.
+#pragma once
+
+#include "index/volume/volume_series.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace isochron::index {
+
+/// A file with one step or several. Not thread-safe.
+class VolumeFile {
+  public:
+    virtual ~VolumeFile() = default;
+
+    /// As the file says it, without overrides. `times` is empty when the file gives none, otherwise
+    /// one per step; `sources` is not used.
+    virtual const SeriesInfo& info() const = 0;
+    virtual std::size_t steps() const = 0;
+
+    /// As `VolumeSeries::read`, for a step of this file.
+    virtual void read(std::size_t step, std::span<std::byte> out) = 0;
+};
+
+/// Opens one file, reading no more than it must to describe it. @throws Error naming the file
+using OpenVolumeFile = std::unique_ptr<VolumeFile> (*)(const std::filesystem::path&,
+                                                       const ReadOptions&);
+
+} // namespace isochron::index

@@ -1,0 +1,127 @@
+// A file that appears complete under its name, or not at all.
+#include "index/system/new_file.h"
+
+#include "index/error.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <random>
+
+namespace isochron::index {
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path folder_of(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+} // namespace
+
+NewFile::NewFile(fs::path target) : target_(std::move(target)) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(target_, ignored);
+    if (!target_.has_filename() || (fs::exists(status) && !fs::is_regular_file(status)))
+        throw Error(fmt::format("{}: cannot be written: not a regular file", target_.string()));
+    const fs::path folder = folder_of(target_);
+    if (!fs::is_directory(folder, ignored))
+        throw Error(fmt::format("{}: cannot be written: there is no folder {}", target_.string(),
+                                folder.string()));
+    std::random_device random;
+    do {
+        temporary_ =
+            folder / fmt::format(".{}.{:04x}.tmp", target_.filename().string(), random() & 0xffff);
+        file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (file_ < 0 && errno == EEXIST);
+    if (file_ < 0)
+        fail(errno);
+    ::flock(file_, LOCK_EX | LOCK_NB); // says that its writer lives
+}
+
+NewFile::NewFile(fs::path target, fs::path temporary)
+    : target_(std::move(target)), temporary_(std::move(temporary)), owner_(false) {
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file_ < 0)
+        fail(errno);
+}
+
+NewFile::~NewFile() {
+    if (file_ < 0)
+        return;
+    ::close(file_);
+    if (owner_)
+        ::unlink(temporary_.c_str());
+}
+
+void NewFile::remove_remains() const {
+    const std::string start = fmt::format(".{}.", target_.filename().string());
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(target_), error)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() != start.size() + 8 || !name.starts_with(start) ||
+            !name.ends_with(".tmp") || entry.path() == temporary_)
+            continue;
+        const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+        if (file < 0)
+            continue;
+        // A new one may not have its lock yet.
+        struct stat status {};
+        const bool old = ::fstat(file, &status) == 0 && status.st_mtime + 60 < std::time(nullptr);
+        if (old && ::flock(file, LOCK_EX | LOCK_NB) == 0)
+            ::unlink(entry.path().c_str());
+        ::close(file);
+    }
+}
+
+void NewFile::fail(int error) const {
+    throw Error(fmt::format("{}: cannot be written: {}", target_.string(), std::strerror(error)));
+}
+
+void NewFile::reserve(std::uint64_t bytes) {
+    if (::fallocate(file_, 0, 0, static_cast<off_t>(bytes)) == 0)
+        return;
+    if (errno != EOPNOTSUPP && errno != ENOSYS) // not every file system can reserve
+        fail(errno);
+}
+
+void NewFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written =
+            ::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            fail(written < 0 ? errno : ENOSPC);
+        offset += static_cast<std::uint64_t>(written);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+}
+
+void NewFile::commit() {
+    if (::fsync(file_) != 0)
+        fail(errno);
+    if (!owner_)
+        return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+        fail(errno);
+    ::close(file_);
+    file_ = -1;
+    // The new name itself must survive a power failure too; not every file system needs or allows
+    // it.
+    const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0) {
+        ::fsync(folder);
+        ::close(folder);
+    }
+}
+
+} // namespace isochron::index

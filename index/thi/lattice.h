@@ -1,0 +1,51 @@
+// The lattice that divides span space, and the set of distinct extremes it is made from.
+#pragma once
+
+#include "index/volume/order_key.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// A set of keys: one bit for each key, in pages of 8 KiB that exist where there are keys (a few
+/// MiB for usual data, 512 MiB for 32-bit values spread over their whole range).
+/// Threads may insert at the same time; everything else waits until they are done.
+class DistinctKeys {
+  public:
+    DistinctKeys() : pages_(kPages) {}
+    ~DistinctKeys();
+    DistinctKeys(const DistinctKeys&) = delete;
+    DistinctKeys& operator=(const DistinctKeys&) = delete;
+
+    void insert(OrderKey key);
+    std::uint64_t count() const;
+
+    /// The keys at these ranks (0 for the smallest), which ascend and are below `count()`.
+    std::vector<OrderKey> at_ranks(std::span<const std::uint64_t> ranks) const;
+
+  private:
+    static constexpr std::size_t kPages = 1 << 16;
+    struct Page {
+        std::array<std::atomic<std::uint64_t>, kPages / 64> words{};
+    };
+    std::vector<std::atomic<Page*>> pages_;
+};
+
+/// Section 3.2: the sorted list of distinct extremes, divided into L sublists of equal length,
+/// gives the lines of the lattice, the same for columns and rows. Element i holds the keys in (line
+/// i-1, line i], and everything up to line 0 for i = 0. Each line is the last extreme of its
+/// sublist; the last line is the largest extreme. With fewer extremes than L each is a line.
+std::vector<OrderKey> lattice_lines(const DistinctKeys& extremes, std::uint32_t lattice);
+
+/// Element that holds the key; `lines.size()` for keys above the last line.
+std::uint32_t element_of(std::span<const OrderKey> lines, OrderKey key);
+
+/// The same, at once when the key is in element `guess`, which must be one.
+std::uint32_t element_near(std::span<const OrderKey> lines, OrderKey key, std::uint32_t guess);
+
+} // namespace isochron::index

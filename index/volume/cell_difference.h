@@ -1,0 +1,71 @@
+// Differences of values around a cell: what its normal is made from.
+#pragma once
+
+#include "index/volume/step_values.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace isochron::index {
+
+/// How the differences along one axis weigh the four planes around a cell: two vertices and their
+/// outer neighbours, folded inwards at the border, where the difference is one-sided.
+struct AxisTaps {
+    AxisTaps(std::uint32_t cell, std::uint32_t vertices, std::ptrdiff_t step) {
+        const bool first = cell == 0, last = cell + 2 == vertices;
+        below = first ? 0 : -step;
+        above = last ? step : 2 * step;
+        low_weight = first ? 1.0 : 0.5;
+        high_weight = last ? 1.0 : 0.5;
+        next = step;
+    }
+    /// Sum of the differences at the cell's two vertices of one edge along this axis.
+    template <class T>
+    double operator()(const T* edge) const {
+        return low_weight * (static_cast<double>(edge[next]) - static_cast<double>(edge[below])) +
+               high_weight * (static_cast<double>(edge[above]) - static_cast<double>(edge[0]));
+    }
+    std::ptrdiff_t below, next, above;
+    double low_weight, high_weight;
+};
+
+/// The cells of one row of a step.
+template <class T>
+class CellDifferences {
+  public:
+    CellDifferences(const StepValues& values, std::uint32_t step, std::uint32_t y, std::uint32_t z)
+        : nx_(values.grid.vertices[0]), row_(nx_),
+          slice_(std::ptrdiff_t{nx_} * values.grid.vertices[1]),
+          dy_(y, values.grid.vertices[1], row_), dz_(z, values.grid.vertices[2], slice_),
+          first_(values.step<T>(step).data() + y * row_ + z * slice_) {}
+
+    /// Four times the mean of the eight vertices' differences along every axis, in index space.
+    glm::dvec3 operator()(std::uint32_t x) const {
+        const T* v = first_ + x;
+        const AxisTaps dx(x, nx_, 1);
+        return {dx(v) + dx(v + row_) + dx(v + slice_) + dx(v + row_ + slice_),
+                dy_(v) + dy_(v + 1) + dy_(v + slice_) + dy_(v + 1 + slice_),
+                dz_(v) + dz_(v + 1) + dz_(v + row_) + dz_(v + 1 + row_)};
+    }
+
+  private:
+    std::uint32_t nx_;
+    std::ptrdiff_t row_, slice_;
+    AxisTaps dy_, dz_;
+    const T* first_;
+};
+
+/// Turns differences into vectors along the normal, in physical space. Gradients are covectors;
+/// minus because a normal points towards lower values.
+inline glm::dmat3 normal_from_difference(const StepValues& values) {
+    const glm::dmat3 physical_from_index(values.grid.physical_from_index());
+    return glm::transpose(glm::inverse(physical_from_index)) *
+           (values.scaling.slope < 0 ? 1.0 : -1.0);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,45 @@
+// What is asked of an index: isovalues at one step.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace isochron::index {
+
+/// How the active cells are found.
+enum class SearchMethod : std::uint8_t { cells, bricks, tree, scan };
+constexpr std::array<std::string_view, 4> kSearchMethodNames{"cells", "bricks", "tree", "scan"};
+
+/// Active cells are those with min < isovalue <= max over their 8 scaled vertex values, none of
+/// them NaN. An isovalue that is NaN or infinite has no active cells.
+struct Query {
+    std::uint32_t step = 0;
+    double isovalue = 0.0;
+    bool operator==(const Query&) const = default;
+};
+
+/// Isosurfaces that are shown together.
+constexpr std::size_t kMostSurfaces = 8;
+
+/// What cells carry colour coordinates of (index/extraction/cell_colors.h).
+enum class CellColoring : std::uint8_t {
+    none,
+    value,         ///< the second array on the surface
+    first_crossing ///< the time at which a surface of the isovalue first passed through the cell
+};
+constexpr std::array<std::string_view, 3> kCellColoringNames{"none", "value", "first_crossing"};
+
+/// The isosurfaces of 1 to kMostSurfaces isovalues at one step.
+struct SurfacesQuery {
+    std::uint32_t step = 0;
+    std::vector<double> isovalues; ///< a surface is known by its place in this list
+    CellColoring coloring = CellColoring::none;
+
+    Query surface(std::size_t i) const { return {step, isovalues[i]}; }
+    bool operator==(const SurfacesQuery&) const = default;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,76 @@
+// A time-varying scalar volume as its files give it: what it is, and its steps one at a time.
+#pragma once
+
+#include "index/volume/grid.h"
+#include "index/volume/value_type.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// What the axes of physical space mean. `ras` (NIfTI) and `lps` (DICOM, MetaImage, NRRD) are
+/// anatomical, with +z towards the head; `enu` (NetCDF) is that of the Earth's surface: east,
+/// north, up. All are right-handed.
+enum class Anatomy : std::uint8_t { none, ras, lps, enu };
+
+struct SeriesInfo {
+    std::string array;       ///< name of the scalar array, with its component: `velocity.magnitude`
+    std::string value_unit;  ///< empty when the files do not say
+    std::string length_unit; ///< `mm`, `m`, ... or empty
+    std::string time_unit;   ///< `s`, `ms`, ... or empty
+    Anatomy anatomy = Anatomy::none;
+    Grid grid;
+    ValueType type = ValueType::f32;
+    Scaling scaling;
+    std::vector<double>
+        times; ///< physical time of every step, increasing; the step number if unknown
+    std::vector<std::string> sources; ///< file names, natural order
+    std::vector<std::string> notes;   ///< what a user should know: `cell data averaged to vertices`
+
+    std::size_t steps() const { return times.size(); }
+    std::size_t step_bytes() const { return grid.vertex_count() * size_of(type); }
+};
+
+/// How to read files that leave something open.
+struct ReadOptions {
+    std::optional<std::string> array;     ///< --array
+    std::optional<std::string> component; ///< --component: a number from 0, or `magnitude`
+    // Headerless raw files only:
+    std::optional<std::array<std::uint32_t, 3>> dims; ///< --dims NX NY NZ, vertices
+    std::optional<ValueType> type;                    ///< --type
+    bool big_endian = false;                          ///< --big-endian
+    std::uint64_t header_bytes = 0;                   ///< --header-bytes: skipped at the start
+    // Overrides of what the files say, or what they leave unsaid:
+    std::optional<glm::dvec3> spacing;      ///< --spacing
+    std::optional<glm::dvec3> origin;       ///< --origin
+    std::optional<double> time_step;        ///< --time-step: physical time between steps
+    std::optional<std::string> length_unit; ///< --length-unit
+    std::optional<std::string> time_unit;   ///< --time-unit
+    std::optional<std::string> value_unit;  ///< --value-unit
+};
+
+/// A series of steps. Not thread-safe: one owner.
+class VolumeSeries {
+  public:
+    virtual ~VolumeSeries() = default;
+    virtual const SeriesInfo& info() const = 0;
+
+    /// Writes the stored values of one step, [z][y][x], x fastest, native byte order.
+    /// @param out exactly `info().step_bytes()` long
+    /// @throws Error naming the file when it cannot be read or disagrees with the first step
+    virtual void read(std::size_t step, std::span<std::byte> out) = 0;
+};
+
+/// Opens files, a glob's result or a .pvd as one series. Files are put in natural order
+/// (`t2` before `t10`), except that a .pvd gives its own order and times.
+/// @throws Error: unreadable, unknown format, several arrays and none chosen (lists them), ...
+std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::path>& files,
+                                          const ReadOptions& options = {});
+
+} // namespace isochron::index

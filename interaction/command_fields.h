@@ -1,0 +1,114 @@
+// The fields of commands, said once: their keys in recordings and what they may hold.
+//
+// A new field is a member of Commands and one line here. Merging, JSON, the check for finite
+// numbers, the comparison of replays, ExplorerState::apply and the random recordings of the tests
+// follow from that line; docs/FORMATS.md is held against it.
+//
+//     each_field([](const Field& field, auto& into, const auto& later) { ... }, commands, others);
+#pragma once
+
+#include "interaction/commands.h"
+
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+
+namespace isochron::interaction {
+
+inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
+inline constexpr std::size_t kLongestText = 256; ///< [byte]
+inline constexpr std::size_t kMostEvents = 64;   ///< stamps, or haptic pulses, of one frame
+
+/// What holds of a field, whatever record it is in.
+struct Field {
+    const char* key;
+    double low = -kAnyNumber, high = kAnyNumber; ///< of a number, or of each number of several
+    std::size_t least = 0, most = kLongestText;  ///< items of a list, or bytes of a text
+    const char* old_key = nullptr;               ///< what recordings of older versions say
+};
+
+template <class T, class Record>
+concept Of = std::same_as<std::remove_const_t<T>, Record>;
+
+template <class Visit, Of<PlaybackState>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"playing"}, r.playing...);
+    visit(Field{"reverse"}, r.reverse...);
+    visit(Field{"loop"}, r.loop...);
+    visit(Field{"speed", kSlowest, kFastest}, r.speed...);
+}
+
+template <class Visit, Of<Viewpoint>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"name"}, r.name...);
+    visit(Field{"room_from_physical"}, r.room_from_physical...);
+}
+
+template <class Visit, Of<Isosurface>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"isovalue"}, r.isovalue...);
+    visit(Field{"color", 0, 1}, r.color...);
+    visit(Field{"opacity", 0, 1}, r.opacity...);
+}
+
+template <class Visit, Of<Coloring>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"by"}, r.by...);
+    visit(Field{"map"}, r.map...);
+    visit(Field{"range"}, r.range...);
+}
+
+template <class Visit, Of<RoomPanel>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"shown"}, r.shown...);
+    visit(Field{"pose"}, r.pose...);
+}
+
+template <class Visit, Of<MarkedPoint>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"position"}, r.position...);
+    visit(Field{"step"}, r.step...);
+    visit(Field{"value"}, r.value...);
+}
+
+template <class Visit, Of<HapticPulse>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"hand"}, r.hand...);
+    visit(Field{"seconds", 0, kLongestPulse}, r.seconds...);
+    visit(Field{"amplitude", 0, 1}, r.amplitude...);
+}
+
+/// What a session keeps, and commands change: members of the same names in Commands and in the
+/// records of those who keep them.
+template <class Visit, class... Records>
+void each_setting(Visit&& visit, Records&... r) {
+    visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces}, r.isosurfaces...);
+    visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);
+    visit(Field{"coloring"}, r.coloring...);
+    visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
+    visit(Field{"step"}, r.step...);
+    visit(Field{"playback"}, r.playback...);
+    visit(Field{"room_from_physical"}, r.room_from_physical...);
+    visit(Field{"quality"}, r.quality...);
+    visit(Field{"eye_separation", 0, kWidestEyes}, r.eye_separation...);
+    visit(Field{"stereo"}, r.stereo...);
+    visit(Field{"panel"}, r.panel...);
+    visit(Field{"grid"}, r.grid...);
+    visit(Field{.key = "views", .most = kMostViews}, r.views...);
+    visit(Field{"room_panel"}, r.room_panel...);
+    visit(Field{"mark"}, r.mark...);
+}
+
+/// The settings, the isovalue of the picked surface, and what happens once.
+template <class Visit, Of<Commands>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    each_setting(visit, r...);
+    visit(Field{"isovalue"}, r.isovalue...);
+    visit(Field{"screenshot"}, r.screenshot...);
+    visit(Field{"quit"}, r.quit...);
+    visit(Field{.key = "stamps", .most = kMostEvents}, r.stamps...);
+    visit(Field{.key = "haptics", .most = kMostEvents}, r.haptics...);
+}
+
+} // namespace isochron::interaction

@@ -1,0 +1,268 @@
+// Recorded frames and headers to JSON and back.
+#include "interaction/recording/recording_json.h"
+
+#include "interaction/error.h"
+#include "interaction/navigation.h"
+#include "interaction/recording/commands_json.h"
+#include "interaction/recording/json_values.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace isochron::interaction {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kFormat = "isochron recording";
+constexpr std::size_t kMostDevices = 64;
+constexpr std::size_t kMostValuators = 64;
+constexpr std::size_t kLongestName = 256; ///< [byte]
+
+json velocity_json(const Velocity& velocity) {
+    const glm::dvec3& v = velocity.linear;
+    const glm::dvec3& w = velocity.angular;
+    return {v.x, v.y, v.z, w.x, w.y, w.z};
+}
+
+Velocity velocity_from(const json& value) {
+    list(value, "velocity", 6, 6);
+    Velocity velocity;
+    for (int i = 0; i < 3; ++i) {
+        velocity.linear[i] = number(value[i], "velocity");
+        velocity.angular[i] = number(value[i + 3], "velocity");
+    }
+    return velocity;
+}
+
+json device_json(const DeviceState& device) {
+    json result{{"name", device.name}};
+    if (device.pose)
+        result["pose"] = pose_json(*device.pose);
+    if (!device.pose_valid)
+        result["valid"] = false;
+    if (device.buttons != 0)
+        result["buttons"] = device.buttons;
+    if (!device.valuators.empty())
+        result["valuators"] = device.valuators;
+    if (device.pose_lost)
+        result["lost"] = true;
+    if (device.velocity)
+        result["velocity"] = velocity_json(*device.velocity);
+    if (device.measured)
+        result["measured"] = device.measured->count();
+    if (device.device_time)
+        result["device_time"] = device.device_time->count();
+    return result;
+}
+
+DeviceState device_from(const json& value) {
+    Members members(value, "device");
+    DeviceState device;
+    device.name = text(members.at("name"), "name", kLongestName);
+    if (const json* found = members.find("pose"))
+        device.pose = pose_from(*found);
+    if (const json* found = members.find("valid"))
+        device.pose_valid = boolean(*found, "valid");
+    if (const json* found = members.find("buttons"))
+        device.buttons = natural(*found, "buttons", std::numeric_limits<std::uint64_t>::max());
+    if (const json* found = members.find("valuators"))
+        for (const json& valuator : list(*found, "valuators", 0, kMostValuators))
+            device.valuators.push_back(small_number(valuator, "valuators"));
+    if (const json* found = members.find("lost"))
+        device.pose_lost = boolean(*found, "lost");
+    if (device.pose_lost && device.pose_valid)
+        throw Error(fmt::format("lost: the pose of {} is valid", excerpt(json(device.name))));
+    if (const json* found = members.find("velocity"))
+        device.velocity = velocity_from(*found);
+    if (const json* found = members.find("measured"))
+        device.measured = Seconds(number(*found, "measured"));
+    if (const json* found = members.find("device_time"))
+        device.device_time = Seconds(number(*found, "device_time"));
+    members.done({"name", "pose", "valid", "buttons", "valuators", "lost", "velocity", "measured",
+                  "device_time"});
+    return device;
+}
+
+/// All devices that a list states, each once.
+void add_devices(const json& value, InputState& input) {
+    for (const json& device : list(value, "devices", 0, kMostDevices)) {
+        input.devices.push_back(device_from(device));
+        if (input.find(input.devices.back().name) != &input.devices.back())
+            fail("devices", "every name once", json(input.devices.back().name));
+    }
+}
+
+json latched_json(const InputState& latched) {
+    json devices = json::array();
+    for (const DeviceState& device : latched.devices)
+        devices.push_back(device_json(device));
+    return {{"t", latched.time.count()}, {"devices", std::move(devices)}};
+}
+
+InputState latched_from(const json& value, Seconds polled) {
+    Members members(value, "latched");
+    InputState latched;
+    latched.time = Seconds(number(members.at("t"), "t"));
+    if (latched.time < polled)
+        throw Error(fmt::format("latched: time goes back from {} to {}", polled.count(),
+                                latched.time.count()));
+    add_devices(members.at("devices"), latched);
+    members.done({"t", "devices"});
+    return latched;
+}
+
+bool same_names(const std::vector<DeviceState>& a, const std::vector<DeviceState>& b) {
+    return std::ranges::equal(a, b, {}, &DeviceState::name, &DeviceState::name);
+}
+
+void change(std::vector<DeviceState>& devices, DeviceState changed) {
+    const auto found = std::ranges::find(devices, changed.name, &DeviceState::name);
+    if (found == devices.end())
+        throw Error(
+            fmt::format("changed: there was no device {} before", excerpt(json(changed.name))));
+    *found = std::move(changed);
+}
+
+void add_commands(json& to, const char* key, const Commands& commands) {
+    if (!commands.empty())
+        to[key] = commands_json(commands);
+}
+
+} // namespace
+
+json to_json(const RecordingHeader& header) {
+    return {{"format", kFormat},         {"version", header.version},
+            {"program", header.program}, {"configuration", header.configuration},
+            {"data", header.data},       {"data_hash", header.data_hash},
+            {"window", header.window},   {"start", commands_json(header.start)}};
+}
+
+RecordingHeader header_from_json(const json& value) {
+    const auto format = value.is_object() ? value.find("format") : value.end();
+    if (!value.is_object() || format == value.end() || *format != kFormat)
+        throw Error(fmt::format("not a recording: expected \"format\":\"{}\"", kFormat));
+    Members members(value, "header");
+    members.at("format");
+    RecordingHeader header;
+    header.version = static_cast<int>(natural(members.at("version"), "version", 1'000'000));
+    if (header.version != kRecordingVersion)
+        throw Error(fmt::format("version: this program reads {}, the recording has {}",
+                                kRecordingVersion, header.version));
+    header.program = text(members.at("program"), "program");
+    header.configuration = text(members.at("configuration"), "configuration");
+    header.data = text(members.at("data"), "data");
+    header.data_hash = text(members.at("data_hash"), "data_hash");
+    if (const json* window = members.find("window")) {
+        constexpr std::uint64_t kWidest = 16384; // pixels
+        const json& size = list(*window, "window", 2, 2);
+        for (std::size_t i = 0; i < 2; ++i)
+            header.window[i] = static_cast<int>(natural(size[i], "window", kWidest));
+    }
+    header.start = commands_from(members.at("start"), "start");
+    members.done(
+        {"format", "version", "program", "configuration", "data", "data_hash", "window", "start"});
+    return header;
+}
+
+json to_json(const RecordedFrame& frame, const RecordedFrame* before) {
+    json result{{"t", frame.input.time.count()}};
+    const std::vector<DeviceState>& devices = frame.input.devices;
+    const bool as_before = before && same_names(devices, before->input.devices);
+    json stated = json::array();
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        if (!as_before || devices[i] != before->input.devices[i])
+            stated.push_back(device_json(devices[i]));
+    if (!as_before)
+        result["devices"] = std::move(stated);
+    else if (!stated.empty())
+        result["changed"] = std::move(stated);
+    add_commands(result, "commands", frame.commands);
+    add_commands(result, "panel", frame.from_panel);
+    if (frame.footprint != (before ? before->footprint : ""))
+        result["footprint"] = frame.footprint;
+    if (!frame.latched.devices.empty())
+        result["latched"] = latched_json(frame.latched);
+    return result;
+}
+
+RecordedFrame frame_from_json(const json& value, const RecordedFrame* before) {
+    Members members(value, "frame");
+    RecordedFrame frame;
+    frame.input.time = Seconds(number(members.at("t"), "t"));
+    if (before && frame.input.time < before->input.time)
+        throw Error(fmt::format("time goes back from {} to {}", before->input.time.count(),
+                                frame.input.time.count()));
+    std::vector<DeviceState>& devices = frame.input.devices;
+    if (const json* all = members.find("devices")) {
+        add_devices(*all, frame.input);
+    } else if (before) {
+        devices = before->input.devices;
+    }
+    if (const json* changed = members.find("changed"))
+        for (const json& device : list(*changed, "changed", 0, kMostDevices))
+            change(devices, device_from(device));
+    if (const json* found = members.find("commands"))
+        frame.commands = commands_from(*found, "commands");
+    if (const json* found = members.find("panel"))
+        frame.from_panel = commands_from(*found, "panel");
+    if (const json* found = members.find("footprint"))
+        frame.footprint = text(*found, "footprint", kLongestName);
+    else if (before)
+        frame.footprint = before->footprint;
+    if (const json* found = members.find("latched"))
+        frame.latched = latched_from(*found, frame.input.time);
+    members.done({"t", "devices", "changed", "commands", "panel", "footprint", "latched"});
+    return frame;
+}
+
+void require_finite(const RecordedFrame& frame) {
+    const auto require = [](bool finite, std::string_view what) {
+        if (!finite)
+            throw Error(fmt::format("{}: expected finite numbers", what));
+    };
+    for (const InputState* input : {&frame.input, &frame.latched}) {
+        require(std::isfinite(input->time.count()), "t");
+        for (const DeviceState& device : input->devices) {
+            require(!device.pose || is_finite(*device.pose), device.name);
+            require(!device.velocity || is_finite(*device.velocity), device.name);
+            for (const auto& time : {device.measured, device.device_time})
+                require(!time || std::isfinite(time->count()), device.name);
+            for (const float valuator : device.valuators)
+                require(std::isfinite(valuator), device.name);
+        }
+    }
+    for (const Commands* commands : {&frame.commands, &frame.from_panel}) {
+        for (const Isosurface& surface : commands->isosurfaces.value_or(std::vector<Isosurface>()))
+            require(std::isfinite(surface.isovalue) && std::isfinite(surface.opacity) &&
+                        std::isfinite(surface.color.x + surface.color.y + surface.color.z),
+                    "isosurfaces");
+        require(!commands->coloring || !commands->coloring->range ||
+                    (std::isfinite((*commands->coloring->range)[0]) &&
+                     std::isfinite((*commands->coloring->range)[1])),
+                "coloring");
+        require(!commands->isovalue || std::isfinite(*commands->isovalue), "isovalue");
+        require(!commands->room_from_physical || is_valid(*commands->room_from_physical),
+                "room_from_physical");
+        if (commands->views)
+            for (const Viewpoint& view : *commands->views)
+                require(is_valid(view.room_from_physical), "views");
+        require(!commands->eye_separation || std::isfinite(*commands->eye_separation),
+                "eye_separation");
+        require(!commands->room_panel || is_finite(commands->room_panel->pose), "room_panel");
+        require(!commands->mark || !commands->mark->point ||
+                    std::isfinite(commands->mark->point->value +
+                                  glm::dot(commands->mark->point->position, glm::dvec3(1.0))),
+                "mark");
+        for (const HapticPulse& pulse : commands->haptics)
+            require(std::isfinite(pulse.seconds) && std::isfinite(pulse.amplitude), "haptics");
+        require(!commands->playback || std::isfinite(commands->playback->speed), "speed");
+    }
+}
+
+} // namespace isochron::interaction

@@ -1,0 +1,129 @@
+// An ART tracking system: DTrack's datagrams as devices.
+#include "interaction/trackers/dtrack_input.h"
+
+#include "interaction/trackers/device_clock.h"
+#include "interaction/trackers/dtrack_protocol.h"
+#include "interaction/trackers/frame_sequence.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace isochron::interaction {
+namespace {
+
+/// Per poll or latch. At 300 frames per second a display that shows 20 keeps up.
+constexpr std::size_t kKept = 32;
+
+void add_body(TrackedDevice& device, const DTrackBody& body, Seconds measured,
+              std::optional<Seconds> stamp) {
+    if (!body.tracked)
+        return;
+    if (const auto rotation = rotation_from(body.rotation))
+        device.add_pose(measured, {glm::vec3(body.position), *rotation}, std::nullopt, stamp);
+    else
+        device.refuse_pose();
+}
+
+} // namespace
+
+struct DTrackInput::State {
+    struct Device {
+        DTrackKind kind;
+        int id;
+        TrackedDevice tracked;
+    };
+    UdpSocket socket;
+    std::vector<Device> devices;
+    FrameSequence sequence;
+    DeviceClock clock;
+    std::uint64_t malformed = 0;
+
+    explicit State(const DTrackOptions& options) : socket(options.endpoint) {
+        for (const DTrackDevice& each : options.devices)
+            devices.push_back({each.kind, each.id, TrackedDevice(each.device)});
+    }
+
+    void take(const DTrackFrame& frame, Seconds arrival) {
+        const Seconds measured = frame.time ? clock.session_time(*frame.time, arrival) : arrival;
+        for (Device& device : devices)
+            switch (device.kind) {
+            case DTrackKind::body:
+                for (const DTrackBody& body : frame.bodies)
+                    if (body.id == device.id)
+                        add_body(device.tracked, body, measured, frame.time);
+                break;
+            case DTrackKind::flystick:
+                for (const DTrackFlystick& flystick : frame.flysticks)
+                    if (flystick.body.id == device.id)
+                        take(device.tracked, flystick, measured, arrival, frame.time);
+                break;
+            case DTrackKind::marker:
+                for (const DTrackMarker& marker : frame.markers)
+                    if (marker.id == device.id)
+                        device.tracked.add_pose(measured,
+                                                {glm::vec3(marker.position), glm::quat(1, 0, 0, 0)},
+                                                std::nullopt, frame.time);
+                break;
+            }
+    }
+
+    /// Buttons come by radio: they are good even while the Flystick cannot be seen.
+    static void take(TrackedDevice& device, const DTrackFlystick& flystick, Seconds measured,
+                     Seconds arrival, std::optional<Seconds> stamp) {
+        device.heard(arrival);
+        device.set_buttons(flystick.buttons);
+        for (std::size_t i = 0; i < flystick.controllers.size(); ++i)
+            device.set_valuator(i, flystick.controllers[i]);
+        add_body(device, flystick.body, measured, stamp);
+    }
+
+    void take(const Datagram& datagram, Seconds now) {
+        const auto frame = parse_dtrack(datagram.bytes);
+        malformed += frame ? static_cast<std::uint64_t>(frame->malformed_lines) : 1;
+        const Seconds arrival = now - datagram.age;
+        if (frame && sequence.accept(frame->counter, arrival))
+            take(*frame, arrival);
+    }
+
+    void receive(Seconds now) {
+        for (const Datagram& datagram : socket.take(kKept))
+            take(datagram, now);
+    }
+};
+
+DTrackInput::DTrackInput(const DTrackOptions& options) : state_(std::make_unique<State>(options)) {}
+DTrackInput::~DTrackInput() = default;
+
+InputState DTrackInput::poll(Seconds now) {
+    state_->receive(now);
+    InputState input{now, {}};
+    for (State::Device& device : state_->devices)
+        input.devices.push_back(device.tracked.poll(now));
+    return input;
+}
+
+InputState DTrackInput::latch(Seconds now) {
+    state_->receive(now);
+    InputState input{now, {}};
+    for (const State::Device& device : state_->devices)
+        input.devices.push_back(device.tracked.latch(now));
+    return input;
+}
+
+std::vector<std::string> DTrackInput::status() const {
+    const State& s = *state_;
+    std::vector<std::string> lines{
+        fmt::format("dtrack {}: {} frames, {} missing, {} late, {} malformed, {} thrown away",
+                    to_string(s.socket.endpoint()), s.sequence.accepted(), s.sequence.missing(),
+                    s.sequence.late(), s.malformed, s.socket.thrown_away())};
+    for (const State::Device& device : s.devices)
+        lines.push_back(device.tracked.status());
+    return lines;
+}
+
+const Endpoint& DTrackInput::endpoint() const {
+    return state_->socket.endpoint();
+}
+
+} // namespace isochron::interaction

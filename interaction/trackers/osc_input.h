@@ -1,0 +1,47 @@
+// Devices that send their state as Open Sound Control messages.
+#pragma once
+
+#include "interaction/trackers/tracked_device.h"
+#include "interaction/trackers/udp_socket.h"
+
+#include <memory>
+
+namespace isochron::interaction {
+
+struct OscDevice {
+    DeviceOptions device;
+    std::string source; ///< NAME in the addresses below
+};
+
+/// Addresses under `prefix`, with any numeric argument types:
+///
+///     PREFIX/NAME/pose x y z qx qy qz qw     metres, unit quaternion
+///     PREFIX/NAME/velocity vx vy vz wx wy wz metres and radians per second, of the next pose
+///     PREFIX/NAME/button i state             0 is up
+///     PREFIX/NAME/valuator i value
+///
+/// The time tag of a bundle is the time of measurement by the sender's clock. Buttons that are down
+/// and valuators that are not at rest are sent again at least every `limits.lost_after`.
+struct OscOptions {
+    Endpoint endpoint{"127.0.0.1", 9000};
+    std::string prefix = "/isochron";
+    std::vector<OscDevice> devices;
+};
+
+class OscInput final : public TrackedInput {
+  public:
+    /// @throws Error when the address cannot be bound
+    explicit OscInput(const OscOptions& options);
+    ~OscInput() override;
+    InputState poll(Seconds now) override;
+    InputState latch(Seconds now) override;
+    /// `osc 127.0.0.1:9000: 3600 messages, 2 of wrong types, ..`, then its devices.
+    std::vector<std::string> status() const override;
+    const Endpoint& endpoint() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace isochron::interaction

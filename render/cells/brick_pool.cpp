@@ -1,0 +1,138 @@
+// Slots of bricks, and what has to be sent.
+#include "render/cells/brick_pool.h"
+
+#include <algorithm>
+#include <span>
+
+namespace isochron::render {
+namespace {
+
+constexpr std::size_t kFirstCapacity = 64; ///< bricks
+/// Bricks looked at in one call, so that a frame never stalls on a large set.
+constexpr std::size_t kLookedAt = 1 << 16;
+
+struct Format {
+    GLenum texel;
+    std::size_t bytes;
+};
+Format format_of(index::ValueType held) {
+    switch (held) {
+    case index::ValueType::i8: return {GL_R8I, 1};
+    case index::ValueType::u8: return {GL_R8UI, 1};
+    case index::ValueType::i16: return {GL_R16I, 2};
+    case index::ValueType::u16: return {GL_R16UI, 2};
+    default: return {GL_R32F, 4};
+    }
+}
+
+} // namespace
+
+BrickPool::BrickPool(const Gl& gl, const index::Grid& grid, index::ValueType held)
+    : values_(gl, "bricks of a set", format_of(held).texel, format_of(held).bytes,
+              index::kBrickVertices, DeviceArray::Storage::none),
+      pages_(gl, "bricks of the volume", GL_R32UI, sizeof(std::uint32_t), 1,
+             DeviceArray::Storage::whole),
+      page_message_(gl, "changed bricks", GL_RG32UI, 2 * sizeof(std::uint32_t), 1,
+                    DeviceArray::Storage::whole),
+      slot_of_(index::BrickTiling(grid).count(), kNoSlot) {
+    pages_.reserve(slot_of_.size(), DeviceArray::Contents::dropped);
+}
+
+void BrickPool::begin(const index::VolumeBricks& bricks) {
+    ++set_;
+    bricks_ = &bricks;
+    arriving_.clear();
+    arriving_.reserve(bricks.ids.size());
+    page_words_.clear();
+    sending_ = false;
+    pages_sent_ = 0;
+}
+
+std::uint32_t BrickPool::take_slot() {
+    if (free_.empty()) {
+        const std::size_t before = held_.size();
+        values_.reserve(std::max(before + 1, kFirstCapacity), DeviceArray::Contents::kept);
+        held_.resize(values_.capacity());
+        for (std::size_t slot = held_.size(); slot-- > before;)
+            free_.push_back(static_cast<std::uint32_t>(slot));
+    }
+    const std::uint32_t slot = free_.back();
+    free_.pop_back();
+    return slot;
+}
+
+/// Finds a slot for the next brick. @return whether the brick has to be sent there
+bool BrickPool::place_next() {
+    const std::size_t next = arriving_.size();
+    const index::BrickId brick = bricks_->ids[next];
+    std::uint32_t slot = slot_of_[brick];
+    const bool known = slot != kNoSlot && held_[slot].digest == bricks_->digests[next];
+    if (!known) {
+        slot = take_slot();
+        page_words_.insert(page_words_.end(), {brick, slot});
+    }
+    held_[slot] = {brick, set_, bricks_->digests[next]};
+    arriving_.push_back(slot);
+    return !known;
+}
+
+bool BrickPool::complete() const {
+    return arriving_.size() == bricks_->ids.size() && !sending_ &&
+           pages_sent_ == std::as_bytes(std::span(page_words_)).size();
+}
+
+std::size_t BrickPool::send(StagingRing& ring, std::size_t bytes) {
+    std::size_t sent = 0;
+    for (std::size_t looked = 0; looked < kLookedAt; ++looked) {
+        if (!sending_) {
+            if (arriving_.size() == bricks_->ids.size())
+                break;
+            sending_ = place_next();
+            brick_sent_ = 0;
+            continue;
+        }
+        const auto rest = bricks_->brick(arriving_.size() - 1).subspan(brick_sent_);
+        const std::size_t part =
+            bytes - sent < StagingRing::kUnit
+                ? 0
+                : ring.send(rest, bytes - sent, values_.buffer(),
+                            arriving_.back() * bricks_->brick_bytes() + brick_sent_);
+        if (part == 0)
+            return sent;
+        sent += part;
+        brick_sent_ += part;
+        sending_ = part < rest.size();
+    }
+    return sent + send_pages(ring, bytes - sent);
+}
+
+std::size_t BrickPool::send_pages(StagingRing& ring, std::size_t bytes) {
+    if (sending_ || arriving_.size() < bricks_->ids.size())
+        return 0;
+    page_message_.reserve(page_changes(), DeviceArray::Contents::dropped);
+    std::size_t sent = 0;
+    for (;;) {
+        const auto rest = std::as_bytes(std::span(page_words_)).subspan(pages_sent_);
+        if (rest.empty() || bytes - sent < StagingRing::kUnit)
+            return sent;
+        const std::size_t part = ring.send(rest, bytes - sent, page_message_.buffer(), pages_sent_);
+        if (part == 0)
+            return sent;
+        sent += part;
+        pages_sent_ += part;
+    }
+}
+
+void BrickPool::show() {
+    for (const std::uint32_t slot : shown_)
+        if (held_[slot].set != set_) {
+            slot_of_[held_[slot].brick] = kNoSlot;
+            free_.push_back(slot);
+        }
+    for (std::size_t i = 0; i < page_words_.size(); i += 2)
+        slot_of_[page_words_[i]] = page_words_[i + 1];
+    shown_.swap(arriving_);
+    bricks_ = nullptr;
+}
+
+} // namespace isochron::render

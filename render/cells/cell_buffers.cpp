@@ -1,0 +1,252 @@
+// The way of a set to the GPU: what changes, bricks, message, and then all of it at once.
+#include "render/cells/cell_buffers.h"
+
+#include "render/gl/driver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <utility>
+
+namespace isochron::render {
+namespace {
+
+/// Cells looked at in one call, so that a frame never stalls on a large set: some 1 ms.
+constexpr std::size_t kLookedAt = 1 << 18;
+constexpr std::size_t kWord = sizeof(std::uint32_t);
+
+/// Where one set of buffers is gone, another may lie at its address.
+std::uint64_t next_version() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
+std::size_t rounded_to_units(std::size_t bytes) {
+    return (bytes + StagingRing::kUnit - 1) / StagingRing::kUnit * StagingRing::kUnit;
+}
+
+} // namespace
+
+CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t staging_bytes)
+    : gl_(&gl), grid_(grid), ring_(gl, rounded_to_units(staging_bytes)),
+      points_(gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole),
+      message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
+      styles_(gl, "coloured cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
+      corner_values_(gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none),
+      corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none) {}
+
+index::Shading CellBuffers::wanted_shading(const Gl& gl) {
+    return draws_in_software(gl) ? index::Shading::cells : index::Shading::none;
+}
+
+CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points) {
+    CellBuffers cells(gl, {.vertices = {2, 2, 2}}, 2 * StagingRing::kUnit);
+    cells.points_.reserve(points.size(), DeviceArray::Contents::dropped);
+    gl.NamedBufferSubData(cells.points_.buffer(), 0, static_cast<GLsizeiptr>(points.size_bytes()),
+                          points.data());
+    auto slots = std::make_shared<Slots>();
+    for (const index::CellPoint& point : points) {
+        slots->slot_of_rank.push_back(static_cast<std::uint32_t>(slots->places.size()));
+        slots->places.push_back({point.x, point.y, point.z, point.style});
+    }
+    cells.slots_ = std::move(slots);
+    cells.version_ = next_version();
+    return cells;
+}
+
+void CellBuffers::prepare(index::ValueType held) {
+    bricks_.emplace(*gl_, grid_, held);
+    compute_.emplace(*gl_, grid_, held);
+    const index::Extraction none;
+    compute_->enter_pages(*bricks_);
+    compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, message_, points_);
+    compute_->set_styles(none, styles_, points_);
+    compute_->fill_normals(none, *bricks_, points_);
+    compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_);
+}
+
+bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget, SendVolume volume) {
+    const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
+    std::size_t sent = 0;
+    bool changed = false;
+    while (take_up(newest, volume, most, sent) && send_on(most, sent)) {
+        show();
+        changed = true;
+    }
+    ring_.end_frame();
+    return changed;
+}
+
+bool CellBuffers::stage(index::ExtractionPtr set, std::size_t byte_budget) {
+    const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
+    std::size_t sent = 0;
+    const bool complete = take_up(set, SendVolume::with_cells, most, sent)
+                              ? send_on(most, sent)
+                              : set == shown_ && has_volume();
+    ring_.end_frame();
+    return complete;
+}
+
+/// Makes sure that something is on its way, if there is anything to send.
+/// @return whether that is a set
+bool CellBuffers::take_up(const index::ExtractionPtr& newest, SendVolume volume, std::size_t bytes,
+                          std::size_t& sent) {
+    if (arriving_)
+        return true;
+    const bool shown = !newest || newest == shown_;
+    if (sending_bricks_ || (shown && volume == SendVolume::with_cells))
+        send_volume_of_shown(bytes, sent);
+    if (sending_bricks_ || shown)
+        return false;
+    begin(newest, volume);
+    return true;
+}
+
+void CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
+    if (set->cells() > points_.limit())
+        throw Error(fmt::format("{} cells at step {}, this GL can draw at most {}", set->cells(),
+                                set->query.step, points_.limit()));
+    if (!bricks_)
+        prepare(set->bricks.held);
+    if (set->shaded())
+        ranked_ = std::make_unique<RankedPoints>(*set);
+    else
+        plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
+    merged_ = false;
+    words_sent_ = styles_sent_ = 0;
+    sending_bricks_ = volume == SendVolume::with_cells || !ranked_;
+    if (sending_bricks_)
+        bricks_->begin(set->bricks);
+    arriving_ = std::move(set);
+}
+
+/// Goes on with the set on its way. @return whether all of it is on the GPU
+bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
+    merged_ = merged_ || (ranked_ ? ranked_->copy(kLookedAt) : plan_->merge(kLookedAt));
+    if (!merged_)
+        return false;
+    if (sending_bricks_ && !send_bricks(bytes, sent))
+        return false;
+    return ranked_ || (send_message(bytes, sent) && send_styles(bytes, sent));
+}
+
+/// @return whether all are there
+bool CellBuffers::send_bricks(std::size_t bytes, std::size_t& sent) {
+    if (!bricks_->complete()) {
+        const std::size_t part = bricks_->send(ring_, bytes - sent);
+        sent += part;
+        count_.brick_bytes += part;
+    }
+    return bricks_->complete();
+}
+
+/// Like a set, what has begun is finished before a newer set is taken.
+void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
+    if (!shown_ || has_volume())
+        return;
+    if (!std::exchange(sending_bricks_, true))
+        bricks_->begin(shown_->bricks);
+    if (!send_bricks(bytes, sent))
+        return;
+    compute_->enter_pages(*bricks_);
+    bricks_->show();
+    sending_bricks_ = false;
+    volume_version_ = version_;
+}
+
+bool CellBuffers::send_message(std::size_t bytes, std::size_t& sent) {
+    message_.reserve(plan_->words(), DeviceArray::Contents::dropped);
+    std::size_t cells = kLookedAt;
+    while (!plan_->done()) {
+        const std::size_t rest = (plan_->words() - words_sent_) * kWord;
+        const std::size_t most = std::min(bytes - sent, rest);
+        const std::span<std::byte> room = ring_.room(most);
+        const std::size_t words = plan_->message(
+            {reinterpret_cast<std::uint32_t*>(room.data()), std::min(room.size(), most) / kWord},
+            cells);
+        if (words == 0)
+            break;
+        ring_.copy(words * kWord, message_.buffer(), words_sent_ * kWord);
+        words_sent_ += words;
+        sent += words * kWord;
+        count_.id_bytes += words * kWord;
+    }
+    return plan_->done();
+}
+
+/// Styles of cells that stay change, too: they are sent whole, in the order of slots.
+bool CellBuffers::send_styles(std::size_t bytes, std::size_t& sent) {
+    constexpr std::size_t kStyle = sizeof(CellPlace::style);
+    if (arriving_->colors.empty())
+        return true;
+    const std::span<const CellPlace> places = plan_->slots().places;
+    styles_.reserve((places.size() * kStyle + kWord - 1) / kWord, DeviceArray::Contents::dropped);
+    while (styles_sent_ < places.size()) {
+        const auto rest = places.subspan(styles_sent_);
+        const std::size_t most = std::min(bytes - sent, rest.size() * kStyle);
+        const std::span<std::byte> room = ring_.room(most);
+        const std::size_t count = std::min(room.size(), most) / kStyle;
+        if (count == 0)
+            return false;
+        std::ranges::transform(rest.first(count), reinterpret_cast<std::uint16_t*>(room.data()),
+                               &CellPlace::style);
+        ring_.copy(count * kStyle, styles_.buffer(), styles_sent_ * kStyle);
+        styles_sent_ += count;
+        sent += count * kStyle;
+        count_.color_bytes += count * kStyle;
+    }
+    return true;
+}
+
+void CellBuffers::show() {
+    const std::size_t cells = arriving_->cells();
+    points_.reserve(cells, DeviceArray::Contents::kept);
+    if (sending_bricks_)
+        compute_->enter_pages(*bricks_);
+    count_.whole_ids += cells;
+    slots_ = std::make_shared<const Slots>(ranked_ ? write_points() : place_cells());
+    if (sending_bricks_)
+        bricks_->show();
+    ++count_.sets;
+    ranked_ = nullptr;
+    plan_ = nullptr;
+    shown_ = std::move(arriving_);
+    arriving_ = nullptr;
+    version_ = next_version();
+    if (std::exchange(sending_bricks_, false))
+        volume_version_ = version_;
+}
+
+/// @return where they are
+Slots CellBuffers::write_points() {
+    const std::span<const index::CellPoint> points = ranked_->points();
+    gl_->NamedBufferSubData(points_.buffer(), 0, static_cast<GLsizeiptr>(points.size_bytes()),
+                            points.data());
+    count_.ids += points.size();
+    count_.id_bytes += points.size_bytes();
+    return ranked_->take();
+}
+
+/// What the message says. @return where they are
+Slots CellBuffers::place_cells() {
+    compute_->place_cells(*plan_, *arriving_, message_, points_);
+    if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))
+        compute_->set_styles(*arriving_, styles_, points_);
+    compute_->fill_normals(*arriving_, *bricks_, points_);
+    count_.ids += plan_->ids();
+    return plan_->take();
+}
+
+void CellBuffers::compute_corners() {
+    if (!shown_ || corners_version_ == version_)
+        return;
+    assert(has_volume());
+    corner_values_.reserve(shown_->cells(), DeviceArray::Contents::dropped);
+    corner_gradients_.reserve(shown_->cells(), DeviceArray::Contents::dropped);
+    compute_->fill_corners(*shown_, *bricks_, points_, corner_values_, corner_gradients_);
+    corners_version_ = version_;
+}
+
+} // namespace isochron::render

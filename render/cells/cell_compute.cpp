@@ -1,0 +1,170 @@
+// Programs, uniforms and dispatches of the compute passes.
+#include "render/cells/cell_compute.h"
+
+#include "render/gl/shader.h"
+
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace isochron::render {
+namespace {
+
+constexpr std::size_t kGroup = 64; ///< invocations: local_size_x of the shaders
+/// Of one dispatch: within the limits that every GL 4.5 driver has, of 2^16 - 1 groups and, at the
+/// 64 bytes that a cell's gradients take, of 128 MiB for a storage block.
+constexpr std::size_t kAtOnce = 1 << 20;
+
+/// The uniform block of volume_bricks.glsl, in std140 layout.
+struct VolumeBlock {
+    std::array<glm::vec4, 3> from_difference;
+    glm::ivec3 vertices;
+    float factor;
+    glm::ivec3 tiles;
+    float gradient_scale;
+    std::array<float, index::kMostSurfaces> levels;
+};
+static_assert(sizeof(VolumeBlock) == 3 * 16 + 2 * 16 + 2 * 16);
+
+std::string_view sampler_of(index::ValueType held) {
+    switch (held) {
+    case index::ValueType::i8:
+    case index::ValueType::i16: return "#define BRICKS isamplerBuffer\n";
+    case index::ValueType::u8:
+    case index::ValueType::u16: return "#define BRICKS usamplerBuffer\n";
+    default: return "#define BRICKS samplerBuffer\n";
+    }
+}
+
+/// Rows of the matrix that makes vectors towards lower values, in physical space, of differences of
+/// values: gradients are covectors. Scaled to a largest entry of 1.
+std::array<glm::vec4, 3> from_difference(const index::Grid& grid) {
+    const glm::dmat3 matrix = glm::inverse(glm::dmat3(grid.physical_from_index())); // its transpose
+    double largest = 0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            largest = std::max(largest, std::abs(matrix[column][row]));
+    std::array<glm::vec4, 3> rows{};
+    for (int row = 0; row < 3; ++row)
+        rows[static_cast<std::size_t>(row)] = glm::vec4(-matrix[row] / largest, 0.0);
+    return rows;
+}
+
+/// Such that the steepest difference of the data set comes to half of what a half holds, whose
+/// digits then reach down to some 1e-9 of it.
+float gradient_scale(float range) {
+    constexpr float kHalfRange = 32768.0f / 1.7320508f; // sqrt(3): of three differences together
+    return kHalfRange / range;
+}
+
+} // namespace
+
+CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType held)
+    : gl_(&gl), grid_(grid), pages_(link_program(gl, {shader_file("brick_pages.comp")})),
+      places_(link_program(gl, {shader_file("cell_places.comp")})),
+      styles_(link_program(gl, {shader_file("cell_styles.comp")})),
+      normals_(link_program(gl, {shader_file("cell_normals.comp")}, sampler_of(held))),
+      corners_(link_program(gl, {shader_file("cell_corners.comp")}, sampler_of(held))),
+      volume_(gl) {}
+
+void CellCompute::use_volume(const index::Extraction& set, const BrickPool& bricks) const {
+    const auto& n = grid_.vertices;
+    const auto tiles = index::BrickTiling(grid_).bricks;
+    VolumeBlock block{.from_difference = from_difference(grid_),
+                      .vertices = {n[0], n[1], n[2]},
+                      .factor = set.bricks.factor,
+                      .tiles = {tiles[0], tiles[1], tiles[2]},
+                      .gradient_scale = gradient_scale(set.bricks.range),
+                      .levels = {}};
+    std::ranges::copy(set.levels, block.levels.begin());
+    gl_->NamedBufferData(volume_.name(), sizeof(block), &block, GL_STREAM_DRAW);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, volume_.name());
+    gl_->BindTextureUnit(0, bricks.pages().texture());
+    gl_->BindTextureUnit(1, bricks.values().texture());
+}
+
+void CellCompute::bind(GLuint binding, const DeviceArray& array) const {
+    gl_->BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, array.buffer());
+}
+
+void CellCompute::bind(GLuint binding, const DeviceArray& array, std::size_t first,
+                       std::size_t count) const {
+    gl_->BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, array.buffer(),
+                         static_cast<GLintptr>(first * array.element_bytes()),
+                         static_cast<GLsizeiptr>(count * array.element_bytes()));
+}
+
+template <class Prepare>
+void CellCompute::run(const Program& program, std::size_t count, Prepare&& prepare) const {
+    gl_->UseProgram(program.name());
+    std::size_t begin = 0;
+    do { // once for nothing, too: drivers compile what runs
+        const std::size_t end = std::min(begin + kAtOnce, count);
+        gl_->ProgramUniform2ui(program.name(), 0, static_cast<GLuint>(begin),
+                               static_cast<GLuint>(end));
+        prepare(begin, end);
+        const std::size_t groups = std::max((end - begin + kGroup - 1) / kGroup, std::size_t{1});
+        gl_->DispatchCompute(static_cast<GLuint>(groups), 1, 1);
+        begin = end;
+    } while (begin < count);
+    gl_->UseProgram(0);
+    gl_->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                       GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void CellCompute::enter_pages(const BrickPool& bricks) const {
+    bind(0, bricks.pages());
+    bind(1, bricks.page_message());
+    run(pages_, bricks.page_changes(), [](std::size_t, std::size_t) {});
+}
+
+void CellCompute::place_cells(const SlotPlan& plan, const index::Extraction& set,
+                              const DeviceArray& message, const DeviceArray& points) const {
+    const auto cells = grid_.cells();
+    std::array<GLuint, index::kMostSurfaces> ends{};
+    GLuint end = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+        ends[i] = end +=
+            i < set.surfaces.size() ? static_cast<GLuint>(set.surfaces[i].ids.size()) : 0;
+    const GLuint program = places_.name();
+    gl_->ProgramUniform1i(program, 2, plan.whole());
+    gl_->ProgramUniform2ui(program, 3, cells[0], cells[1]);
+    gl_->ProgramUniform1uiv(program, 4, static_cast<GLsizei>(ends.size()), ends.data());
+    bind(0, points);
+    bind(1, message);
+    run(places_, plan.ids(), [](std::size_t, std::size_t) {});
+}
+
+void CellCompute::set_styles(const index::Extraction& set, const DeviceArray& styles,
+                             const DeviceArray& points) const {
+    gl_->ProgramUniform1i(styles_.name(), 2, !set.colors.empty());
+    bind(0, points);
+    bind(1, styles);
+    run(styles_, set.cells(), [](std::size_t, std::size_t) {});
+}
+
+void CellCompute::fill_normals(const index::Extraction& set, const BrickPool& bricks,
+                               const DeviceArray& points) const {
+    use_volume(set, bricks);
+    bind(0, points);
+    run(normals_, set.cells(), [](std::size_t, std::size_t) {});
+}
+
+void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& bricks,
+                               const DeviceArray& points, const DeviceArray& values,
+                               const DeviceArray& gradients) const {
+    use_volume(set, bricks);
+    bind(0, points);
+    run(corners_, set.cells(), [&](std::size_t begin, std::size_t end) {
+        const std::size_t cells = std::max(end - begin, std::size_t{1}); // no range is empty
+        bind(1, values, begin, cells);
+        bind(2, gradients, begin, cells);
+    });
+}
+
+} // namespace isochron::render

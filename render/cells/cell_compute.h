@@ -1,0 +1,56 @@
+// What the GPU computes for a new set: places, normals, and values and gradients at the vertices.
+#pragma once
+
+#include "index/extraction/extraction.h"
+#include "render/cells/brick_pool.h"
+#include "render/cells/slot_plan.h"
+
+#include <cstddef>
+
+namespace isochron::render {
+
+/// The compute passes of one volume, all over slots 0 to n - 1.
+class CellCompute {
+  public:
+    /// @param held type of the values in bricks
+    /// @throws Error when a shader does not compile
+    CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType held);
+
+    /// Enters the pages of the new set into the pool's table.
+    void enter_pages(const BrickPool& bricks) const;
+
+    /// Puts the cells of a slot plan's message into `points` (three words a slot, see
+    /// index::CellPoint); normals follow.
+    void place_cells(const SlotPlan& plan, const index::Extraction& set, const DeviceArray& message,
+                     const DeviceArray& points) const;
+
+    /// Gives every point of the set its style. @param styles by slot, two to a word; without
+    /// colours in the set they are not read, and what points had before is taken away
+    void set_styles(const index::Extraction& set, const DeviceArray& styles,
+                    const DeviceArray& points) const;
+
+    /// Writes the normals of all points. @param set whose bricks the pool holds
+    void fill_normals(const index::Extraction& set, const BrickPool& bricks,
+                      const DeviceArray& points) const;
+
+    /// Writes values and gradients at the vertices of all cells.
+    void fill_corners(const index::Extraction& set, const BrickPool& bricks,
+                      const DeviceArray& points, const DeviceArray& values,
+                      const DeviceArray& gradients) const;
+
+  private:
+    void use_volume(const index::Extraction& set, const BrickPool& bricks) const;
+    void bind(GLuint binding, const DeviceArray& array) const;
+    void bind(GLuint binding, const DeviceArray& array, std::size_t first, std::size_t count) const;
+    /// Runs a program for `count` things, so many at once that `prepare(begin, end)` can bind what
+    /// belongs to them.
+    template <class Prepare>
+    void run(const Program& program, std::size_t count, Prepare&& prepare) const;
+
+    const Gl* gl_;
+    index::Grid grid_;
+    Program pages_, places_, styles_, normals_, corners_;
+    Buffer volume_;
+};
+
+} // namespace isochron::render

@@ -1,0 +1,12 @@
+// Composition of a grid's geometry with its place in the room.
+#include "render/cells/placement.h"
+
+namespace isochron::render {
+
+Placement Placement::of(const index::Grid& grid, const glm::dmat4& room_from_physical) {
+    const auto cells = grid.cells();
+    return {glm::mat4(room_from_physical * grid.physical_from_index()),
+            glm::mat3(room_from_physical), glm::vec3(cells[0], cells[1], cells[2])};
+}
+
+} // namespace isochron::render

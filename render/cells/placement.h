@@ -1,0 +1,29 @@
+// Where a volume stands in the room, as the passes need it.
+#pragma once
+
+#include "index/volume/grid.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace isochron::render {
+
+struct Placement {
+    glm::mat4 room_from_index{1.0f};    ///< affine, from vertex index coordinates; may mirror
+    glm::mat3 room_from_physical{1.0f}; ///< the linear part, for normals: rotation times scale
+    glm::vec3 extent{1.0f};             ///< the volume spans [0, extent] in index coordinates
+
+    /// Of the voxels in the room [m].
+    glm::vec3 spacing() const {
+        const glm::mat3 axes(room_from_index);
+        return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
+    }
+
+    /// Multiplied in double: physical origins may be far away.
+    /// @param room_from_physical rotation, uniform scale and translation
+    static Placement of(const index::Grid& grid, const glm::dmat4& room_from_physical);
+};
+
+} // namespace isochron::render

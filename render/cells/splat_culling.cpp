@@ -1,0 +1,206 @@
+// Light that splats let through, tile by tile; compiled once for each SIMD target and chosen at run
+// time.
+#include "render/cells/splat_culling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/cells/splat_culling.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace isochron::render::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Row = hn::CappedTag<float, TileNumbers::kSlack>;
+
+/// Below this, all that lies behind changes no byte by more than its rounding.
+constexpr float kDark = 1.0f / 512.0f;
+/// [pixels] by which GL may place a splat otherwise.
+constexpr float kMargin = 1.0f / 16.0f;
+/// [pixels] from the middle of a pixel to its farthest sample: along an outline, some of them may
+/// be left out.
+constexpr float kToSample = 0.75f;
+/// Larger splats neither hide nor are hidden: they are few, and take long to look at.
+constexpr int kMostTiles = 96;
+constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
+
+using Floats = std::array<float, kMostTiles + TileNumbers::kSlack>;
+using Ints = std::array<std::int32_t, kMostTiles + TileNumbers::kSlack>;
+
+/// Along one axis: which tiles a splat touches, and its factor of the Gaussian in each, at the
+/// sample that is farthest from the splat's middle; 0 behind the last.
+struct Profile {
+    int first = 0, count = 0; ///< a count below 1: beside the view
+    Floats gaussian;
+    Floats nearest; ///< distance of the nearest sample
+};
+
+/// Tiles of each row that a disc touches, counted from the first of the profile.
+struct Spans {
+    Ints first, end;
+};
+
+/// Never above 2^x for x <= 0, near it where it counts: (1 + x ln 2 / 256)^256.
+HWY_INLINE hn::Vec<Row> below_exp2(hn::Vec<Row> x) {
+    const Row d;
+    constexpr int kSquarings = 8;
+    constexpr float kScale = 0.693147f / (1 << kSquarings);
+    auto power = hn::Max(hn::MulAdd(x, hn::Set(d, kScale), hn::Set(d, 1.0f)), hn::Zero(d));
+    for (int i = 0; i < kSquarings; ++i)
+        power = hn::Mul(power, power);
+    return power;
+}
+
+HWY_INLINE int tile_of(const TileNumbers& tiles, float at) {
+    return static_cast<int>(std::floor(std::clamp(at, -kFarthest, kFarthest))) >> tiles.bits;
+}
+
+/// @param middle, reach of the splat [pixel]
+/// @param falloff per square pixel
+/// @return false when there are too many tiles
+HWY_INLINE bool make_profile(const TileNumbers& tiles, float middle, float reach, float falloff,
+                             int count, Profile& out) {
+    out.first = std::max(tile_of(tiles, middle - reach - kMargin), 0);
+    out.count = std::min(tile_of(tiles, middle + reach + kMargin), count - 1) - out.first + 1;
+    if (out.count > kMostTiles)
+        return false;
+    const Row d;
+    const float tile = static_cast<float>(1 << tiles.bits);
+    const auto half = hn::Set(d, 0.5f * (tile - 1.0f));
+    for (int i = 0; i < out.count; i += static_cast<int>(hn::Lanes(d))) {
+        const auto number = hn::Iota(d, static_cast<float>(out.first + i));
+        const auto centre = hn::Mul(hn::Add(number, hn::Set(d, 0.5f)), hn::Set(d, tile));
+        const auto off = hn::Abs(hn::Sub(centre, hn::Set(d, middle)));
+        const auto farthest = hn::Add(off, hn::Add(half, hn::Set(d, kMargin)));
+        const auto nearest =
+            hn::Max(hn::Sub(off, hn::Add(half, hn::Set(d, kToSample))), hn::Zero(d));
+        const auto gaussian = below_exp2(hn::Mul(hn::Set(d, falloff), hn::Mul(farthest, farthest)));
+        const auto inside = hn::FirstN(d, static_cast<std::size_t>(out.count - i));
+        hn::StoreU(hn::IfThenElseZero(inside, gaussian), d, out.gaussian.data() + i);
+        hn::StoreU(nearest, d, out.nearest.data() + i);
+    }
+    return true;
+}
+
+/// Of a disc of this radius, in the rows of `up`.
+HWY_INLINE void find_spans(const TileNumbers& tiles, const Profile& across, const Profile& up,
+                           float middle, float radius, Spans& out) {
+    const Row d;
+    const hn::RebindToSigned<Row> di;
+    const auto radius2 = hn::Set(d, radius * radius), at = hn::Set(d, middle);
+    const auto zero = hn::Zero(di), count = hn::Set(di, across.count);
+    const auto tile = [&](hn::Vec<Row> pixel) {
+        const auto near = hn::Clamp(pixel, hn::Set(d, -kFarthest), hn::Set(d, kFarthest));
+        const auto number = hn::ShiftRightSame(hn::ConvertTo(di, hn::Floor(near)), tiles.bits);
+        return hn::Sub(number, hn::Set(di, across.first));
+    };
+    for (int i = 0; i < up.count; i += static_cast<int>(hn::Lanes(d))) {
+        const auto off = hn::LoadU(d, up.nearest.data() + i);
+        const auto half2 = hn::Max(hn::NegMulAdd(off, off, radius2), hn::Zero(d));
+        const auto half = hn::Add(hn::Sqrt(half2), hn::Set(d, kToSample));
+        const auto first = tile(hn::Sub(at, half));
+        const auto end = hn::Add(tile(hn::Add(at, half)), hn::Set(di, 1));
+        hn::StoreU(hn::Max(hn::Min(first, count), zero), di, out.first.data() + i);
+        hn::StoreU(hn::Max(hn::Min(end, count), zero), di, out.end.data() + i);
+    }
+}
+
+HWY_INLINE bool is_dark(const float* light, int count) {
+    const Row d;
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+        const auto lit = hn::Ge(hn::LoadU(d, light + i), hn::Set(d, kDark));
+        if (!hn::AllFalse(d, hn::And(lit, hn::FirstN(d, static_cast<std::size_t>(count - i)))))
+            return false;
+    }
+    return true;
+}
+
+/// @param least opacity that the splat surely has where it counts
+HWY_INLINE void dim(float* light, const float* gaussian, int count, float of_row, float least) {
+    const Row d;
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+        const auto opacity = hn::Mul(hn::LoadU(d, gaussian + i), hn::Set(d, of_row));
+        const auto counts = hn::Ge(opacity, hn::Set(d, least));
+        const auto before = hn::LoadU(d, light + i);
+        hn::StoreU(hn::NegMulAdd(before, hn::IfThenElseZero(counts, opacity), before), d,
+                   light + i);
+    }
+}
+
+} // namespace
+
+/// @param falloff log2 of the opacity on the outline
+/// @param seen numbers of splats in the order of the squares: room for all of them
+/// @return how many
+std::size_t find(const CellSquares& splats, float falloff, const TileNumbers& tiles,
+                 std::uint32_t* seen) {
+    Profile across, up;
+    Spans spans;
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < splats.size(); ++n) {
+        const float x = splats.x()[n], y = splats.y()[n];
+        const float inner = splats.inner_disc()[n], reach = splats.outer_disc()[n];
+        const float per_pixel2 = inner > 0.0f ? falloff / (inner * inner) : 0.0f;
+        if (!make_profile(tiles, x, reach, per_pixel2, tiles.columns, across) ||
+            !make_profile(tiles, y, reach, per_pixel2, tiles.rows, up)) {
+            seen[count++] = static_cast<std::uint32_t>(n);
+            continue;
+        }
+        if (across.count < 1 || up.count < 1)
+            continue;
+        const auto row = [&](int i) {
+            return tiles.numbers + static_cast<std::size_t>(up.first + i) * tiles.columns +
+                   across.first;
+        };
+        find_spans(tiles, across, up, x, reach, spans);
+        bool hidden = true;
+        for (int i = 0; i < up.count && hidden; ++i)
+            hidden = is_dark(row(i) + spans.first[i], spans.end[i] - spans.first[i]);
+        if (hidden)
+            continue;
+        seen[count++] = static_cast<std::uint32_t>(n);
+        if (!(inner > kToSample))
+            continue;
+        const float whole = (inner - kToSample) / inner; // as far as all samples are covered
+        const float least = std::exp2(falloff * whole * whole);
+        for (int i = 0; i < up.count; ++i)
+            if (up.gaussian[i] >= least)
+                dim(row(i), across.gaussian.data(), across.count, up.gaussian[i], least);
+    }
+    return count;
+}
+
+} // namespace isochron::render::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace isochron::render {
+
+HWY_EXPORT(find);
+
+std::span<const std::uint32_t> SeenSplats::find(const View& view, const Placement& placement,
+                                                float radius, float falloff,
+                                                std::span<const CellPlace> places,
+                                                std::span<const std::uint32_t> back_to_front) {
+    squares_.project(view, placement, radius, places, back_to_front);
+    constexpr float kTilesAcross = 8.0f; ///< half of a splat
+    constexpr int kMostTileBits = 3;
+    tiles_.lay_out(view, {squares_.inner_disc(), squares_.size()}, kTilesAcross, kMostTileBits,
+                   1.0f);
+    seen_.resize(squares_.size());
+    seen_.resize(HWY_DYNAMIC_DISPATCH(find)(squares_, falloff, tiles_.numbers(), seen_.data()));
+    for (std::uint32_t& splat : seen_)
+        splat = back_to_front[squares_.size() - 1 - splat];
+    std::ranges::reverse(seen_);
+    return seen_;
+}
+
+} // namespace isochron::render
+#endif

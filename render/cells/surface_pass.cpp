@@ -1,0 +1,32 @@
+// The programs and GL state of a draw of ray-cast cells.
+#include "render/cells/surface_pass.h"
+
+#include "render/gl/shader.h"
+
+#include <string>
+
+namespace isochron::render {
+
+SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once) : gl_(&gl) {
+    const std::vector sources{shader_file("surface.vert"), shader_file("surface.frag")};
+    for (const bool each_sample : {false, true})
+        for (const bool blended : {false, true})
+            for (const bool two : {false, true})
+                if (!two || two_views_at_once)
+                    programs_[each_sample][blended][two] = link_program(
+                        gl, sources,
+                        std::string(two ? kTwoEyes : "") + (blended ? "#define BLENDED\n" : "") +
+                            (each_sample ? "#define EACH_SAMPLE\n" : ""));
+}
+
+void SurfacePass::draw(const QuadIndices& quads, const CellBuffers& cells, bool blended,
+                       std::size_t views) const {
+    gl_->BindTextureUnit(3, cells.corner_values_texture());
+    gl_->BindTextureUnit(4, cells.corner_gradients_texture());
+    GLint samples = 0;
+    gl_->GetIntegerv(GL_SAMPLES, &samples); // of the target
+    gl_->UseProgram(programs_[samples > 1][blended][views - 1]->name());
+    quads.draw(cells.size(), static_cast<int>(views));
+}
+
+} // namespace isochron::render

@@ -1,0 +1,202 @@
+// Distances from tables per axis, and a radix sort of them.
+#include "render/cells/traversal_order.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace isochron::render {
+
+namespace {
+
+constexpr int kWeightOne = 1 << kWeightBits;
+constexpr float kHeaviest = 1 << 14;  // a spacing a hundred times the smallest: 1e4 squared
+constexpr double kFarthest = 1 << 20; // [cells]; from farther off only the direction counts
+/// References are the middles of quarter cells, in eighths of a cell: never half way between the
+/// middles of two cells, so that of these the one that the eye is in stays the nearer.
+constexpr int kPart = 2, kCell = 8, kMiddle = 4;
+constexpr double kSnapsPerRadian = 512; // of a reference beyond the grid
+
+/// Fixed point, relative to the smallest of them. A weight of at least one keeps cells apart that
+/// are a whole cell apart, and rounding to whole units of it keeps their order.
+glm::ivec3 fixed_point(const glm::vec3& weights) {
+    const float smallest =
+        std::max({std::min({weights.x, weights.y, weights.z}),
+                  std::max({weights.x, weights.y, weights.z}) / kHeaviest, 1e-30f});
+    return glm::ivec3(glm::round(glm::clamp(weights / smallest, 1.0f, kHeaviest) *
+                                 static_cast<float>(kWeightOne)));
+}
+
+/// How far a coordinate lies beyond [0, cells], negative below.
+double beyond(double eye, int cells) {
+    return eye < 0.0 ? eye : eye > cells ? eye - cells : 0.0;
+}
+
+/// @param snap in parts of a cell, used beyond the grid
+int reference_along(double eye, int cells, std::int64_t snap) {
+    const double inside = std::clamp(eye, 0.0, std::nextafter(cells, 0.0));
+    const auto part = static_cast<std::int64_t>(inside * (kCell / kPart));
+    const auto past = static_cast<std::int64_t>(std::abs(beyond(eye, cells)) * (kCell / kPart));
+    const std::int64_t snapped = past / snap * snap;
+    if (eye < 0.0)
+        return static_cast<int>(-kPart * (snapped + 1) + kPart / 2);
+    if (eye >= cells)
+        return static_cast<int>(kCell * std::int64_t{cells} + kPart * snapped + kPart / 2);
+    return static_cast<int>(kPart * part + kPart / 2);
+}
+
+using AxisTable = std::vector<std::uint64_t>;
+
+/// Per axis and coordinate its part of the distance, and their largest sum.
+struct Distances {
+    std::array<AxisTable, 3> along;
+    /// Of a distance: as coarse as keeps cells apart of which one may hide the other.
+    int unit_bits = 0;
+    std::uint64_t largest = 0;
+
+    std::uint64_t of(const CellPlace& place) const {
+        return (along[0][place.x] + along[1][place.y] + along[2][place.z]) >> unit_bits;
+    }
+};
+
+Distances distances(std::span<const CellPlace> places, const TraversalKey& key) {
+    glm::ivec3 low(std::numeric_limits<int>::max()), high(0);
+    for (const CellPlace& place : places) {
+        const glm::ivec3 at(place.x, place.y, place.z);
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    Distances result;
+    // Squares differ by a quarter of a cell at least: (5/8)^2 - (3/8)^2, at the eye's own cell.
+    result.unit_bits =
+        kWeightBits + (key.reference.w != 0 ? std::countr_zero(kCell * kCell / 4u) : 0);
+    for (int axis = 0; axis < 3; ++axis) {
+        AxisTable& table = result.along[axis];
+        table.resize(high[axis] + 1);
+        const std::int64_t reference = key.reference[axis], weight = key.weights[axis];
+        std::uint64_t most = 0, least = std::numeric_limits<std::uint64_t>::max();
+        for (int at = low[axis]; at <= high[axis]; ++at) {
+            const std::int64_t off = key.reference.w != 0
+                                         ? std::abs(kCell * at + kMiddle - reference)
+                                     : reference < 0 ? at
+                                                     : high[axis] - at;
+            table[at] = off * (key.reference.w != 0 ? off : 1) * weight;
+            most = std::max(most, table[at]);
+            least = std::min(least, table[at]);
+        }
+        // Only differences count; small numbers are sorted in fewer passes.
+        for (int at = low[axis]; at <= high[axis]; ++at)
+            table[at] -= least;
+        result.largest += most - least;
+    }
+    result.largest >>= result.unit_bits;
+    return result;
+}
+
+/// A slot with its cell's nearness, 0 for the farthest. Most fit into one word, which moves faster.
+struct Narrow {
+    std::uint64_t word;
+    Narrow() = default;
+    Narrow(std::uint64_t nearness, std::uint32_t slot) : word(nearness << 32 | slot) {}
+    std::uint64_t nearness() const { return word >> 32; }
+    std::uint32_t slot() const { return static_cast<std::uint32_t>(word); }
+};
+struct Wide {
+    std::uint64_t near_;
+    std::uint32_t slot_;
+    Wide() = default;
+    Wide(std::uint64_t nearness, std::uint32_t slot) : near_(nearness), slot_(slot) {}
+    std::uint64_t nearness() const { return near_; }
+    std::uint32_t slot() const { return slot_; }
+};
+
+constexpr int kDigitBits = 11;
+
+template <class Entry>
+std::size_t digit(const Entry& entry, int shift) {
+    return entry.nearness() >> shift & ((1u << kDigitBits) - 1);
+}
+
+/// One stable pass over a digit.
+template <class Entry>
+void sort_by_digit(const std::vector<Entry>& from, std::vector<Entry>& to, int shift) {
+    std::array<std::uint32_t, 1 << kDigitBits> begin{};
+    for (const Entry& entry : from)
+        ++begin[digit(entry, shift)];
+    std::uint32_t sum = 0;
+    for (std::uint32_t& count : begin)
+        sum += std::exchange(count, sum);
+    for (const Entry& entry : from)
+        to[begin[digit(entry, shift)]++] = entry;
+}
+
+template <class Entry>
+void sort_by_distance(const Slots& slots, const Distances& distance,
+                      std::vector<std::uint32_t>& order) {
+    std::vector<Entry> entries(order.size()), sorted(order.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+        const std::uint32_t slot = slots.slot_of_rank[rank];
+        entries[rank] = {distance.largest - distance.of(slots.places[slot]), slot};
+    }
+    for (int shift = 0; distance.largest >> shift != 0; shift += kDigitBits) {
+        sort_by_digit(entries, sorted, shift);
+        entries.swap(sorted);
+    }
+    std::ranges::transform(entries, order.begin(), &Entry::slot);
+}
+
+} // namespace
+
+TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells,
+                           const glm::vec3& spacing) {
+    TraversalKey key;
+    if (eye.w == 0.0f) {
+        // Any direction within the same octant is right; this one has the same proportions.
+        const glm::vec3 towards = glm::abs(glm::vec3(eye)) * spacing * spacing;
+        for (int axis = 0; axis < 3; ++axis)
+            key.reference[axis] = eye[axis] < 0.0f ? -1 : 1;
+        key.reference.w = 0;
+        key.weights = fixed_point(towards);
+        return key;
+    }
+    key.weights = fixed_point(spacing * spacing);
+    const glm::dvec3 middle = 0.5 * glm::dvec3(cells);
+    glm::dvec3 from_middle = glm::dvec3(eye) - middle;
+    const glm::dvec3 size = glm::abs(from_middle);
+    const double farthest = std::max({size.x, size.y, size.z});
+    glm::dvec3 excess(0.0);
+    glm::dvec3 at = glm::dvec3(eye);
+    for (int axis = 0; axis < 3; ++axis) {
+        excess[axis] = beyond(at[axis], cells[axis]);
+        if (excess[axis] != 0.0 && farthest > kFarthest)
+            excess[axis] *= kFarthest / farthest;
+        if (excess[axis] != 0.0)
+            at[axis] = excess[axis] < 0.0 ? excess[axis] : cells[axis] + excess[axis];
+    }
+    const auto coarse =
+        static_cast<std::uint64_t>(glm::length(excess) * (kCell / kPart) / kSnapsPerRadian);
+    const auto snap = static_cast<std::int64_t>(std::bit_floor(std::max<std::uint64_t>(coarse, 1)));
+    for (int axis = 0; axis < 3; ++axis)
+        key.reference[axis] = reference_along(at[axis], cells[axis], snap);
+    return key;
+}
+
+void order_back_to_front(const Slots& slots, const TraversalKey& key,
+                         std::vector<std::uint32_t>& order) {
+    order.resize(slots.places.size());
+    if (order.empty())
+        return;
+    const Distances distance = distances(slots.places, key);
+    if (distance.largest >> 32 == 0)
+        sort_by_distance<Narrow>(slots, distance, order);
+    else
+        sort_by_distance<Wide>(slots, distance, order);
+}
+
+} // namespace isochron::render

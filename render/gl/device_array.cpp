@@ -1,0 +1,44 @@
+// Growth of GPU memory.
+#include "render/gl/device_array.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::render {
+
+DeviceArray::DeviceArray(const Gl& gl, const char* what, GLenum format, std::size_t texel_bytes,
+                         std::size_t texels, Storage storage)
+    : gl_(&gl), what_(what), format_(format), texel_bytes_(texel_bytes), texels_(texels),
+      buffer_(gl), texture_(gl, GL_TEXTURE_BUFFER) {
+    GLint most_texels = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
+    limit_ = static_cast<std::size_t>(most_texels) / texels_;
+    if (storage == Storage::whole) {
+        GLint64 most_bytes = 0;
+        gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most_bytes);
+        limit_ = std::min(limit_, static_cast<std::size_t>(most_bytes) / element_bytes());
+    }
+    reserve(1, Contents::dropped); // never without memory behind the texture
+}
+
+void DeviceArray::reserve(std::size_t elements, Contents contents) {
+    if (elements <= capacity_)
+        return;
+    if (elements > limit_)
+        throw Error(fmt::format("{} {}: this GL holds at most {}", elements, what_, limit_));
+    // By half as much again, so that sets that grow little by little rarely move.
+    const std::size_t capacity = std::min(std::max(elements, capacity_ + capacity_ / 2), limit_);
+    Buffer larger(*gl_);
+    gl_->NamedBufferData(larger.name(), static_cast<GLsizeiptr>(capacity * element_bytes()),
+                         nullptr, GL_DYNAMIC_COPY);
+    if (contents == Contents::kept)
+        gl_->CopyNamedBufferSubData(buffer_.name(), larger.name(), 0, 0,
+                                    static_cast<GLsizeiptr>(capacity_ * element_bytes()));
+    gl_->TextureBuffer(texture_.name(), format_, larger.name());
+    buffer_ = std::move(larger);
+    capacity_ = capacity;
+}
+
+} // namespace isochron::render

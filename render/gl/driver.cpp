@@ -1,0 +1,26 @@
+// What is known of the GL driver in use.
+#include "render/gl/driver.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace isochron::render {
+
+bool draws_in_software(const Gl& gl) {
+    constexpr std::array<std::string_view, 4> kSoftware{"llvmpipe", "softpipe", "swr",
+                                                        "SwiftShader"};
+    const auto* text = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+    const std::string_view renderer = text ? text : "";
+    return std::ranges::any_of(kSoftware, [&](std::string_view name) {
+        return renderer.find(name) != std::string_view::npos;
+    });
+}
+
+int max_samples(const Gl& gl) {
+    GLint most = 1;
+    gl.GetIntegerv(GL_MAX_SAMPLES, &most);
+    return std::max(most, 1);
+}
+
+} // namespace isochron::render

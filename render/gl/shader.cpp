@@ -1,0 +1,126 @@
+// Compiling and linking of shader files.
+#include "render/gl/shader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace isochron::render {
+
+namespace {
+
+struct ShaderKind {
+    static GLuint create(const Gl& gl, GLenum stage) { return gl.CreateShader(stage); }
+    static void destroy(const Gl& gl, GLuint name) { gl.DeleteShader(name); }
+};
+using Shader = GlObject<ShaderKind>;
+
+struct Stage {
+    std::string_view extension, definition;
+    GLenum kind;
+};
+constexpr std::array kStages{Stage{".vert", "VERTEX_STAGE", GL_VERTEX_SHADER},
+                             Stage{".frag", "FRAGMENT_STAGE", GL_FRAGMENT_SHADER},
+                             Stage{".comp", "COMPUTE_STAGE", GL_COMPUTE_SHADER}};
+
+const Stage& stage_of(std::string_view name) {
+    for (const Stage& stage : kStages)
+        if (name.ends_with(stage.extension))
+            return stage;
+    throw Error(fmt::format("{}: unknown kind of shader, expected .vert, .frag or .comp", name));
+}
+
+/// The text with every included file in place of its #include line; lines are counted as in the
+/// file itself, so that the driver's messages name the right one.
+std::string with_includes(std::string_view text) {
+    constexpr std::string_view kInclude = "#include \"";
+    std::string result;
+    for (int line = 1; !text.empty(); ++line) {
+        const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+        const std::string_view current = text.substr(0, end);
+        if (current.starts_with(kInclude)) {
+            const std::string_view name = current.substr(kInclude.size());
+            const ShaderSource included = shader_file(name.substr(0, name.find('"')));
+            result += fmt::format("#line 1\n{}#line {}\n", with_includes(included.text), line + 1);
+        } else {
+            result += current;
+        }
+        text.remove_prefix(end);
+    }
+    return result;
+}
+
+/// `#version` stays the first line.
+std::string complete_text(const ShaderSource& source, std::string_view prelude,
+                          std::string_view definition) {
+    const std::string text = with_includes(source.text);
+    const std::size_t version_end = text.find('\n') + 1;
+    return fmt::format("{}#define {}\n{}#line 2\n{}", text.substr(0, version_end), definition,
+                       prelude, text.substr(version_end));
+}
+
+Shader compile(const Gl& gl, const ShaderSource& source, std::string_view prelude) {
+    const Stage& stage = stage_of(source.name);
+    Shader shader(gl, stage.kind);
+    const std::string complete = complete_text(source, prelude, stage.definition);
+    const GLchar* text = complete.data();
+    const auto length = static_cast<GLint>(complete.size());
+    gl.ShaderSource(shader.name(), 1, &text, &length);
+    gl.CompileShader(shader.name());
+    GLint compiled = 0, log_length = 0;
+    gl.GetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
+    if (!compiled) {
+        gl.GetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &log_length);
+        std::string log(std::max(log_length, 1), '\0');
+        gl.GetShaderInfoLog(shader.name(), log_length, nullptr, log.data());
+        throw Error(fmt::format("{}: shader does not compile: {}", source.name, log.c_str()));
+    }
+    return shader;
+}
+
+} // namespace
+
+ShaderSource shader_file(std::string_view name) {
+    for (const ShaderSource& file : shader_files())
+        if (file.name == name)
+            return file;
+    throw Error(fmt::format("{}: no such shader file", name));
+}
+
+bool has_extension(const Gl& gl, std::string_view name) {
+    GLint count = 0;
+    gl.GetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint i = 0; i < count; ++i)
+        if (reinterpret_cast<const char*>(gl.GetStringi(GL_EXTENSIONS, i)) == name)
+            return true;
+    return false;
+}
+
+Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
+                     std::string_view prelude) {
+    Program program(gl);
+    std::vector<Shader> shaders;
+    for (const ShaderSource& source : sources)
+        gl.AttachShader(program.name(), shaders.emplace_back(compile(gl, source, prelude)).name());
+    gl.LinkProgram(program.name());
+    for (const Shader& shader : shaders)
+        gl.DetachShader(program.name(), shader.name());
+    GLint linked = 0, log_length = 0;
+    gl.GetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+    if (!linked) {
+        gl.GetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &log_length);
+        std::string log(std::max(log_length, 1), '\0');
+        gl.GetProgramInfoLog(program.name(), log_length, nullptr, log.data());
+        std::vector<std::string_view> names;
+        for (const ShaderSource& source : sources)
+            names.push_back(source.name);
+        throw Error(
+            fmt::format("{}: shaders do not link: {}", fmt::join(names, ", "), log.c_str()));
+    }
+    return program;
+}
+
+} // namespace isochron::render

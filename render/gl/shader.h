@@ -1,0 +1,39 @@
+// Programs from the shader files in render/shaders, whose text is part of the library.
+//
+// A line `#include "name.glsl"` is replaced by that file's text. VERTEX_STAGE or FRAGMENT_STAGE is
+// defined, so that both stages can include the same declarations.
+#pragma once
+
+#include "render/gl/gl_objects.h"
+
+#include <string_view>
+#include <vector>
+
+namespace isochron::render {
+
+struct ShaderSource {
+    std::string_view name; ///< file name; the extension (.vert, .frag, .comp) says the stage
+    std::string_view text; ///< GLSL 4.50 core
+};
+
+/// Every shader file, in the order of their names.
+const std::vector<ShaderSource>& shader_files();
+
+/// The file of that name. @throws Error when there is none
+ShaderSource shader_file(std::string_view name);
+
+/// Prelude of programs that draw two views in one pass, see frame.glsl.
+inline constexpr std::string_view kTwoEyes =
+    "#extension GL_ARB_shader_viewport_layer_array : require\n"
+    "#define TWO_EYES\n";
+
+/// Compiles and links.
+/// @param prelude lines behind #version in every stage: extensions and definitions
+/// @throws Error with the file's name and the driver's log
+Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
+                     std::string_view prelude = {});
+
+/// Whether the context has the extension (`GL_ARB_shader_viewport_layer_array`).
+bool has_extension(const Gl& gl, std::string_view name);
+
+} // namespace isochron::render

@@ -1,0 +1,40 @@
+// Colour maps whose equal steps look equal, made from curves in CIE L*a*b*.
+#pragma once
+
+#include "render/gl/gl_objects.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace isochron::render {
+
+enum class ColorMap : std::uint8_t {
+    dusk,   ///< violet over red to pale yellow, ever lighter
+    lagoon, ///< violet over green to yellow, ever lighter: readable with any colour vision
+    polar,  ///< blue over light grey to red: for values about a middle
+    grey    ///< lightness alone
+};
+constexpr std::array<std::string_view, 4> kColorMapNames{"dusk", "lagoon", "polar", "grey"};
+std::optional<ColorMap> color_map_from_name(std::string_view name);
+
+constexpr std::size_t kColorMapSize = 256;
+
+/// The map from low to high, linear light. Neighbours are equally far apart (Delta E*ab, within a
+/// fifth), and lightness L* grows all the way (`polar`: to the middle, and falls behind it) from 32
+/// on, so that low values still show their shape before a dark background.
+std::vector<glm::vec3> color_map(ColorMap map);
+
+/// The map as GL_TEXTURE_1D that interpolates between its colours.
+Texture color_map_texture(const Gl& gl, ColorMap map);
+
+/// Colours for up to eight surfaces that stay apart with the common kinds of colour blindness:
+/// the set of M. Okabe and K. Ito, "Color Universal Design", 2002 (jfly.uni-koeln.de/color), its
+/// black replaced by a light grey since the background is dark. sRGB, 0 to 1.
+const std::array<glm::vec3, 8>& surface_palette();
+
+} // namespace isochron::render

@@ -1,0 +1,51 @@
+// Draws lines in space: the volume's box, the wand's ray, a floor to stand on.
+#pragma once
+
+#include "render/gl/gl_objects.h"
+#include "render/gl/quad_indices.h"
+#include "render/gl/view.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <span>
+#include <vector>
+
+namespace isochron::render {
+
+struct Line {
+    glm::vec3 from, to;
+    glm::vec4 color{1.0f}; ///< sRGB, not pre-multiplied; a: opacity
+};
+
+/// The twelve edges of the box [0, extent] as an eye sees them that looks at what is inside.
+struct BoxLines {
+    std::vector<Line> near; ///< sides of a face that faces the eye: nothing inside hides them
+    std::vector<Line> far;  ///< the others, which hide nothing inside; all, from inside
+};
+/// @param eye in the box's coordinates
+BoxLines box_lines(const glm::vec3& extent, const glm::vec4& color, const glm::vec3& eye);
+
+class LinePass {
+  public:
+    /// @throws Error when a shader does not compile
+    explicit LinePass(const Gl& gl);
+
+    /// Draws into the view's viewport of the bound framebuffer, `width` pixels wide at any
+    /// distance, with soft edges; tests depth and writes that of the lines' core. Soft edges blend
+    /// with what has been drawn: draw lines after what lies behind them, and those that splats may
+    /// lie before, which write no depth, before these. Leaves depth test and depth writes on,
+    /// blending and culling off.
+    void draw(const View& view, const glm::mat4& room_from_model, std::span<const Line> lines,
+              float width = 1.5f);
+
+  private:
+    const Gl* gl_;
+    Program program_;
+    QuadIndices quads_;
+    Buffer segments_, frame_;
+    Texture texture_;
+};
+
+} // namespace isochron::render

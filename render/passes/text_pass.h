@@ -1,0 +1,80 @@
+// Draws text that stands at places of the room and faces the screen, and plain rectangles with it.
+//
+//     TextPass text(gl, atlas);
+//     std::vector<ScreenQuad> quads;
+//     text.set({.text = "20 mm", .at = {0, 0, 20}}, 14.0f, quads);
+//     text.draw(view, room_from_index, quads);
+#pragma once
+
+#include "render/gl/gl_objects.h"
+#include "render/gl/quad_indices.h"
+#include "render/gl/view.h"
+#include "render/passes/glyph_atlas.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::render {
+
+/// One line of text at a point.
+struct Label {
+    std::string text;                        ///< UTF-8
+    glm::vec3 at{0.0f};                      ///< model space
+    glm::vec2 anchor{0.5f};                  ///< which part of the text is there: 0 left, bottom
+    glm::vec2 offset{0.0f};                  ///< from there, in heights of the text, up positive
+    glm::vec4 color{1.0f, 1.0f, 1.0f, 1.0f}; ///< sRGB, not pre-multiplied; a: opacity
+};
+
+/// A rectangle on the screen, as the shader takes it: one character, or one plain area.
+struct ScreenQuad {
+    glm::vec3 at{0.0f}; ///< what it is fastened to, model space
+    float padding = 0.0f;
+    glm::vec2 low{0.0f}, high{0.0f}; ///< from there, pixels, up positive
+    glm::vec2 texture_low{0.0f}, texture_high{0.0f};
+    glm::vec4 color{1.0f}; ///< as in Label
+};
+static_assert(sizeof(ScreenQuad) == 16 * sizeof(float));
+
+class TextPass {
+  public:
+    /// @throws Error when a shader does not compile
+    TextPass(const Gl& gl, GlyphAtlas atlas);
+
+    const GlyphAtlas& atlas() const { return atlas_; }
+
+    /// Appends the characters of a label, `height` pixels high.
+    void set(const Label& label, float height, std::vector<ScreenQuad>& quads) const;
+
+    /// Appends a plain rectangle.
+    void fill(const glm::vec3& at, const glm::vec2& low, const glm::vec2& high,
+              const glm::vec4& color, std::vector<ScreenQuad>& quads) const;
+
+    enum class Depth : std::uint8_t {
+        tested, ///< and written, of the characters' cores: draw text before splats
+        none    ///< over everything
+    };
+    /// Draws into the view's viewport of the bound framebuffer. Each quad has the depth of what it
+    /// is fastened to and is parallel to the screen, so that both eyes see one upright text at that
+    /// depth. Nothing is moved to whole pixels: that would move it in depth. What is behind the eye
+    /// is left out. Leaves depth test and depth writes on, blending and culling off.
+    void draw(const View& view, const glm::mat4& room_from_model, std::span<const ScreenQuad> quads,
+              Depth depth = Depth::tested);
+
+  private:
+    const Gl* gl_;
+    GlyphAtlas atlas_;
+    Program program_;
+    QuadIndices quads_;
+    Buffer buffer_, frame_;
+    Texture buffer_texture_, glyphs_;
+};
+
+/// A view whose room is the viewport itself: x and y in pixels from its lower left, z 0.
+View pixel_view(const View& view);
+
+} // namespace isochron::render

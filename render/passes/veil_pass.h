@@ -1,0 +1,31 @@
+// Darkens an eye's picture: while tracking is lost, and around its middle while the viewer flies.
+#pragma once
+
+#include "render/gl/gl_objects.h"
+#include "render/gl/view.h"
+
+namespace isochron::render {
+
+/// Each from 0, nothing, to 1, black.
+struct Veil {
+    float whole = 0.0f; ///< over all of the picture
+    float rim = 0.0f;   ///< towards its corners
+    bool operator==(const Veil&) const = default;
+};
+
+class VeilPass {
+  public:
+    /// @throws Error when a shader does not compile
+    explicit VeilPass(const Gl& gl);
+
+    /// Draws over the view's viewport of the bound framebuffer, whatever its depths; nothing where
+    /// there is no veil. Leaves the depth test on and blending off.
+    void draw(const View& view, const Veil& veil) const;
+
+  private:
+    const Gl* gl_;
+    Program program_;
+    VertexArray no_attributes_;
+};
+
+} // namespace isochron::render

@@ -1,0 +1,263 @@
+// A context with a window: GLFW, and the translation of its events.
+#include "stereo/context/gl_context_backends.h"
+#include "stereo/context/gl_context_glfw_native.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+namespace isochron::stereo {
+namespace {
+
+using namespace interaction;
+
+/// What GLFW last complained about; it reports through a callback without a user pointer.
+std::string& glfw_complaint() {
+    static std::string text;
+    return text;
+}
+
+[[noreturn]] void fail(const std::string& what) {
+    throw render::Error(glfw_complaint().empty() ? what
+                                                 : fmt::format("{}: {}", what, glfw_complaint()));
+}
+
+/// GLFW's one initialisation, shared by all windows.
+class GlfwLibrary {
+  public:
+    static std::shared_ptr<GlfwLibrary> shared() {
+        static std::weak_ptr<GlfwLibrary> opened;
+        std::shared_ptr<GlfwLibrary> library = opened.lock();
+        if (!library)
+            opened = library = std::make_shared<GlfwLibrary>();
+        return library;
+    }
+    GlfwLibrary() {
+        glfw_complaint().clear();
+        glfwSetErrorCallback([](int, const char* text) { glfw_complaint() = text; });
+        if (!glfwInit())
+            fail("no display to open a window on");
+    }
+    ~GlfwLibrary() { glfwTerminate(); }
+    GlfwLibrary(const GlfwLibrary&) = delete;
+    GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+};
+
+/// Key has GLFW's own numbers for what it names; the number pad stands for the keys it repeats.
+Key key_from_glfw(int key) {
+    if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9)
+        return static_cast<Key>('0' + key - GLFW_KEY_KP_0);
+    switch (key) {
+    case GLFW_KEY_KP_DECIMAL: return Key::period;
+    case GLFW_KEY_KP_SUBTRACT: return Key::minus;
+    case GLFW_KEY_KP_ADD: return Key::equal;
+    case GLFW_KEY_KP_ENTER: return Key::enter;
+    default: break;
+    }
+    const bool named = (key >= GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT) ||
+                       (key >= GLFW_KEY_ESCAPE && key <= GLFW_KEY_END) ||
+                       (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) ||
+                       (key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_LEFT_ALT) ||
+                       (key >= GLFW_KEY_RIGHT_SHIFT && key <= GLFW_KEY_RIGHT_ALT);
+    return named ? static_cast<Key>(key) : Key::unknown;
+}
+static_assert(int(Key::escape) == GLFW_KEY_ESCAPE && int(Key::end) == GLFW_KEY_END &&
+              int(Key::f1) == GLFW_KEY_F1 && int(Key::f12) == GLFW_KEY_F12 &&
+              int(Key::left_shift) == GLFW_KEY_LEFT_SHIFT &&
+              int(Key::left_alt) == GLFW_KEY_LEFT_ALT &&
+              int(Key::right_shift) == GLFW_KEY_RIGHT_SHIFT &&
+              int(Key::right_alt) == GLFW_KEY_RIGHT_ALT && int(Key::space) == GLFW_KEY_SPACE);
+
+std::optional<MouseButton> button_from_glfw(int button) {
+    switch (button) {
+    case GLFW_MOUSE_BUTTON_LEFT: return MouseButton::left;
+    case GLFW_MOUSE_BUTTON_RIGHT: return MouseButton::right;
+    case GLFW_MOUSE_BUTTON_MIDDLE: return MouseButton::middle;
+    default: return std::nullopt;
+    }
+}
+
+GamepadEvent first_gamepad() {
+    GamepadEvent event{};
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
+        GLFWgamepadstate state;
+        if (!glfwJoystickIsGamepad(joystick) || !glfwGetGamepadState(joystick, &state))
+            continue;
+        event.present = true;
+        std::copy(std::begin(state.axes), std::end(state.axes), event.axes);
+        for (std::size_t i = 0; i < std::size(state.buttons); ++i)
+            if (state.buttons[i] == GLFW_PRESS)
+                event.buttons |= 1u << i;
+        break;
+    }
+    return event;
+}
+
+bool same(const GamepadEvent& a, const GamepadEvent& b) {
+    return a.present == b.present && a.buttons == b.buttons &&
+           std::equal(std::begin(a.axes), std::end(a.axes), b.axes);
+}
+
+class GlfwContext final : public GlContext {
+  public:
+    explicit GlfwContext(const ContextOptions& options) : library_(GlfwLibrary::shared()) {
+        glfw_complaint().clear();
+        glfwDefaultWindowHints();
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+        // Pictures are composed in textures; the window itself needs colour only.
+        glfwWindowHint(GLFW_DEPTH_BITS, 0);
+        glfwWindowHint(GLFW_STENCIL_BITS, 0);
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        glfwWindowHint(GLFW_DECORATED, options.border ? GLFW_TRUE : GLFW_FALSE);
+        glfwWindowHint(GLFW_STEREO, options.stereo_buffers ? GLFW_TRUE : GLFW_FALSE);
+        GLFWmonitor* monitor = options.fullscreen ? monitor_of(options.monitor) : nullptr;
+        glm::ivec2 size = options.size;
+        if (monitor) {
+            // The monitor's present mode: no mode switch, so that genlock and layout survive.
+            const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+            glfwWindowHint(GLFW_RED_BITS, mode->redBits);
+            glfwWindowHint(GLFW_GREEN_BITS, mode->greenBits);
+            glfwWindowHint(GLFW_BLUE_BITS, mode->blueBits);
+            glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
+            size = {mode->width, mode->height};
+        }
+        if (options.api == ContextApi::egl)
+            glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
+        auto* share = static_cast<GlfwContext*>(options.share);
+        window_ = glfwCreateWindow(size.x, size.y, options.title.c_str(), monitor,
+                                   share ? share->window_ : nullptr);
+        if (!window_ && options.stereo_buffers)
+            fail("no window with a left and a right buffer, which stereo mode quadbuffer needs; "
+                 "--stereo chooses another mode, --emulate shows the installation in one window");
+        if (!window_)
+            fail("no window with an OpenGL 4.5 core context");
+        glfwSetWindowUserPointer(window_, this);
+        set_callbacks();
+        if (!monitor && options.position != glm::ivec2(-1))
+            glfwSetWindowPos(window_, options.position.x, options.position.y);
+        glfwShowWindow(window_);
+        glfwMakeContextCurrent(window_);
+        glfwSwapInterval(options.vsync ? 1 : 0);
+        stereo_buffers_ = options.stereo_buffers;
+        if (share)
+            share->make_current();
+    }
+    ~GlfwContext() override { glfwDestroyWindow(window_); }
+    GlfwContext(const GlfwContext&) = delete;
+    GlfwContext& operator=(const GlfwContext&) = delete;
+
+    void make_current() override { glfwMakeContextCurrent(window_); }
+    render::GlLoader loader() const override {
+        return [](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); };
+    }
+    glm::ivec2 framebuffer_size() const override {
+        glm::ivec2 size;
+        glfwGetFramebufferSize(window_, &size.x, &size.y);
+        return size;
+    }
+    bool has_window() const override { return true; }
+    bool has_stereo_buffers() const override { return stereo_buffers_; }
+    void present() override { glfwSwapBuffers(window_); }
+    std::optional<double> refresh_rate() const override {
+        GLFWmonitor* monitor = monitor_under_window();
+        const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+        if (!mode || mode->refreshRate <= 0)
+            return std::nullopt;
+        return mode->refreshRate;
+    }
+    bool should_close() const override { return glfwWindowShouldClose(window_); }
+    std::vector<WindowEvent> poll_events() override {
+        glfwPollEvents();
+        if (const GamepadEvent gamepad = first_gamepad(); !same(gamepad, gamepad_))
+            events_.push_back(gamepad_ = gamepad);
+        return std::exchange(events_, {});
+    }
+    NativeGl native() const override { return native_of(window_); }
+    std::string description() const override { return "GLFW, " + describe_current(loader()); }
+
+  private:
+    static GLFWmonitor* monitor_of(int index) {
+        int count = 0;
+        GLFWmonitor** monitors = glfwGetMonitors(&count);
+        if (index < 0 || index >= count)
+            throw render::Error(fmt::format("monitor {} does not exist, there {} {}", index,
+                                            count == 1 ? "is" : "are", count));
+        return monitors[index];
+    }
+
+    /// The monitor that shows the middle of the window, else the first one; null without any.
+    GLFWmonitor* monitor_under_window() const {
+        glm::ivec2 corner, size;
+        glfwGetWindowPos(window_, &corner.x, &corner.y);
+        glfwGetWindowSize(window_, &size.x, &size.y);
+        const glm::ivec2 middle = corner + size / 2;
+        int count = 0;
+        GLFWmonitor** monitors = glfwGetMonitors(&count);
+        for (int i = 0; i < count; ++i) {
+            glm::ivec2 from, extent;
+            glfwGetMonitorPos(monitors[i], &from.x, &from.y);
+            const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+            extent = mode ? glm::ivec2(mode->width, mode->height) : glm::ivec2(0);
+            const glm::ivec2 at = middle - from;
+            if (at.x >= 0 && at.y >= 0 && at.x < extent.x && at.y < extent.y)
+                return monitors[i];
+        }
+        return glfwGetPrimaryMonitor();
+    }
+
+    static void push(GLFWwindow* window, const WindowEvent& event) {
+        static_cast<GlfwContext*>(glfwGetWindowUserPointer(window))->events_.push_back(event);
+    }
+
+    void set_callbacks() {
+        glfwSetKeyCallback(window_, [](GLFWwindow* window, int glfw_key, int, int action, int) {
+            const Key key = key_from_glfw(glfw_key);
+            if (key != Key::unknown && action != GLFW_REPEAT)
+                push(window, KeyEvent{key, action == GLFW_PRESS});
+        });
+        glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+            push(window, TextEvent{static_cast<char32_t>(character)});
+        });
+        glfwSetMouseButtonCallback(
+            window_, [](GLFWwindow* window, int glfw_button, int action, int) {
+                if (const auto button = button_from_glfw(glfw_button))
+                    push(window, MouseButtonEvent{*button, action == GLFW_PRESS});
+            });
+        glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+            int width = 0, height = 0;
+            glfwGetWindowSize(window, &width, &height);
+            if (width > 0 && height > 0)
+                push(window, MouseMoveEvent{static_cast<float>(x / width),
+                                            static_cast<float>(y / height), width, height});
+        });
+        glfwSetScrollCallback(window_, [](GLFWwindow* window, double dx, double dy) {
+            push(window, ScrollEvent{static_cast<float>(dx), static_cast<float>(dy)});
+        });
+        glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
+            push(window, FocusEvent{focused == GLFW_TRUE});
+        });
+    }
+
+    std::shared_ptr<GlfwLibrary> library_;
+    GLFWwindow* window_ = nullptr;
+    std::vector<WindowEvent> events_;
+    GamepadEvent gamepad_{};
+    bool stereo_buffers_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<GlContext> make_glfw_context(const ContextOptions& options) {
+    return std::make_unique<GlfwContext>(options);
+}
+
+} // namespace isochron::stereo

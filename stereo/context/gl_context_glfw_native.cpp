@@ -1,0 +1,96 @@
+// What GLFW tells of a window's context, and what GLX and EGL have to be asked for.
+#include "stereo/context/gl_context_glfw_native.h"
+
+#include "stereo/context/glx_types.h"
+#include "stereo/context/shared_library.h"
+
+#define EGL_NO_X11
+#include <EGL/egl.h>
+
+// Of Xrandr, which GLFW's header would include all of for them.
+using RRCrtc = XID;
+using RROutput = XID;
+#define GLFW_INCLUDE_NONE
+#define GLFW_NATIVE_INCLUDE_NONE
+#define GLFW_EXPOSE_NATIVE_X11
+#define GLFW_EXPOSE_NATIVE_GLX
+#define GLFW_EXPOSE_NATIVE_EGL
+#include <GLFW/glfw3.h>
+#include <GLFW/glfw3native.h>
+
+namespace isochron::stereo {
+namespace {
+
+/// The object of a number, as both libraries look it up: a context tells the number alone.
+template <typename Query, typename Choose>
+auto config_of(Query query, Choose choose, int id_name, int end) {
+    int id = 0;
+    query(id_name, &id);
+    const int attributes[] = {id_name, id, end};
+    return choose(attributes);
+}
+
+EglHandles egl_handles(GLFWwindow* window) {
+    const SharedLibrary library("libEGL.so.1");
+    decltype(&eglQueryContext) query;
+    decltype(&eglChooseConfig) choose;
+    decltype(&eglGetProcAddress) get;
+    library.get(query, "eglQueryContext");
+    library.get(choose, "eglChooseConfig");
+    library.get(get, "eglGetProcAddress");
+    EGLDisplay display = glfwGetEGLDisplay();
+    EGLContext context = glfwGetEGLContext(window);
+    EGLConfig config =
+        config_of([&](int name, int* value) { query(display, context, name, value); },
+                  [&](const int* attributes) {
+                      EGLConfig found = nullptr;
+                      EGLint count = 0;
+                      choose(display, attributes, &found, 1, &count);
+                      return found;
+                  },
+                  EGL_CONFIG_ID, EGL_NONE);
+    return {display, config, context, get};
+}
+
+GlxHandles glx_handles(GLFWwindow* window) {
+    constexpr int kConfigId = 0x8013, kVisualId = 0x800B, kEnd = 0; // GLX 1.3
+    const SharedLibrary library("libGL.so.1"), xlib("libX11.so.6");
+    int (*query)(Display*, GLXContext, int, int*);
+    GLXFBConfig* (*choose)(Display*, int, const int*, int*);
+    int (*attribute)(Display*, GLXFBConfig, int, int*);
+    int (*release)(void*);
+    library.get(query, "glXQueryContext");
+    library.get(choose, "glXChooseFBConfig");
+    library.get(attribute, "glXGetFBConfigAttrib");
+    xlib.get(release, "XFree");
+    Display* display = glfwGetX11Display();
+    GLXContext context = glfwGetGLXContext(window);
+    GLXFBConfig config =
+        config_of([&](int name, int* value) { query(display, context, name, value); },
+                  [&](const int* attributes) -> GLXFBConfig {
+                      int count = 0;
+                      GLXFBConfig* found =
+                          choose(display, DefaultScreen(display), attributes, &count);
+                      const GLXFBConfig first = count > 0 ? found[0] : nullptr;
+                      if (found)
+                          release(found);
+                      return first;
+                  },
+                  kConfigId, kEnd);
+    int visual = 0;
+    if (config)
+        attribute(display, config, kVisualId, &visual);
+    return {display, static_cast<std::uint32_t>(visual), config, glfwGetGLXWindow(window), context};
+}
+
+} // namespace
+
+NativeGl native_of(GLFWwindow* window) {
+    if (glfwGetWindowAttrib(window, GLFW_CONTEXT_CREATION_API) == GLFW_EGL_CONTEXT_API)
+        return egl_handles(window);
+    if (glfwGetX11Display() && glfwGetGLXContext(window))
+        return glx_handles(window);
+    return {};
+}
+
+} // namespace isochron::stereo

@@ -1,0 +1,80 @@
+// Swapping of all windows of a cluster at once.
+#include "stereo/context/swap_group.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+namespace isochron::stereo {
+namespace {
+
+// GLX's types, as its headers define them: with these, X11 and its headers are not needed.
+using XDisplay = void*;
+using GlxContext = void*;
+using GlxDrawable = unsigned long;
+constexpr int kGlxScreen = 0x800C;
+
+constexpr std::string_view kExtension = "GLX_NV_swap_group";
+constexpr GLuint kGroup = 1, kBarrier = 1;
+
+[[noreturn]] void fail(const std::string& why) {
+    throw render::Error(
+        fmt::format("cluster.swap_group: {}; without it the windows are swapped one after the "
+                    "other, as soon as all processes have drawn",
+                    why));
+}
+
+template <class Function>
+Function* entry(const render::GlLoader& load, const char* name) {
+    auto* found = reinterpret_cast<Function*>(load(name));
+    if (!found)
+        fail(fmt::format("there is no {}: expected a window of GLX, with NVIDIA's driver", name));
+    return found;
+}
+
+/// A word of a list, as a whole.
+bool contains(std::string_view list, std::string_view word) {
+    for (std::size_t at = 0; (at = list.find(word, at)) != list.npos; at += word.size()) {
+        const bool starts = at == 0 || list[at - 1] == ' ';
+        const std::size_t end = at + word.size();
+        if (starts && (end == list.size() || list[end] == ' '))
+            return true;
+    }
+    return false;
+}
+
+} // namespace
+
+void join_swap_group(const render::GlLoader& load) {
+    const XDisplay display = entry<XDisplay()>(load, "glXGetCurrentDisplay")();
+    const GlxContext context = entry<GlxContext()>(load, "glXGetCurrentContext")();
+    const GlxDrawable window = entry<GlxDrawable()>(load, "glXGetCurrentDrawable")();
+    if (!display || !context || !window)
+        fail("expected a window of GLX");
+    int screen = 0;
+    entry<int(XDisplay, GlxContext, int, int*)>(load, "glXQueryContext")(display, context,
+                                                                         kGlxScreen, &screen);
+    // Entry points are handed out for extensions, too, that a driver does not have.
+    const char* extensions =
+        entry<const char*(XDisplay, int)>(load, "glXQueryExtensionsString")(display, screen);
+    if (!extensions || !contains(extensions, kExtension))
+        fail(fmt::format("the driver has no {}", kExtension));
+
+    GLuint groups = 0, barriers = 0;
+    entry<int(XDisplay, int, GLuint*, GLuint*)>(load, "glXQueryMaxSwapGroupsNV")(
+        display, screen, &groups, &barriers);
+    if (groups < kGroup || barriers < kBarrier)
+        fail(fmt::format("the driver offers {} swap groups and {} swap barriers, expected one of "
+                         "each",
+                         groups, barriers));
+    if (!entry<int(XDisplay, GlxDrawable, GLuint)>(load, "glXJoinSwapGroupNV")(display, window,
+                                                                               kGroup))
+        fail("the driver does not let the window join a swap group");
+    if (!entry<int(XDisplay, GLuint, GLuint)>(load, "glXBindSwapBarrierNV")(display, kGroup,
+                                                                            kBarrier))
+        fail("the driver does not bind the swap group to a swap barrier: is there a "
+             "synchronisation board?");
+}
+
+} // namespace isochron::stereo

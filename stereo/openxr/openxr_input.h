@@ -1,0 +1,47 @@
+// The wearer's head and hands as tracked devices.
+#pragma once
+
+#include "interaction/trackers/tracked_device.h"
+#include "stereo/openxr/openxr_actions.h"
+#include "stereo/openxr/openxr_session.h"
+
+#include <array>
+#include <vector>
+
+namespace isochron::stereo {
+
+/// Poses are those of the time at which the picture will be seen: the runtime has predicted them,
+/// and they are not predicted again. `device_time` is that time by the runtime's clock.
+///
+/// A head is tracked while its direction is measured and its place is known, if only by a model of
+/// the neck; a hand, with which things are moved, while both are measured. Anything else is held,
+/// and lost after a while, as with any tracker. Hands appear once they have been there.
+class OpenXrInput {
+  public:
+    OpenXrInput();
+    /// @param session running, or null: everything is held, and nothing is pressed
+    interaction::InputState poll(interaction::Seconds now, const OpenXrSession* session,
+                                 const OpenXrActions* actions);
+    /// The reference space moves at this display time: what was measured until then lies elsewhere.
+    void recentre_at(XrTime time) { recentred_at_ = time; }
+    /// Everything may be elsewhere.
+    void forget();
+    std::vector<std::string> status() const;
+
+  private:
+    void poll_head(interaction::Seconds now, const OpenXrSession& session);
+    void poll_hand(interaction::Seconds now, const OpenXrSession& session,
+                   const OpenXrActions& actions, Hand hand);
+    void poll_keys(const OpenXrSession& session, const OpenXrActions& actions);
+
+    interaction::TrackedDevice head_;
+    std::array<interaction::TrackedDevice, kHands.size()> hands_;
+    std::array<bool, kHands.size()> seen_{};
+    std::uint64_t keys_ = 0;
+    std::optional<XrTime> recentred_at_;
+};
+
+/// Name of a hand's device.
+std::string name_of(Hand hand);
+
+} // namespace isochron::stereo

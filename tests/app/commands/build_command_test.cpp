@@ -1,0 +1,196 @@
+// Building, appending, referring: what the commands leave behind, and what changes between queries.
+#include "tests/app/commands/command_line.h"
+
+#include <nlohmann/json.hpp>
+
+namespace isochron::app {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(CommandLine, APatternAndAListOfFilesGiveTheSameBytes) {
+    ASSERT_EQ(isochron(build_of("t?.raw")).status, 0);
+    const std::string by_pattern = folder.read("a.isochron");
+    std::filesystem::remove(folder.path() / "a.isochron");
+    ASSERT_EQ(isochron({"build", "t3.raw", "t0.raw", "t4.raw", "t2.raw", "t1.raw", "--type", "f32",
+                        "--dims", "14", "11", "9", "--out", "a.isochron"})
+                  .status,
+              0);
+    EXPECT_EQ(folder.read("a.isochron"), by_pattern);
+}
+
+TEST_F(CommandLine, QuietPrintsNothing) {
+    const ChildResult result = isochron(build_of("t*.raw", {"--quiet"}));
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(CommandLine, ChangeWritesWhatTwoSetsDoNotShare) {
+    for (const std::string tiers : {"bricks", "cells"}) {
+        ASSERT_EQ(isochron(build_of("t*.raw", {"--tiers", tiers})).status, 0);
+        for (const auto& [step, isovalue] : {std::pair{3, 0.1}, {2, 0.4}, {4, 0.4}, {2, 9.0}}) {
+            const ChildResult result =
+                isochron({"change", "a.isochron", "--json", "--step", "2", "--isovalue", "0.1",
+                          "--to-step", std::to_string(step), "--to-isovalue",
+                          fmt::format("{}", isovalue), "--added", "added", "--removed", "removed"});
+            ASSERT_EQ(result.status, 0) << result.err;
+            const auto before = active(2, 0.1), after = active(std::size_t(step), isovalue);
+            std::vector<std::uint32_t> added, removed;
+            std::ranges::set_difference(after, before, std::back_inserter(added));
+            std::ranges::set_difference(before, after, std::back_inserter(removed));
+            EXPECT_EQ(ids_in("added"), added);
+            EXPECT_EQ(ids_in("removed"), removed);
+            EXPECT_EQ(nlohmann::json::parse(result.out).at("removed"), removed.size());
+        }
+    }
+    expect_failure(
+        isochron({"change", "a.isochron", "--step", "2", "--isovalue", "0", "--to-step", "5"}), 1,
+        "step 5, expected 0 to 4");
+}
+
+TEST_F(CommandLine, AppendingGivesTheBytesOfBuildingAnew) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const std::string whole = folder.read("a.isochron");
+    for (const std::string first : {"t[01].raw", "t[0123].raw"}) {
+        std::filesystem::remove(folder.path() / "a.isochron");
+        ASSERT_EQ(isochron(build_of(first)).status, 0);
+        EXPECT_NE(folder.read("a.isochron"), whole);
+        const ChildResult appended = isochron(build_of("t*.raw", {"--append"}));
+        EXPECT_EQ(appended.status, 0) << appended.err;
+        EXPECT_EQ(folder.read("a.isochron"), whole);
+    }
+    const ChildResult again = isochron(build_of("t*.raw", {"--append"}));
+    EXPECT_EQ(again.status, 0);
+    EXPECT_THAT(again.out, HasSubstr("a.isochron: holds every step of these files already"));
+    EXPECT_EQ(folder.read("a.isochron"), whole);
+}
+
+TEST_F(CommandLine, AnIndexThatRefersToItsSourcesAnswersAsOneThatCarriesThem) {
+    ASSERT_EQ(isochron(build_of("t*.raw", {"--refer"})).status, 0);
+    EXPECT_LT(folder.read("a.isochron").size(), kSteps * kX * kY * kZ * 4);
+    const std::vector<std::string> query{"query",  "a.isochron", "--isovalue", "0.1",
+                                         "--step", "3",          "--ids",      "ids.bin"};
+    const auto answer = [&] {
+        const ChildResult result = isochron(query);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return folder.read("ids.bin");
+    };
+    const std::string referred = answer();
+    EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
+    // Seen from elsewhere, too.
+    EXPECT_EQ(run_child(BINARY_ROOT "/isochron",
+                        {"verify", (folder.path() / "a.isochron").string()}, "/", {})
+                  .status,
+              0);
+    std::filesystem::rename(folder.path() / "a.isochron", folder.path() / "b.isochron");
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    EXPECT_EQ(answer(), referred);
+    ASSERT_FALSE(referred.empty());
+
+    std::string changed = folder.read("t3.raw");
+    changed[1000] = char(changed[1000] ^ 1);
+    folder.write("t3.raw", changed);
+    expect_failure(isochron({"query", "b.isochron", "--isovalue", "0.1", "--step", "3"}), 1,
+                   "b.isochron: its source t3.raw has changed since it was built (step 3)");
+    std::filesystem::remove(folder.path() / "t2.raw");
+    expect_failure(isochron({"query", "b.isochron", "--isovalue", "0.1", "--step", "1"}), 1,
+                   "t2.raw");
+}
+
+TEST_F(CommandLine, AFullDiskDuringABuildLeavesTheOldIndexAlone) {
+    ASSERT_EQ(isochron(build_of("t*.raw", {"--lattice", "8"})).status, 0);
+    const std::string old = folder.read("a.isochron");
+    const auto before = folder.names();
+    for (const std::uint64_t limit : {std::uint64_t{6000}, std::uint64_t{30'000}}) {
+        const ChildResult result =
+            isochron(build_of("t*.raw", {"--quiet"}), {.largest_file = limit});
+        expect_failure(result, 1, "a.isochron: cannot be written: File too large");
+        EXPECT_EQ(folder.names(), before);
+        EXPECT_EQ(folder.read("a.isochron"), old);
+    }
+}
+
+TEST_F(CommandLine, AnInterruptedBuildEndsWithStatus130AndLeavesTheOldIndexAlone) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const std::string old = folder.read("a.isochron");
+    // Noise has the largest trees: building takes long enough to be interrupted.
+    std::mt19937 random(1);
+    std::string noise(100 * 100 * 100, '\0');
+    for (std::size_t t = 0; t < 6; ++t) {
+        for (char& c : noise)
+            c = char(random());
+        folder.write(fmt::format("noise{}.raw", t), noise);
+    }
+    const auto before = folder.names();
+    const std::vector<std::string> build{"build", "noise*.raw", "--dims", "100", "100",
+                                         "100",   "--type",     "u8",     "-o",  "a.isochron"};
+    for (const char* phase : {"reading", "counting", "bricks", "indexing"}) {
+        const ChildResult result =
+            isochron(build, {.interrupt_after = phase}); // as soon as it is printed
+        EXPECT_EQ(result.status, 130);
+        EXPECT_THAT(result.err, HasSubstr("isochron: cancelled\n"));
+        EXPECT_EQ(folder.names(), before);
+        EXPECT_EQ(folder.read("a.isochron"), old);
+    }
+}
+
+/// Steps of two arrays, `speed` and `heat`, as ascii legacy files `s0.vtk` ...
+void write_two_arrays(const test_support::TestFolder& folder, int steps) {
+    for (int t = 0; t < steps; ++t) {
+        std::string text = "# vtk DataFile Version 3.0\ntwo arrays\nASCII\n"
+                           "DATASET STRUCTURED_POINTS\nDIMENSIONS 6 5 4\nORIGIN 0 0 0\n"
+                           "SPACING 1 1 1\nPOINT_DATA 120\n";
+        for (const auto& [name, factor] : {std::pair{"speed", 1}, {"heat", -3}}) {
+            text += fmt::format("SCALARS {} float 1\nLOOKUP_TABLE default\n", name);
+            for (int i = 0; i < 120; ++i)
+                text += fmt::format("{}\n", factor * (i % 7 + t));
+        }
+        folder.write(fmt::format("s{}.vtk", t), text);
+    }
+}
+
+TEST_F(CommandLine, ColourCarriesASecondArrayThatInfoShowsAndVerifyChecks) {
+    write_two_arrays(folder, 3);
+    for (const bool refer : {false, true}) {
+        std::vector<std::string> build{"build", "s?.vtk", "--array",    "speed",         "--colour",
+                                       "heat",  "-o",     "c.isochron", "--colour-unit", "K"};
+        if (refer)
+            build.push_back("--refer");
+        const ChildResult built = isochron(build);
+        ASSERT_EQ(built.status, 0) << built.err;
+        const auto info = nlohmann::json::parse(isochron({"info", "c.isochron", "--json"}).out);
+        EXPECT_EQ(info.at("array"), "speed");
+        EXPECT_EQ(info.at("colour").at("array"), "heat");
+        EXPECT_EQ(info.at("colour").at("value_unit"), "K");
+        EXPECT_EQ(info.at("colour").at("low"), -24);
+        EXPECT_EQ(info.at("colour").at("high"), 0);
+        EXPECT_EQ(isochron({"verify", "c.isochron"}).status, 0);
+        EXPECT_THAT(isochron({"info", "c.isochron"}).out, HasSubstr("heat, f32, -24 to 0 K"));
+    }
+    // Of an index that refers to its files, verify reads the colours there.
+    std::string changed = folder.read("s1.vtk");
+    changed.replace(changed.rfind("-3"), 2, "-4");
+    folder.write("s1.vtk", changed);
+    expect_failure(isochron({"verify", "c.isochron"}), 1, "s1.vtk has changed");
+}
+
+TEST_F(CommandLine, ColoursAreAppendedWithTheRest) {
+    write_two_arrays(folder, 4);
+    const auto build = [&](const std::string& files, const std::vector<std::string>& more) {
+        std::vector<std::string> all{"build", files, "--array", "speed", "-o", "c.isochron"};
+        all.insert(all.end(), more.begin(), more.end());
+        return isochron(all);
+    };
+    ASSERT_EQ(build("s?.vtk", {"--colour", "heat"}).status, 0);
+    const std::string whole = folder.read("c.isochron");
+    std::filesystem::remove(folder.path() / "c.isochron");
+    ASSERT_EQ(build("s[01].vtk", {"--colour", "heat"}).status, 0);
+    expect_failure(build("s?.vtk", {"--append"}), 1, "it holds the colours heat, none given");
+    const ChildResult appended = build("s?.vtk", {"--append", "--colour", "heat"});
+    EXPECT_EQ(appended.status, 0) << appended.err;
+    EXPECT_EQ(folder.read("c.isochron"), whole);
+    expect_failure(build("s?.vtk", {"--colour", "cold"}), 1, "cold");
+}
+
+} // namespace
+} // namespace isochron::app

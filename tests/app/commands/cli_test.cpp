@@ -1,0 +1,191 @@
+// The commands as a user runs them: what they print, how they end, and what they leave behind.
+#include "tests/app/commands/command_line.h"
+
+#include <nlohmann/json.hpp>
+
+namespace isochron::app {
+namespace {
+
+using testing::HasSubstr;
+
+TEST_F(CommandLine, QueryWritesTheActiveCellsOfEveryStepByEveryMethod) {
+    const ChildResult built =
+        isochron(build_of("t*.raw", {"--tiers", "bricks,cells", "--lattice", "16"}));
+    ASSERT_EQ(built.status, 0) << built.err;
+    EXPECT_THAT(built.out, HasSubstr("14 x 11 x 9 vertices, 5 steps, f32"));
+    for (std::size_t step = 0; step < kSteps; ++step)
+        for (const double isovalue : {-0.75, 0.1, double(steps[step][500]), 5.0})
+            for (const std::string method : {"", "cells", "bricks", "tree", "scan"}) {
+                std::vector<std::string> query{"query",
+                                               "a.isochron",
+                                               "--json",
+                                               "--repeat",
+                                               "1",
+                                               "--ids",
+                                               "ids.bin",
+                                               "--isovalue",
+                                               fmt::format("{}", isovalue),
+                                               "--step",
+                                               std::to_string(step)};
+                if (!method.empty())
+                    query.insert(query.end(), {"--method", method});
+                const ChildResult result = isochron(query);
+                ASSERT_EQ(result.status, 0) << result.err;
+                const std::string bytes = folder.read("ids.bin");
+                std::vector<std::uint32_t> ids(bytes.size() / 4);
+                if (!ids.empty()) // an isovalue out of range: an empty file
+                    std::memcpy(ids.data(), bytes.data(), bytes.size());
+                const auto expected = active(step, isovalue);
+                EXPECT_EQ(ids, expected);
+                const auto json = nlohmann::json::parse(result.out);
+                EXPECT_EQ(json.at("active_cells"), expected.size());
+                EXPECT_EQ(json.at("method"), method.empty() ? "cells" : method);
+                EXPECT_EQ(json.at("candidates").get<std::size_t>(),
+                          expected.size() + json.at("false_positives").get<std::size_t>());
+                for (const char* key :
+                     {"cold_search_ms", "cold_shading_ms", "search_ms", "shading_ms"})
+                    EXPECT_GE(json.at(key).get<double>(), 0) << key;
+            }
+}
+
+TEST_F(CommandLine, InfoTellsWhatWasBuilt) {
+    ASSERT_EQ(
+        isochron(build_of("t*.raw", {"--spacing", "0.5", "1", "2", "--origin", "-1", "0", "3",
+                                     "--time-step", "0.25", "--length-unit", "mm", "--time-unit",
+                                     "ms", "--value-unit", "K", "--lattice", "64"}))
+            .status,
+        0);
+    const ChildResult result = isochron({"info", "a.isochron", "--json", "--tree"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json.at("vertices"), nlohmann::json({14, 11, 9}));
+    EXPECT_EQ(json.at("cells"), nlohmann::json({13, 10, 8}));
+    EXPECT_EQ(json.at("spacing"), nlohmann::json({0.5, 1.0, 2.0}));
+    EXPECT_EQ(json.at("origin"), nlohmann::json({-1.0, 0.0, 3.0}));
+    EXPECT_EQ(json.at("physical_size"), nlohmann::json({6.5, 10.0, 16.0}));
+    EXPECT_EQ(json.at("times"), nlohmann::json({0.0, 0.25, 0.5, 0.75, 1.0}));
+    EXPECT_EQ(json.at("uniform_time"), true);
+    EXPECT_EQ(json.at("handedness"), "right");
+    EXPECT_EQ(json.at("length_unit"), "mm");
+    EXPECT_EQ(json.at("time_unit"), "ms");
+    EXPECT_EQ(json.at("value_unit"), "K");
+    EXPECT_EQ(json.at("type"), "f32");
+    EXPECT_EQ(json.at("nan_values"), 0);
+    EXPECT_EQ(json.at("tiers"), nlohmann::json({"bricks", "tree"}));
+    EXPECT_EQ(json.at("lossless"), false);
+    EXPECT_EQ(json.at("raw_bytes"), 5.0 * 13 * 10 * 8 * 24);
+    std::uint64_t entries = 0;
+    for (const auto& node : json.at("tree"))
+        entries += node.at("cells").get<std::uint64_t>();
+    EXPECT_EQ(json.at("tree_entries"), entries);
+    EXPECT_DOUBLE_EQ(json.at("coherence"), double(entries) / (5 * 13 * 10 * 8));
+    EXPECT_EQ(json.at("tree").at(0).at("last_step"), 4);
+
+    const ChildResult text = isochron({"info", "a.isochron", "--tree"});
+    for (const char* part : {"0.5 x 1 x 2 mm", "6.5 x 10 x 16 mm", "times 0 to 1 ms, uniform",
+                             "handedness    right", " K\n", "[0,4] ", "\n  [0,3] "})
+        EXPECT_THAT(text.out, HasSubstr(part));
+}
+
+TEST_F(CommandLine, TimesAreTextWithoutTheDigitsOfRounding) {
+    ASSERT_EQ(isochron(build_of("t*.raw", {"--time-step", "0.1", "--time-unit", "s"})).status, 0);
+    const ChildResult query =
+        isochron({"query", "a.isochron", "--isovalue", "0", "--step", "3", "--repeat", "0"});
+    EXPECT_THAT(query.out, HasSubstr("(time 0.3 s)"));
+    EXPECT_THAT(isochron({"info", "a.isochron"}).out, HasSubstr("times 0 to 0.4 s, uniform"));
+}
+
+TEST_F(CommandLine, BadInputIsOneLineAndLeavesNothingBehind) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const auto before = folder.names();
+    const std::string index = folder.read("a.isochron");
+    const auto fails = [&](const std::vector<std::string>& arguments, const std::string& message) {
+        SCOPED_TRACE(arguments.front() + " " + arguments[1]);
+        expect_failure(isochron(arguments), 1, message);
+        EXPECT_EQ(folder.names(), before);
+        EXPECT_EQ(folder.read("a.isochron"), index);
+    };
+    fails(build_of("none*.raw"), "none*.raw: no file matches");
+    fails(build_of("none.raw"), "none.raw");
+    fails({"build", "t0.raw", "-o", "a.isochron"}, "t0.raw");
+    fails({"build", "t0.raw", "--dims", "14", "11", "9", "--type", "f32", "-o", "t0.raw"},
+          "t0.raw: is an input");
+    fails({"build", "t0.raw", "--dims", "14", "11", "9", "--type", "f32", "-o", "no/a.isochron"},
+          "there is no folder no");
+    fails({"build", "t0.raw", "--dims", "14", "11", "9", "--type", "f32", "-o", "t1.raw"},
+          "t1.raw: exists and is not an isochron index");
+    fails({"query", "a.isochron", "--isovalue", "0", "--step", "5"}, "step 5, expected 0 to 4");
+    fails({"query", "a.isochron", "--isovalue", "0", "--step", "-1"}, "step -1, expected 0 to 4");
+    fails({"query", "t0.raw", "--isovalue", "0", "--step", "0"}, "not an isochron index");
+    fails({"query", "a.isochron", "--isovalue", "0", "--step", "0", "--ids", "no/ids.bin"},
+          "no/ids.bin: cannot be written");
+    fails({"query", "a.isochron", "--isovalue", "0", "--step", "0", "--ids", "a.isochron"},
+          "a.isochron: is an input");
+    fails({"query", "a.isochron", "--isovalue", "0", "--step", "0", "--method", "tree"},
+          "a.isochron: has no tree to search in");
+    fails(build_of("t[01].raw", {"--append"}), "must begin with the 5 steps that it holds");
+    fails(build_of("t*.raw", {"--tiers", "deltas"}),
+          "t0.raw: the tier deltas needs the tier cells");
+    fails({"info", "none.isochron"}, "none.isochron: cannot be opened: No such file");
+    fails({"info", "."}, "not a regular file");
+}
+
+TEST_F(CommandLine, BadUsageIsStatus2) {
+    expect_failure(isochron({"build", "t0.raw"}), 2, "--out");
+    expect_failure(isochron({"query", "a.isochron", "--step", "1"}), 2, "--isovalue");
+    expect_failure(isochron({"query", "a.isochron", "--isovalue", "x", "--step", "1"}), 2, "x");
+    expect_failure(isochron({"info", "a.isochron", "--unknown"}), 2, "--unknown");
+    expect_failure(isochron(build_of("t*.raw", {"--lattice", "0"})), 2, "--lattice");
+    expect_failure(isochron(build_of("t*.raw", {"--tiers", "bricks,cubes"})), 2,
+                   "cubes: expected none, or some of bricks,cells,deltas,tree");
+    expect_failure(isochron(build_of("t*.raw", {"--time-step", "0"})), 2,
+                   "expected a positive number, got 0");
+    expect_failure(isochron(build_of("t*.raw", {"--time-step", "nan"})), 2, "got nan");
+    expect_failure(isochron({}), 2, "expected build, query");
+    expect_failure(isochron({"bild"}), 2, "bild: unknown, expected build, query");
+    expect_failure(isochron({"generate", "cube"}), 2, "cube: unknown, expected sphere, vorticity");
+    expect_failure(isochron({"replay", "walk.jsonl", "--out", "pictures"}), 2,
+                   "--every N or --stamps");
+}
+
+TEST_F(CommandLine, HelpOfEveryCommandNamesItsOptions) {
+    for (const auto& [command, options] :
+         std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"build",
+              {"--array", "--component", "--dims", "--type", "--spacing", "--origin", "--time-step",
+               "--length-unit", "--time-unit", "--value-unit", "--big-endian", "--header-bytes",
+               "--lattice", "--max-variation", "--tiers", "--append", "--refer", "--threads",
+               "--quiet"}},
+             {"query", {"--isovalue", "--step", "--ids", "--json", "--method"}},
+             {"change",
+              {"--isovalue", "--step", "--to-isovalue", "--to-step", "--added", "--removed",
+               "--json"}},
+             {"info", {"--json", "--tree"}},
+             {"verify", {"NAME.isochron"}}}) {
+        const ChildResult result = isochron({command, "--help"});
+        EXPECT_EQ(result.status, 0);
+        for (const std::string& option : options)
+            EXPECT_THAT(result.out, HasSubstr(option)) << command;
+    }
+}
+
+TEST_F(CommandLine, VerifyFindsDamageThatOpeningDoesNotTouch) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    std::string bytes = folder.read("a.isochron");
+    bytes[5000] = char(bytes[5000] ^ 4); // in the volume
+    folder.write("b.isochron", bytes);
+    EXPECT_EQ(isochron({"info", "b.isochron"}).status, 0);
+    EXPECT_EQ(isochron({"verify", "a.isochron"}).out, "a.isochron: every checksum matches\n");
+    expect_failure(isochron({"verify", "b.isochron"}), 1,
+                   "b.isochron: damaged: the checksum of section volume does not match");
+}
+
+TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsAFailure) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const ChildResult result = isochron({"info", "a.isochron"}, {.out = "/dev/full"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("the output cannot be written"));
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,249 @@
+// The whole program as a job of several processes: one picture, one end.
+#include "tests/support/child_process.h"
+#include "tests/support/session_fixture.h"
+
+#include "interaction/recording/recording.h"
+#include "tests/support/virtual_display.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <future>
+#include <map>
+#include <set>
+#include <thread>
+
+namespace isochron::app {
+namespace {
+
+using testing::HasSubstr;
+
+/// A CAVE of four small walls on nodes 1 to 4, whose windows stand on a desktop.
+std::string small_cave(const std::string& more = "") {
+    std::string text = read_config("cave4").text;
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
+            text.replace(at, from.size(), to);
+    };
+    replace("size = [1920, 1200]", "size = [64, 40]");
+    replace("fullscreen = true\n", "");
+    return text + more;
+}
+
+class ClusterJobTest : public testing::Test {
+  protected:
+    ClusterJobTest() { build_sphere(folder_.path(), 12); }
+
+    /// Steps, a flight, and then somebody who stands and looks.
+    void record(const std::string& configuration, int frames = 16) {
+        interaction::RecordingHeader header;
+        header.configuration = configuration;
+        header.data = "sphere.isochron";
+        header.start.isovalue = 8.0;
+        header.start.stereo = "quadbuffer";
+        interaction::RecordingWriter writer(folder_.path() / "walk.jsonl", header);
+        for (int i = 0; i < frames; ++i) {
+            interaction::RecordedFrame frame;
+            frame.input = head_at_rest(i < 8 ? i / 60.0 : 1.0 + i);
+            if (i < 8)
+                frame.input.devices.front().pose->position.x = 0.02f * static_cast<float>(i);
+            if (i < 6)
+                frame.commands.step = static_cast<std::uint32_t>(i);
+            if (i % 5 == 0)
+                frame.commands.stamps = {"stamp"};
+            writer.append(frame);
+        }
+        writer.finish();
+    }
+
+    /// What a shell makes of one process's part; `$isochron` is the program.
+    static std::string part(const std::string& script) {
+        return fmt::format("isochron='{}/isochron'; {}", BINARY_ROOT, script);
+    }
+    /// A job of as many processes as there are scripts.
+    ChildResult job(const std::vector<std::string>& scripts) {
+        // The MPI library itself leaks.
+        std::vector<std::string> arguments{"ASAN_OPTIONS=detect_leaks=0", "mpirun",
+                                           "--allow-run-as-root", "--oversubscribe"};
+        for (const std::string& script : scripts) {
+            if (&script != &scripts.front())
+                arguments.emplace_back(":");
+            arguments.insert(arguments.end(), {"-n", "1", "/bin/sh", "-c", part(script)});
+        }
+        return run_child("/usr/bin/env", arguments, folder_.path());
+    }
+    ChildResult job(int processes, const std::string& script) {
+        return job(std::vector<std::string>(static_cast<std::size_t>(processes), script));
+    }
+    ChildResult alone(const std::string& script) {
+        return run_child("/bin/sh", {"-c", part(script)}, folder_.path());
+    }
+
+    std::map<std::string, std::string> files_in(const std::string& name) const {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / name))
+            files[entry.path().filename()] =
+                folder_.read(name + "/" + entry.path().filename().string());
+        return files;
+    }
+
+    /// What the program said, line by line, without what mpirun says.
+    static std::vector<std::string> lines_of(const ChildResult& result) {
+        std::vector<std::string> lines;
+        for (std::size_t at = 0; (at = result.err.find("isochron: ", at)) != std::string::npos;
+             ++at)
+            lines.push_back(result.err.substr(at, result.err.find('\n', at) - at));
+        return lines;
+    }
+    static void expect_one_line(const ChildResult& result, const std::string& start,
+                                const std::string& part) {
+        EXPECT_NE(result.status, 0);
+        const auto lines = lines_of(result);
+        ASSERT_EQ(lines.size(), 1u) << result.err;
+        EXPECT_THAT(lines.front(), testing::StartsWith("isochron: " + start));
+        EXPECT_THAT(lines.front(), HasSubstr(part));
+    }
+
+    /// Sends a process a signal once the job has written pictures.
+    static std::string struck_by(const std::string& signal, const std::string& command) {
+        return fmt::format("echo $$ > struck; (while kill -0 $$ && ! ls out/frame_00002*; do "
+                           "sleep 0.05; done; kill -{} $$) >/dev/null 2>&1 & exec {}",
+                           signal, command);
+    }
+
+    TestFolder folder_;
+};
+
+constexpr const char* kReplay = "$isochron replay walk.jsonl --out out --every 1";
+
+TEST_F(ClusterJobTest, PicturesEqualThoseOfASingleProcess) {
+    record(small_cave());
+    for (const std::string eyes : {"each", "window"}) {
+        const std::string replay =
+            "$isochron replay walk.jsonl --stamps --eyes " + eyes + " --out ";
+        ASSERT_EQ(alone(replay + eyes).status, 0);
+        const auto expected = files_in(eyes);
+        EXPECT_EQ(expected.size(), 4u * 4 * 2);
+        for (const int processes : {2, 5}) {
+            const std::string out = fmt::format("{}{}", eyes, processes);
+            const ChildResult result = job(processes, replay + out + " --report timing.json");
+            ASSERT_EQ(result.status, 0) << result.err;
+            EXPECT_EQ(files_in(out), expected) << processes << " processes";
+        }
+    }
+    EXPECT_THAT(folder_.read("timing.json"), HasSubstr("\"barrier\""));
+    EXPECT_THAT(folder_.read("timing.json"), HasSubstr("\"surface\": "));
+    EXPECT_THAT(folder_.read("timing_rank4.json"), HasSubstr("\"barrier\""));
+}
+
+TEST_F(ClusterJobTest, AKilledProcessEndsTheJob) {
+    record(small_cave(), 20000);
+    const ChildResult result = job({kReplay, struck_by("KILL", kReplay), kReplay});
+    EXPECT_NE(result.status, 0);
+    EXPECT_THAT(result.err, HasSubstr("signal 9"));
+    EXPECT_LE(lines_of(result).size(), 1u) << result.err;
+}
+
+TEST_F(ClusterJobTest, AStoppedProcessEndsTheJobWithItsName) {
+    record(small_cave("\n[cluster]\ntimeout = 1.0\n"), 20000);
+    const ChildResult result = job({kReplay, kReplay, struck_by("STOP", kReplay)});
+    expect_one_line(result, "process 2 on ", "no sign of life for ");
+    // Nobody is left behind; mpirun may take a moment. The test's limit ends a hang.
+    while (kill(std::stoi(folder_.read("struck")), 0) == 0)
+        std::this_thread::yield();
+}
+
+TEST_F(ClusterJobTest, AStoppedFirstProcessIsNamedByOneOfTheOthers) {
+    record(small_cave("\n[cluster]\ntimeout = 1.0\n"), 20000);
+    const ChildResult result = job({struck_by("STOP", kReplay), kReplay, kReplay});
+    expect_one_line(result, "process 0 on ", "no sign of life for ");
+}
+
+TEST_F(ClusterJobTest, AFailureOfOneProcessEndsTheJobWithItsName) {
+    record(small_cave());
+    // There is something else where one of its pictures belongs.
+    std::filesystem::create_directories(folder_.path() / "out/stamp_00005_stamp_floor_left.png");
+    const std::string replay = "$isochron replay walk.jsonl --out out --stamps --eyes each";
+    expect_one_line(job(2, replay), "process 1 on ", "stamp_00005_stamp_floor_left.png");
+}
+
+TEST_F(ClusterJobTest, ProcessesThatSeeOtherDataOrConfigurationRefuseToStart) {
+    record(small_cave());
+    std::filesystem::create_directory(folder_.path() / "other");
+    build_sphere(folder_.path() / "other", 7);
+    const std::string replay = "$isochron replay walk.jsonl --stamps --out out ";
+    expect_one_line(job({replay, replay, replay + "--data other/sphere.isochron"}), "process 2 on ",
+                    ": another data set: 'content hash ");
+    folder_.write("a.toml", small_cave());
+    folder_.write("b.toml", small_cave("[emulation]\nwalk_speed = 2.5\n"));
+    expect_one_line(job({replay + "--config a.toml", replay + "--config b.toml"}), "process 1 on ",
+                    ": another configuration: '[emulation]', process 0 has 'its end'");
+    expect_one_line(job({replay, replay + "--stereo left"}), "process 1 on ", ": another start: ");
+    expect_one_line(job({replay, replay + "--size 32 32"}), "process 1 on ",
+                    ": another installation: 'size = [32, 32]', process 0 has 'size = [64, 40]'");
+    expect_one_line(job({replay, replay + "--data missing"}), "process 1 on ", ": missing");
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "stamp_00000_stamp_front.png"));
+}
+
+TEST_F(ClusterJobTest, AJobThatDoesNotFitTheInstallationIsToldWhy) {
+    record(small_cave());
+    expect_one_line(job(6, kReplay), "walk.jsonl", "6 processes for 5 nodes");
+    expect_one_line(job(2, std::string(kReplay) + " --emulate"), "--emulate", "without mpirun");
+}
+
+TEST_F(ClusterJobTest, ADriverWithoutSwapGroupsIsNamedWhereOneIsAskedFor) {
+    const test_support::VirtualDisplay screen;
+    folder_.write("lab.toml", "[[windows]]\n[[windows]]\nnode = 1\n[cluster]\nswap_group = true\n");
+    expect_one_line(job(2, "$isochron explore sphere.isochron --config lab.toml"),
+                    "cluster.swap_group: ", "GLX_NV_swap_group");
+}
+
+TEST_F(ClusterJobTest, InWindowsEveryProcessShowsItsOwnAndAllLeaveTogether) {
+    const test_support::VirtualDisplay screen;
+    std::string lab = small_cave();
+    for (std::size_t at; (at = lab.find("\"quadbuffer\"")) != lab.npos;)
+        lab.replace(at, 12, "\"mono\"");
+    folder_.write("lab.toml", lab);
+    const std::string explore = "$isochron explore sphere.isochron --config lab.toml --no-panel "
+                                "--record walk.jsonl --report timing.json";
+    auto ended = std::async(std::launch::async, [&] { return job(2, explore); });
+    const auto wait_for = [&](const std::string& file) {
+        while (!std::filesystem::exists(folder_.path() / file))
+            screen.xdotool({"getmouselocation"}); // the test's limit ends a hang
+    };
+    screen.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron.*floor"});
+    screen.xdotool(
+        {"search", "--sync", "--onlyvisible", "--name", "Isochron.*left", "windowfocus"});
+    screen.xdotool({"key", "p"});
+    wait_for("isochron_0001_front.png");
+    wait_for("isochron_0001_floor.png");
+    screen.xdotool({"key", "space"}); // time runs: every frame may bring other cells
+    while (folder_.read("walk.jsonl.part").find("\"step\":3") == std::string::npos)
+        screen.xdotool({"getmouselocation"});
+    screen.close_window("Isochron: sphere.isochron: floor");
+    const ChildResult result = ended.get();
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(lines_of(result).size(), 0u) << result.err;
+    for (const char* wall : {"front", "left", "right", "floor"})
+        EXPECT_TRUE(
+            std::filesystem::exists(folder_.path() / fmt::format("isochron_0001_{}.png", wall)))
+            << wall;
+    EXPECT_FALSE(interaction::read_recording(folder_.path() / "walk.jsonl").frames.empty());
+    // Frame by frame, both have shown the same cells in the same way.
+    const auto first = nlohmann::json::parse(folder_.read("timing.json"))["rows"];
+    const auto second = nlohmann::json::parse(folder_.read("timing_rank1.json"))["rows"];
+    ASSERT_EQ(first.size(), second.size());
+    std::set<std::string> shown;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        for (const char* key : {"t", "asked", "shown", "pace", "footprint", "reason"})
+            EXPECT_EQ(first[i][key], second[i][key]) << "frame " << i << ", " << key;
+        shown.insert(first[i]["shown"].dump());
+    }
+    EXPECT_GE(shown.size(), 3u) << "several sets were shown";
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,222 @@
+// The whole program in a window: a user presses keys, leaves, and the recording tells and replays
+// it.
+#include "tests/support/session_fixture.h"
+
+#include "app/config/shipped_configs.h"
+#include "interaction/recording/recording.h"
+#include "stereo/image_file.h"
+#include "tests/support/virtual_display.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <spawn.h>
+#include <sys/wait.h>
+
+extern char** environ;
+
+namespace isochron::app {
+namespace {
+
+/// The built program, run with arguments and awaited.
+class Program {
+  public:
+    explicit Program(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), BINARY_ROOT "/isochron");
+        std::vector<char*> argv;
+        for (std::string& argument : arguments)
+            argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        EXPECT_EQ(posix_spawn(&pid_, argv[0], nullptr, nullptr, argv.data(), environ), 0);
+    }
+    int exit_status() const {
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+  private:
+    pid_t pid_ = 0;
+};
+
+class ExploreTest : public testing::Test {
+  protected:
+    ExploreTest() { build_sphere(folder_.path()); }
+
+    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    /// Starts the explorer, waits for its window and puts the mouse into it.
+    std::unique_ptr<Program> explore(std::vector<std::string> more) {
+        std::vector<std::string> arguments{"explore", file("sphere.isochron"), "--size", "640",
+                                           "480"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        auto program = std::make_unique<Program>(std::move(arguments));
+        screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron"});
+        screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
+                         "%1", "200", "200"});
+        return program;
+    }
+
+    TestFolder folder_;
+    test_support::VirtualDisplay screen_;
+};
+
+template <class Claim>
+bool any_frame(const interaction::Recording& recording, Claim claim) {
+    return std::any_of(recording.frames.begin(), recording.frames.end(),
+                       [&](const auto& frame) { return claim(frame.commands); });
+}
+
+TEST_F(ExploreTest, KeysLeadToCommandsThatTheRecordingHoldsAndReplays) {
+    const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8", "--no-panel"});
+    screen_.xdotool({"key", "space", "Up", "Up", "2", "v", "m"});
+    screen_.xdotool({"mousedown", "1", "mousemove_relative", "40", "10", "mouseup", "1"});
+    screen_.xdotool({"key", "Escape"});
+    ASSERT_EQ(program->exit_status(), 0);
+
+    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    EXPECT_TRUE(
+        any_frame(recording, [](const auto& c) { return c.playback && c.playback->playing; }));
+    EXPECT_TRUE(any_frame(recording, [](const auto& c) { return c.isovalue && *c.isovalue > 8; }));
+    EXPECT_TRUE(any_frame(
+        recording, [](const auto& c) { return c.quality == interaction::QualityMode::fast; }));
+    EXPECT_TRUE(any_frame(recording, [](const auto& c) { return c.stereo == "left"; }));
+    EXPECT_TRUE(
+        any_frame(recording, [](const auto& c) { return c.room_from_physical.has_value(); }));
+    EXPECT_TRUE(any_frame(recording, [](const auto& c) { return !c.stamps.empty(); }));
+    EXPECT_TRUE(any_frame(recording, [](const auto& c) { return c.quit; }));
+
+    for (const char* folder : {"first", "second"})
+        ASSERT_EQ(Program({"replay", file("walk.jsonl"), "--from-devices", "--stamps", "--out",
+                           file(folder), "--report", file("timing.json")})
+                      .exit_status(),
+                  0);
+    int pictures = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(file("first"))) {
+        const auto again = std::filesystem::path(file("second")) / entry.path().filename();
+        EXPECT_EQ(stereo::read_image(entry.path()).rgba, stereo::read_image(again).rgba);
+        ++pictures;
+    }
+    EXPECT_EQ(pictures, 1);
+}
+
+TEST_F(ExploreTest, PressingOnTheHistogramPicksAnIsovalue) {
+    const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8"});
+    screen_.xdotool({"mousemove_relative", "--", "-10", "-130"});
+    // Each click is faster than a frame: the panel sees it all the same, once it is there at all.
+    // The test's limit ends a hang.
+    while (folder_.read("walk.jsonl.part").find("\"panel\":{\"isovalue\"") == std::string::npos)
+        screen_.xdotool({"click", "1", "sleep", "0.2"});
+    screen_.xdotool({"key", "Escape"});
+    ASSERT_EQ(program->exit_status(), 0);
+    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    EXPECT_TRUE(
+        std::any_of(recording.frames.begin(), recording.frames.end(),
+                    [](const auto& frame) { return frame.from_panel.isovalue.has_value(); }));
+    EXPECT_FALSE(
+        any_frame(recording, [](const auto& c) { return c.room_from_physical.has_value(); }));
+}
+
+TEST_F(ExploreTest, FromTheConsoleAnOperatorSteersWithThePanelAndKeys) {
+    folder_.write("lab.toml", *shipped_config("desktop") +
+                                  "\n[console]\nsize = [400, 700]\nposition = [800, 100]\n");
+    const auto program =
+        explore({"--config", file("lab.toml"), "--record", file("walk.jsonl"), "--isovalue", "8"});
+    screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "console"});
+    // The middle of the histogram, below the title.
+    screen_.xdotool({"mousemove", "1000", "160"});
+    // The test's limit ends a hang.
+    while (folder_.read("walk.jsonl.part").find("\"panel\":{\"isovalue\"") == std::string::npos)
+        screen_.xdotool({"click", "1", "sleep", "0.2"});
+    const auto title = screen_.pixel(1150, 110);
+    EXPECT_GT(title[2], title[0] + 40) << "the panel fills the window";
+    screen_.xdotool({"search", "--name", "console", "windowfocus", "key", "Escape"});
+    ASSERT_EQ(program->exit_status(), 0);
+    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    EXPECT_FALSE(any_frame(recording, [](const auto& c) {
+        return c.room_from_physical.has_value();
+    })) << "clicks are the console's alone";
+}
+
+TEST_F(ExploreTest, ClosingTheWindowKeepsTheRecording) {
+    const auto program = explore({"--record", file("walk.jsonl")});
+    screen_.close_window("Isochron: " + file("sphere.isochron"));
+    EXPECT_EQ(program->exit_status(), 0);
+    EXPECT_FALSE(interaction::read_recording(file("walk.jsonl")).frames.empty());
+}
+
+TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
+    const auto program = explore({"--screenshots", folder_.path().string(), "--isovalue", "8"});
+    screen_.xdotool({"key", "p"});
+    const auto picture = folder_.path() / "isochron_0001.png";
+    while (!std::filesystem::exists(picture))
+        screen_.xdotool(
+            {"getmouselocation"}); // the program is at work; the test's limit ends a hang
+    screen_.xdotool({"key", "Escape"});
+    EXPECT_EQ(program->exit_status(), 0);
+    const render::Image image = stereo::read_image(picture);
+    EXPECT_EQ(image.width, 640);
+    EXPECT_EQ(image.height, 480);
+    // The panel would cover the corner.
+    EXPECT_EQ(0, std::memcmp(image.at(20, 20), image.at(620, 460), 3));
+}
+
+TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheCamera) {
+    const auto program =
+        explore({"--config", "cave4", "--emulate", "--record", file("walk.jsonl"), "--no-panel"});
+    // The test's limit ends a hang.
+    screen_.xdotool({"keydown", "c", "mousedown", "1"});
+    screen_.xdotool({"mousemove_relative", "60", "20"});
+    screen_.xdotool({"mouseup", "1", "keyup", "c", "key", "m"});
+    while (folder_.read("walk.jsonl.part").find("stamp-1") == std::string::npos)
+        screen_.xdotool({"getmouselocation"});
+    screen_.xdotool({"key", "Escape"});
+    ASSERT_EQ(program->exit_status(), 0);
+    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    EXPECT_EQ(recording.header.window, (std::array{0, 0})) << "the walls are as configured";
+    const interaction::DeviceState* camera = recording.frames.back().input.find("camera");
+    ASSERT_TRUE(camera);
+    EXPECT_NE(camera->pose, RoomCamera(read_config("cave4").installation).pose());
+    EXPECT_FALSE(any_frame(recording, [](const auto& c) {
+        return c.room_from_physical.has_value();
+    })) << "the drag was the camera's";
+    EXPECT_EQ(Program({"replay", file("walk.jsonl"), "--from-devices", "--emulate", "--stamps",
+                       "--out", file("room"), "--size", "320", "200"})
+                  .exit_status(),
+              0);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("room")), {}), 1);
+}
+
+TEST_F(ExploreTest, TheTestPatternNeedsNoDataAndStopsAtTheKey) {
+    const Program program({"explore", "--test-pattern", "--size", "640", "480"});
+    const std::string title = "Isochron: test pattern";
+    screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", title});
+    screen_.xdotool({"search", "--name", title, "windowfocus", "mousemove", "--window", "%1", "200",
+                     "200", "key", "v", "key", "Escape"});
+    EXPECT_EQ(program.exit_status(), 0);
+    EXPECT_EQ(Program({"explore", "--test-pattern", "--record", file("walk.jsonl")}).exit_status(),
+              2);
+}
+
+TEST_F(ExploreTest, NothingThatIsReadIsEverOverwritten) {
+    const auto size = std::filesystem::file_size(file("sphere.isochron"));
+    for (const char* option : {"--record", "--report"})
+        EXPECT_EQ(Program({"explore", file("sphere.isochron"), option, file("sphere.isochron")})
+                      .exit_status(),
+                  1);
+    folder_.write("notes.txt", "mine");
+    EXPECT_EQ(
+        Program({"explore", file("sphere.isochron"), "--record", file("notes.txt")}).exit_status(),
+        1);
+    EXPECT_EQ(folder_.read("notes.txt"), "mine");
+    EXPECT_EQ(std::filesystem::file_size(file("sphere.isochron")), size);
+    EXPECT_EQ(Program({"explore", file("sphere.isochron"), "--isovalue", "nan"}).exit_status(), 2);
+}
+
+TEST_F(ExploreTest, WithoutADisplayItSaysSo) {
+    unsetenv("DISPLAY");
+    EXPECT_EQ(Program({"explore", file("sphere.isochron")}).exit_status(), 1);
+}
+
+} // namespace
+} // namespace isochron::app

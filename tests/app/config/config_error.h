@@ -1,0 +1,21 @@
+// What is wrong with a configuration, for tests.
+#pragma once
+
+#include "app/config/config.h"
+#include "app/config/toml_reader.h"
+
+#include <string>
+
+namespace isochron::app {
+
+/// Of a file `lab.toml` with this text.
+inline std::string error_of(const std::string& text) {
+    try {
+        parse_config(text, "lab.toml");
+    } catch (const ConfigError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+} // namespace isochron::app

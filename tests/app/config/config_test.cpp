@@ -1,0 +1,188 @@
+// Configuration files: what is shipped is valid, and what is wrong is named with its place.
+#include "app/config/config.h"
+#include "app/config/toml_reader.h"
+#include "tests/app/config/config_error.h"
+#include "tests/support/test_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace isochron::app {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Config, EveryShippedFileIsValid) {
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(SOURCE_ROOT "/configs"))
+        if (entry.path().extension() == ".toml") {
+            EXPECT_NO_THROW(read_config(entry.path())) << entry.path();
+            ++files;
+        }
+    EXPECT_GE(files, 3);
+}
+
+TEST(Config, LooksArrive) {
+    const Config config = parse_config(R"(
+[[surfaces]]
+isovalue = 2.5
+colour = [1.0, 0.5, 0.0]
+opacity = 0.5
+[[surfaces]]
+quantile = 0.5
+[rendering]
+samples = 2
+picture_samples = 8
+blending = "display"
+[lighting]
+key_direction = [0, 1, 0]
+reflectance = 0.1
+[colouring]
+by = "value"
+map = "polar"
+range = [0.1, 0.3]
+)",
+                                       "lab.toml");
+    ASSERT_EQ(config.surfaces.size(), 2u);
+    EXPECT_EQ(config.surfaces[0].isovalue, 2.5);
+    EXPECT_EQ(config.surfaces[0].color, glm::vec3(1.0f, 0.5f, 0.0f));
+    EXPECT_EQ(config.surfaces[0].opacity, 0.5f);
+    EXPECT_FALSE(config.surfaces[1].isovalue);
+    EXPECT_EQ(config.surfaces[1].quantile, 0.5);
+    EXPECT_NE(config.surfaces[1].color, config.surfaces[0].color);
+    EXPECT_EQ(config.samples, 2);
+    EXPECT_EQ(config.picture_samples, 8);
+    EXPECT_EQ(config.blending, Blending::display);
+    EXPECT_EQ(config.appearance.key_direction, glm::vec3(0, 1, 0));
+    EXPECT_FLOAT_EQ(config.appearance.reflectance, 0.1f);
+    EXPECT_EQ(config.coloring.by, interaction::ColorBy::value);
+    EXPECT_EQ(config.coloring.map, "polar");
+    EXPECT_EQ(config.coloring.range, (std::array{0.1, 0.3}));
+}
+
+TEST(Config, LooksThatCannotBeAreErrorsWithTheirPlace) {
+    EXPECT_THAT(error_of("[colouring]\nmap = \"rainbow\"\n"), HasSubstr("lab.toml:2"));
+    EXPECT_THAT(error_of("[colouring]\nrange = [2, 1]\n"), HasSubstr("ascending"));
+    EXPECT_THAT(error_of("[lighting]\nkey_direction = [0, 0, 0]\n"), HasSubstr("lab.toml:2"));
+    EXPECT_THAT(error_of("[[surfaces]]\nisovalue = 1\nquantile = 0.5\n"), HasSubstr("quantile"));
+    EXPECT_THAT(error_of("[[surfaces]]\ncolour = [0, 0, 2]\n"), HasSubstr("sRGB"));
+    std::string nine;
+    for (int i = 0; i < 9; ++i)
+        nine += "[[surfaces]]\nisovalue = 1\n";
+    EXPECT_THAT(error_of(nine), HasSubstr("at most 8, got 9"));
+}
+
+TEST(Config, ValuesArrive) {
+    const Config config = parse_config(R"(
+[viewer]
+eye_separation = 0.05
+position = [1, 2.5, -3]
+[[windows]]
+size = [640, 480]
+stereo = "top_bottom"
+[[windows.viewports]]
+[windows.viewports.projection]
+carried_by = "head"
+lower_left = [-2, -1, -1]
+upper_left = [-2, 1, -1]
+upper_right = [2, 1, -1]
+[quality]
+settle_ms = 300
+mode = "fast"
+settled = "gaussian"
+frame_budget_ms = 8.5
+still_budget_ms = 200
+)",
+                                       "lab.toml");
+    EXPECT_FLOAT_EQ(config.installation.viewers[0].eye_separation, 0.05f);
+    EXPECT_EQ(config.emulation.head.position, glm::vec3(1.0f, 2.5f, -3.0f));
+    ASSERT_EQ(config.installation.windows.size(), 1u);
+    const stereo::Window& window = config.installation.windows[0];
+    EXPECT_EQ(window.size, glm::ivec2(640, 480));
+    EXPECT_EQ(window.stereo, stereo::StereoMode::top_bottom);
+    EXPECT_TRUE(window.viewports[0].screen.carried_by_head);
+    EXPECT_EQ(window.viewports[0].screen.upper_left, glm::vec3(-2.0f, 1.0f, -1.0f));
+    EXPECT_DOUBLE_EQ(config.stillness.settle.count(), 0.3);
+    EXPECT_EQ(config.quality, interaction::QualityMode::fast);
+    EXPECT_EQ(config.settled_footprint, render::Footprint::gaussian);
+    EXPECT_DOUBLE_EQ(config.frame_budget_ms, 8.5);
+    EXPECT_DOUBLE_EQ(config.still_budget_ms, 200);
+}
+
+TEST(Config, WhatASettledPictureIsDrawnWithIsMeasuredUnlessItIsNamed) {
+    EXPECT_EQ(parse_config("", "lab.toml").settled_footprint, std::nullopt);
+    EXPECT_EQ(parse_config("[quality]\nsettled = \"auto\"\n", "lab.toml").settled_footprint,
+              std::nullopt);
+    EXPECT_EQ(parse_config("[quality]\nsettled = \"surface\"\n", "lab.toml").settled_footprint,
+              render::Footprint::surface);
+    EXPECT_THAT(error_of("[quality]\nsettled = \"quad\"\n"),
+                HasSubstr("lab.toml:2: quality.settled: unknown value 'quad'"));
+    EXPECT_THAT(error_of("[quality]\nframe_budget_ms = -1\n"),
+                HasSubstr("lab.toml:2: quality.frame_budget_ms: expected a number from 0 to 1000"));
+    EXPECT_THAT(error_of("[quality]\nframe_budget = 8\n"),
+                HasSubstr("did you mean 'frame_budget_ms'?"));
+}
+
+TEST(Config, UnknownKeyNamesLineAndNearestKey) {
+    EXPECT_EQ(
+        error_of("version = 1\n[viewer]\neye_seperation = 0.06\n"),
+        "lab.toml:3: unknown key 'eye_seperation' in [viewer]; did you mean 'eye_separation'?");
+}
+
+TEST(Config, UnknownWordNamesTheWordsAndTheNearest) {
+    const std::string error = error_of("[[windows]]\nstereo = \"side_by_sid\"\n");
+    EXPECT_THAT(error, HasSubstr("lab.toml:2: windows.stereo: unknown value 'side_by_sid'"));
+    EXPECT_THAT(error, HasSubstr("did you mean 'side_by_side'?"));
+}
+
+TEST(Config, ValueOutOfRangeSaysWhatIsExpected) {
+    EXPECT_EQ(error_of("[viewer]\neye_separation = 0.5\n"),
+              "lab.toml:2: viewer.eye_separation: expected a number from 0 to 0.1, got 0.5");
+    EXPECT_THAT(error_of("[viewer]\neye_separation = nan\n"), HasSubstr("lab.toml:2"));
+}
+
+TEST(Config, WrongTypeSaysBoth) {
+    EXPECT_EQ(error_of("[viewer]\neye_separation = \"wide\"\n"),
+              "lab.toml:2: viewer.eye_separation: expected a number, got a string");
+    EXPECT_THAT(error_of("[viewer]\nposition = [0, 1]\n"),
+                HasSubstr("expected an array of 3 numbers"));
+    EXPECT_THAT(error_of("viewer = 3\n"), HasSubstr("lab.toml:1: viewer: expected a table"));
+    EXPECT_THAT(error_of("[[windows]]\nfullscreen = 1\n"), HasSubstr("expected true or false"));
+}
+
+TEST(Config, SyntaxErrorNamesTheLine) {
+    EXPECT_THAT(error_of("version = 1\n[viewer\n"), HasSubstr("lab.toml:2"));
+}
+
+TEST(Config, NewerVersionIsRefused) {
+    EXPECT_THAT(error_of("version = 2\n"), HasSubstr("lab.toml:1: version"));
+}
+
+TEST(Config, FlatScreenIsRefused) {
+    EXPECT_THAT(error_of("[[windows]]\n[[windows.viewports]]\n[windows.viewports.projection]\n"
+                         "lower_left = [0,0,0]\nupper_left = [0,0,0]\nupper_right = [1,0,0]\n"),
+                HasSubstr("0 m high"));
+}
+
+TEST(Config, AScreenNeedsAllOfItsCorners) {
+    const std::string head = "[[windows]]\n[[windows.viewports]]\n[windows.viewports.projection]\n";
+    EXPECT_THAT(error_of(head + "upper_left = [0,1,0]\nupper_right = [1,1,0]\n"),
+                HasSubstr("lab.toml:3: windows.viewports.projection.lower_left: missing"));
+    EXPECT_NO_THROW(parse_config(head + "carried_by = \"head\"\n", "lab.toml"));
+}
+
+TEST(Config, AnEmptyFileIsADefaultAndAFolderIsNone) {
+    const test_support::TestFolder folder;
+    EXPECT_EQ(read_config(folder.write("empty.toml", "")).installation.windows.size(), 1u);
+    EXPECT_THROW(read_config(folder.path()), ConfigError);
+}
+
+TEST(Config, NearestWordIsSilentAboutStrangers) {
+    EXPECT_EQ(nearest_word("settle", {"settle_ms", "mode"}), "settle_ms");
+    EXPECT_EQ(nearest_word("xyzzy", {"settle_ms", "mode"}), "");
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,109 @@
+// Surfaces and colouring: what commands set, what is refused, and old recordings.
+#include "app/frame/explorer_state.h"
+
+#include "interaction/recording/commands_json.h"
+#include "interaction/recording/recording.h"
+
+#include <gtest/gtest.h>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::Isosurface;
+
+std::vector<Isosurface> three() {
+    return {{1, {1, 0, 0}, 1}, {2, {0, 1, 0}, 0.5f}, {3, {0, 0, 1}, 0.25f}};
+}
+
+TEST(ExplorerState, AnIsovalueMovesThePickedSurfaceAlone) {
+    ExplorerState state;
+    Commands commands;
+    commands.isosurfaces = three();
+    commands.picked = 1;
+    commands.isovalue = 7;
+    EXPECT_TRUE(state.apply(commands, 1));
+    EXPECT_EQ(state.isovalue(), 7);
+    EXPECT_EQ(state.isosurfaces[0].isovalue, 1);
+    EXPECT_EQ(state.isosurfaces[2].isovalue, 3);
+}
+
+TEST(ExplorerState, FewerSurfacesLeaveOneThatExistsPicked) {
+    ExplorerState state;
+    Commands commands;
+    commands.isosurfaces = three();
+    commands.picked = 2;
+    state.apply(commands, 1);
+    Commands fewer;
+    fewer.isosurfaces = std::vector<Isosurface>{{4, {1, 1, 1}, 1}};
+    EXPECT_TRUE(state.apply(fewer, 1));
+    EXPECT_EQ(state.picked, 0u);
+    EXPECT_EQ(state.isovalue(), 4);
+}
+
+TEST(ExplorerState, RefusesWhatItCannotHold) {
+    const auto refused = [](const Commands& commands) {
+        ExplorerState state;
+        const ExplorerState before = state;
+        return !state.apply(commands, 1) && state == before;
+    };
+    Commands none, many, infinite, beyond, unknown;
+    none.isosurfaces.emplace();
+    many.isosurfaces = std::vector<Isosurface>(9);
+    infinite.isosurfaces = std::vector<Isosurface>{{1.0 / 0.0, {}, 1}};
+    beyond.picked = 1;
+    unknown.coloring = {.map = "rainbow", .range = {}};
+    for (const Commands& commands : {none, many, infinite, beyond, unknown})
+        EXPECT_TRUE(refused(commands));
+}
+
+TEST(ExplorerState, SetsAllOfItselfThroughJson) {
+    ExplorerState state;
+    state.isosurfaces = three();
+    state.picked = 2;
+    state.axes = false;
+    state.coloring = {interaction::ColorBy::value, "dusk", std::array{1.5, 2.5}};
+    const auto json = interaction::commands_json(state.as_commands());
+    ExplorerState again;
+    EXPECT_TRUE(again.apply(interaction::commands_from(json, "start"), 1));
+    EXPECT_EQ(again, state);
+}
+
+TEST(ExplorerState, TakesAnOldStartStateWithOneIsovalueOnly) {
+    ExplorerState state;
+    const auto old = nlohmann::json::parse(R"({"isovalue":15.5,"panel":true,"step":0})");
+    EXPECT_TRUE(state.apply(interaction::commands_from(old, "start"), 1));
+    EXPECT_EQ(state.isosurfaces.size(), 1u);
+    EXPECT_EQ(state.isovalue(), 15.5);
+}
+
+TEST(ExplorerState, OfBrokenJsonIsAnErrorThatNamesTheField) {
+    const auto error = [](const char* text) -> std::string {
+        try {
+            interaction::commands_from(nlohmann::json::parse(text), "commands");
+        } catch (const interaction::Error& caught) {
+            return caught.what();
+        }
+        return "";
+    };
+    EXPECT_NE(error(R"({"isosurfaces":[]})").find("isosurfaces"), std::string::npos);
+    EXPECT_NE(
+        error(R"({"isosurfaces":[{"isovalue":1,"color":[0,0,2],"opacity":1}]})").find("color"),
+        std::string::npos);
+    EXPECT_NE(error(R"({"coloring":{"by":"mood","map":"dusk"}})").find("first_crossing"),
+              std::string::npos);
+    EXPECT_NE(error(R"({"coloring":{"by":"value","map":"dusk","range":[2,1]}})").find("ascending"),
+              std::string::npos);
+}
+
+TEST(Commands, ALaterListOfSurfacesBringsItsOwnIsovalue) {
+    Commands first, later;
+    first.isovalue = 5;
+    later.isosurfaces = three();
+    interaction::merge(first, later);
+    EXPECT_FALSE(first.isovalue);
+    EXPECT_EQ(first.isosurfaces, three());
+}
+
+} // namespace
+} // namespace isochron::app

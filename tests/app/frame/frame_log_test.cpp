@@ -1,0 +1,94 @@
+// The program's own measurement: what it adds up, and what its report says.
+#include "app/frame/frame_log.h"
+#include "app/panel/panel.h"
+#include "tests/support/test_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace isochron::app {
+namespace {
+
+using render::Footprint;
+using testing::HasSubstr;
+
+FrameReport frame_with(Footprint footprint, QualityReason reason) {
+    FrameReport frame;
+    frame.footprint = footprint;
+    frame.reason = reason;
+    frame.pace =
+        reason == QualityReason::moving ? interaction::Pace::moving : interaction::Pace::settled;
+    frame.budget = Milliseconds(11.1);
+    return frame;
+}
+
+TEST(FrameLog, GpuTimesReachTheirFramesLater) {
+    FrameLog log;
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(log.next(), static_cast<std::uint64_t>(i));
+        log.add({});
+    }
+    log.set_gpu(1, Milliseconds(4));
+    log.set_gpu(3, Milliseconds(8));
+    log.set_gpu(5, Milliseconds(99)); // not there yet
+    EXPECT_EQ(log.frames()[1].gpu, Milliseconds(4));
+    EXPECT_EQ(log.frames()[3].gpu, Milliseconds(8));
+    EXPECT_EQ(log.frames()[4].gpu, std::nullopt);
+    EXPECT_EQ(log.known(&FrameReport::gpu).worst, 8);
+}
+
+TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
+    test_support::TestFolder folder;
+    FrameLog log;
+    log.add(frame_with(Footprint::quad, QualityReason::moving));
+    FrameReport trial = frame_with(Footprint::gaussian, QualityReason::trial);
+    trial.missed = 2;
+    log.add(trial);
+    FrameReport last = frame_with(Footprint::gaussian, QualityReason::over_budget);
+    last.expected = Milliseconds(7.25);
+    last.missed = 1;
+    last.pose_age = Milliseconds(3.5);
+    last.latency = Milliseconds(12.5);
+    log.add(last);
+    log.set_gpu(2, Milliseconds(6.5));
+    log.write(folder.path() / "report.json", "a context");
+    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    EXPECT_EQ(report["missed"], 3);
+    EXPECT_EQ(report["footprints"], (nlohmann::json{{"quad", 1}, {"gaussian", 2}, {"surface", 0}}));
+    EXPECT_EQ(report["milliseconds"]["gpu"]["worst"], 6.5);
+    const auto& rows = report["rows"];
+    EXPECT_EQ(rows[0]["footprint"], "quad");
+    EXPECT_EQ(rows[0]["reason"], "moving");
+    EXPECT_TRUE(rows[0]["gpu_ms"].is_null());
+    EXPECT_TRUE(rows[0]["expected_ms"].is_null());
+    EXPECT_EQ(rows[1]["missed"], 2);
+    EXPECT_EQ(rows[2]["reason"], "over budget");
+    EXPECT_EQ(rows[2]["budget_ms"], 11.1);
+    EXPECT_EQ(rows[2]["expected_ms"], 7.25);
+    EXPECT_EQ(rows[2]["gpu_ms"], 6.5);
+    EXPECT_TRUE(rows[1]["pose_age_ms"].is_null());
+    EXPECT_EQ(rows[2]["pose_age_ms"], 3.5);
+    EXPECT_EQ(rows[2]["latency_ms"], 12.5);
+    EXPECT_EQ(report["milliseconds"]["pose_age"]["worst"], 3.5);
+    EXPECT_EQ(report["milliseconds"]["latency"]["worst"], 12.5);
+    EXPECT_THAT(log.table(), HasSubstr("missed"));
+    EXPECT_THAT(log.table(), HasSubstr("gaussian             2 frames"));
+}
+
+TEST(QualityLine, SaysPaceFootprintCostAndWhy) {
+    FrameReport frame = frame_with(Footprint::surface, QualityReason::fits);
+    EXPECT_EQ(quality_line(frame), "settled: surface");
+    frame.expected = Milliseconds(7.24);
+    EXPECT_EQ(quality_line(frame), "settled: surface, 7.2 of 11.1 ms");
+    frame.footprint = Footprint::gaussian;
+    frame.reason = QualityReason::trial;
+    EXPECT_EQ(quality_line(frame), "settled: gaussian, 7.2 of 11.1 ms (trial)");
+    frame.reason = QualityReason::over_budget;
+    frame.better = Milliseconds(14.2);
+    EXPECT_EQ(quality_line(frame), "settled: gaussian, 7.2 of 11.1 ms (better takes 14.2)");
+    EXPECT_EQ(quality_line(frame_with(Footprint::quad, QualityReason::moving)), "moving: quad");
+}
+
+} // namespace
+} // namespace isochron::app

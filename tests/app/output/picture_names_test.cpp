@@ -1,0 +1,44 @@
+// File names of pictures: as they always were for one window, told apart for more.
+#include "app/output/picture_names.h"
+
+#include <gtest/gtest.h>
+
+namespace isochron::app {
+namespace {
+
+TEST(PictureNames, OneWindowWithOneViewportAddsNothing) {
+    const PictureNames names = picture_names({});
+    ASSERT_EQ(names.windows.size(), 1u);
+    EXPECT_EQ(names.windows[0].suffix, "");
+    EXPECT_EQ(names.windows[0].viewports, std::vector<std::string>{""});
+}
+
+TEST(PictureNames, SeveralWindowsAndViewportsAreTold) {
+    stereo::Installation lab;
+    lab.windows.resize(2);
+    lab.windows[0].name = "front";
+    lab.windows[1].name = "left";
+    lab.windows[1].viewports.resize(2);
+    lab.windows[1].viewports[0].name = "upper half";
+    const PictureNames names = picture_names(lab);
+    EXPECT_EQ(names.windows[0].suffix, "_front");
+    EXPECT_EQ(names.windows[0].viewports, std::vector<std::string>{"_front"});
+    EXPECT_EQ(names.windows[1].suffix, "_left");
+    EXPECT_EQ(names.windows[1].viewports,
+              (std::vector<std::string>{"_left_upper_half", "_left_viewport2"}));
+}
+
+TEST(PictureNames, NamesThatLookAlikeAsFilesStillDiffer) {
+    stereo::Installation lab;
+    lab.windows.resize(3);
+    lab.windows[0].name = "a b";
+    lab.windows[1].name = "a/b";
+    lab.windows[2].name = "a_b";
+    const PictureNames names = picture_names(lab);
+    EXPECT_EQ(names.windows[0].suffix, "_a_b");
+    EXPECT_EQ(names.windows[1].suffix, "_a_b_2");
+    EXPECT_EQ(names.windows[2].suffix, "_a_b_3");
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,71 @@
+// The legend fits into the picture, and its colours and numbers belong together.
+#include "app/scene/font.h"
+#include "app/scene/legend.h"
+
+#include "render/gl/srgb.h"
+#include "tests/support/gl_test.h"
+
+namespace isochron::app {
+namespace {
+
+using render::ScreenQuad;
+
+class LegendTest : public render::GlTest {
+  protected:
+    Legend of_temperature() const {
+        return {.surfaces = {},
+                .value_unit = "K",
+                .scale = ColorScale{
+                    "temperature [K]", {280, 320}, {250, 400}, render::ColorMap::lagoon}};
+    }
+    render::TextPass text_{gl_, room_font(32)};
+};
+
+TEST_P(LegendTest, LiesWithinThePictureOrIsLeftOut) {
+    for (const glm::ivec2 size : {glm::ivec2(1920, 1080), {700, 700}, {400, 300}, {120, 90}}) {
+        const auto quads = legend_quads(of_temperature(), text_, size);
+        EXPECT_EQ(quads.empty(), size.x < 200) << size.x;
+        for (const ScreenQuad& quad : quads) {
+            EXPECT_GE(quad.at.x + quad.low.x, 0);
+            EXPECT_GE(quad.at.y + quad.low.y, 0);
+            EXPECT_LE(quad.at.x + quad.high.x, size.x);
+            EXPECT_LE(quad.at.y + quad.high.y, size.y);
+        }
+    }
+}
+
+TEST_P(LegendTest, ShowsTheMapFromLowToHigh) {
+    const auto quads = legend_quads(of_temperature(), text_, {1000, 1000});
+    const auto colors = render::color_map(render::ColorMap::lagoon);
+    const auto has = [&](const glm::vec3& light) {
+        const glm::vec3 color = render::srgb_from_linear(light);
+        return std::ranges::find_if(quads, [&](const ScreenQuad& quad) {
+            return glm::length(glm::vec3(quad.color) - color) < 1e-4f;
+        });
+    };
+    const auto low = has(colors.front()), high = has(colors.back());
+    ASSERT_TRUE(low != quads.end() && high != quads.end());
+    EXPECT_LT(low->low.y, high->low.y);
+    EXPECT_EQ(low->low.x, high->low.x);
+}
+
+TEST_P(LegendTest, IsNotNeededForOneSurfaceAndListsSeveral) {
+    const std::vector<interaction::Isosurface> one(1), two{{1, {1, 0, 0}, 1}, {2, {0, 1, 0}, 1}};
+    EXPECT_TRUE(legend_quads({one, "K", {}}, text_, {1000, 1000}).empty());
+    const auto quads = legend_quads({two, "K", {}}, text_, {1000, 1000});
+    for (const auto& surface : two)
+        EXPECT_TRUE(std::ranges::any_of(
+            quads, [&](const ScreenQuad& quad) { return glm::vec3(quad.color) == surface.color; }));
+}
+
+INSTANTIATE_TEST_SUITE_P(, LegendTest, render::both_contexts(), render::context_name);
+
+TEST(RoomFont, HasWhatUnitsNeed) {
+    const render::GlyphAtlas atlas = room_font(32);
+    for (const char32_t character : std::u32string(U"0123456789.-+e[]µ°²³Ωm"))
+        EXPECT_TRUE(atlas.find(character)) << static_cast<unsigned>(character);
+    EXPECT_GT(render::text_width(atlas, "mm"), render::text_width(atlas, "ii"));
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,145 @@
+// Pictures of a sphere as they were once looked at and kept, and what geometry alone says of them.
+#include "tests/support/golden_fixture.h"
+
+#include "stereo/windows.h"
+
+#include <map>
+
+namespace isochron::app {
+namespace {
+
+INSTANTIATE_TEST_SUITE_P(, GoldenPictures,
+                         testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
+                         context_name);
+
+TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
+    struct Case {
+        Footprint footprint;
+        const char* name;
+        double swelling; ///< cells reach beyond the surface, splats by up to two voxels
+    };
+    for (const Case& one :
+         {Case{Footprint::quad, "quad", 0.3}, Case{Footprint::gaussian, "gaussian", 0.42},
+          Case{Footprint::surface, "surface", 0.0}}) {
+        SCOPED_TRACE(one.name);
+        Config config = one_window(StereoMode::quadbuffer);
+        config.settled_footprint = one.footprint;
+        const auto context = stereo::make_context(GetParam(), {.size = kPicture});
+        Session session(config, file_, *context);
+        Commands commands = showing(kPlacement);
+        if (one.footprint == Footprint::quad)
+            commands.quality = interaction::QualityMode::fast;
+        ASSERT_EQ(settle(session, commands), one.footprint);
+        std::map<Eye, Image> pictures;
+        for (const Eye eye : {Eye::left, Eye::right})
+            pictures[eye] = session.display().read_eye(eye);
+        Commands mono;
+        mono.stereo = "mono";
+        ASSERT_EQ(settle(session, mono), one.footprint);
+        pictures[Eye::centre] = session.display().read_eye(Eye::centre);
+        std::map<Eye, double> expected_x, actual_x;
+        for (const auto& [eye, picture] : pictures) {
+            const std::string name = std::string(one.name) + "_" + std::string(name_of(eye));
+            SCOPED_TRACE(name);
+            EXPECT_TRUE(matches_golden(picture, name, kTolerance));
+            const PinholeEye pinhole = before_window(session, eye, kPicture);
+            const Coverage actual = warm_part(picture);
+            const Coverage expected = expected_part(pinhole, kPlacement, kOuterRadius);
+            expect_sphere(actual, expected, one.swelling);
+            EXPECT_EQ(expect_box(picture, pinhole, kPlacement), 12 * kPerEdge);
+            actual_x[eye] = actual.centre.x;
+            expected_x[eye] = expected.centre.x;
+        }
+        const double disparity = expected_x[Eye::right] - expected_x[Eye::left];
+        EXPECT_GT(disparity, 3.0) << "the sphere stands behind the screen";
+        EXPECT_NEAR(actual_x[Eye::right] - actual_x[Eye::left], disparity, 0.5);
+    }
+}
+
+/// Of the inner one of two surfaces: the outer, which is warm, and the background have less blue.
+bool blue(const std::uint8_t* pixel) {
+    return pixel[2] > 45;
+}
+
+TEST_P(GoldenPictures, TwoSurfacesThatLetLightThroughToEitherEye) {
+    constexpr glm::ivec2 kAboveLegend(kPicture.x, 84);
+    Config config = one_window(StereoMode::quadbuffer);
+    config.settled_footprint = Footprint::surface;
+    const auto context = stereo::make_context(GetParam(), {.size = kPicture});
+    Session session(config, file_, *context);
+    Commands commands = showing(kPlacement);
+    commands.isovalue.reset();
+    commands.axes = false;
+    commands.isosurfaces = {{kFromRadius - kOuterRadius, {0.95f, 0.60f, 0.20f}, 0.35f},
+                            {kFromRadius - kInnerRadius, {0.15f, 0.45f, 1.00f}, 0.9f}};
+    commands.picked = 0;
+    ASSERT_EQ(settle(session, commands), Footprint::surface);
+    for (const Eye eye : {Eye::left, Eye::right}) {
+        const std::string name = "two_surfaces_" + std::string(name_of(eye));
+        SCOPED_TRACE(name);
+        const Image picture = session.display().read_eye(eye);
+        EXPECT_TRUE(matches_golden(picture, name, kTolerance));
+        const PinholeEye pinhole = before_window(session, eye, kPicture);
+        const auto part = [&](bool (*belongs)(const std::uint8_t*)) {
+            return test_support::coverage(kAboveLegend,
+                                          [&](int x, int y) { return belongs(picture.at(x, y)); });
+        };
+        expect_sphere(part(warm), expected_part(pinhole, kPlacement, kOuterRadius), 0.0);
+        expect_sphere(part(blue), expected_part(pinhole, kPlacement, kInnerRadius), 0.0);
+    }
+}
+
+TEST_P(GoldenPictures, AxesWithNumbersToEitherEye) {
+    constexpr glm::ivec2 kLarger(288, 192);
+    Config config = one_window(StereoMode::quadbuffer, kLarger);
+    config.settled_footprint = Footprint::surface;
+    const auto context = stereo::make_context(GetParam(), {.size = kLarger});
+    Session session(config, file_, *context);
+    const interaction::Similarity placement = place_at({0.12, 1.75, -2.9}, 0.035);
+    Commands commands = showing(placement);
+    commands.isovalue = kFromRadius - 4.0;
+    ASSERT_EQ(settle(session, commands), Footprint::surface);
+    for (const Eye eye : {Eye::left, Eye::right}) {
+        const std::string name = "axes_" + std::string(name_of(eye));
+        SCOPED_TRACE(name);
+        const Image picture = session.display().read_eye(eye);
+        EXPECT_TRUE(matches_golden(picture, name, kTolerance));
+        EXPECT_EQ(expect_box(picture, before_window(session, eye, kLarger), placement),
+                  12 * kPerEdge);
+    }
+}
+
+/// The sphere hangs in the corner of the walls, so that every one of them shows a part of it.
+TEST_P(GoldenPictures, EveryWallOfACaveToEitherEye) {
+    constexpr glm::ivec2 kWall(96, 96);
+    Config config = read_config("cave4");
+    draw_as_in_software(config);
+    config.settled_footprint = Footprint::surface;
+    config.comfort.near_gone = config.comfort.near_whole = 0; // the sphere comes within reach
+    for (stereo::Window& window : config.installation.windows) {
+        window.size = kWall;
+        window.viewports.front().position = {0, 0};
+        window.viewports.front().size = {1, 1};
+    }
+    const interaction::Pose head{{0.1f, 1.65f, 0.35f},
+                                 glm::angleAxis(0.3f, glm::vec3(0.2f, 0.97f, 0.1f))};
+    const interaction::Similarity placement = place_at({0.05, 1.15, -0.5}, 0.065);
+    Session session(config, file_, stereo::open_windows(GetParam(), config.installation, {}));
+    ASSERT_EQ(settle(session, showing(placement), head), Footprint::surface);
+    ASSERT_EQ(session.displays(), 4u);
+    for (std::size_t wall = 0; wall < session.displays(); ++wall)
+        for (const Eye eye : {Eye::left, Eye::right}) {
+            const stereo::Window& window = config.installation.windows[wall];
+            const std::string name = "cave_" + window.name + "_" + std::string(name_of(eye));
+            SCOPED_TRACE(name);
+            const Image picture = session.display(wall).read_eye(eye);
+            EXPECT_TRUE(matches_golden(picture, name, kTolerance));
+            const PinholeEye pinhole(window.viewports.front().screen, head, eye,
+                                     session.state().eye_separation, kWall);
+            expect_sphere(warm_part(picture), expected_part(pinhole, placement, kOuterRadius), 0.0);
+            EXPECT_GT(expect_box(picture, pinhole, placement), kPerEdge);
+        }
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,166 @@
+// The whole picture in a headset: what each eye is shown of a sphere, and how far away it is.
+#include "tests/support/golden_fixture.h"
+#include "tests/support/played_fixture.h"
+
+namespace isochron::app {
+namespace {
+
+using played::Happening;
+
+constexpr glm::ivec2 kEye(144, 128);
+
+/// A headset with canted eyes that see more outwards than inwards, worn by somebody who leans.
+void put_on(played::PlayedHeadset& headset) {
+    const glm::quat outwards = glm::angleAxis(0.09f, glm::vec3(0, 1, 0));
+    headset.eyes[0] = {{{-0.032f, 0, 0}, outwards}, {-0.75f, 0.5f, 0.55f, -0.6f}, kEye};
+    headset.eyes[1] = {
+        {{0.032f, 0, 0}, glm::conjugate(outwards)}, {-0.5f, 0.75f, 0.55f, -0.6f}, kEye};
+    headset.head = {{0.05f, 1.68f, 0.1f},
+                    glm::angleAxis(0.12f, glm::normalize(glm::vec3(0.3f, 0.4f, 1)))};
+}
+
+/// The lines of sight of an eye, from nothing but its pose and its angles.
+PinholeEye oracle_of(const played::SubmittedView& view) {
+    const auto corner = [&](float x, float y) {
+        return view.pose.position +
+               view.pose.orientation * glm::vec3(std::tan(x), std::tan(y), -1.0f);
+    };
+    const stereo::Screen screen{corner(view.fov.left, view.fov.down),
+                                corner(view.fov.left, view.fov.up),
+                                corner(view.fov.right, view.fov.up)};
+    return {screen, view.pose, Eye::centre, 0, kEye};
+}
+
+class HeadsetSession : public testing::Test {
+  protected:
+    HeadsetSession() {
+        stereo::use_played_runtime();
+        headset().reset();
+        put_on(headset());
+        config_ = small_config();
+        draw_as_in_software(config_);
+        config_.settled_footprint = Footprint::surface;
+        config_.openxr.enabled = true;
+        config_.openxr.options.windowless = true;
+        config_.openxr.options.near_plane = config_.installation.near_plane;
+        config_.openxr.options.far_plane = config_.installation.far_plane;
+    }
+    ~HeadsetSession() override {
+        session_->headset()->leave();
+        session_.reset();
+        EXPECT_EQ(stereo::codes(), std::vector<std::string>());
+    }
+    played::PlayedHeadset& headset() { return played::played_headset(); }
+
+    void start() {
+        session_.emplace(config_, file_, *context_, index::Extract(), open_headset(config_.openxr));
+    }
+    const FrameReport& frame(const Commands& commands) {
+        now_ += interaction::Seconds(0.0111);
+        stereo::Headset& client = *session_->headset();
+        client.update(now_);
+        client.begin_frame(now_);
+        return session_->frame(client.poll(now_), commands, Waiting::for_cells);
+    }
+    /// Until the picture is there and does not change any more.
+    void settle(const Commands& commands) {
+        frame(commands);
+        for (int i = 0; i < 60; ++i)
+            if (frame({}).final && !session_->log().frames().back().redrawn &&
+                !headset().frames.back().views.empty())
+                break;
+    }
+
+    TestFolder folder_;
+    std::shared_ptr<const index::IndexFile> file_ = build_sphere(folder_.path());
+    std::unique_ptr<stereo::GlContext> context_ =
+        stereo::make_context(stereo::ContextKind::egl, {.size = {128, 96}});
+    Config config_;
+    std::optional<Session> session_;
+    interaction::Seconds now_{0};
+};
+
+TEST_F(HeadsetSession, EachCantedEyeIsShownTheSphereWhereItStands) {
+    start();
+    settle(showing(kPlacement));
+    const auto& views = headset().frames.back().views;
+    ASSERT_EQ(views.size(), 2u);
+    for (const Eye eye : {Eye::left, Eye::right}) {
+        const std::string name = "headset_" + std::string(name_of(eye));
+        SCOPED_TRACE(name);
+        const played::SubmittedView& view = views[eye == Eye::right];
+        EXPECT_TRUE(matches_golden(view.picture, name, kTolerance));
+        EXPECT_EQ(view.picture.rgba, session_->headset_display()->read_eye(eye).rgba);
+        const PinholeEye pinhole = oracle_of(view);
+        expect_sphere(warm_part(view.picture), expected_part(pinhole, kPlacement, kOuterRadius),
+                      0.0);
+        EXPECT_GT(expect_box(view.picture, pinhole, kPlacement), 6 * kPerEdge);
+    }
+}
+
+/// The depths of the runtime's layer are those of the sphere's front.
+TEST_F(HeadsetSession, TheDepthLayerHoldsTheDistanceOfTheSurface) {
+    start();
+    Commands commands = showing(kPlacement);
+    commands.axes = false;
+    settle(commands);
+    const played::SubmittedView& view = headset().frames.back().views.at(0);
+    ASSERT_EQ(view.depth.size(), std::size_t(kEye.x) * kEye.y);
+    const glm::dvec3 centre = in_room(kPlacement, kSphereCentre);
+    const glm::dvec3 eye(view.pose.position);
+    const auto pixel = oracle_of(view).pixel_of(centre);
+    ASSERT_TRUE(pixel);
+    const double z = view.depth[std::size_t(pixel->y) * kEye.x + std::size_t(pixel->x)];
+    const double n = view.near_z, f = view.far_z;
+    const double along = n * f / (f - z * (f - n)); // metres in the eye's direction
+    const glm::dvec3 ahead = glm::dquat(view.pose.orientation) * glm::dvec3(0, 0, -1);
+    const glm::dvec3 front =
+        centre - kPlacement.scale * kOuterRadius * glm::normalize(centre - eye);
+    EXPECT_NEAR(along, glm::dot(front - eye, ahead), 0.01);
+}
+
+TEST_F(HeadsetSession, AStillPictureIsShownAgainWithoutBeingDrawnAgain) {
+    start();
+    settle(showing(kPlacement));
+    const render::Image before = headset().frames.back().views.at(0).picture;
+    EXPECT_FALSE(frame({}).redrawn);
+    EXPECT_EQ(headset().frames.back().views.at(0).picture.rgba, before.rgba);
+    headset().head.position.x += 0.2f;
+    EXPECT_TRUE(frame({}).redrawn);
+    EXPECT_EQ(headset().frames.back().views.at(0).picture.rgba,
+              session_->headset_display()->read_eye(Eye::left).rgba);
+    EXPECT_NE(headset().frames.back().views.at(0).picture.rgba, before.rgba);
+}
+
+TEST_F(HeadsetSession, AStillPictureIsThereAgainAfterTheSessionWasLost) {
+    start();
+    settle(showing(kPlacement));
+    const render::Image before = headset().frames.back().views.at(0).picture;
+    headset().happens(Happening::lose_session);
+    frame({});
+    frame({});
+    now_ += interaction::Seconds(2.5);
+    settle({});
+    EXPECT_EQ(headset().sessions, 2u);
+    EXPECT_EQ(headset().frames.back().views.at(0).picture.rgba, before.rgba);
+}
+
+TEST_F(HeadsetSession, TheMirrorCutsTheLeftEyeToTheWindow) {
+    config_.openxr.mirror = stereo::Mirror::left;
+    start();
+    settle(showing(kPlacement));
+    const Image window = session_->headset_display()->read_window();
+    ASSERT_EQ(window.width, 128);
+    ASSERT_EQ(window.height, 96);
+    EXPECT_TRUE(matches_golden(window, "headset_mirror", kTolerance));
+    // All of the eye's width shows, so the sphere is as much smaller as the window is; the filter
+    // widens its rim by less than half a pixel.
+    const Coverage in_window = warm_part(window);
+    const Coverage in_eye = warm_part(headset().frames.back().views.at(0).picture);
+    const double smaller = 128.0 / kEye.x;
+    EXPECT_NEAR(in_window.pixels, in_eye.pixels * smaller * smaller, 0.04 * in_window.pixels);
+    EXPECT_NEAR(in_window.centre.x, in_eye.centre.x * smaller, 0.7);
+}
+
+} // namespace
+} // namespace isochron::app

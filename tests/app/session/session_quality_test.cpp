@@ -1,0 +1,302 @@
+// The session's quality: measured when live, by pace alone in a fixed-step replay, awaited by
+// captures.
+#include "tests/support/session_fixture.h"
+
+#include "app/session/replay.h"
+#include "stereo/image_file.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <functional>
+#include <future>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::QualityMode;
+using render::Footprint;
+
+constexpr double kRate = 60; ///< [Hz] of the frames' clock, which is the tests'
+
+class SessionQuality : public SessionTest {
+  protected:
+    static constexpr double kPlenty = 1000, kNothing = 1e-6; // ms: any frame fits, none does
+
+    Config config_with(double budget_ms) const {
+        Config config = small_config();
+        config.frame_rate_limit = kRate;
+        config.frame_budget_ms = budget_ms;
+        config.still_budget_ms = 0;
+        return config;
+    }
+    interaction::Seconds now() const { return interaction::Seconds(frame_ / kRate); }
+
+    /// Frames with a head at rest.
+    FrameReport rest(Session& session, int frames, const Commands& first = {}) {
+        FrameReport report;
+        for (int i = 0; i < frames; ++i, ++frame_)
+            report = session.frame(head_at_rest(now().count()), i == 0 ? first : Commands{},
+                                   Waiting::never);
+        return report;
+    }
+    /// Frames with a head that walks.
+    FrameReport walk(Session& session, int frames, const Commands& first = {}) {
+        FrameReport report;
+        for (int i = 0; i < frames; ++i, ++frame_) {
+            interaction::InputState input = head_at_rest(now().count());
+            input.devices[0].pose->position.x = static_cast<float>(0.5 * now().count());
+            report = session.frame(input, i == 0 ? first : Commands{}, Waiting::never);
+        }
+        return report;
+    }
+    /// Starts with cells on the screen.
+    void start(Session& session) {
+        session.frame(head_at_rest(now().count()), {}, Waiting::for_cells);
+        ++frame_;
+    }
+    bool captured(Session& session) const {
+        session.pictures().finish();
+        return std::filesystem::exists(folder_.path() / "isochron_0001.png");
+    }
+    int frame_ = 0;
+};
+
+INSTANTIATE_TEST_SUITE_P(Contexts, SessionQuality,
+                         testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
+                         context_name);
+
+std::ptrdiff_t frames_with(const Session& session, Footprint footprint) {
+    return std::ranges::count(session.log().frames(), footprint, &FrameReport::footprint);
+}
+
+TEST_P(SessionQuality, WithinTheBudgetASettledPictureEndsAtTheBestAndIsThenLeftAlone) {
+    Session session(config_with(kPlenty), file_, *context_);
+    start(session);
+    EXPECT_EQ(walk(session, 20).footprint, Footprint::quad);
+    const FrameReport report = rest(session, 120);
+    EXPECT_EQ(report.footprint, render::kBestFootprint);
+    EXPECT_EQ(report.reason, QualityReason::fits);
+    EXPECT_TRUE(report.final);
+    EXPECT_TRUE(report.expected.has_value());
+    EXPECT_FALSE(report.redrawn) << "nothing moves";
+    EXPECT_EQ(report.budget, Milliseconds(kPlenty));
+}
+
+TEST_P(SessionQuality, OverTheBudgetASettledPictureGoesBackToQuadsAndSaysWhy) {
+    Session session(config_with(kNothing), file_, *context_);
+    start(session);
+    rest(session, 60);
+    EXPECT_GT(frames_with(session, Footprint::gaussian), 0) << "it is not known before";
+    rest(session, 6000);
+    EXPECT_GT(frames_with(session, Footprint::quad), 5900);
+    const auto& frames = session.log().frames();
+    EXPECT_TRUE(std::ranges::any_of(frames, [](const FrameReport& frame) {
+        return frame.reason == QualityReason::over_budget && frame.final && frame.better;
+    }));
+}
+
+TEST_P(SessionQuality, APictureAtRestMayTakeItsTimeButNotOneThatSways) {
+    Config config = config_with(kNothing);
+    config.still_budget_ms = kPlenty;
+    Session session(config, file_, *context_);
+    start(session);
+    rest(session, 10);
+    FrameReport report = rest(session, 50);
+    EXPECT_EQ(report.footprint, render::kBestFootprint);
+    EXPECT_TRUE(report.final);
+    EXPECT_EQ(report.budget, Milliseconds(kPlenty));
+    EXPECT_FALSE(report.redrawn);
+    // Settled, but every second refresh shows another pose: that of a slow tracker.
+    const auto sway = [&](int frames) {
+        for (int i = 0; i < frames; ++i, ++frame_) {
+            interaction::InputState input = head_at_rest(now().count());
+            input.devices[0].pose->position.x = 1e-5f * static_cast<float>(frame_ / 2 % 2);
+            report = session.frame(input, {}, Waiting::never);
+            ASSERT_EQ(report.pace, interaction::Pace::settled);
+        }
+    };
+    sway(20);
+    const std::size_t first = session.log().frames().size();
+    sway(600);
+    const auto& frames = session.log().frames();
+    EXPECT_LE(
+        std::count_if(frames.begin() + static_cast<std::ptrdiff_t>(first), frames.end(),
+                      [](const FrameReport& frame) { return frame.footprint != Footprint::quad; }),
+        24);
+    EXPECT_EQ(report.budget, Milliseconds(kNothing));
+}
+
+TEST_P(SessionQuality, TimesOfTheGpuReachTheReport) {
+    Session session(config_with(kPlenty), file_, *context_);
+    start(session);
+    walk(session, 200);
+    const auto& frames = session.log().frames();
+    EXPECT_GT(
+        std::ranges::count_if(frames, [](const auto& frame) { return frame.gpu.has_value(); }), 20);
+    EXPECT_GT(session.log().known(&FrameReport::gpu).median, 0);
+}
+
+TEST_P(SessionQuality, TheVolumeOfCellsInMotionFollowsWhenThePictureComesToRest) {
+    const render::Gl gl(context_->loader());
+    // Otherwise normals are made of the volume, which comes with every set.
+    const bool follows = render::CellBuffers::wanted_shading(gl) == index::Shading::cells;
+    Config config = config_with(kPlenty);
+    config.upload_kilobytes_per_frame = 16; // less than a set's
+    Session session(config, file_, *context_);
+    start(session);
+    const std::uint32_t before = session.log().frames().back().shown->step;
+    const auto first = session.log().frames().size();
+    while (session.log().frames().back().shown->step == before) {
+        Commands commands;
+        commands.step = before + 1;
+        walk(session, 1, commands);
+    }
+    walk(session, 5);
+    const auto& frames = session.log().frames();
+    std::uint64_t in_motion = 0;
+    for (auto i = first; i < frames.size(); ++i)
+        in_motion += frames[i].uploaded.brick_bytes;
+    EXPECT_EQ(in_motion == 0, follows);
+    const FrameReport& report = rest(session, 60);
+    EXPECT_EQ(report.footprint, render::kBestFootprint);
+    EXPECT_TRUE(report.final);
+    const auto sending = std::ranges::count_if(
+        frames, [](const auto& frame) { return frame.uploaded.brick_bytes > 0; });
+    EXPECT_GT(sending, 2);
+    for (const FrameReport& frame : frames)
+        EXPECT_TRUE(frame.uploaded.brick_bytes < 16 * 1024 || // as much as fits, and so not all
+                    frame.pace == interaction::Pace::moving);
+}
+
+TEST_P(SessionQuality, AFixedStepReplayGoesByPaceWhateverItCosts) {
+    std::vector<Footprint> footprints[2];
+    for (const double budget : {kPlenty, kNothing}) {
+        Session session(config_with(budget), file_, *context_);
+        for (int frame = 0; frame < 60; ++frame) {
+            interaction::InputState input = head_at_rest(frame / kRate);
+            if (frame > 30)
+                input.devices[0].pose->position.x = 0.01f * static_cast<float>(frame - 30);
+            footprints[budget == kPlenty].push_back(
+                session.frame(input, {}, Waiting::for_cells).footprint);
+        }
+    }
+    EXPECT_EQ(footprints[0], footprints[1]);
+    EXPECT_EQ(footprints[0][30], render::kBestFootprint);
+    EXPECT_EQ(footprints[0].back(), Footprint::quad);
+}
+
+TEST_P(SessionQuality, WhatIsConfiguredForASettledPictureIsTaken) {
+    Config config = config_with(kNothing);
+    config.settled_footprint = Footprint::gaussian;
+    Session session(config, file_, *context_);
+    start(session);
+    const FrameReport report = rest(session, 60);
+    EXPECT_EQ(report.footprint, Footprint::gaussian);
+    EXPECT_EQ(report.reason, QualityReason::configured);
+}
+
+TEST_P(SessionQuality, ACaptureInMotionIsTakenOnceThePictureIsSettled) {
+    Session session(config_with(kPlenty), file_, *context_);
+    session.set_screenshots(folder_.path());
+    start(session);
+    Commands capture;
+    capture.screenshot = true;
+    EXPECT_EQ(walk(session, 60, capture).footprint, Footprint::quad);
+    EXPECT_FALSE(captured(session));
+    rest(session, 120);
+    ASSERT_TRUE(captured(session));
+    // The settled picture, which nothing has changed since.
+    session.kept_pictures().each([&](std::size_t, const stereo::Display& display) {
+        EXPECT_EQ(stereo::read_image(folder_.path() / "isochron_0001.png").rgba,
+                  display.read_window().rgba);
+    });
+    EXPECT_EQ(session.log().frames().back().footprint, render::kBestFootprint);
+}
+
+TEST_P(SessionQuality, ACaptureOfWhatDoesNotFitIsTakenAtWhatDoes) {
+    Session session(config_with(kNothing), file_, *context_);
+    session.set_screenshots(folder_.path());
+    start(session);
+    Commands capture;
+    capture.screenshot = true;
+    rest(session, 60, capture);
+    EXPECT_TRUE(captured(session));
+}
+
+TEST_P(SessionQuality, InFastModeACaptureIsTakenAtOnceAndFast) {
+    Session session(config_with(kPlenty), file_, *context_);
+    session.set_screenshots(folder_.path());
+    start(session);
+    Commands capture;
+    capture.screenshot = true;
+    capture.quality = QualityMode::fast;
+    EXPECT_EQ(walk(session, 1, capture).footprint, Footprint::quad);
+    EXPECT_TRUE(captured(session));
+}
+
+TEST_P(SessionQuality, TimeThatPlaysIsDrawnInQuadsAndACaptureOfItComesAllTheSame) {
+    Session session(config_with(kPlenty), file_, *context_);
+    session.set_screenshots(folder_.path());
+    start(session);
+    Commands play;
+    play.screenshot = true;
+    play.playback = interaction::PlaybackState{true, false, true, 1.0};
+    for (int frame = 0; frame < 11 * kRate; ++frame, ++frame_) {
+        Commands commands = frame == 0 ? play : Commands{};
+        commands.step = static_cast<std::uint32_t>(frame / 6 % 6);
+        const auto report = session.frame(head_at_rest(now().count()), commands, Waiting::never);
+        ASSERT_EQ(report.footprint, Footprint::quad);
+        if (frame == 5 * kRate) {
+            EXPECT_FALSE(captured(session)) << "it may stop yet";
+        }
+    }
+    EXPECT_TRUE(captured(session));
+}
+
+TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) {
+    const index::Extract real = index::extract_from(file_);
+    std::promise<void> release;
+    const std::shared_future<void> released = release.get_future().share();
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+        if (query.step == 1)
+            released.wait();
+        return real(query, stop);
+    };
+    Session session(config_with(kPlenty), file_, *context_, extract);
+    session.set_screenshots(folder_.path());
+    start(session);
+    Commands to_step_1;
+    to_step_1.step = 1;
+    to_step_1.screenshot = true;
+    const std::size_t first = session.log().frames().size();
+    const FrameReport report = rest(session, static_cast<int>(2 * kRate), to_step_1);
+    EXPECT_EQ(report.shown->step, 0u);
+    EXPECT_EQ(report.footprint, render::kBestFootprint) << "of the cells that are there";
+    EXPECT_FALSE(captured(session)) << "these are not the cells that were asked for";
+    const auto& frames = session.log().frames();
+    EXPECT_EQ(frames.size() - first, 2 * kRate);
+    EXPECT_EQ(session.log().missed(), 0u);
+    EXPECT_TRUE(std::ranges::all_of(
+        frames.begin() + static_cast<std::ptrdiff_t>(first), frames.end(),
+        [](const FrameReport& frame) { return frame.wait == Milliseconds(0); }));
+    release.set_value();
+    session.frame(head_at_rest(now().count()), {}, Waiting::for_cells);
+    ++frame_;
+    EXPECT_EQ(rest(session, 60).shown->step, 1u);
+    EXPECT_TRUE(captured(session));
+}
+
+TEST_P(SessionQuality, RefreshesWithoutAFrameAreCounted) {
+    Session session(config_with(0), file_, *context_);
+    start(session);
+    EXPECT_EQ(rest(session, 1).missed, 0u);
+    frame_ += 3;
+    EXPECT_EQ(rest(session, 1).missed, 3u);
+    EXPECT_EQ(rest(session, 5).missed, 0u);
+    EXPECT_EQ(session.log().missed(), 3u);
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,270 @@
+// The session: one frame does what the day's story says, and waits for nobody.
+#include "tests/support/session_fixture.h"
+
+#include "app/session/replay.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdio>
+#include <functional>
+#include <future>
+#include <latch>
+#include <unistd.h>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+
+INSTANTIATE_TEST_SUITE_P(Contexts, SessionTest,
+                         testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
+                         context_name);
+
+/// Pixels that differ from the background in the corner.
+std::size_t drawn_pixels(const render::Image& image) {
+    std::size_t count = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if (std::memcmp(image.at(x, y), image.at(0, 0), 3) != 0)
+                ++count;
+    return count;
+}
+
+TEST_P(SessionTest, ShowsTheCellsThatWereAskedFor) {
+    Session session(small_config(), file_, *context_);
+    Commands commands;
+    commands.isovalue = 8.0;
+    commands.step = 3;
+    const FrameReport report = session.frame(head_at_rest(0), commands, Waiting::for_cells);
+    ASSERT_TRUE(report.shown.has_value());
+    EXPECT_EQ(*report.shown, (index::SurfacesQuery{3, {8.0}}));
+    EXPECT_GT(report.cells, 500u);
+    EXPECT_GT(drawn_pixels(session.display().read_window()), 1000u);
+}
+
+TEST_P(SessionTest, FramesGoOnWhileAnExtractionHangs) {
+    std::latch entered(1);
+    std::promise<void> release;
+    const std::shared_future<void> released = release.get_future().share();
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token) {
+        entered.count_down();
+        released.wait();
+        auto extraction = std::make_shared<index::Extraction>();
+        extraction->query = query;
+        return extraction;
+    };
+    Session session(small_config(), file_, *context_, extract);
+    session.frame(head_at_rest(0), {}, Waiting::never);
+    entered.wait();
+    for (int frame = 1; frame <= 50; ++frame) {
+        Commands commands;
+        commands.isovalue = 4.0 + 0.1 * frame;
+        EXPECT_FALSE(session.frame(head_at_rest(frame / 60.0), commands, Waiting::never).shown);
+    }
+    release.set_value();
+    EXPECT_EQ(session.frame(head_at_rest(1), {}, Waiting::for_cells).shown,
+              (index::SurfacesQuery{0, {9.0}}));
+}
+
+/// Frames with a head that moves, so that each is drawn; their total times in milliseconds.
+std::vector<double> moving_frames(Session& session, const Commands& first,
+                                  const std::function<bool(const FrameReport&)>& more) {
+    std::vector<double> times;
+    Commands commands = first;
+    for (;;) {
+        const std::size_t frame = session.log().frames().size();
+        interaction::InputState input = head_at_rest(0.01 * static_cast<double>(frame));
+        input.devices[0].pose->position.x = 0.01f * static_cast<float>(frame % 20);
+        const FrameReport report = session.frame(input, commands, Waiting::never);
+        commands = {};
+        if (!more(report))
+            return times;
+        EXPECT_TRUE(report.redrawn);
+        times.push_back(report.total.count());
+    }
+}
+
+TEST_P(SessionTest, AnExtractionOfTwoSecondsLeavesTheFramesAsTheyAre) {
+    constexpr std::chrono::seconds kExtraction{2};
+    const index::Extract real = index::extract_from(file_);
+    std::promise<void> never;
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+        if (query.step == 1)
+            never.get_future().wait_for(kExtraction); // as long as a very large step takes
+        return real(query, stop);
+    };
+    Session session(small_config(), file_, *context_, extract);
+    session.frame(head_at_rest(0), {}, Waiting::for_cells);
+    const auto before =
+        moving_frames(session, {}, [n = 0](const FrameReport&) mutable { return ++n <= 600; });
+    Commands to_step_1;
+    to_step_1.step = 1;
+    const auto during = moving_frames(
+        session, to_step_1, [](const FrameReport& report) { return report.shown->step != 1; });
+    const TimeSummary quiet = summarize(before), busy = summarize(during);
+    std::printf("p99 of a frame: %.1f ms before, %.1f ms during the extraction (%zu frames)\n",
+                quiet.p99, busy.p99, during.size());
+    EXPECT_GT(during.size(), 5u);
+    // A frame that waits takes as long as the extraction; a loaded machine may well take half of
+    // it.
+    EXPECT_LT(busy.worst, Milliseconds(kExtraction).count()) << "a frame waited for the worker";
+}
+
+TEST_P(SessionTest, FramesGoOnWhileAReadStalls) {
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token) {
+        char byte;
+        EXPECT_EQ(::read(ends[0], &byte, 1), 1); // blocks in the kernel until the byte arrives
+        auto extraction = std::make_shared<index::Extraction>();
+        extraction->query = query;
+        return extraction;
+    };
+    Session session(small_config(), file_, *context_, extract);
+    for (int frame = 0; frame < 50; ++frame)
+        EXPECT_FALSE(session.frame(head_at_rest(frame / 60.0), {}, Waiting::never).shown);
+    ASSERT_EQ(::write(ends[1], "x", 1), 1);
+    EXPECT_TRUE(session.frame(head_at_rest(1), {}, Waiting::for_cells).shown);
+    close(ends[0]);
+    close(ends[1]);
+}
+
+TEST_P(SessionTest, AFailingExtractionLeavesThePictureAndSaysWhy) {
+    const index::Extract real = index::extract_from(file_);
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+        if (query.step == 2)
+            throw std::runtime_error("step 2 cannot be read");
+        return real(query, stop);
+    };
+    Session session(small_config(), file_, *context_, extract);
+    const auto cells = session.frame(head_at_rest(0), {}, Waiting::for_cells).cells;
+    Commands to_step_2;
+    to_step_2.step = 2;
+    const FrameReport report = session.frame(head_at_rest(0.1), to_step_2, Waiting::for_cells);
+    EXPECT_EQ(report.cells, cells);
+    EXPECT_EQ(report.shown->step, 0u);
+    EXPECT_EQ(session.failure(), "step 2 cannot be read");
+}
+
+TEST_P(SessionTest, SettlesIntoSplatsAndMovesInQuads) {
+    Session session(small_config(), file_, *context_);
+    FrameReport report;
+    for (int frame = 0; frame < 30; ++frame)
+        report = session.frame(head_at_rest(frame / 60.0), {}, Waiting::for_cells);
+    EXPECT_EQ(report.footprint, render::kBestFootprint);
+    Commands drag;
+    drag.isovalue = 7.0;
+    EXPECT_EQ(session.frame(head_at_rest(0.6), drag, Waiting::for_cells).footprint,
+              render::Footprint::quad);
+}
+
+TEST_P(SessionTest, OnlyAChangeIsDrawnAgain) {
+    Session session(small_config(), file_, *context_);
+    EXPECT_TRUE(session.frame(head_at_rest(0), {}, Waiting::for_cells).redrawn);
+    const auto picture = session.display().read_window().rgba;
+    EXPECT_FALSE(session.frame(head_at_rest(0.01), {}, Waiting::for_cells).redrawn);
+    EXPECT_EQ(session.display().read_window().rgba, picture);
+    interaction::InputState nod = head_at_rest(0.02);
+    nod.devices[0].pose->position.y += 0.001f;
+    EXPECT_TRUE(session.frame(nod, {}, Waiting::for_cells).redrawn);
+    Commands wider;
+    wider.eye_separation = 0.07f;
+    EXPECT_TRUE(session.frame(nod, wider, Waiting::for_cells).redrawn);
+}
+
+TEST_P(SessionTest, ACaptureWaitsForQuality) {
+    Session session(small_config(), file_, *context_);
+    session.set_screenshots(folder_.path());
+    Commands capture;
+    capture.screenshot = true;
+    capture.isovalue = 6.0;
+    session.frame(head_at_rest(0), capture, Waiting::for_cells);
+    session.pictures().finish();
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "isochron_0001.png"));
+    for (int frame = 1; frame < 30; ++frame)
+        session.frame(head_at_rest(frame / 60.0), {}, Waiting::for_cells);
+    session.pictures().finish();
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "isochron_0001.png"));
+}
+
+TEST_P(SessionTest, TheTwoEyesDifferAndWithoutSeparationTheyDoNot) {
+    Session session(small_config(), file_, *context_);
+    session.frame(head_at_rest(0), {}, Waiting::for_cells);
+    const auto left = session.display().read_eye(stereo::Eye::left);
+    const auto right = session.display().read_eye(stereo::Eye::right);
+    EXPECT_NE(left.rgba, right.rgba);
+    Commands together;
+    together.eye_separation = 0.0f;
+    session.frame(head_at_rest(0.01), together, Waiting::for_cells);
+    EXPECT_EQ(session.display().read_eye(stereo::Eye::left).rgba,
+              session.display().read_eye(stereo::Eye::right).rgba);
+}
+
+/// A minute's worth of somebody playing and turning, made from devices through the controls.
+interaction::Recording record_something(Session& session) {
+    interaction::Recording recording;
+    recording.header.start = session.state().as_commands();
+    interaction::DesktopEmulation emulation({});
+    for (int frame = 0; frame < 60; ++frame) {
+        std::vector<interaction::WindowEvent> events;
+        if (frame == 3)
+            events.push_back(interaction::KeyEvent{interaction::Key::space, true});
+        if (frame == 4)
+            events.push_back(interaction::KeyEvent{interaction::Key::space, false});
+        if (frame == 10)
+            events.push_back(interaction::MouseButtonEvent{interaction::MouseButton::left, true});
+        const auto sweep = static_cast<float>(frame);
+        events.push_back(interaction::MouseMoveEvent{0.3f + 0.005f * sweep, 0.4f, 640, 480});
+        emulation.feed(events);
+        interaction::RecordedFrame recorded;
+        recorded.input = emulation.poll(interaction::Seconds(frame / 30.0));
+        recorded.commands = session.commands_from(recorded.input);
+        session.frame(recorded.input, recorded.commands, Waiting::for_cells);
+        recording.frames.push_back(recorded);
+    }
+    return recording;
+}
+
+TEST_P(SessionTest, AReplayGivesTheSamePicturesAndTheSameCells) {
+    interaction::Recording recording;
+    {
+        Session session(small_config(), file_, *context_);
+        recording = record_something(session);
+    }
+    std::vector<std::vector<std::uint8_t>> pictures[2];
+    std::vector<std::uint64_t> cells[2];
+    for (int run = 0; run < 2; ++run) {
+        Session session(small_config(), file_, *context_);
+        session.set_state(start_of(recording.header, session.state(), 6, {}));
+        const auto different = replay_fixed_step(
+            session, recording, {.from_devices = true, .stereo = {}, .quality = {}},
+            [&](std::size_t, const interaction::RecordedFrame&) {
+                pictures[run].push_back(session.display().read_window().rgba);
+                cells[run].push_back(session.log().frames().back().cells);
+            });
+        EXPECT_THAT(different, testing::IsEmpty());
+    }
+    EXPECT_EQ(cells[0], cells[1]);
+    EXPECT_EQ(pictures[0], pictures[1]);
+    EXPECT_NE(pictures[0].front(), pictures[0].back()) << "nothing happened in the recording";
+}
+
+TEST_P(SessionTest, AChangedCommandIsReportedWithItsFrame) {
+    interaction::Recording recording;
+    {
+        Session session(small_config(), file_, *context_);
+        recording = record_something(session);
+    }
+    recording.frames[20].commands.isovalue = 3.25;
+    Session session(small_config(), file_, *context_);
+    session.set_state(start_of(recording.header, session.state(), 6, {}));
+    const auto different =
+        replay_fixed_step(session, recording, {.from_devices = true, .stereo = {}, .quality = {}},
+                          [](std::size_t, const interaction::RecordedFrame&) {});
+    ASSERT_FALSE(different.empty());
+    EXPECT_THAT(different.front(), testing::HasSubstr("frame 20"));
+    EXPECT_THAT(different.front(), testing::HasSubstr("isovalue"));
+}
+
+} // namespace
+} // namespace isochron::app

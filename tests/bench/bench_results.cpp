@@ -1,0 +1,59 @@
+// `isochron-bench results`: the page of results.
+#include "app/commands/command_line.h"
+#include "index/error.h"
+#include "tests/bench/benchmarks.h"
+#include "tests/bench/pages/results_page.h"
+#include "tests/bench/text_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+namespace isochron::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        throw index::Error(fmt::format("{}: cannot be read", path.string()));
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+struct ResultFiles {
+    fs::path index, render, artefacts, out;
+};
+
+void run_bench_results(const ResultFiles& files) {
+    const std::string page = whole_page({.index = files.index.string(),
+                                         .render = files.render.string(),
+                                         .artefacts = files.artefacts.string()},
+                                        read_text);
+    if (files.out.empty())
+        fmt::print("{}", page);
+    else
+        write_text(files.out, page);
+}
+
+} // namespace
+
+void add_results(app::Command& program) {
+    auto files = std::make_shared<ResultFiles>();
+    app::Command command = program.subcommand(
+        "results", "Render what the other benchmarks wrote as a page next to the paper's tables.");
+    command.option("json", files->index, "Results of `isochron-bench index --json`")
+        .required()
+        .type_name("FILE.json");
+    command.option("--render", files->render, "Results of `isochron-bench render --json`")
+        .type_name("FILE.json");
+    command.option("--artefacts", files->artefacts, "Results of `isochron-bench artefacts --json`")
+        .type_name("FILE.json");
+    command.option("-o,--out", files->out, "Markdown to write (default: print it)")
+        .type_name("FILE.md");
+    command.on_run([files] { run_bench_results(*files); });
+}
+
+} // namespace isochron::bench

@@ -1,0 +1,13 @@
+// The benchmarks as subcommands of `isochron-bench`.
+#pragma once
+
+#include "app/commands/command_line.h"
+
+namespace isochron::bench {
+
+void add_index(app::Command& program);
+void add_render(app::Command& program);
+void add_artefacts(app::Command& program);
+void add_results(app::Command& program);
+
+} // namespace isochron::bench

@@ -1,0 +1,11 @@
+// Which build on which machine a benchmark measures.
+#pragma once
+
+#include "tests/bench/pages/rows.h"
+
+namespace isochron::bench {
+
+/// This build, the processor it runs on, and today's date (UTC).
+Header this_machine();
+
+} // namespace isochron::bench

@@ -1,0 +1,10 @@
+// The laboratory: measures the program's own parts against their rivals.
+#include "tests/bench/benchmarks.h"
+
+int main(int argc, char** argv) {
+    using namespace isochron;
+    return app::run_program(
+        "isochron-bench", "Measure Isochron's parts against their rivals.",
+        {bench::add_index, bench::add_render, bench::add_artefacts, bench::add_results}, argc,
+        argv);
+}

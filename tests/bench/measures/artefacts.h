@@ -1,0 +1,87 @@
+// The two sources of error that section 7 of the paper names, in pixels: normals that are kept over
+// a time span, and false positives that are drawn.
+#pragma once
+
+#include "index/file/index_file.h"
+#include "index/thi/thi_tree.h"
+#include "render/cells/cell_pass.h"
+#include "render/gl/image.h"
+#include "tests/bench/pages/rows.h"
+#include "tests/bench/rivals/span_normals.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isochron::bench {
+
+/// How one picture differs from another of the same size, over the pixels where either shows
+/// something. A pixel's difference is that of its colour channel that differs most, of 255.
+struct PixelDifference {
+    double mean = 0, p99 = 0;
+    double changed_percent = 0; ///< of those pixels: by more than kVisible
+    static constexpr int kVisible = 5;
+};
+PixelDifference difference(const render::Image& a, const render::Image& b);
+
+/// One footprint of one series, drawn from one tree: means over the steps.
+struct ArtefactRow {
+    std::string data, footprint;
+    std::uint32_t l = 0, max_variation = 0;
+    double cells = 0;
+    double angle_mean = 0, angle_p99 = 0; ///< degrees, between kept and exact normals
+    double normals_mean = 0, normals_p99 = 0, normals_changed_percent = 0;
+    double false_positive_percent = 0; ///< of the active cells
+    double false_mean = 0, false_p99 = 0, false_changed_percent = 0;
+};
+
+struct ArtefactResults {
+    Header header;
+    std::vector<ArtefactRow> rows;
+};
+std::string to_json_text(const ArtefactResults& results);
+/// @throws index::Error when something is missing, or of another kind
+ArtefactResults artefacts_from_json(const std::string& text, const std::string& name);
+
+/// What is drawn of one step.
+struct ArtefactSets {
+    index::CellSetPtr exact;           ///< the active cells with normals of the step itself
+    index::CellSetPtr kept_normals;    ///< the same with the normals that the tree stores
+    index::CellSetPtr false_positives; ///< all that the tree finds, with normals of the step
+};
+ArtefactSets artefact_sets(const index::StepValues& values, const index::ThiTree& tree,
+                           const index::Query& query);
+
+/// The three as pictures, from the camera of the rendering benchmark.
+struct ArtefactPictures {
+    render::Image exact, kept_normals, false_positives;
+};
+
+/// Draws series in a context that is current.
+class ArtefactBench {
+  public:
+    /// @param size of the pictures, across and up, pixels
+    ArtefactBench(const render::Gl& gl, std::shared_ptr<const index::IndexFile> file, int size);
+
+    ArtefactPictures draw(const ArtefactSets& sets, render::Footprint footprint);
+    render::Image draw(index::CellSetPtr set, render::Footprint footprint);
+
+    /// @param steps every so many of them are drawn
+    std::vector<ArtefactRow> measure(const std::string& data, const index::ThiOptions& options,
+                                     double isovalue, std::uint32_t every,
+                                     const index::Progress& progress);
+
+  private:
+    const render::Gl& gl_;
+    std::shared_ptr<const index::IndexFile> file_;
+    int size_;
+    render::CellPass pass_;
+};
+
+/// Pictures of the same height next to each other.
+render::Image side_by_side(const std::vector<render::Image>& pictures);
+/// Where two pictures differ: black where they do not, brighter by `gain`.
+render::Image difference_picture(const render::Image& a, const render::Image& b, int gain);
+
+} // namespace isochron::bench

@@ -1,0 +1,43 @@
+// Whether a structure finds what it must.
+#include "tests/bench/measures/errors.h"
+
+#include "index/scan/scan.h"
+
+#include <vector>
+
+namespace isochron::bench {
+
+ErrorCount count_errors(const index::StepValues& values, const Structure& structure,
+                        std::span<const double> isovalues,
+                        const std::function<void(double)>& progress) {
+    enum : std::uint8_t { kInactive, kActive, kFound };
+    std::vector<std::uint8_t> state(values.grid.cell_count(), kInactive);
+    ErrorCount count;
+    Ids active, found;
+    for (std::uint32_t step = 0; step < values.steps; ++step) {
+        progress(static_cast<double>(step) / static_cast<double>(values.steps));
+        for (const double isovalue : isovalues) {
+            const index::Query query{step, isovalue};
+            active.clear();
+            found.clear();
+            index::scan(values, query, active);
+            structure.ids(query, found);
+            for (const index::CellId id : active)
+                state[id] = kActive;
+            std::uint64_t hits = 0;
+            for (const index::CellId id : found)
+                if (id < state.size() && state[id] == kActive) {
+                    state[id] = kFound;
+                    ++hits;
+                }
+            count.active += active.size();
+            count.false_positives += found.size() - hits;
+            count.false_negatives += active.size() - hits;
+            for (const index::CellId id : active)
+                state[id] = kInactive;
+        }
+    }
+    return count;
+}
+
+} // namespace isochron::bench

@@ -1,0 +1,130 @@
+// The tiers of an index as the benchmark measures them.
+#include "index/cells/unit_builder.h"
+#include "index/extraction/cell_change.h"
+#include "index/file/tiers.h"
+#include "index/scan/bricks.h"
+#include "index/volume/chunking.h"
+#include "tests/bench/measures/stopwatch.h"
+#include "tests/bench/measures/structures.h"
+
+namespace isochron::bench {
+namespace {
+
+using index::IndexFile;
+using index::Query;
+using index::StepValues;
+using index::Tier;
+using FilePtr = std::shared_ptr<const IndexFile>;
+
+/// Of the whole file, but for the volume and the tiers that a structure does without.
+std::uint64_t bytes_without(const IndexFile& file, std::initializer_list<Tier> others) {
+    std::uint64_t bytes = file.stats().file_bytes - file.stats().volume_bytes;
+    for (const Tier tier : others)
+        bytes -= file.stats().bytes_of(tier);
+    return bytes;
+}
+
+/// Builds the bricks of all steps once more, on one thread.
+double seconds_for_bricks(const IndexFile& file) {
+    const StepValues& values = file.values();
+    std::vector<std::uint8_t> bricks(index::BrickGrid(values.grid).bytes_per_step());
+    const Stopwatch watch;
+    for (std::size_t step = 0; step < values.steps; ++step)
+        index::build_bricks(values, file.levels(), step, bricks);
+    return watch.seconds();
+}
+
+/// The same for the cells of all chunks and epochs, and their deltas.
+double seconds_for_cells(const IndexFile& file, bool deltas, const index::Progress& progress) {
+    const StepValues& values = file.values();
+    const std::uint32_t chunks = index::Chunking(values.grid).count();
+    index::UnitBuilder builder(values, file.levels());
+    index::UnitBytes unit;
+    const Stopwatch watch;
+    for (std::uint32_t epoch = 0; epoch < index::epoch_count(values.steps); ++epoch)
+        for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+            if (progress)
+                progress("building", static_cast<double>(chunk) / chunks);
+            builder.build(chunk, epoch, deltas, unit);
+        }
+    return watch.seconds();
+}
+
+Recipe bricks_of(const FilePtr& file) {
+    return {"bricks", [file](const index::Progress&) {
+                Structure structure;
+                structure.name = "bricks";
+                structure.bytes = bytes_without(*file, {Tier::cells, Tier::deltas, Tier::tree});
+                structure.build_seconds = seconds_for_bricks(*file);
+                structure.ids = [file](const Query& query, Ids& out) {
+                    index::search_bricks(file->values(), file->levels(), file->bricks(query.step),
+                                         query, out);
+                };
+                return structure;
+            }};
+}
+
+/// A search of the cells, with the memory for its runs.
+struct CellSearch {
+    explicit CellSearch(const FilePtr& of) : file(of), changes(of) {}
+
+    const std::vector<index::IdRun>& runs(const Query& query) {
+        certain.clear();
+        ambiguous.clear();
+        if (const auto cut = file->levels().cut(file->info().scaling, query.isovalue))
+            file->cells()->search(query.step, *cut, certain, ambiguous);
+        return certain;
+    }
+
+    FilePtr file;
+    std::vector<index::IdRun> certain, ambiguous;
+    index::ChangeSearch changes;
+    Ids all;
+};
+
+/// Only of lossless levels, where no run is ambiguous.
+Recipe cells_of(const FilePtr& file, bool deltas) {
+    const std::string name = deltas ? "cells+deltas" : "cells";
+    return {name, [=](const index::Progress& progress) {
+                const auto search = std::make_shared<CellSearch>(file);
+                Structure structure;
+                structure.name = name;
+                structure.bytes = deltas ? bytes_without(*file, {Tier::tree})
+                                         : bytes_without(*file, {Tier::deltas, Tier::tree});
+                structure.entries = file->stats().cell_entries;
+                structure.build_seconds = seconds_for_cells(*file, deltas, progress);
+                structure.runs = [search](const Query& query) {
+                    return search->runs(query).size();
+                };
+                structure.ids = [search](const Query& query, Ids& out) {
+                    index::append_ids(search->runs(query), out);
+                };
+                structure.follow = [search](const Query& query) {
+                    search->all.clear();
+                    index::append_ids(search->runs(query), search->all);
+                    return search->all.size();
+                };
+                if (deltas)
+                    structure.change = [search](const Query& from, const Query& to) {
+                        const index::CellChange change = search->changes(from, to);
+                        return change.added.size() + change.removed.size();
+                    };
+                return structure;
+            }};
+}
+
+} // namespace
+
+std::vector<Recipe> tiers_of(const FilePtr& file) {
+    std::vector<Recipe> all;
+    if (file->plan().tiers.has(Tier::bricks))
+        all.push_back(bricks_of(file));
+    if (file->cells() && file->levels().lossless()) {
+        all.push_back(cells_of(file, false));
+        if (file->cells()->has_deltas())
+            all.push_back(cells_of(file, true));
+    }
+    return all;
+}
+
+} // namespace isochron::bench

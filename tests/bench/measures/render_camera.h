@@ -1,0 +1,31 @@
+// The camera of the rendering benchmark: 45 degrees, the volume's bounding sphere touches the
+// picture.
+#pragma once
+
+#include "index/volume/volume_series.h"
+#include "render/cells/placement.h"
+#include "render/gl/view.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace isochron::bench {
+
+/// Where a camera stands, in the physical space of the series.
+struct CameraPose {
+    glm::dvec3 eye, centre, up;
+};
+
+struct BenchCamera {
+    static constexpr double kAngle = 45.0; ///< degrees, of the whole picture
+    render::Placement placement;
+    std::vector<render::View> views; ///< left to right, side by side
+    std::vector<CameraPose> poses;   ///< one for each
+};
+
+/// @param size pixels of each eye's picture, across and up
+/// @param eyes 1, or 2: as far apart as a person's, with zero parallax in the volume's middle
+BenchCamera bench_camera(const index::SeriesInfo& info, int size, int eyes);
+
+} // namespace isochron::bench

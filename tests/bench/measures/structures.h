@@ -1,0 +1,37 @@
+// The search structures that are measured, in the order of their rows.
+#pragma once
+
+#include "index/file/index_file.h"
+#include "index/progress.h"
+#include "tests/bench/measures/structure.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace isochron::bench {
+
+/// How to build a structure: one after the other, since they do not all fit into memory.
+struct Recipe {
+    std::string what; ///< for the progress: `thi L 64, MaxVariation 2`
+    std::function<Structure(const index::Progress&)> build;
+};
+
+struct StructureOptions {
+    std::vector<std::uint32_t> lattices{32, 64, 128}; ///< SpanSpaceSize L of the THI trees
+    std::vector<std::uint32_t> max_variations{1, 2, 3};
+    unsigned threads = 0; ///< to build with; 0: as many as there are processors
+};
+
+/// The T-BON, which all others are compared with as well.
+Structure build_tbon(const std::shared_ptr<const index::IndexFile>& file, unsigned threads);
+
+/// The tiers that the index itself holds: bricks, cells, cells with deltas.
+std::vector<Recipe> tiers_of(const std::shared_ptr<const index::IndexFile>& file);
+
+/// The scan, the T-BON, the tiers, and for every setting the THI tree and its variants.
+std::vector<Recipe> structures_of(const std::shared_ptr<const index::IndexFile>& file,
+                                  const Structure& tbon, const StructureOptions& options);
+
+} // namespace isochron::bench

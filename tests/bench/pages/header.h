@@ -1,0 +1,13 @@
+// Which build on which machine the figures come from.
+#pragma once
+
+#include <string>
+
+namespace isochron::bench {
+
+struct Header {
+    std::string commit, processor, compiler, date;
+    unsigned threads = 0; ///< of the processor
+};
+
+} // namespace isochron::bench

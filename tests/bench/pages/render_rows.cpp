@@ -1,0 +1,82 @@
+// Rows of rendering figures as JSON and as a table.
+#include "tests/bench/pages/render_rows.h"
+
+#include "index/error.h"
+#include "tests/bench/pages/record_json.h"
+#include "tests/bench/pages/short_number.h"
+
+namespace isochron::bench {
+
+/// Calls `field(key, member)` for all figures of a row, in the order of the keys.
+template <class AnyRow, class Field>
+void each_field(AnyRow& row,
+                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, RenderRow> {
+    field("data", row.data);
+    field("footprint", row.footprint);
+    field("size", row.size);
+    field("eyes", row.eyes);
+    field("threads", row.threads);
+    field("context", row.context);
+    field("cells", row.cells);
+    field("fps", row.fps);
+    field("vtk_fps", row.vtk_fps);
+    field("bare_fps", row.bare_fps);
+    field("p99_over_static", row.p99_over_static);
+    field("extract_ms", row.extract_ms);
+    field("order_ms", row.order_ms);
+    field("upload_ms", row.upload_ms);
+    field("draw_ms", row.draw_ms);
+    field("quads_ms", row.quads_ms);
+    field("frame_cpu_ms", row.frame_cpu_ms);
+    field("draw_cpu_ms", row.draw_cpu_ms);
+    field("quads_cpu_ms", row.quads_cpu_ms);
+    field("bare_cpu_ms", row.bare_cpu_ms);
+    field("vtk_cpu_ms", row.vtk_cpu_ms);
+    field("worst_over_static", row.worst_over_static);
+    field("static_p99_over_static", row.static_p99_over_static);
+    field("sent_ids_percent", row.sent_ids_percent);
+}
+
+std::string to_json_text(const RenderResults& results) {
+    ordered_json j{{"header", record_to_json(results.header)}, {"rows", ordered_json::array()}};
+    for (const RenderRow& row : results.rows)
+        j["rows"].push_back(record_to_json(row));
+    return json_text(j);
+}
+
+RenderResults render_results_from_json(const std::string& text, const std::string& name) {
+    try {
+        const json j = json::parse(text);
+        RenderResults results{record_from_json<Header>(j.at("header")), {}};
+        for (const json& row : j.at("rows"))
+            results.rows.push_back(record_from_json<RenderRow>(row));
+        return results;
+    } catch (const json::exception& error) {
+        throw index::Error(fmt::format("{}: no results of `isochron-bench render`: {}", name, error.what()));
+    }
+}
+
+std::string picture_name(const RenderRow& row) {
+    return fmt::format("{}{}^2", row.eyes == 2 ? "2 x " : "", row.size);
+}
+
+std::string table_of(const std::vector<RenderRow>& rows) {
+    const auto number = [](const std::optional<double>& value) {
+        return value ? short_number(*value) : "-";
+    };
+    std::string text =
+        fmt::format("{:<12} {:<9} {:<10} {:>7} {:<7} {:>6} {:>6} {:>6} {:>6} {:>5} "
+                    "{:>8} {:>8} {:>8} {:>8}\n",
+                    "series", "footprint", "picture", "threads", "context", "cells", "fps", "vtk",
+                    "bare", "p99", "extract", "order", "upload", "draw ms");
+    for (const RenderRow& row : rows)
+        text += fmt::format("{:<12} {:<9} {:<10} {:>7} {:<7} {:>6.0f} {:>6} {:>6} {:>6} {:>5.3g} "
+                            "{:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f}\n",
+                            row.data, row.footprint, picture_name(row), row.threads, row.context,
+                            row.cells, number(row.fps), number(row.vtk_fps), number(row.bare_fps),
+                            row.p99_over_static, row.extract_ms, row.order_ms, row.upload_ms,
+                            row.draw_ms);
+    return text;
+}
+
+} // namespace isochron::bench

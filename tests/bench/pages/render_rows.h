@@ -1,0 +1,59 @@
+// What `isochron-bench render` says: frame rates and their stages, as JSON and as a table.
+#pragma once
+
+#include "tests/bench/pages/rows.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::bench {
+
+/// One footprint of one series in one kind of picture. A frame extracts the next step, sends, sorts
+/// and draws it and waits until it is drawn; times are medians over the frames, wall-clock.
+struct RenderRow {
+    std::string data, footprint; ///< quad, gaussian, ...
+    int size = 0;                ///< pixels of each eye's picture, across and up
+    int eyes = 1;
+    unsigned threads = 1; ///< processors that may be used
+    std::string context;  ///< egl, osmesa
+    double cells = 0;     ///< mean over the steps
+    double fps = 0;       ///< whole frames per second
+    /// The same steps contoured by flying edges with normals and drawn by VTK's own renderer.
+    std::optional<double> vtk_fps;
+    /// Only drawing, of plain quads with the positions and sizes of the footprints.
+    std::optional<double> bare_fps;
+    /// While time plays and the isovalue is dragged, with the extraction on its own thread: frame
+    /// over the median of draws of the same cells that follow it, 99th percentile and worst.
+    double p99_over_static = 0, worst_over_static = 0;
+    double static_p99_over_static = 0; ///< the same of those draws themselves: the machine's noise
+    double extract_ms = 0, order_ms = 0, upload_ms = 0;
+    /// A GPU is sent as differences from step to step, in percent of the sets' ids.
+    std::optional<double> sent_ids_percent;
+    double draw_ms = 0; ///< clearing, drawing and waiting until it is done
+    /// The same drawn as quads where the program takes points.
+    std::optional<double> quads_ms;
+    /// Processor time of all threads, which others on the machine lengthen less.
+    double frame_cpu_ms = 0, draw_cpu_ms = 0;
+    std::optional<double> quads_cpu_ms, bare_cpu_ms, vtk_cpu_ms;
+};
+
+struct RenderResults {
+    Header header;
+    std::vector<RenderRow> rows;
+};
+
+std::string to_json_text(const RenderResults& results);
+
+/// @param name of the file, for errors
+/// @throws index::Error when something is missing, or of another kind
+RenderResults render_results_from_json(const std::string& text, const std::string& name);
+
+/// Columns for the terminal.
+std::string table_of(const std::vector<RenderRow>& rows);
+
+/// `1024^2`, `2 x 1024^2`.
+std::string picture_name(const RenderRow& row);
+
+} // namespace isochron::bench

@@ -1,0 +1,216 @@
+// The page of results.
+#include "tests/bench/pages/results_page.h"
+
+#include "app/text.h"
+#include "tests/bench/measures/timing.h"
+#include "tests/bench/pages/artefact_page.h"
+#include "tests/bench/pages/goals.h"
+#include "tests/bench/pages/paper_tables.h"
+#include "tests/bench/pages/render_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::bench {
+
+namespace {
+
+std::string number(double value) {
+    return value >= 100 ? app::grouped(static_cast<std::uint64_t>(value + 0.5))
+                        : fmt::format("{:.3g}", value);
+}
+
+std::string number(const std::optional<double>& value) {
+    return value ? number(*value) : "-";
+}
+
+constexpr std::string_view kReading =
+    "## How to read it\n\n"
+    "- *raw* is steps x cells x 24 bytes, as in the paper. `% of raw` counts everything that the "
+    "structure stores and not the volume; `% with volume` adds it, since the paper's 24 bytes "
+    "include a gradient and ours are computed from the volume, at that very step.\n"
+    "- Every time is processor time of one thread, with everything in memory: the median over all "
+    "steps of medians over several rounds. All structures, the scan, the T-BON, flying edges and "
+    "memcpy take turns in one process, on the same field, step and isovalue; each runs once "
+    "before it is timed. Build rates are per second of processor time over all threads.\n"
+    "- *runs*: a search that leaves the ids where they lie. *ids*: cell ids as 32-bit numbers, for "
+    "the THI tree and its variants candidates with their false positives. *full*: ids in order, "
+    "without false positives, with positions and normals. *incremental*: added and removed ids to "
+    "the neighbouring step. *whole*: the complete set of the neighbouring step from that of this "
+    "one. *sweep*: all steps once, forwards or backwards.\n"
+    "- FP: false positives in percent of the active cells at the isovalue of the times; those over "
+    "all queries are in the rows. FN: false negatives over all queries. A query is a step and one "
+    "of 64 isovalues, the quantiles of the values.\n"
+    "- *T-BON*: branch-on-need octree per step over one topology, exact, with the volume at hand "
+    "(Sutton and Hansen 1999). *Flying edges*: `vtkFlyingEdges3D`, sequential. It makes triangles "
+    "where the others find cells: the fair partner of *full* is flying edges with normals.\n\n";
+
+constexpr std::string_view kComparable =
+    "## Next to the paper\n\n"
+    "Vrolijk, Botha and Post (SCCG 2004) measured a moving sphere of 61 x 50 x 60 vertices on a "
+    "dual AMD Athlon MP of 1.2 GHz. Comparable are the sizes in percent of raw, and how sizes, "
+    "false positives and the gain of the incremental search change with L, MaxVariation and the "
+    "number of steps. Not comparable are the times themselves (another machine, and 24 bytes "
+    "copied for each cell instead of 4) and the percentages of false positives: their field, "
+    "isovalue and motion are not published. The sphere here was chosen to have as many active "
+    "cells and, in the paper's layout of 48 bytes per entry, trees of about the same size; ours "
+    "take 16 bytes per entry.\n\n";
+
+/// The row of that setting of the published structure, where it was measured.
+const Row* find(const Results& results, const PublishedThi& published, std::string_view type) {
+    const auto found = std::find_if(results.rows.begin(), results.rows.end(), [&](const Row& row) {
+        return row.data == "sphere" && row.structure == "thi" && row.type == type &&
+               row.steps == published.steps && row.l == published.l &&
+               row.max_variation == published.max_variation;
+    });
+    return found == results.rows.end() ? nullptr : &*found;
+}
+
+/// A table of the paper: for each setting and number of steps the published figures and ours.
+std::string published_table(const Results& results, std::span<const PublishedThi> table) {
+    std::string text =
+        "| L | MaxVariation | steps | | % of raw | FP % | search us | incremental us "
+        "| speed-up |\n|---|---|---|---|---|---|---|---|---|\n";
+    for (const PublishedThi& published : table) {
+        text += fmt::format("| {} | {} | {} | paper | {} | {} | {:.0f} | {:.0f} | {:.2f} |\n",
+                            published.l, published.max_variation, published.steps,
+                            published.percent_of_raw, published.percent_false_positives,
+                            1000 * published.search_ms, 1000 * published.incremental_ms,
+                            published.speed_up);
+        for (const char* type : {"u8", "f32"}) {
+            const Row* row = find(results, published, type);
+            if (!row) {
+                text += fmt::format("| | | | {} here | - | - | - | - | - |\n", type);
+                continue;
+            }
+            // The published times are means, and so is a sweep; the median over the steps would
+            // hide those where half the tree is searched anew.
+            const double incremental = 1e3 * row->sweep_ms / static_cast<double>(row->steps);
+            const auto& detail =
+                results.details[static_cast<std::size_t>(row - results.rows.data())];
+            text += fmt::format("| | | | {} here | {:.1f} | {:.2g} | {} | {} | {:.2f} |\n", type,
+                                row->percent_of_raw, detail.percent_at_isovalue,
+                                number(row->search_ids_us), number(incremental),
+                                row->search_ids_us / incremental);
+        }
+    }
+    return text + "\n";
+}
+
+/// What keeping one normal for a time span costs, for every setting of the published structure.
+std::string normals_table(const Results& results) {
+    std::string text = "| series | type | steps | L | MaxVariation | mean | 99 % are below |\n"
+                       "|---|---|---|---|---|---|---|\n";
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        const Row& row = results.rows[i];
+        if (const ErrorDetail& detail = results.details[i]; detail.normal_error_mean)
+            text +=
+                fmt::format("| {} | {} | {} | {} | {} | {:.3g} deg | {:.3g} deg |\n", row.data,
+                            row.type, row.steps, row.l.value_or(0), row.max_variation.value_or(0),
+                            *detail.normal_error_mean, detail.normal_error_p99.value_or(0));
+    }
+    return text + "\n";
+}
+
+std::string structure_line(const Row& row, const ErrorDetail& detail) {
+    const std::string setting =
+        row.l ? fmt::format(", L {}, MaxVariation {}", *row.l, *row.max_variation) : "";
+    return fmt::format(
+        "| {}{} | {} | {:.3g} | {:.3g} | {:.2g} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
+        row.structure, setting, app::grouped(row.bytes), row.percent_of_raw,
+        row.percent_with_volume, detail.percent_at_isovalue, row.false_negatives,
+        number(row.search_runs_us), number(row.search_ids_us), number(row.search_full_us),
+        number(row.incremental_us), number(row.incremental_full_us), number(row.sweep_ms),
+        number(row.build_mcs_per_s));
+}
+
+/// The median over the rows of a series: each of them was measured beside what it is compared with.
+std::string compared(std::span<const Row> rows, double Row::*figure) {
+    std::vector<double> all;
+    for (const Row& row : rows)
+        all.push_back(row.*figure);
+    return number(median(std::move(all)));
+}
+
+std::string series_table(std::span<const Row> rows, std::span<const ErrorDetail> details) {
+    const Row& first = rows.front();
+    std::string text = fmt::format(
+        "### {}, {}, {} steps\n\nIsovalue {:.5g}: {} active cells on average, {} added or removed "
+        "from step to step; errors over {} queries with {} active cells.\n\nscan {} us, T-BON {} "
+        "us, flying edges {} us, with normals {} us, memcpy of the ids {} us.\n\n",
+        first.data, first.type, first.steps, first.isovalue, number(first.active),
+        number(first.delta_ids), app::grouped(details.front().queries),
+        app::grouped(details.front().active), compared(rows, &Row::scan_us),
+        compared(rows, &Row::tbon_us), compared(rows, &Row::flying_edges_us),
+        compared(rows, &Row::flying_edges_normals_us), compared(rows, &Row::memcpy_us));
+    text +=
+        "| structure | bytes | % of raw | % with volume | FP % | FN | runs us | ids us | full us "
+        "| incremental us | whole us | sweep ms | build Mcs/s per core |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        text += structure_line(rows[i], details[i]);
+    return text + "\n";
+}
+
+} // namespace
+
+std::string results_page(const Results& results, const ResultPaths& paths) {
+    const Header& header = results.header;
+    std::string command = paths.index;
+    if (!paths.render.empty())
+        command += " --render " + paths.render;
+    if (!paths.artefacts.empty())
+        command += " --artefacts " + paths.artefacts;
+    std::string text = fmt::format("# The index, measured\n\nMade from `{}` by `./run bench "
+                                   "results {}`; not to be edited. "
+                                   "Measured on {} with commit {}, {}, on {}, {} threads.\n\n",
+                                   paths.index, command, header.date, header.commit,
+                                   header.compiler, header.processor, header.threads);
+    text += kReading;
+    text += "## Goals\n\nThe worst figure of all rows that a goal speaks of decides.\n\n" +
+            goals_table(results) + "\n";
+    text += kComparable;
+    text += "### Table 1: SpanSpaceSize L\n\n" + published_table(results, kTable1);
+    text += "### Table 2: MaxVariation\n\n" + published_table(results, kTable2);
+    text += "## Normals kept over a time span\n\n"
+            "The published structure stores a cell once for a time span, with one gradient. The "
+            "angle between a cell's normal in the middle of its span and that at the step on "
+            "screen, over all active cells and steps at the isovalue of the times. The tiers "
+            "compute normals from the volume at that very step: no error.\n\n" +
+            normals_table(results);
+    text += "## Every series\n\n"
+            "`thi` is the published structure; `thi-node-lattices`, `thi-interval-trees` and "
+            "`thi-compact-lists` are the improvements that its section 7 proposes: a lattice for "
+            "each time node, one interval tree for each and no lattice, and AL and DR without "
+            "storing ids and keys twice. They merge cells over time as the published structure "
+            "does, hence have its false positives.\n\n";
+    for (std::size_t begin = 0, end; begin < results.rows.size(); begin = end) {
+        const Row& first = results.rows[begin];
+        for (end = begin; end < results.rows.size() && results.rows[end].data == first.data &&
+                          results.rows[end].type == first.type &&
+                          results.rows[end].steps == first.steps;)
+            ++end;
+        text += series_table(std::span(results.rows).subspan(begin, end - begin),
+                             std::span(results.details).subspan(begin, end - begin));
+    }
+    text.pop_back(); // one line end is enough
+    return text;
+}
+
+std::string whole_page(const ResultPaths& paths,
+                       const std::function<std::string(const std::string&)>& read) {
+    std::string page = results_page(results_from_json(read(paths.index), paths.index), paths);
+    if (!paths.render.empty())
+        page += render_section(render_results_from_json(read(paths.render), paths.render),
+                               paths.render);
+    if (!paths.artefacts.empty())
+        page += artefact_section(artefacts_from_json(read(paths.artefacts), paths.artefacts),
+                                 paths.artefacts);
+    return page;
+}
+
+} // namespace isochron::bench

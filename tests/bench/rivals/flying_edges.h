@@ -1,0 +1,28 @@
+// What there is today: VTK's flying edges, computed anew for every step and isovalue.
+#pragma once
+
+#include "index/volume/query.h"
+#include "index/volume/step_values.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace isochron::bench {
+
+/// `vtkFlyingEdges3D` (Schroeder, Maynard and Geveci, LDAV 2015, doi 10.1109/LDAV.2015.7348069) on
+/// one thread, over the volume where it lies.
+class FlyingEdges {
+  public:
+    virtual ~FlyingEdges() = default;
+    struct Surface {
+        std::uint64_t triangles, vertices, normals;
+    };
+    /// Contours a step from the start.
+    virtual Surface contour(const index::Query& query, bool normals) = 0;
+};
+
+/// @param values must outlive it
+/// @throws index::Error when the module with VTK cannot be loaded
+std::unique_ptr<FlyingEdges> flying_edges(const index::StepValues& values);
+
+} // namespace isochron::bench

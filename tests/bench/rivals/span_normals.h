@@ -1,0 +1,33 @@
+// The error of normals that are stored once for a time span.
+#pragma once
+
+#include "index/thi/thi_tree.h"
+#include "index/volume/query.h"
+#include "index/volume/step_values.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace isochron::bench {
+
+/// The active cells of a time node of the tree, which stores them once for its whole span.
+struct SpanCells {
+    std::uint32_t middle = 0;         ///< step in the middle of the span
+    std::vector<index::CellId> cells; ///< in no particular order
+};
+
+/// The active cells by where the tree found them, from the root down.
+std::vector<SpanCells> span_cells(const index::StepValues& values, const index::ThiTree& tree,
+                                  const index::Query& query);
+
+/// Angles between the normal of an active cell at its step and that of the same cell in the middle
+/// of the time span for which the tree stores it once, as the paper stores position and gradient.
+struct NormalError {
+    double mean_degrees = 0, p99_degrees = 0;
+};
+
+/// Over all steps at one isovalue; cells whose gradient vanishes at either step do not count.
+NormalError normal_error(const index::StepValues& values, const index::ThiTree& tree,
+                         double isovalue);
+
+} // namespace isochron::bench

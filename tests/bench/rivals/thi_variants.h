@@ -1,0 +1,41 @@
+// The improvements of the THI tree that its authors left to future work, to be measured.
+#pragma once
+
+#include "index/progress.h"
+#include "index/thi/thi_entries.h"
+#include "index/volume/step_values.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace isochron::bench {
+
+/// Section 7 of the paper proposes these. All merge cells over time as the published tree does
+/// (one lattice decides what is constant), so they have its entries and its false positives; they
+/// differ in how a time node keeps its entries.
+enum class ThiVariant {
+    node_lattices,  ///< a subdivision of span space for each time node, by its own extremes
+    interval_trees, ///< no span space: one interval tree for each time node
+    compact_lists,  ///< AL holds the ids, DR only places in it; equal keys are stored once
+};
+
+/// Read access to the entries of all time nodes.
+class ThiVariantTree {
+  public:
+    virtual ~ThiVariantTree() = default;
+    virtual std::uint64_t bytes() const = 0; ///< of all that a search reads
+    virtual std::uint64_t entries() const = 0;
+    /// As ThiTree::search: appends the candidates, unordered, each once.
+    virtual void search(std::uint32_t step, std::uint64_t threshold,
+                        std::vector<index::CellId>& out) const = 0;
+};
+
+/// @throws index::Error as build_thi_tree
+std::unique_ptr<ThiVariantTree> build_thi_variant(ThiVariant variant,
+                                                  const index::StepValues& values,
+                                                  const index::ThiOptions& options,
+                                                  const index::Progress& progress = {},
+                                                  unsigned threads = 0);
+
+} // namespace isochron::bench

@@ -1,0 +1,59 @@
+// The module that knows VTK's contour filter.
+#include "tests/bench/rivals/flying_edges.h"
+#include "tests/bench/rivals/vtk_images.h"
+
+// Not vtkSMPTools.h, which C++20 compilers reject.
+#include <SMP/Common/vtkSMPToolsAPI.h>
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <vector>
+
+namespace isochron::bench {
+namespace {
+
+class VtkFlyingEdges : public FlyingEdges {
+  public:
+    explicit VtkFlyingEdges(const index::StepValues& values)
+        : scaling_(values.scaling), steps_(vtk_images(values)) {
+        vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
+        for (const bool normals : {false, true}) {
+            filter(normals).SetComputeNormals(normals);
+            filter(normals).SetComputeGradients(false);
+            filter(normals).SetComputeScalars(false);
+        }
+    }
+
+    Surface contour(const index::Query& query, bool normals) override {
+        vtkFlyingEdges3D& edges = filter(normals);
+        edges.SetInputData(steps_[query.step]);
+        edges.SetValue(0, (query.isovalue - scaling_.intercept) / scaling_.slope);
+        edges.Modified(); // the same query again is computed again
+        edges.Update();
+        vtkPolyData& surface = *edges.GetOutput();
+        const vtkDataArray* given = surface.GetPointData()->GetNormals();
+        return {static_cast<std::uint64_t>(surface.GetNumberOfPolys()),
+                static_cast<std::uint64_t>(surface.GetNumberOfPoints()),
+                given ? static_cast<std::uint64_t>(given->GetNumberOfTuples()) : 0};
+    }
+
+  private:
+    vtkFlyingEdges3D& filter(bool normals) { return normals ? *with_normals_ : *plain_; }
+
+    index::Scaling scaling_;
+    std::vector<vtkSmartPointer<vtkImageData>> steps_;
+    vtkNew<vtkFlyingEdges3D> plain_, with_normals_;
+};
+
+} // namespace
+} // namespace isochron::bench
+
+extern "C" __attribute__((visibility("default"))) isochron::bench::FlyingEdges*
+isochron_flying_edges(const isochron::index::StepValues& values) {
+    return new isochron::bench::VtkFlyingEdges(values);
+}

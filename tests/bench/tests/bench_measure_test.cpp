@@ -1,0 +1,216 @@
+// The benchmark counts, times and reports what is there.
+#include "tests/bench/measures/errors.h"
+#include "tests/bench/measures/isovalues.h"
+#include "tests/bench/measures/stopwatch.h"
+#include "tests/bench/measures/structures.h"
+#include "tests/bench/measures/timing.h"
+#include "tests/bench/pages/rows.h"
+
+#include "index/build/index_build.h"
+#include "index/error.h"
+#include "index/scan/scan.h"
+#include "tests/support/memory_series.h"
+#include "tests/support/test_folder.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::bench {
+namespace {
+
+using index::CellId;
+using index::Query;
+using index::TestField;
+using index::ValueType;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+double mean_active(const index::StepValues& values, double isovalue) {
+    double sum = 0;
+    for (std::uint32_t step = 0; step < values.steps; ++step) {
+        Ids found;
+        index::scan(values, {step, isovalue}, found);
+        sum += static_cast<double>(found.size());
+    }
+    return sum / static_cast<double>(values.steps);
+}
+
+TEST(ErrorCount, TellsWhatIsMissingFromWhatIsTooMuch) {
+    const TestField field({20, 19, 18}, 2, ValueType::u8, index::moving_sphere);
+    const std::vector<double> isovalues{20, 60};
+    std::uint64_t active = 0;
+    Structure structure;
+    structure.ids = [&](const Query& query, Ids& out) {
+        index::scan(field.view(), query, out);
+        active += out.size();
+        ASSERT_GT(out.size(), 10u);
+        out.erase(out.begin() + 3, out.begin() + 5); // two are missing,
+        out.push_back(out.front());                  // one is there twice,
+        out.push_back(out.front() + 20 * 19 * 18);   // and one is no cell
+    };
+    double done = -1;
+    const ErrorCount count =
+        count_errors(field.view(), structure, isovalues, [&](double fraction) { done = fraction; });
+    EXPECT_EQ(count.active, active);
+    EXPECT_EQ(count.false_negatives, 2u * 4);
+    EXPECT_EQ(count.false_positives, 2u * 4);
+    EXPECT_EQ(done, 0.5);
+}
+
+TEST(Structures, AreExactWhereTheyDoNotSayThatTheyReturnCandidates) {
+    const test_support::TestFolder folder;
+    const TestField field({18, 17, 16}, 6, ValueType::u8, index::moving_sphere);
+    index::MemorySeries series(field.view());
+    index::build_index(series, folder.path() / "a.isochron", {});
+    const auto file = index::IndexFile::open(folder.path() / "a.isochron");
+    const auto isovalues = quantile_isovalues(file->values(), 20);
+    std::vector<std::string> names;
+    for (const Recipe& recipe :
+         structures_of(file, build_tbon(file, 1),
+                       {.lattices = {32, 64}, .max_variations = {2}, .threads = 1})) {
+        const Structure structure = recipe.build({});
+        names.push_back(structure.name);
+        const ErrorCount count = count_errors(file->values(), structure, isovalues, [](double) {});
+        EXPECT_GT(count.active, 1000u);
+        EXPECT_EQ(count.false_negatives, 0u) << structure.name;
+        EXPECT_EQ(count.false_positives > 0, structure.candidates) << structure.name;
+        if (structure.change) {
+            Ids before, after, differ;
+            index::scan(file->values(), {1, 60}, before);
+            index::scan(file->values(), {2, 60}, after);
+            std::ranges::set_symmetric_difference(before, after, std::back_inserter(differ));
+            EXPECT_EQ(structure.change({1, 60}, {2, 60}), differ.size());
+        }
+        if (!structure.follow)
+            continue;
+        for (const std::uint32_t step : {0u, 1u, 5u, 2u}) {
+            Ids found;
+            structure.ids({step, 60}, found);
+            EXPECT_EQ(structure.follow({step, 60}), found.size());
+        }
+    }
+    EXPECT_THAT(names,
+                ElementsAre("scan", "tbon", "bricks", "cells", "cells+deltas", "thi",
+                            "thi-node-lattices", "thi-interval-trees", "thi-compact-lists", "thi",
+                            "thi-node-lattices", "thi-interval-trees", "thi-compact-lists"));
+}
+
+TEST(Isovalues, AreTheQuantilesOfAllSteps) {
+    const TestField field(
+        {10, 10, 10}, 3, ValueType::i16,
+        [](double x, double y, double z, double t) { return x + 10 * y + 100 * z + 1000 * t; });
+    EXPECT_THAT(quantile_isovalues(field.view(), 2), ElementsAre(1000, 2000));
+    EXPECT_THAT(quantile_isovalues(field.view(), 5), ElementsAre(500, 1000, 1500, 2000, 2500));
+    const TestField nothing({2, 2, 2}, 1, ValueType::f32,
+                            [](double, double, double, double) { return std::nan(""); });
+    EXPECT_TRUE(quantile_isovalues(nothing.view(), 5).empty());
+}
+
+TEST(Isovalues, HaveAsManyActiveCellsAsAskedFor) {
+    for (const ValueType type : {ValueType::u8, ValueType::f32}) {
+        const TestField field({40, 40, 40}, 3, type, index::moving_sphere);
+        const double isovalue = isovalue_with(field.view(), 2000);
+        EXPECT_NEAR(mean_active(field.view(), isovalue), 2000, 60) << isovalue;
+        EXPECT_TRUE(type == ValueType::f32 || isovalue - std::floor(isovalue) == 0.5) << isovalue;
+    }
+    const TestField field({40, 40, 40}, 3, ValueType::f32, index::moving_sphere);
+    EXPECT_GT(mean_active(field.view(), isovalue_with(field.view(), 1e9)), 2000) << "most there is";
+}
+
+TEST(Timing, TakesTheMiddle) {
+    EXPECT_EQ(median({3}), 3);
+    EXPECT_EQ(median({5, 1, 3}), 3);
+    EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
+}
+
+TEST(Timing, RunsEveryOperationAtEveryStepInTurn) {
+    std::vector<std::string> order;
+    const auto slow = [&](const char* name) -> Operation {
+        return [&order, name](std::uint32_t step) {
+            order.push_back(name + std::to_string(step));
+            const Stopwatch watch;
+            while (watch.seconds() < 0.006) {
+            }
+        };
+    };
+    const auto seconds = time_in_turn({slow("a"), slow("b")}, 2, 2);
+    EXPECT_THAT(order, ElementsAre("a0", "b0", "a1", "b1", "a0", "b0", "a1", "b1"))
+        << "slow ones once a round";
+    ASSERT_EQ(seconds.size(), 2u);
+    EXPECT_GE(seconds[0], 0.006);
+    int quick = 0;
+    time_in_turn({[&](std::uint32_t) { ++quick; }}, 1, 3);
+    EXPECT_GT(quick, 100);
+}
+
+TEST(Timing, SweepsForwardsAndBackwards) {
+    std::vector<std::uint32_t> visited;
+    time_sweep([&](std::uint32_t step) { visited.push_back(step); }, 3, 1);
+    EXPECT_THAT(visited, ElementsAre(0, 1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0)) << "once to warm up";
+}
+
+Results some_results() {
+    Row row;
+    row.data = "sphere";
+    row.type = "u8";
+    row.structure = "thi";
+    row.steps = 25;
+    row.l = 64;
+    row.max_variation = 2;
+    row.threads = 2;
+    row.isovalue = 112.5;
+    row.search_ids_us = 1.23456;
+    row.incremental_full_us = 0.5;
+    return {{"abc", "a processor", "a compiler", "2026-01-01", 2},
+            {row, Row{}},
+            {ErrorDetail{1600, 12, 10.6, 7, 0.5, 4.25}, ErrorDetail{}}};
+}
+
+TEST(Rows, HaveTheKeysOfEveryRowAndNullForWhatAStructureDoesNotHave) {
+    const auto j = to_json(some_results());
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : j.at("rows").at(0).items())
+        keys.push_back(key);
+    EXPECT_THAT(keys,
+                ElementsAre("data", "type", "steps", "structure", "l", "max_variation", "threads",
+                            "isovalue", "active", "bytes", "percent_of_raw", "percent_with_volume",
+                            "false_positives", "false_negatives", "search_runs_us", "search_ids_us",
+                            "search_full_us", "incremental_us", "incremental_full_us", "delta_ids",
+                            "sweep_ms", "scan_us", "tbon_us", "flying_edges_us",
+                            "flying_edges_normals_us", "memcpy_us", "build_mcs_per_s"));
+    EXPECT_EQ(j.at("rows").at(0).at("l"), 64);
+    EXPECT_TRUE(j.at("rows").at(1).at("l").is_null());
+    EXPECT_TRUE(j.at("rows").at(0).at("search_runs_us").is_null());
+    EXPECT_EQ(j.at("rows").at(0).at("search_ids_us"), 1.2346);
+}
+
+TEST(Rows, ComeBackFromTheirJson) {
+    const std::string text = to_json_text(some_results());
+    EXPECT_EQ(nlohmann::ordered_json::parse(text), to_json(some_results()));
+    EXPECT_EQ(to_json_text(results_from_json(text, "a.json")), text);
+}
+
+TEST(Rows, ThatAreNoneAreNamedWithTheirFile) {
+    const auto error_of = [](const std::string& text) -> std::string {
+        try {
+            results_from_json(text, "a.json");
+        } catch (const index::Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(error_of("nonsense"), HasSubstr("a.json: no results of a benchmark"));
+    EXPECT_THAT(error_of("{}"), HasSubstr("header"));
+    auto j = to_json(some_results());
+    j["rows"][0].erase("bytes");
+    EXPECT_THAT(error_of(j.dump()), HasSubstr("bytes"));
+    j = to_json(some_results());
+    j["details"].erase(1);
+    EXPECT_THAT(error_of(j.dump()), HasSubstr("2 rows, but 1 details"));
+}
+
+} // namespace
+} // namespace isochron::bench

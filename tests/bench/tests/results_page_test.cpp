@@ -1,0 +1,169 @@
+// The page of results is the one that the committed figures give, and says what they say.
+#include "tests/bench/measures/artefacts.h"
+#include "tests/bench/pages/goals.h"
+#include "tests/bench/pages/render_goals.h"
+#include "tests/bench/pages/render_page.h"
+#include "tests/bench/pages/results_page.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+namespace isochron::bench {
+namespace {
+
+using testing::HasSubstr;
+
+std::string read(const std::string& path) {
+    std::ifstream file(std::string(SOURCE_ROOT) + "/" + path, std::ios::binary);
+    EXPECT_TRUE(file) << path;
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(ResultsPage, IsTheOneOfTheCommittedFigures) {
+    const ResultPaths paths{.index = "docs/results/index.json",
+                            .render = "docs/results/render.json",
+                            .artefacts = "docs/results/artefacts.json"};
+    EXPECT_EQ(whole_page(paths, read), read("docs/RESULTS.md"))
+        << "make it again: ./run bench results " << paths.index << " --render " << paths.render
+        << " --artefacts " << paths.artefacts << " -o docs/RESULTS.md";
+    for (const Header& header : {results_from_json(read(paths.index), "").header,
+                                 render_results_from_json(read(paths.render), "").header,
+                                 artefacts_from_json(read(paths.artefacts), "").header}) {
+        EXPECT_FALSE(header.commit.empty());
+        EXPECT_FALSE(header.processor.empty());
+    }
+}
+
+TEST(ResultsPage, ShowsOnlyPicturesThatAreThere) {
+    const std::string page = read("docs/RESULTS.md");
+    const std::regex picture(R"(!\[[^\]]*\]\(([^)]+)\))");
+    int shown = 0;
+    for (std::sregex_iterator i(page.begin(), page.end(), picture), end; i != end; ++i, ++shown)
+        EXPECT_TRUE(std::filesystem::exists(std::string(SOURCE_ROOT) + "/docs/" + (*i)[1].str()))
+            << (*i)[1];
+    EXPECT_GE(shown, 3);
+}
+
+Row row_of(const std::string& structure, const std::string& data, const std::string& type) {
+    Row row;
+    row.structure = structure;
+    row.data = data;
+    row.type = type;
+    row.steps = 25;
+    return row;
+}
+
+Results results_of(std::vector<Row> rows) {
+    Results results{{"0123abcd", "some processor", "some compiler", "2026-01-01", 2}, rows, {}};
+    results.details.resize(rows.size());
+    return results;
+}
+
+TEST(ResultsPage, PutsThePublishedFiguresNextToOurs) {
+    Row row = row_of("thi", "sphere", "u8");
+    row.l = 64;
+    row.max_variation = 2;
+    row.percent_of_raw = 12.34;
+    row.search_ids_us = 8;
+    row.sweep_ms = 0.08;
+    Results results = results_of({row});
+    results.details[0].percent_at_isovalue = 10.6;
+    const std::string page =
+        results_page(results, {.index = "a.json", .render = {}, .artefacts = {}});
+    EXPECT_THAT(page, HasSubstr("commit 0123abcd, some compiler, on some processor"));
+    // Table 1 and Table 2 share this setting; others were not measured.
+    EXPECT_THAT(page, HasSubstr("| 64 | 2 | 25 | paper | 37.2 | 1.3 | 2140 | 740 | 2.90 |\n"
+                                "| | | | u8 here | 12.3 | 11 | 8 | 3.2 | 2.50 |\n"
+                                "| | | | f32 here | - | - | - | - | - |\n"));
+    EXPECT_THAT(page, HasSubstr("| 64 | 1 | 55 | paper | 107.6 | 0.08 | 2320 | 830 | 2.79 |\n"
+                                "| | | | u8 here | - | - | - | - | - |\n"));
+}
+
+TEST(Goals, AreDecidedByTheWorstRow) {
+    Row first = row_of("cells", "sphere", "u8"), second = first;
+    first.percent_of_raw = 4.4;
+    second.steps = 55;
+    second.percent_of_raw = 4.5;
+    const auto table = [&] { return goals_table(results_of({first, second})); };
+    EXPECT_THAT(table(), HasSubstr("| 4.5 % | 7 % | 4.4 to 4.5 % | goal reached |"));
+    second.percent_of_raw = 6.9;
+    EXPECT_THAT(table(), HasSubstr("| 4.4 to 6.9 % | above the floor |"));
+    second.percent_of_raw = 7.1;
+    EXPECT_THAT(table(), HasSubstr("| 4.4 to 7.1 % | **below the floor** |"));
+}
+
+TEST(Goals, SpeakOfSpeedTheOtherWayRound) {
+    Row row = row_of("cells", "sphere", "u8");
+    row.search_ids_us = 2;
+    row.flying_edges_us = 1000;
+    EXPECT_THAT(goals_table(results_of({row})), HasSubstr("| 500x | 100x | 500x | goal reached |"));
+    row.flying_edges_us = 150;
+    EXPECT_THAT(goals_table(results_of({row})), HasSubstr("| 75x | **below the floor** |"));
+    EXPECT_THAT(goals_table(results_of({})), HasSubstr("| 500x | 100x | - | not measured |"));
+}
+
+TEST(Goals, LetOnlyThePublishedStructureHaveFalsePositives) {
+    Row thi = row_of("thi", "sphere", "u8"), cells = row_of("cells", "sphere", "u8");
+    thi.false_positives = 1000;
+    EXPECT_THAT(goals_table(results_of({thi, cells})), HasSubstr("| 0 | 0 | 0 | goal reached |"));
+    cells.false_negatives = 1;
+    EXPECT_THAT(goals_table(results_of({thi, cells})),
+                HasSubstr("| 0 | 0 | 1 | **below the floor** |"));
+}
+
+RenderRow render_row(const std::string& footprint, double fps) {
+    RenderRow row;
+    row.data = "sphere";
+    row.footprint = footprint;
+    row.size = 512;
+    row.threads = 2;
+    row.fps = fps;
+    row.p99_over_static = 1.4;
+    return row;
+}
+
+TEST(RenderPage, PutsTheRatesNextToThePaper) {
+    RenderRow one_core = render_row("quad", 300.4);
+    one_core.threads = 1;
+    const std::string page = render_section(
+        {{"0123abcd", "p", "c", "d", 2}, {render_row("quad", 612.4), one_core}}, "b.json");
+    EXPECT_THAT(page, HasSubstr("| fast | paper, GeForce 4 | 250.85 | 284.42 |\n"
+                                "| | here, software GL, 1 core | 300 | - |\n"
+                                "| | here, software GL, 2 cores | 612 | - |\n"));
+    EXPECT_THAT(page, HasSubstr("| sphere | quad | 512^2 | 2 |"));
+}
+
+TEST(RenderGoals, SpeakOfTwoCoresAndOnePicture) {
+    RenderRow row = render_row("quad", 500);
+    const auto table = [&] { return render_goals_table({row}); };
+    EXPECT_THAT(table(), HasSubstr("| 600 fps | 250 fps | 500 fps | above the floor |"));
+    row.draw_ms = 2;
+    row.quads_ms = 2.8;
+    row.bare_fps = 500;
+    EXPECT_THAT(table(), HasSubstr("those that are seen, against all bare quads, 512^2 | 1.1x | "
+                                   "1.3x | 1x | goal reached |"));
+    EXPECT_THAT(table(), HasSubstr("all of them, against bare quads, 512^2 | 1.1x | 1.3x | "
+                                   "1.4x | **below the floor** |"));
+    EXPECT_THAT(table(), HasSubstr("| 1.3x | 2x | 1.4x | above the floor |"));
+    row.sent_ids_percent = 10.8;
+    EXPECT_THAT(table(), HasSubstr("of all, sphere | 20 % | 40 % | 10.8 % | goal reached |"));
+    row.threads = 1;
+    EXPECT_THAT(table(), HasSubstr("fast quads, sphere, 512^2 | 600 fps | 250 fps | - |"));
+}
+
+TEST(RenderGoals, CompareASurfaceWithSplatsOfTheSamePicture) {
+    RenderRow surface = render_row("surface", 90), splats = render_row("gaussian", 100);
+    surface.size = splats.size = 1024;
+    surface.draw_ms = 6;
+    splats.draw_ms = 10;
+    EXPECT_THAT(render_goals_table({splats, surface}),
+                HasSubstr("| 0.7x | 1.3x | 0.6x | goal reached |"));
+    EXPECT_THAT(render_goals_table({surface}), HasSubstr("| 0.7x | 1.3x | - | not measured |"));
+}
+
+} // namespace
+} // namespace isochron::bench

@@ -1,0 +1,109 @@
+// The variants of the THI tree find what the published tree finds, in as many entries.
+#include "tests/bench/rivals/thi_variants.h"
+
+#include "index/scan/scan.h"
+#include "index/thi/thi_tree.h"
+#include "tests/support/test_field.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isochron::bench {
+namespace {
+
+using index::CellId;
+using index::StepValues;
+using index::TestField;
+using index::ThiOptions;
+using index::ValueType;
+
+constexpr std::array kVariants{ThiVariant::node_lattices, ThiVariant::interval_trees,
+                               ThiVariant::compact_lists};
+
+/// The same candidates as the published tree's, none twice; all active cells among them, and these
+/// alone after the exact test.
+void expect_published_candidates(const StepValues& values, const ThiOptions& options,
+                                 int isovalues) {
+    const auto bytes = index::build_thi_tree(values, options);
+    const index::ThiTree published(bytes);
+    const index::KeyMap keys(values.type, values.scaling);
+    std::vector<double> queries{-1e300, 1e300};
+    for (const double value : index::quantiles(index::sorted_values(values), isovalues))
+        if (std::isfinite(value))
+            queries.insert(queries.end(), {value, std::nextafter(value, 1e300)});
+    for (const ThiVariant variant : kVariants) {
+        SCOPED_TRACE(testing::Message()
+                     << "variant " << static_cast<int>(variant) << ", L " << options.lattice
+                     << ", MaxVariation " << options.max_variation);
+        const auto tree = build_thi_variant(variant, values, options);
+        EXPECT_EQ(tree->entries(), published.entries());
+        for (std::uint32_t step = 0; step < values.steps; ++step) {
+            const index::BruteForce oracle(values, step);
+            for (const double isovalue : queries) {
+                std::vector<CellId> expected, found;
+                published.search(step, keys.threshold(isovalue), expected);
+                tree->search(step, keys.threshold(isovalue), found);
+                std::sort(expected.begin(), expected.end());
+                std::sort(found.begin(), found.end());
+                ASSERT_EQ(found, expected) << "step " << step << ", isovalue " << isovalue;
+                index::keep_active(values, {step, isovalue}, found);
+                ASSERT_EQ(found, oracle.active(isovalue));
+            }
+        }
+    }
+}
+
+TEST(ThiVariants, HaveTheCandidatesOfThePublishedTreeOnTheMovingSphere) {
+    for (const ValueType type : {ValueType::u8, ValueType::f32}) {
+        const TestField field({41, 40, 40}, 7, type, index::moving_sphere);
+        expect_published_candidates(field.view(), {64, 2}, 32);
+    }
+}
+
+TEST(ThiVariants, HaveThemForEveryLatticeAndMaxVariation) {
+    std::mt19937 random(test_seed());
+    for (const ValueType type : {ValueType::u8, ValueType::f32, ValueType::f64}) {
+        const TestField field({14, 13, 12}, 11, type,
+                              index::scaled(index::turbulence(random), 100, 120));
+        for (const ThiOptions options :
+             {ThiOptions{1, 1}, {2, 3}, {32, 1}, {32, 2}, {64, 3}, {128, 2}, {4096, 1}, {4096, 64}})
+            expect_published_candidates(field.view(), options, 8);
+    }
+}
+
+TEST(ThiVariants, HaveThemWithNanAndInfiniteVertices) {
+    std::mt19937 random(test_seed());
+    const auto smooth = index::turbulence(random);
+    for (const double special :
+         {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+        const TestField field({9, 8, 7}, 9, ValueType::f32,
+                              [&](double x, double y, double z, double t) {
+                                  return random() % 60 == 0 ? special : smooth(x, y, z, t);
+                              });
+        expect_published_candidates(field.view(), {32, 2}, 12);
+    }
+    const TestField constant({5, 4, 6}, 3, ValueType::f32,
+                             [](double, double, double, double t) { return t; });
+    expect_published_candidates(constant.view(), {64, 2}, 5);
+}
+
+TEST(ThiVariants, HoldForListsTooLongForNarrowPlaces) {
+    // One element, thus one interval tree, whose root holds more than 2^16 cells.
+    const TestField field({51, 50, 48}, 1, ValueType::u8, [](double x, double y, double z, double) {
+        return 40 * (static_cast<int>(x + y + z) % 2) + x;
+    });
+    expect_published_candidates(field.view(), {1, 1}, 6);
+}
+
+TEST(ThiVariants, CompactListsTakeLessThanThePublishedOnesWhereKeysRepeat) {
+    const TestField field({41, 40, 40}, 12, ValueType::u8, index::moving_sphere);
+    const auto published = index::build_thi_tree(field.view(), {64, 2});
+    EXPECT_LT(build_thi_variant(ThiVariant::compact_lists, field.view(), {64, 2})->bytes(),
+              published.size() * 6 / 10);
+}
+
+} // namespace
+} // namespace isochron::bench

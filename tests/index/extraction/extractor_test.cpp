@@ -1,0 +1,332 @@
+// The extraction thread: latest wins, prefetch, failures, and never a wait.
+#include "index/extraction/extractor.h"
+#include "tests/support/test_field.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <latch>
+#include <map>
+#include <mutex>
+#include <random>
+#include <semaphore>
+#include <thread>
+
+namespace isochron::index {
+namespace {
+
+using namespace std::chrono_literals;
+
+ExtractionPtr empty_extraction(const SurfacesQuery& query) {
+    auto extraction = std::make_shared<Extraction>();
+    extraction->query = query;
+    return extraction;
+}
+
+/// An extraction whose runs the test holds and lets go one by one.
+class HeldExtraction {
+  public:
+    /// Obedient: a stopped run returns nothing, as the real one does.
+    explicit HeldExtraction(bool obedient = true) : obedient_(obedient) {}
+
+    Extract extract() {
+        return [this](const SurfacesQuery& query, const std::stop_token& stop) -> ExtractionPtr {
+            {
+                const std::scoped_lock lock(mutex_);
+                ++calls_[query.step];
+            }
+            started_.release();
+            release_.acquire();
+            return obedient_ && stop.stop_requested() ? nullptr : empty_extraction(query);
+        };
+    }
+    void wait_until_started() { started_.acquire(); }
+    void let_go(int runs = 1) { release_.release(runs); }
+    int calls(std::uint32_t step) {
+        const std::scoped_lock lock(mutex_);
+        return calls_[step];
+    }
+
+  private:
+    bool obedient_;
+    std::mutex mutex_;
+    std::map<std::uint32_t, int> calls_;
+    std::counting_semaphore<> started_{0}, release_{0};
+};
+
+TEST(Extractor, AnswersWhatIsAsked) {
+    Extractor extractor(
+        [](const SurfacesQuery& query, std::stop_token) { return empty_extraction(query); });
+    EXPECT_EQ(extractor.newest(), nullptr);
+    EXPECT_FALSE(extractor.busy());
+    extractor.wait(); // nothing asked: nothing to wait for
+    extractor.request({.query = {7, {1.5}}, .next_step = {}});
+    extractor.wait();
+    ASSERT_NE(extractor.newest(), nullptr);
+    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{7, {1.5}}));
+    EXPECT_FALSE(extractor.failure());
+}
+
+TEST(Extractor, TheLatestRequestWins) {
+    HeldExtraction held;
+    Extractor extractor(held.extract());
+    extractor.request({.query = {0, {1.0}}, .next_step = {}});
+    held.wait_until_started();
+    for (std::uint32_t step = 1; step <= 5; ++step)
+        extractor.request({.query = {step, {1.0}}, .next_step = {}});
+    held.let_go(2);
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query.step, 5u);
+    for (std::uint32_t step = 1; step <= 4; ++step)
+        EXPECT_EQ(held.calls(step), 0) << "a request that was replaced in time is never searched";
+}
+
+TEST(Extractor, AfterAnAbandonedSearchTheNextIsFinishedAndShown) {
+    HeldExtraction held;
+    Extractor extractor(held.extract());
+    extractor.request({.query = {0, {1.0}}, .next_step = {}});
+    held.wait_until_started();
+    extractor.request({.query = {1, {1.0}}, .next_step = {}}); // abandons step 0
+    held.let_go();
+    held.wait_until_started(); // step 1
+    EXPECT_EQ(extractor.newest(), nullptr);
+    extractor.request({.query = {2, {1.0}}, .next_step = {}}); // does not abandon step 1
+    held.let_go();
+    held.wait_until_started(); // step 2; step 1 is shown meanwhile
+    ASSERT_NE(extractor.newest(), nullptr);
+    EXPECT_EQ(extractor.newest()->query.step, 1u);
+    EXPECT_TRUE(extractor.busy());
+    held.let_go();
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query.step, 2u);
+}
+
+TEST(Extractor, APrefetchedStepIsAnsweredWithoutAnotherSearch) {
+    HeldExtraction held;
+    Extractor extractor(held.extract());
+    extractor.request({.query = {3, {1.0}}, .next_step = 4});
+    held.let_go(2);
+    held.wait_until_started();
+    held.wait_until_started(); // the prefetch
+    extractor.request({.query = {4, {1.0}}, .next_step = {}});
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query.step, 4u);
+    EXPECT_EQ(held.calls(4), 1);
+    extractor.request({.query = {3, {1.0}}, .next_step = {}});
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query.step, 3u);
+    EXPECT_EQ(held.calls(3), 1) << "stepping back is answered from the recent sets too";
+}
+
+TEST(Extractor, ARunningPrefetchOfTheRequestedStepGoesOn) {
+    HeldExtraction held;
+    Extractor extractor(held.extract());
+    extractor.request({.query = {3, {1.0}}, .next_step = 4});
+    held.let_go();
+    held.wait_until_started();
+    held.wait_until_started(); // the prefetch is now held
+    extractor.request({.query = {4, {1.0}}, .next_step = {}});
+    EXPECT_TRUE(extractor.busy());
+    held.let_go();
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query.step, 4u);
+    EXPECT_EQ(held.calls(4), 1);
+}
+
+TEST(Extractor, APrefetchGivesWayToARequest) {
+    HeldExtraction held;
+    Extractor extractor(held.extract());
+    extractor.request({.query = {3, {1.0}}, .next_step = 4});
+    held.let_go();
+    held.wait_until_started();
+    held.wait_until_started(); // the prefetch is now held
+    extractor.request({.query = {9, {2.0}}, .next_step = {}});
+    held.let_go(2);
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{9, {2.0}}));
+}
+
+TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
+    HeldExtraction held;
+    Extractor extractor(held.extract());
+    held.let_go(1000);
+    for (std::uint32_t step = 0; step < 50; ++step) {
+        extractor.request({.query = {step, {1.0 + step}}, .next_step = 100 + step});
+        extractor.wait();
+        while (step == 0 && held.calls(100) == 0) // nothing says that it is dragged
+            std::this_thread::yield();
+    }
+    std::this_thread::sleep_for(20ms);
+    for (std::uint32_t step = 1; step < 50; ++step)
+        EXPECT_EQ(held.calls(100 + step), 0);
+    // Held still, at the same step or at the next.
+    const auto expect_prefetch_of = [&](std::uint32_t step) {
+        const auto end = std::chrono::steady_clock::now() + 10s;
+        while (held.calls(step) == 0 && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+        EXPECT_EQ(held.calls(step), 1);
+    };
+    extractor.request({.query = {49, {50.0}}, .next_step = 149});
+    expect_prefetch_of(149);
+    extractor.request({.query = {50, {51.0}}, .next_step = 150});
+    extractor.wait();
+    extractor.request({.query = {51, {51.0}}, .next_step = 151});
+    expect_prefetch_of(151);
+    EXPECT_EQ(held.calls(150), 0);
+}
+
+TEST(Extractor, AskingAgainForWhatIsAskedDoesNothing) {
+    HeldExtraction held;
+    Extractor extractor(held.extract());
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double isovalue : {1.0, nan}) {
+        extractor.request({.query = {1, {isovalue}}, .next_step = {}});
+        held.wait_until_started();
+        for (int i = 0; i < 10; ++i)
+            extractor.request({.query = {1, {isovalue}}, .next_step = {}});
+        held.let_go();
+        extractor.wait();
+        const ExtractionPtr shown = extractor.newest();
+        extractor.request({.query = {1, {isovalue}}, .next_step = {}});
+        EXPECT_FALSE(extractor.busy());
+        EXPECT_EQ(extractor.newest(), shown);
+    }
+    EXPECT_EQ(held.calls(1), 2);
+}
+
+TEST(Extractor, AFailureIsReportedUntilALaterQuerySucceeds) {
+    Extractor extractor([](const SurfacesQuery& query, std::stop_token) -> ExtractionPtr {
+        if (query.step == 1)
+            throw std::runtime_error("step 1 cannot be read");
+        if (query.step == 2)
+            throw 42;
+        if (query.step == 3)
+            return nullptr;
+        return empty_extraction(query);
+    });
+    extractor.request({.query = {0, {1.0}}, .next_step = {}});
+    extractor.wait();
+    for (const std::uint32_t step : {1u, 2u, 3u}) {
+        extractor.request({.query = {step, {1.0}}, .next_step = {}});
+        extractor.wait();
+        EXPECT_TRUE(extractor.failure());
+        EXPECT_EQ(extractor.newest()->query.step, 0u) << "the last picture stays";
+        if (step == 1) {
+            EXPECT_EQ(*extractor.failure(), "step 1 cannot be read");
+        }
+    }
+    extractor.request({.query = {4, {1.0}}, .next_step = {}});
+    extractor.wait();
+    EXPECT_FALSE(extractor.failure());
+    EXPECT_EQ(extractor.newest()->query.step, 4u);
+}
+
+TEST(Extractor, AFailedPrefetchIsSilentUntilItsStepIsAsked) {
+    std::promise<void> prefetched;
+    std::atomic<int> tries = 0;
+    Extractor extractor([&](const SurfacesQuery& query, std::stop_token) -> ExtractionPtr {
+        if (query.step == 0)
+            return empty_extraction(query);
+        if (++tries == 1) {
+            prefetched.set_value();
+            throw std::runtime_error("bad step");
+        }
+        throw std::runtime_error("bad step, asked");
+    });
+    extractor.request({.query = {0, {1.0}}, .next_step = 1});
+    extractor.wait();
+    prefetched.get_future().wait();
+    EXPECT_FALSE(extractor.failure());
+    extractor.request({.query = {1, {1.0}}, .next_step = {}});
+    extractor.wait();
+    ASSERT_TRUE(extractor.failure());
+    EXPECT_EQ(extractor.failure()->substr(0, 8), "bad step");
+}
+
+TEST(Extractor, NoCallWaitsForASearchThatIgnoresItsStop) {
+    // The caller's work is done on this thread while the search is held: if any call waited for the
+    // search, the test would not come to an end.
+    HeldExtraction held(false);
+    Extractor extractor(held.extract());
+    extractor.request({.query = {0, {1.0}}, .next_step = 1});
+    held.wait_until_started();
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        extractor.request({.query = {i % 7, {double(i)}}, .next_step = i % 5});
+        EXPECT_EQ(extractor.newest(), nullptr);
+        EXPECT_TRUE(extractor.busy());
+        EXPECT_FALSE(extractor.failure());
+    }
+    held.let_go(10);
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{999 % 7, {999.0}}));
+}
+
+TEST(Extractor, DestructionStopsTheSearchAndJoins) {
+    std::atomic<bool> ended = false;
+    {
+        std::latch started(1);
+        Extractor extractor(
+            [&](const SurfacesQuery&, const std::stop_token& stop) -> ExtractionPtr {
+                started.count_down();
+                while (!stop.stop_requested())
+                    std::this_thread::yield();
+                ended = true;
+                return nullptr;
+            });
+        extractor.request({.query = {0, {1.0}}, .next_step = {}});
+        started.wait();
+    }
+    EXPECT_TRUE(ended);
+}
+
+TEST(Extractor, RandomRequestsFromOneThreadAndReadersOnOthersEndWithTheLastAnswer) {
+    const std::uint32_t seed = test_seed();
+    std::mt19937 random(seed);
+    Extractor extractor(
+        [](const SurfacesQuery& query, const std::stop_token& stop) -> ExtractionPtr {
+            auto extraction = std::make_shared<Extraction>();
+            extraction->query = query;
+            auto& ids = extraction->surfaces.emplace_back().ids;
+            for (CellId id = 0; id < 2000; ++id) {
+                if (id % 100 == 0 && stop.stop_requested())
+                    return nullptr;
+                ids.push_back(id * query.step);
+            }
+            if (query.step == 13)
+                throw std::runtime_error("13");
+            return extraction;
+        });
+    std::atomic<bool> done = false;
+    const auto look = [&] {
+        while (!done) {
+            if (const ExtractionPtr newest = extractor.newest()) {
+                const auto& ids = newest->surfaces.front().ids;
+                ASSERT_EQ(ids.size(), 2000u);
+                ASSERT_EQ(ids.back(), 1999u * newest->query.step);
+            }
+            (void)extractor.busy();
+            (void)extractor.failure();
+        }
+    };
+    std::thread reader_a(look), reader_b(look);
+    for (int i = 0; i < 3000; ++i) {
+        const auto step = static_cast<std::uint32_t>(random() % 20);
+        Request request{.query = {step, {double(random() % 3)}}, .next_step = {}};
+        if (random() % 2)
+            request.next_step = step + 1;
+        extractor.request(request);
+        if (random() % 8 == 0)
+            extractor.wait();
+    }
+    extractor.request({.query = {5, {99.0}}, .next_step = 6});
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{5, {99.0}}));
+    EXPECT_FALSE(extractor.failure());
+    done = true;
+    reader_a.join();
+    reader_b.join();
+}
+
+} // namespace
+} // namespace isochron::index

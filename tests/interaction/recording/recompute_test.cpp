@@ -1,0 +1,145 @@
+// A whole session through emulation and controls: its recording explains every command again.
+#include "interaction/controls.h"
+#include "interaction/desktop_emulation.h"
+#include "interaction/motion_gate.h"
+#include "interaction/recording/recording.h"
+
+#include "tests/interaction/input_builders.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace isochron::interaction {
+namespace {
+
+/// What commands set; the least of a session.
+class SimulatedSession {
+  public:
+    SimulatedSession() {
+        context_.times = &times_;
+        context_.stereo = "mono";
+        context_.stereo_modes = &modes_;
+        context_.views = &views_;
+        context_.low = -1e-3;
+        context_.high = 17.3;
+        context_.home = {{0, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.03};
+        context_.room_from_physical = context_.home;
+    }
+    const ControlContext& context() const { return context_; }
+    void obey(const Commands& commands) {
+        context_.isovalue = commands.isovalue.value_or(context_.isovalue);
+        context_.step = commands.step.value_or(context_.step);
+        context_.playback = commands.playback.value_or(context_.playback);
+        context_.room_from_physical =
+            commands.room_from_physical.value_or(context_.room_from_physical);
+        context_.quality = commands.quality.value_or(context_.quality);
+        context_.eye_separation = commands.eye_separation.value_or(context_.eye_separation);
+        context_.stereo = commands.stereo.value_or(context_.stereo);
+        context_.panel = commands.panel.value_or(context_.panel);
+        context_.grid = commands.grid.value_or(context_.grid);
+        views_ = commands.views.value_or(views_);
+    }
+
+  private:
+    std::vector<double> times_{0, 0.1, 0.5, 0.6, 2, 2.5, 2.6, 7};
+    std::vector<Viewpoint> views_;
+    std::vector<std::string> modes_{"mono", "left", "side_by_side"};
+    ControlContext context_;
+};
+
+std::vector<WindowEvent> random_events(Random& random) {
+    std::vector<WindowEvent> events;
+    for (unsigned i = random() % 5; i > 0; --i) {
+        const auto fraction = [&] { return static_cast<float>(uniform(random, 0, 1)); };
+        switch (random() % 8) {
+        case 0:
+        case 1:
+        case 2: {
+            const auto lines = key_lines();
+            const KeyLine& line = lines[random() % lines.size()];
+            events.push_back(
+                KeyEvent{line.bindings[random() % line.bindings.size()].key, random() % 2 == 0});
+            break;
+        }
+        case 3:
+            events.push_back(
+                MouseButtonEvent{static_cast<MouseButton>(random() % 3), random() % 2 == 0});
+            break;
+        case 4: events.push_back(cursor_at(fraction(), fraction())); break;
+        case 5: events.push_back(ScrollEvent{0, fraction() - 0.5f}); break;
+        case 6:
+            if (random() % 8 == 0)
+                events.push_back(FocusEvent{false});
+            break;
+        default:
+            events.push_back(GamepadEvent{
+                random() % 4 != 0,
+                {fraction(), fraction(), fraction(), fraction(), fraction(), fraction()},
+                static_cast<std::uint32_t>(random() & random())});
+        }
+    }
+    return events;
+}
+
+TEST(Recompute, DevicesExplainEveryCommandThatThePanelDoesNot) {
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / "recompute.jsonl";
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        std::vector<Pace> paces;
+        std::size_t navigated = 0, stepped = 0;
+        {
+            SimulatedSession session;
+            DesktopEmulation emulation{EmulationOptions{}};
+            Controls controls;
+            MotionGate gate{StillnessLimits{}};
+            RecordingWriter writer(path, {});
+            double now = 0;
+            for (int frame = 0; frame < 1000; ++frame) {
+                emulation.feed(random_events(random));
+                RecordedFrame record;
+                record.input = emulation.poll(Seconds(now));
+                record.commands = controls.update(record.input, session.context());
+                if (random() % 20 == 0)
+                    record.from_panel.isovalue = uniform(random, 0, 17);
+                if (random() % 50 == 0)
+                    record.from_panel.step = random() % 8;
+                merge(record.commands, record.from_panel);
+                session.obey(record.commands);
+                paces.push_back(
+                    gate.update(record.input, record.commands, session.context().quality));
+                navigated += record.commands.room_from_physical.has_value();
+                stepped += record.commands.step.has_value();
+                writer.append(record);
+                now += uniform(random, 0.001, 0.06);
+            }
+            writer.finish();
+        }
+        EXPECT_GT(navigated, 100u);
+        EXPECT_GT(stepped, 20u);
+
+        const Recording recording = read_recording(path);
+        ASSERT_EQ(recording.frames.size(), 1000u);
+        SimulatedSession session;
+        Controls controls;
+        MotionGate gate{StillnessLimits{}};
+        ReplayInput replay(recording);
+        for (std::size_t frame = 0; frame < recording.frames.size(); ++frame) {
+            const RecordedFrame& record = recording.frames[frame];
+            const InputState input = replay.poll(record.input.time);
+            Commands commands = controls.update(input, session.context());
+            merge(commands, record.from_panel);
+            ASSERT_EQ(commands, record.commands) << "frame " << frame;
+            session.obey(commands);
+            ASSERT_EQ(gate.update(input, commands, session.context().quality), paces[frame]);
+        }
+        EXPECT_TRUE(replay.finished());
+    }
+    std::filesystem::remove(path);
+}
+
+} // namespace
+} // namespace isochron::interaction

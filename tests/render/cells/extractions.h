@@ -1,0 +1,75 @@
+// Extractions from values in memory, as the worker makes them from a file.
+#pragma once
+
+#include "index/extraction/extraction.h"
+#include "index/scan/scan.h"
+#include "tests/support/test_field.h"
+
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace isochron::render {
+
+class Extractions {
+  public:
+    explicit Extractions(const index::StepValues& values)
+        : values_(values), bricks_(brick_values(values)), gatherer_(values.grid, bricks_) {}
+
+    /// Of the active cells.
+    index::ExtractionPtr active(std::uint32_t step, std::vector<double> isovalues) {
+        auto made = std::make_shared<index::Extraction>();
+        for (const double isovalue : isovalues)
+            index::scan(values_, {step, isovalue}, made->surfaces.emplace_back().ids);
+        made->query = {step, std::move(isovalues)};
+        return complete(std::move(made));
+    }
+    /// Of any cells, one ascending list for each surface.
+    index::ExtractionPtr of_cells(std::uint32_t step,
+                                  std::vector<std::vector<index::CellId>> surfaces) {
+        auto made = std::make_shared<index::Extraction>();
+        made->query = {step, std::vector<double>(surfaces.size(), 0.0)};
+        for (auto& ids : surfaces)
+            made->surfaces.emplace_back().ids = std::move(ids);
+        return complete(std::move(made));
+    }
+
+    /// The same with the points that the worker makes where they are asked for.
+    index::ExtractionPtr shaded(const index::ExtractionPtr& set) {
+        auto with_points = std::make_shared<index::Extraction>(*set);
+        for (index::CellSet& surface : with_points->surfaces) {
+            surface.query.step = set->query.step;
+            index::shade_cells(values_, surface);
+        }
+        return with_points;
+    }
+
+    const index::BrickValues& brick_values() const { return bricks_; }
+
+  private:
+    static index::BrickValues brick_values(const index::StepValues& values) {
+        const auto sorted = index::sorted_values(values);
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const double value : sorted)
+            if (std::isfinite(value)) {
+                low = std::min(low, value);
+                high = std::max(high, value);
+            }
+        return {values.type, values.scaling, low, high};
+    }
+    index::ExtractionPtr complete(std::shared_ptr<index::Extraction> made) {
+        const index::BrickLevels levels = bricks_.levels(made->query.isovalues);
+        made->levels = levels.units;
+        for (const index::CellSet& surface : made->surfaces)
+            gatherer_.need(surface.ids);
+        gatherer_.gather(values_, made->query.step, levels, made->bricks);
+        return made;
+    }
+
+    index::StepValues values_;
+    index::BrickValues bricks_;
+    index::BrickGatherer gatherer_;
+};
+
+} // namespace isochron::render

@@ -1,0 +1,187 @@
+// What a single cell covers on the screen, against the paper's conic and against rays.
+#include "render/cells/cell_pass.h"
+#include "render/gl/render_target.h"
+#include "tests/render/cells/outline_oracle.h"
+#include "tests/render/cells/random_views.h"
+#include "tests/support/gl_test.h"
+
+#include <functional>
+
+namespace isochron::render {
+namespace {
+
+constexpr double kQuadRadius = 0.5 * double(FootprintShapes{}.quad_diameter);
+
+/// Pixels where the picture disagrees with `inside` (pixels from the middle, y up), though the
+/// whole square of one pixel around them says the same.
+int wrong_pixels(const Image& image, int threshold,
+                 const std::function<bool(const glm::dvec2&)>& inside) {
+    int wrong = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const glm::dvec2 at(x + 0.5 - 0.5 * image.width, 0.5 * image.height - y - 0.5);
+            const bool covered = image.at(x, y)[3] > threshold;
+            bool explained = false;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx)
+                    explained = explained || inside(at + glm::dvec2(dx, dy)) == covered;
+            wrong += !explained;
+        }
+    return wrong;
+}
+
+class FootprintGeometry : public GlTest {
+  protected:
+    /// Alpha tells what is covered: the target is cleared to nothing.
+    Image draw(const Scene& scene, Footprint footprint, const FootprintShapes& shapes) {
+        CellPass pass(gl_, shapes);
+        RenderTarget target(gl_, scene.view.size);
+        const CellBuffers cells = showing(gl_, cell_set({scene.cell}));
+        target.bind();
+        target.clear({0, 0, 0, 0});
+        pass.draw(scene.view, scene.placement, cells, footprint);
+        return target.read();
+    }
+};
+
+TEST_P(FootprintGeometry, ACellCoversTheProjectionOfItsEllipsoidWithinAPixel) {
+    for (int round = 0; round < 120; ++round) {
+        const Scene scene = random_scene(random_);
+        const Ellipse ellipse =
+            paper_ellipse(scene.pixel_from_index(), glm::dvec3(scene.cell) + 0.5, scene.radius);
+        if (scene.eye_distance() < 1.2 * scene.radius)
+            continue; // faded away
+        const Image image =
+            draw(scene, Footprint::gaussian, {.gaussian_diameter = 4.0f, .gaussian_sigma = 1e6f});
+        EXPECT_EQ(wrong_pixels(image, 0,
+                               [&](const glm::dvec2& at) { return ellipse.distance(at) < 1.0; }),
+                  0)
+            << "round " << round;
+    }
+}
+
+TEST_P(FootprintGeometry, AGaussianHasItsHalfOpacityOnTheEllipseThatBelongsToIt) {
+    for (int round = 0; round < 80; ++round) {
+        const Scene scene = random_scene(random_);
+        if (scene.eye_distance() < 2.0 * scene.radius)
+            continue; // faded: opacity is another there
+        const Ellipse ellipse =
+            paper_ellipse(scene.pixel_from_index(), glm::dvec3(scene.cell) + 0.5, scene.radius);
+        const double level = 0.7 * std::sqrt(2.0 * std::log(2.0)) / 2.0;
+        const Image image = draw(scene, Footprint::gaussian, {});
+        EXPECT_EQ(wrong_pixels(image, 127,
+                               [&](const glm::dvec2& at) { return ellipse.distance(at) < level; }),
+                  0)
+            << "round " << round;
+    }
+}
+
+TEST_P(FootprintGeometry, AQuadIsTheRectangleOnTheEllipsesAxes) {
+    int elongated = 0;
+    for (int round = 0; round < 150; ++round) {
+        const Scene scene = random_scene(random_, {200, 160}, kQuadRadius);
+        const Ellipse ellipse =
+            paper_ellipse(scene.pixel_from_index(), glm::dvec3(scene.cell) + 0.5, scene.radius);
+        const double major = glm::length(ellipse.major), minor = glm::length(ellipse.minor);
+        glm::dvec2 u = ellipse.major / major, v = ellipse.minor / minor;
+        const double uneven = (major * major - minor * minor) / (major * major + minor * minor);
+        if (uneven < 1e-3) {
+            u = {1, 0};
+            v = {0, 1};
+        } else if (uneven > 0.3) {
+            ++elongated;
+        } else {
+            continue; // turning from one to the other
+        }
+        const Image image = draw(scene, Footprint::quad, {});
+        EXPECT_EQ(wrong_pixels(image, 127,
+                               [&](const glm::dvec2& at) {
+                                   const glm::dvec2 d = at - ellipse.centre;
+                                   return std::abs(glm::dot(d, u)) < major &&
+                                          std::abs(glm::dot(d, v)) < minor;
+                               }),
+                  0)
+            << "round " << round;
+    }
+    EXPECT_GT(elongated, 20);
+}
+
+TEST_P(FootprintGeometry, AQuadOfARoundOutlineStandsUpright) {
+    Scene scene;
+    scene.view.size = {101, 101};
+    scene.view.clip_from_eye = glm::ortho(-1.0f, 1.0f, -1.0f, 1.0f, 0.1f, 10.0f);
+    scene.placement.room_from_index =
+        glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, -3)), 0.7f,
+                               glm::vec3(0.3f, 0.2f, 0.9f)),
+                   glm::vec3(0.5f)) *
+        glm::translate(glm::mat4(1.0f), glm::vec3(-0.5f));
+    const Image image = draw(scene, Footprint::quad, {});
+    const double half = kQuadRadius * 0.5 * 50.5;
+    EXPECT_EQ(wrong_pixels(image, 127,
+                           [&](const glm::dvec2& at) {
+                               return std::abs(at.x) < half && std::abs(at.y) < half;
+                           }),
+              0);
+}
+
+TEST_P(FootprintGeometry, ACellBesideTheEyeIsCutAtTheEyesPlane) {
+    // A wide frustum whose plane the ellipsoid crosses: rays against the silhouette's circle.
+    Scene scene;
+    scene.view.size = {160, 160};
+    scene.view.clip_from_eye = glm::perspective(glm::radians(120.0f), 1.0f, 0.001f, 10.0f);
+    const glm::dvec3 spacing(0.10, 0.12, 0.15);
+    const glm::dvec3 centre(0.35, 0.05, -0.1);
+    scene.placement.room_from_index =
+        glm::mat4(glm::scale(glm::translate(glm::dmat4(1.0), centre), spacing) *
+                  glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5)));
+    const Image image = draw(scene, Footprint::gaussian, {.gaussian_sigma = 1e6f});
+    // The fade near the eye lowers the opacity of the whole footprint.
+    const glm::dvec3 to_eye = -centre / spacing / 2.0; // eye, in radii from the centre
+    const double distance = glm::length(to_eye);
+    ASSERT_GT(distance, 1.0);
+    const double along = 1.0 / (distance * distance);
+    int peak = 0;
+    for (int i = 3; i < 160 * 160 * 4; i += 4)
+        peak = std::max<int>(peak, image.rgba[i]);
+    ASSERT_GT(peak, 20);
+    EXPECT_EQ(wrong_pixels(image, peak / 2,
+                           [&](const glm::dvec2& at) {
+                               const double slope = std::tan(glm::radians(60.0)) / 80.0;
+                               const glm::dvec3 ray = glm::dvec3(at * slope, -1.0) / spacing / 2.0;
+                               // Hits the circle's plane where dot(p, to_eye) = 1.
+                               const double t = (1.0 - distance * distance) / glm::dot(ray, to_eye);
+                               const glm::dvec3 p = to_eye + t * ray - along * to_eye;
+                               return t > 0.0 && glm::dot(p, p) < 1.0 - along;
+                           }),
+              0);
+}
+
+TEST_P(FootprintGeometry, ACellAroundTheEyeIsNotDrawn) {
+    Scene scene;
+    scene.view.size = {64, 64};
+    scene.view.clip_from_eye = glm::perspective(1.0f, 1.0f, 0.01f, 10.0f);
+    for (const float offset : {-0.5f, -0.45f, -0.9f}) {
+        scene.placement.room_from_index = glm::translate(glm::mat4(1.0f), glm::vec3(offset));
+        for (const Footprint footprint : {Footprint::quad, Footprint::gaussian})
+            for (const std::uint8_t value : draw(scene, footprint, {}).rgba)
+                ASSERT_EQ(value, 0);
+    }
+}
+
+TEST_P(FootprintGeometry, ACellBehindTheEyeIsNotDrawn) {
+    Scene scene;
+    scene.view.size = {64, 64};
+    scene.view.clip_from_eye = glm::perspective(1.0f, 1.0f, 0.01f, 10.0f);
+    for (const float distance : {1.0f, 2.5f, 5.0f}) {
+        scene.placement.room_from_index =
+            glm::translate(glm::mat4(1.0f), glm::vec3(-0.5f, -0.5f, distance));
+        for (const Footprint footprint : {Footprint::quad, Footprint::gaussian})
+            for (const std::uint8_t value : draw(scene, footprint, {}).rgba)
+                ASSERT_EQ(value, 0) << distance;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, FootprintGeometry, both_contexts(), context_name);
+
+} // namespace
+} // namespace isochron::render

@@ -1,0 +1,167 @@
+// Plans of slots against a model: whatever follows whatever, in portions of any size.
+#include "render/cells/slot_plan.h"
+#include "tests/support/test_seed.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+namespace isochron::render {
+namespace {
+
+using index::CellId;
+
+constexpr index::Grid kGrid{.vertices = {9, 7, 8}};
+constexpr CellId kCells = 8 * 6 * 7;
+
+/// What a GPU holds that obeys the messages.
+struct Model {
+    struct Cell {
+        std::uint32_t surface = 0;
+        CellId id = 0;
+        auto operator<=>(const Cell&) const = default;
+    };
+    std::vector<Cell> slots;
+
+    void obey(const SlotPlan& plan, const std::vector<std::uint32_t>& words,
+              const index::Extraction& set) {
+        slots.resize(set.cells());
+        if (plan.whole()) {
+            std::size_t slot = 0;
+            for (std::uint32_t s = 0; s < set.surfaces.size(); ++s)
+                for (std::size_t i = 0; i < set.surfaces[s].ids.size(); ++i, ++slot)
+                    slots[slot] = {s, words[slot]};
+            return;
+        }
+        for (std::size_t i = 0; i < words.size(); i += 2) {
+            const std::uint32_t slot = words[i] % SlotPlan::kMostSlots;
+            ASSERT_LT(slot, slots.size());
+            slots[slot] = {words[i] >> SlotPlan::kSurfaceShift, words[i + 1]};
+        }
+    }
+    std::vector<Cell> sorted() const {
+        auto all = slots;
+        std::ranges::sort(all);
+        return all;
+    }
+};
+
+std::vector<Model::Cell> cells_of(const index::Extraction& set) {
+    std::vector<Model::Cell> all;
+    for (std::uint32_t s = 0; s < set.surfaces.size(); ++s)
+        for (const CellId id : set.surfaces[s].ids)
+            all.push_back({s, id});
+    return all;
+}
+
+index::Extraction set_of(const std::vector<std::vector<CellId>>& surfaces) {
+    index::Extraction set;
+    for (const auto& ids : surfaces)
+        set.surfaces.emplace_back().ids = ids;
+    return set;
+}
+
+/// A few cells more and a few less, or something else altogether.
+std::vector<CellId> changed(std::mt19937& random, const std::vector<CellId>& ids) {
+    std::set<CellId> cells(ids.begin(), ids.end());
+    const auto kind = random() % 6;
+    if (kind == 0 || kind == 1)
+        cells.clear();
+    const auto most = kind == 1 ? kCells : 12;
+    for (auto n = kind == 0 ? 0 : random() % most; n > 0; --n)
+        cells.insert(static_cast<CellId>(random() % kCells));
+    if (kind > 2)
+        for (auto n = random() % 12; n > 0 && !cells.empty(); --n)
+            cells.erase(std::next(cells.begin(), std::ptrdiff_t(random() % cells.size())));
+    return {cells.begin(), cells.end()};
+}
+
+struct Made {
+    Slots slots;
+    std::vector<std::uint32_t> words;
+};
+
+/// Runs a plan in portions of at most so many cells and words.
+Made run(SlotPlan& plan, std::mt19937& random, std::size_t most) {
+    const auto portion = [&] { return 1 + random() % most; };
+    Made made;
+    while (!plan.merge(portion())) {
+    }
+    for (int tries = 0; !plan.done(); ++tries) {
+        EXPECT_LT(tries, 100'000) << "the plan does not get on";
+        std::vector<std::uint32_t> out(1 + portion());
+        std::size_t cells = portion();
+        out.resize(plan.message(out, cells));
+        made.words.insert(made.words.end(), out.begin(), out.end());
+    }
+    EXPECT_EQ(made.words.size(), plan.words());
+    made.slots = plan.take();
+    return made;
+}
+
+TEST(SlotPlan, WhateverFollowsTheSlotsHoldTheNewSetExactlyAndItsPlaces) {
+    std::mt19937 random(test_seed());
+    index::Extraction shown;
+    Slots slots;
+    Model model;
+    std::size_t whole = 0, deltas = 0;
+    for (int round = 0; round < 600; ++round) {
+        std::vector<std::vector<CellId>> next(1 + random() % 3);
+        for (std::size_t s = 0; s < next.size(); ++s)
+            next[s] = changed(random, s < shown.surfaces.size() ? shown.surfaces[s].ids
+                                                                : std::vector<CellId>{});
+        index::Extraction set = set_of(next);
+        SlotPlan plan(kGrid, round == 0 ? nullptr : &shown, slots, set);
+        Made made = run(plan, random, round % 2 ? 5 : 1000);
+        model.obey(plan, made.words, set);
+        ASSERT_EQ(model.sorted(), cells_of(set)) << "round " << round;
+        ASSERT_EQ(made.slots.places.size(), set.cells());
+        for (std::size_t slot = 0; slot < model.slots.size(); ++slot) {
+            const auto at = kGrid.cell_of(model.slots[slot].id);
+            ASSERT_EQ(made.slots.places[slot],
+                      (CellPlace{std::uint16_t(at[0]), std::uint16_t(at[1]), std::uint16_t(at[2]),
+                                 std::uint16_t(model.slots[slot].surface)}));
+        }
+        (plan.whole() ? whole : deltas) += set.cells() > 0;
+        shown = std::move(set);
+        slots = std::move(made.slots);
+    }
+    EXPECT_GT(whole, 50u);
+    EXPECT_GT(deltas, 50u);
+}
+
+TEST(SlotPlan, SendsNoMoreThanTheChangeAndNeverMoreThanTheSet) {
+    std::mt19937 random(test_seed());
+    for (int round = 0; round < 200; ++round) {
+        const auto before = changed(random, {}), after = changed(random, before);
+        const index::Extraction from = set_of({before}), to = set_of({after});
+        const Slots none;
+        SlotPlan first(kGrid, nullptr, none, from);
+        const Slots slots = run(first, random, 1000).slots;
+        SlotPlan plan(kGrid, &from, slots, to);
+        run(plan, random, 1000);
+        std::vector<CellId> come, go;
+        std::ranges::set_difference(after, before, std::back_inserter(come));
+        std::ranges::set_difference(before, after, std::back_inserter(go));
+        // Each new cell once; where more go than come, each moved cell at most fills their holes.
+        EXPECT_LE(plan.words(), after.size());
+        EXPECT_LE(plan.words(), 2 * std::max(come.size(), go.size()));
+        EXPECT_GE(plan.ids(), come.size());
+    }
+}
+
+TEST(SlotPlan, TheSameCellsAgainSendNothing) {
+    std::mt19937 random(test_seed());
+    const index::Extraction set = set_of({{1, 5, 9, 200}, {5, 6}});
+    const Slots none;
+    SlotPlan first(kGrid, nullptr, none, set);
+    const Slots slots = run(first, random, 3).slots;
+    SlotPlan again(kGrid, &set, slots, set);
+    run(again, random, 3);
+    EXPECT_EQ(again.words(), 0u);
+}
+
+} // namespace
+} // namespace isochron::render

@@ -1,0 +1,36 @@
+// The shader files that are part of the library.
+#include "render/gl/shader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace isochron::render {
+namespace {
+
+TEST(ShaderFiles, EveryFileInTheFolderIsEmbeddedAsItIs) {
+    std::size_t files = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(SOURCE_ROOT) + "/render/shaders")) {
+        ++files;
+        std::ifstream file(entry.path(), std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        EXPECT_EQ(shader_file(entry.path().filename().string()).text, text) << entry.path();
+    }
+    EXPECT_EQ(files, shader_files().size());
+}
+
+TEST(ShaderFiles, AnUnknownNameIsAnErrorThatNamesIt) {
+    try {
+        shader_file("nothing.vert");
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("nothing.vert"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace isochron::render

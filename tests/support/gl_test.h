@@ -1,0 +1,73 @@
+// Fixture of every test that draws: both windowless contexts, and no GL error goes unseen.
+#pragma once
+
+#include "render/cells/cell_buffers.h"
+#include "render/gl/gl.h"
+#include "stereo/context/gl_context.h"
+
+#include "tests/support/test_seed.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace isochron::render {
+
+class GlTest : public testing::TestWithParam<stereo::ContextKind> {
+  protected:
+    GlTest()
+        : context_(stereo::make_context(GetParam(), {.size = {16, 16}})), gl_(context_->loader()) {
+        gl_.Enable(GL_DEBUG_OUTPUT);
+        gl_.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        gl_.DebugMessageCallback(
+            [](GLenum source, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
+               const void*) {
+                if (source != GL_DEBUG_SOURCE_SHADER_COMPILER && // which reports by its log
+                    (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR))
+                    ADD_FAILURE() << "GL error: " << message;
+            },
+            nullptr);
+    }
+    void TearDown() override { EXPECT_EQ(gl_.GetError(), GLenum{GL_NO_ERROR}); }
+
+    std::unique_ptr<stereo::GlContext> context_;
+    Gl gl_;
+    const unsigned seed_ = test_seed();
+    testing::ScopedTrace trace_{__FILE__, __LINE__, "seed " + std::to_string(seed_)};
+    std::mt19937 random_{seed_};
+};
+
+inline auto both_contexts() {
+    return testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa);
+}
+inline std::string context_name(const testing::TestParamInfo<stereo::ContextKind>& info) {
+    return std::string(stereo::name_of(info.param));
+}
+
+/// Cells, all with the same packed normal.
+inline std::vector<index::CellPoint> cell_set(const std::vector<glm::ivec3>& cells,
+                                              std::uint32_t normal = 0) {
+    std::vector<index::CellPoint> points;
+    for (const glm::ivec3& cell : cells)
+        points.push_back(
+            {std::uint16_t(cell.x), std::uint16_t(cell.y), std::uint16_t(cell.z), 0, normal});
+    return points;
+}
+
+/// GL_INT_2_10_10_10_REV.
+inline std::uint32_t packed_normal(const glm::vec3& n) {
+    std::uint32_t word = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        word |= (std::uint32_t(std::int32_t(std::lround(n[axis] * 511.0f))) & 0x3ffu) << 10 * axis;
+    return word;
+}
+
+/// Buffers that hold these cells.
+inline CellBuffers showing(const Gl& gl, const std::vector<index::CellPoint>& points) {
+    return CellBuffers::of_points(gl, points);
+}
+
+} // namespace isochron::render

@@ -1,0 +1,159 @@
+// A sphere in its box as golden pictures show it, and the checks that every picture of it stands.
+#pragma once
+
+#include "tests/support/session_fixture.h"
+
+#include "tests/support/image_compare.h"
+#include "tests/support/sphere_oracle.h"
+
+#include <string>
+
+namespace isochron::app {
+
+using interaction::Commands;
+using render::Footprint;
+using render::Image;
+using stereo::Eye;
+using stereo::StereoMode;
+using test_support::Coverage;
+using test_support::ImageTolerance;
+using test_support::PinholeEye;
+
+constexpr glm::ivec2 kPicture(192, 128);
+constexpr std::uint32_t kStep = 3;
+constexpr double kOuterRadius = 11.0, kInnerRadius = 6.5; ///< voxels
+constexpr double kFromRadius = 16.0; ///< isovalue plus radius of the data's spheres
+constexpr int kPerEdge = 24;         ///< points looked at
+inline const glm::dvec3 kSphereCentre(12.0 + kStep, 15.5, 15.5); ///< of the data, at that step
+constexpr double kBox = 31.0;                                    ///< side of the volume, voxels
+
+/// Both contexts are held to the same pictures: the same rasterizer draws in both, byte for byte
+/// alike. With another processor's instructions (SSE4.1 in place of AVX2) single channels round to
+/// the neighbouring value; no outline moves, which would change a pixel by a hundred and more.
+constexpr ImageTolerance kTolerance{.maximum = 12, .mean = 0.01};
+
+/// Turned, so that no edge of the box hides another.
+inline interaction::Similarity place_at(glm::dvec3 centre, double scale) {
+    interaction::Similarity placement;
+    placement.scale = scale;
+    placement.rotation =
+        glm::angleAxis(0.3, glm::dvec3(1, 0, 0)) * glm::angleAxis(0.55, glm::dvec3(0, 1, 0));
+    placement.translation =
+        centre - placement.scale * (placement.rotation * glm::dvec3(0.5 * kBox));
+    return placement;
+}
+
+inline glm::dvec3 in_room(const interaction::Similarity& placement, glm::dvec3 voxel) {
+    return placement.translation + placement.scale * (placement.rotation * voxel);
+}
+
+inline Commands showing(const interaction::Similarity& placement) {
+    Commands commands;
+    commands.room_from_physical = placement;
+    commands.isovalue = kFromRadius - kOuterRadius;
+    commands.step = kStep;
+    return commands;
+}
+
+/// What would else depend on whether a GPU draws.
+inline void draw_as_in_software(Config& config) {
+    config.samples = 1;
+    config.blending = Blending::display;
+}
+
+/// A session before a screen that stands a little aside of the viewer.
+inline Config one_window(StereoMode mode, glm::ivec2 size = kPicture) {
+    Config config = small_config(mode);
+    draw_as_in_software(config);
+    stereo::Window& window = config.installation.windows.front();
+    window.size = size;
+    stereo::Screen& screen = window.viewports.front().screen;
+    screen = {{-0.7f, 1.05f, -1.2f}, {-0.7f, 2.05f, -1.2f}, {0.8f, 2.05f, -1.2f}, false, false};
+    return config;
+}
+inline const interaction::Similarity kPlacement = place_at({0.12, 1.75, -2.5}, 0.039);
+
+/// The surface's colour is warm, those of the background, of the box and its numbers are cold.
+inline bool warm(const std::uint8_t* pixel) {
+    return pixel[0] > pixel[2] + 12;
+}
+
+inline Coverage warm_part(const Image& image) {
+    return test_support::coverage({image.width, image.height},
+                                  [&](int x, int y) { return warm(image.at(x, y)); });
+}
+
+/// What a sphere of the data covers.
+/// @param radius voxels
+inline Coverage expected_part(const PinholeEye& eye, const interaction::Similarity& placement,
+                              double radius) {
+    return test_support::expected_coverage(eye, in_room(placement, kSphereCentre),
+                                           placement.scale * radius);
+}
+
+class GoldenPictures : public testing::TestWithParam<stereo::ContextKind> {
+  protected:
+    /// Frames until nothing in the picture changes any more.
+    Footprint settle(Session& session, const Commands& commands, const interaction::Pose& head) {
+        Commands now = commands;
+        for (int frame = 0; frame < 30; ++frame, ++frame_, now = {}) {
+            interaction::InputState input = head_at_rest(frame_ / 60.0);
+            input.devices.front().pose = head;
+            if (session.frame(input, now, Waiting::for_cells).final)
+                break;
+        }
+        return session.log().frames().back().footprint;
+    }
+    Footprint settle(Session& session, const Commands& commands) {
+        return settle(session, commands, *head_at_rest(0).devices.front().pose);
+    }
+    PinholeEye before_window(const Session& session, Eye eye, glm::ivec2 picture) const {
+        return {session.display().window().viewports.front().screen,
+                *head_at_rest(0).devices.front().pose, eye, session.state().eye_separation,
+                picture};
+    }
+
+    TestFolder folder_;
+    std::shared_ptr<const index::IndexFile> file_ = build_sphere(folder_.path());
+    int frame_ = 0;
+};
+
+/// The sphere has its place and its size; both within what the pixels can tell.
+/// @param swelling share of its area by which a footprint may be larger than the surface
+inline void expect_sphere(const Coverage& actual, const Coverage& expected, double swelling) {
+    EXPECT_NEAR(actual.centre.x, expected.centre.x, 0.5);
+    EXPECT_NEAR(actual.centre.y, expected.centre.y, 0.5);
+    EXPECT_GT(actual.pixels, 0.97 * expected.pixels);
+    EXPECT_LT(actual.pixels, (1.03 + swelling) * expected.pixels);
+}
+
+/// Whether one of the four pixels around a place differs from the background: edges end bluntly, so
+/// that a corner itself may fall between them.
+inline bool drawn_at(const Image& image, glm::dvec2 place, glm::ivec3 background) {
+    const glm::ivec2 first(glm::floor(place - 0.5));
+    for (const glm::ivec2 step : {glm::ivec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+        const glm::ivec2 at =
+            glm::clamp(first + step, glm::ivec2(0), glm::ivec2(image.width, image.height) - 1);
+        const std::uint8_t* pixel = image.at(at.x, at.y);
+        if (glm::ivec3(pixel[0], pixel[1], pixel[2]) != background)
+            return true;
+    }
+    return false;
+}
+
+/// Every edge of the box, corners included, is drawn where it must be.
+/// @return how many of the points looked at are in the picture
+inline int expect_box(const Image& image, const PinholeEye& eye,
+                      const interaction::Similarity& placement) {
+    const glm::ivec3 background(glm::round(255.0f * Config().background));
+    int seen = 0, missing = 0;
+    for (const glm::dvec3& point : test_support::points_on_edges(kBox, kPerEdge))
+        if (const auto at = eye.pixel_of(in_room(placement, point))) {
+            ++seen;
+            missing += !drawn_at(image, *at, background);
+        }
+    EXPECT_EQ(missing, 0) << "of " << seen << " points on the box's edges";
+    return seen;
+}
+
+} // namespace isochron::app

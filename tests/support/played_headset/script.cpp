@@ -1,0 +1,115 @@
+// The script by which a headset is played in a program of its own.
+//
+// ISOCHRON_PLAYED_HEADSET names a JSON file. `log` is where violations, pulses and frames are
+// written, a line of JSON each; `paced` and `connected` are as in played_headset.h. `frames` is a
+// list of what holds from a frame on, counted by xrWaitFrame: `at`, and any of `head`, `left` and
+// `right` (7 numbers: x y z, then the quaternion x y z w), `inputs` (`right/squeeze/value`: 1),
+// `happens` (`exit`, `lose_session`, ...) and `picture` (a file that the left eye's picture of the
+// frame before is written to, as PPM).
+#include "tests/support/played_headset/world.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+namespace isochron::played {
+namespace {
+
+using nlohmann::json;
+
+json& script() {
+    static json one;
+    return one;
+}
+
+interaction::Pose pose_of(const json& numbers) {
+    const auto v = numbers.get<std::array<float, 7>>();
+    return {{v[0], v[1], v[2]}, glm::quat(v[6], v[3], v[4], v[5])};
+}
+
+Happening happening_of(const std::string& name) {
+    static const std::map<std::string, Happening> all{{"exit", Happening::exit},
+                                                      {"hide", Happening::hide},
+                                                      {"cover", Happening::cover},
+                                                      {"show", Happening::show},
+                                                      {"recentre", Happening::recentre},
+                                                      {"lose_session", Happening::lose_session},
+                                                      {"lose_at_once", Happening::lose_at_once},
+                                                      {"lose_instance", Happening::lose_instance}};
+    return all.at(name);
+}
+
+void place(Hand& hand, const json& numbers) {
+    hand.present = true;
+    hand.grip = hand.aim = pose_of(numbers);
+}
+
+void write_picture(const std::filesystem::path& path) {
+    const auto& frames = world().headset.frames;
+    if (frames.empty() || frames.back().views.empty())
+        return;
+    const render::Image& picture = frames.back().views.front().picture;
+    std::ofstream file(path, std::ios::binary);
+    file << "P6\n" << picture.width << " " << picture.height << "\n255\n";
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+        file.write(reinterpret_cast<const char*>(&picture.rgba[i]), 3);
+}
+
+void write_line(const json& line) {
+    std::ofstream(world().log, std::ios::app) << line.dump() << "\n";
+}
+
+/// What has come since the last frame goes into the log; pictures are let go.
+void write_log() {
+    PlayedHeadset& headset = world().headset;
+    for (const Pulse& pulse : std::exchange(headset.pulses, {}))
+        write_line({{"pulse", pulse.hand}, {"amplitude", pulse.amplitude}});
+    for (const SubmittedFrame& frame : std::exchange(headset.frames, {}))
+        write_line({{"frame", frame.display_time},
+                    {"views", frame.views.size()},
+                    {"session", headset.sessions},
+                    {"depth", !frame.views.empty() && !frame.views[0].depth.empty()}});
+}
+
+} // namespace
+
+void read_script() {
+    const char* path = std::getenv("ISOCHRON_PLAYED_HEADSET");
+    if (!path || !script().is_null())
+        return;
+    std::ifstream file(path);
+    script() = json::parse(file);
+    world().log = script().at("log").get<std::string>();
+    world().headset.paced = script().value("paced", true);
+    world().headset.connected = script().value("connected", true);
+}
+
+void play_script(std::size_t frame) {
+    if (script().is_null())
+        return;
+    PlayedHeadset& headset = world().headset;
+    for (const json& each : script().at("frames")) {
+        if (each.at("at").get<std::size_t>() != frame)
+            continue;
+        if (each.contains("picture"))
+            write_picture(each["picture"].get<std::string>());
+        if (each.contains("head"))
+            headset.head = pose_of(each["head"]);
+        if (each.contains("left"))
+            place(headset.left, each["left"]);
+        if (each.contains("right"))
+            place(headset.right, each["right"]);
+        const json inputs = each.value("inputs", json::object());
+        for (const auto& [name, value] : inputs.items()) {
+            const bool left = name.starts_with("left/");
+            (left ? headset.left : headset.right).inputs[name.substr(left ? 5 : 6)] = value;
+        }
+        if (each.contains("happens"))
+            headset.happens(happening_of(each["happens"]));
+    }
+    write_log();
+}
+
+} // namespace isochron::played

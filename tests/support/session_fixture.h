@@ -1,0 +1,91 @@
+// A small data set, a context and a session for tests of the whole program.
+#pragma once
+
+#include "app/session/session.h"
+#include "index/build/index_build.h"
+#include "tests/support/test_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+namespace isochron::app {
+
+/// A sphere that moves along x and breathes: 32^3 vertices, f32, distance from the centre negated.
+class MovingSphere final : public index::VolumeSeries {
+  public:
+    explicit MovingSphere(std::size_t steps) {
+        info_.array = std::string("distance");
+        info_.length_unit = std::string("mm");
+        info_.time_unit = std::string("s");
+        info_.grid.vertices = {32, 32, 32};
+        for (std::size_t t = 0; t < steps; ++t)
+            info_.times.push_back(0.5 * static_cast<double>(t));
+        info_.sources = {"made in memory"};
+    }
+    const index::SeriesInfo& info() const override { return info_; }
+    void read(std::size_t step, std::span<std::byte> out) override {
+        std::size_t at = 0;
+        for (int z = 0; z < 32; ++z)
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 32; ++x) {
+                    const double t = static_cast<double>(step);
+                    const double dx = x - (12.0 + t), dy = y - 15.5, dz = z - 15.5;
+                    const auto value =
+                        static_cast<float>(16.0 - std::sqrt(dx * dx + dy * dy + dz * dz));
+                    std::memcpy(out.data() + at, &value, sizeof value);
+                    at += sizeof value;
+                }
+    }
+
+  private:
+    index::SeriesInfo info_;
+};
+
+using test_support::TestFolder;
+
+inline std::shared_ptr<const index::IndexFile> build_sphere(const std::filesystem::path& folder,
+                                                            std::size_t steps = 6) {
+    MovingSphere series(steps);
+    build_index(series, folder / "sphere.isochron", {});
+    return index::IndexFile::open(folder / "sphere.isochron");
+}
+
+/// A configuration for small pictures without a window.
+inline Config small_config(stereo::StereoMode mode = stereo::StereoMode::side_by_side) {
+    Config config = read_config(SOURCE_ROOT "/configs/headless.toml");
+    config.installation.windows.front().size = {256, 128};
+    config.installation.windows.front().stereo = mode;
+    return config;
+}
+
+/// A head at rest and nothing else, at a time.
+inline interaction::InputState head_at_rest(double seconds) {
+    interaction::InputState input;
+    input.time = interaction::Seconds(seconds);
+    interaction::DeviceState head;
+    head.name = "head";
+    head.pose = interaction::Pose{{0.0f, 1.5f, 0.0f}, {1, 0, 0, 0}};
+    input.devices.push_back(head);
+    return input;
+}
+
+/// A small series and a context without a window; instantiate it for EGL and OSMesa.
+class SessionTest : public testing::TestWithParam<stereo::ContextKind> {
+  protected:
+    SessionTest()
+        : file_(build_sphere(folder_.path())),
+          context_(stereo::make_context(GetParam(), {.size = {256, 128}})) {}
+
+    TestFolder folder_;
+    std::shared_ptr<const index::IndexFile> file_;
+    std::unique_ptr<stereo::GlContext> context_;
+};
+
+inline std::string context_name(const testing::TestParamInfo<stereo::ContextKind>& kind) {
+    return std::string(stereo::name_of(kind.param));
+}
+
+} // namespace isochron::app

@@ -51,11 +51,11 @@ enum class Action : std::uint8_t {
     turn_left,
     turn_right,
     teleport,
-    recentre,
+    recenter,
     save_view,
     next_view,
     grid,
-    axes,
+    bounding_box,
     next_surface,
     next_coloring,
     room_panel,
@@ -78,7 +78,7 @@ enum class WandButton : std::uint8_t {
     grab,
     fly,
     teleport,
-    recentre,
+    recenter,
     next_view,
     room_panel,
     pick,
@@ -148,7 +148,7 @@ constexpr std::uint64_t quiet_actions() {
     return bit(Action::shift) | bit(Action::control) | bit(Action::quality_auto) |
            bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::screenshot) |
            bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) | bit(Action::save_view) |
-           bit(Action::axes) | bit(Action::next_surface) | bit(Action::room_panel) |
+           bit(Action::bounding_box) | bit(Action::next_surface) | bit(Action::room_panel) |
            bit(Action::pick) | bit(Action::probe);
 }
 

@@ -1,6 +1,7 @@
 // What input led to in one frame: the commands that a recording stores and a replay obeys.
 #pragma once
 
+#include "interaction/enum_names.h"
 #include "interaction/pose.h"
 
 #include <glm/vec3.hpp>
@@ -15,7 +16,9 @@
 
 namespace isochron::interaction {
 
-enum class QualityMode : std::uint8_t { automatic, fast, quality }; ///< `auto`, `fast`, `quality`
+enum class QualityMode : std::uint8_t { automatic, fast, quality };
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<QualityMode>{"auto", "fast", "quality"};
 
 inline constexpr double kSlowest = 1.0 / 64.0, kFastest = 64.0; ///< playback speeds
 inline constexpr float kWidestEyes = 0.1f;                      ///< [m]
@@ -48,18 +51,19 @@ struct Isosurface {
     bool operator==(const Isosurface&) const = default;
 };
 
-/// What the colours on the surfaces say.
+/// What the colors on the surfaces say.
 enum class ColorBy : std::uint8_t {
-    surface,       ///< which surface it is: `surface`
-    value,         ///< the second array that the index carries: `value`
-    first_crossing ///< when a surface of this isovalue first came by: `first_crossing`
+    surface,       ///< which surface it is
+    value,         ///< the second array that the index carries
+    first_crossing ///< when a surface of this isovalue first came by
 };
-inline constexpr std::array<std::string_view, 3> kColorByNames{"surface", "value",
-                                                               "first_crossing"};
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<ColorBy>{"surface", "value",
+                                                                 "first_crossing"};
 
 struct Coloring {
     ColorBy by = ColorBy::surface;
-    std::string map = "lagoon"; ///< a colour map's name
+    std::string map = "lagoon"; ///< a color map's name
     /// Values at the ends of the map, ascending; all that occur in the series when there is none.
     std::optional<std::array<double, 2>> range;
     bool operator==(const Coloring&) const = default;
@@ -103,12 +107,12 @@ struct Commands {
     std::optional<PlaybackState> playback;
     std::optional<Similarity> room_from_physical; ///< navigation's result
     std::optional<QualityMode> quality;
-    std::optional<float> eye_separation;         ///< metres, 0 to kWidestEyes
+    std::optional<float> eye_separation;         ///< meters, 0 to kWidestEyes
     std::optional<std::string> stereo;           ///< a stereo mode's name
     std::optional<bool> panel;                   ///< panel shown
     std::optional<bool> grid;                    ///< floor grid shown
     std::optional<std::vector<Viewpoint>> views; ///< all saved ones, at most kMostViews
-    std::optional<bool> axes;                    ///< the box, its ticks and numbers shown
+    std::optional<bool> bounding_box;            ///< the box, its ticks and numbers shown
     std::optional<Coloring> coloring;
     std::optional<RoomPanel> room_panel;
     std::optional<Mark> mark;
@@ -122,5 +126,8 @@ struct Commands {
 
 /// Fields set in `later` win; stamps and haptics are appended.
 void merge(Commands& into, const Commands& later);
+
+/// The keys of the fields in which two differ.
+std::vector<std::string> differences(const Commands& a, const Commands& b);
 
 } // namespace isochron::interaction

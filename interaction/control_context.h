@@ -20,7 +20,7 @@ struct ControlContext {
     PlaybackState playback;
     Similarity room_from_physical;
     Similarity home;       ///< what reset returns to
-    glm::dvec3 pivot{0.0}; ///< centre of the volume, physical space: what orbit turns about
+    glm::dvec3 pivot{0.0}; ///< center of the volume, physical space: what orbit turns about
     QualityMode quality = QualityMode::automatic;
     float eye_separation = 0.063f;
     std::string stereo;
@@ -29,10 +29,10 @@ struct ControlContext {
     float panel_distance = 0.65f; ///< [m] from the eyes to the room's panel, where it appears
     bool grid = false;
     std::vector<Viewpoint> const* views = nullptr; ///< saved so far; may be null
-    bool axes = true;
+    bool bounding_box = true;
     std::uint32_t isosurfaces = 1, picked = 0; ///< how many there are, and the one that is moved
     Coloring coloring;
-    bool has_second_array = false;                          ///< something to colour by
+    bool has_second_array = false;                          ///< something to color by
     std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
 };
 

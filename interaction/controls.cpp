@@ -42,10 +42,10 @@ struct Repeat {
     }
 };
 
-/// The next thing to colour by. A range belongs to what is coloured by, so it goes.
+/// The next thing to color by. A range belongs to what is colored by, so it goes.
 Coloring after(const Coloring& coloring, bool has_second_array) {
     const auto next =
-        static_cast<ColorBy>((static_cast<std::size_t>(coloring.by) + 1) % kColorByNames.size());
+        static_cast<ColorBy>((static_cast<std::size_t>(coloring.by) + 1) % kNames<ColorBy>.size());
     const bool skipped = next == ColorBy::value && !has_second_array;
     return {skipped ? ColorBy::first_crossing : next, coloring.map, std::nullopt};
 }
@@ -166,8 +166,8 @@ struct Controls::State {
             const bool wraps = found == modes.end() || found + 1 == modes.end();
             commands.stereo = wraps ? modes.front() : *(found + 1);
         }
-        if (pressed(now, Action::axes))
-            commands.axes = !context.axes;
+        if (pressed(now, Action::bounding_box))
+            commands.bounding_box = !context.bounding_box;
         if (pressed(now, Action::next_surface) && context.isosurfaces > 1)
             commands.picked = (context.picked + 1) % context.isosurfaces;
         if (pressed(now, Action::next_coloring))

@@ -17,10 +17,10 @@ glm::dvec3 transform(const Similarity& similarity, const glm::dvec3& p) {
     return similarity.translation + similarity.scale * (similarity.rotation * p);
 }
 
-Similarity turned(const Similarity& from, const glm::dvec3& centre, const glm::dvec3& axis,
+Similarity turned(const Similarity& from, const glm::dvec3& center, const glm::dvec3& axis,
                   double angle) {
     const glm::dquat turn = glm::angleAxis(angle, axis);
-    return {centre + turn * (from.translation - centre), glm::normalize(turn * from.rotation),
+    return {center + turn * (from.translation - center), glm::normalize(turn * from.rotation),
             from.scale};
 }
 
@@ -28,13 +28,13 @@ Similarity moved(const Similarity& from, const glm::dvec3& offset) {
     return {from.translation + offset, from.rotation, from.scale};
 }
 
-Similarity scaled(const Similarity& from, const glm::dvec3& centre, double factor, double low,
+Similarity scaled(const Similarity& from, const glm::dvec3& center, double factor, double low,
                   double high) {
     if (!(factor > 0.0) || !(low <= high))
         return from;
     const double scale = std::clamp(from.scale * factor, low, high);
     const double applied = scale / from.scale;
-    return {centre + applied * (from.translation - centre), from.rotation, scale};
+    return {center + applied * (from.translation - center), from.rotation, scale};
 }
 
 Similarity carried(const Similarity& from, const Pose& before, const Pose& after) {

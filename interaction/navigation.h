@@ -10,16 +10,16 @@ namespace isochron::interaction {
 /// Physical point `p` in the room.
 glm::dvec3 transform(const Similarity& similarity, const glm::dvec3& p);
 
-/// Turned by `angle` [rad] about the room line through `centre` along the unit vector `axis`.
-Similarity turned(const Similarity& from, const glm::dvec3& centre, const glm::dvec3& axis,
+/// Turned by `angle` [rad] about the room line through `center` along the unit vector `axis`.
+Similarity turned(const Similarity& from, const glm::dvec3& center, const glm::dvec3& axis,
                   double angle);
 
 /// Moved by `offset` [m].
 Similarity moved(const Similarity& from, const glm::dvec3& offset);
 
-/// Scaled by `factor` about the room point `centre`; the scale stays within [low, high], and a
+/// Scaled by `factor` about the room point `center`; the scale stays within [low, high], and a
 /// factor that is not a positive number changes nothing.
-Similarity scaled(const Similarity& from, const glm::dvec3& centre, double factor, double low,
+Similarity scaled(const Similarity& from, const glm::dvec3& center, double factor, double low,
                   double high);
 
 /// Carried along rigidly by a hand that went from pose `before` to pose `after`.

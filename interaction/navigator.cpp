@@ -26,7 +26,7 @@ bool can_see(const Reading& now) {
 Similarity dragged(const Reading& now, const ControlContext& context, Similarity volume) {
     const glm::dquat view = glm::normalize(glm::dquat(now.viewer().orientation));
     const glm::dvec3 right = view * glm::dvec3(1, 0, 0);
-    const glm::dvec3 centre = transform(volume, context.pivot);
+    const glm::dvec3 center = transform(volume, context.pivot);
     glm::dvec2 orbit(now.drag(MouseBit::left, 0), now.drag(MouseBit::left, 1));
     glm::dvec2 move(now.drag(MouseBit::middle, 0), now.drag(MouseBit::middle, 1));
     if (now.key(Action::shift)) {
@@ -34,11 +34,11 @@ Similarity dragged(const Reading& now, const ControlContext& context, Similarity
         orbit = glm::dvec2(0);
     }
     if (orbit.x != 0)
-        volume = turned(volume, centre, kUp, kOrbit * orbit.x);
+        volume = turned(volume, center, kUp, kOrbit * orbit.x);
     if (orbit.y != 0)
-        volume = turned(volume, centre, right, kOrbit * orbit.y);
+        volume = turned(volume, center, right, kOrbit * orbit.y);
     if (move != glm::dvec2(0)) {
-        const double distance = glm::length(centre - glm::dvec3(now.viewer().position));
+        const double distance = glm::length(center - glm::dvec3(now.viewer().position));
         const glm::dvec3 up = view * kUp;
         volume = moved(volume, distance * kViewHeight * (move.x * right - move.y * up));
     }
@@ -79,7 +79,7 @@ Similarity resized(const Reading& now, const ControlContext& context, const Simi
 
 /// Home as it lies ahead of a viewer who stands at the room's origin, carried to where the viewer
 /// stands and looks now; heights stay.
-Similarity recentred(const Similarity& home, const Pose& viewer) {
+Similarity recentered(const Similarity& home, const Pose& viewer) {
     const glm::dvec3 place(viewer.position.x, 0, viewer.position.z);
     return moved(turned(home, glm::dvec3(0), kUp, heading(viewer)), place);
 }
@@ -124,8 +124,8 @@ std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlCon
     if (reset)
         return context.home;
     if (can_see(now) &&
-        pressed(now, Action::recentre, WandButton::recentre, GamepadButton::left_thumb))
-        return recentred(context.home, now.viewer());
+        pressed(now, Action::recenter, WandButton::recenter, GamepadButton::left_thumb))
+        return recentered(context.home, now.viewer());
     if (pressed(now, Action::next_view, WandButton::next_view, GamepadButton::right_thumb))
         return next_view(context);
     return std::nullopt;

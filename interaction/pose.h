@@ -12,7 +12,7 @@ namespace isochron::interaction {
 /// Session time, from 0 at the start of a session or recording.
 using Seconds = std::chrono::duration<double>;
 
-/// Rigid pose in the room frame (OpenXR STAGE): right-handed, +Y up, -Z forward, metres.
+/// Rigid pose in the room frame (OpenXR STAGE): right-handed, +Y up, -Z forward, meters.
 struct Pose {
     glm::vec3 position{0.0f};
     glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit; files store x y z w

@@ -85,7 +85,7 @@ Display::Region Display::region_of(const Viewport& viewport, Eye place) const {
         corner.y = place == Eye::left ? size.y - half : 0;
         size.y = half;
     }
-    // Both edges are rounded, so that neighbouring viewports neither overlap nor gape.
+    // Both edges are rounded, so that neighboring viewports neither overlap nor gape.
     const glm::ivec2 low(glm::round(viewport.position * glm::vec2(size)));
     const glm::ivec2 high(glm::round((viewport.position + viewport.size) * glm::vec2(size)));
     return {corner + low, at_least_one(high - low)};

@@ -55,7 +55,7 @@ class Display {
         : Display(gl, context, context, std::move(window), options) {}
 
     /// Draws one frame at the present size of the framebuffer: each eye that the mode shows, of
-    /// each viewport, exactly once; then the overlay. A minimised window draws nothing.
+    /// each viewport, exactly once; then the overlay. A minimized window draws nothing.
     /// @param viewers by number, as the window's viewports name them
     void draw(std::span<const Viewpoint> viewers, StereoMode mode, const Scene& scene,
               const Overlay& overlay = {});

@@ -60,7 +60,7 @@ void HeadsetDisplay::cover(const Part& picture, glm::ivec2 corner, glm::ivec2 si
 void HeadsetDisplay::mirror(const Overlay& overlay) {
     const glm::ivec2 size = window_->framebuffer_size();
     if (size.x < 2 || size.y < 1)
-        return; // minimised
+        return; // minimized
     window_picture_.resize(size);
     window_picture_.clear({0, 0, 0, 1});
     gl_->Disable(GL_SCISSOR_TEST);

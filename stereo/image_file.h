@@ -7,14 +7,14 @@
 
 namespace isochron::stereo {
 
-/// Writes the colours without alpha (a window is opaque); .png as they are (sRGB-encoded, 8 bits),
+/// Writes the colors without alpha (a window is opaque); .png as they are (sRGB-encoded, 8 bits),
 /// .exr converted to linear light (half floats). The file appears complete or not at all.
 /// The first call loads OpenImageIO, which takes a fraction of a second.
 /// @throws render::Error for another extension or an empty picture, index::Error when the file
 /// cannot be written; both name the file
 void write_image(const render::Image& image, const std::filesystem::path& path);
 
-/// Reads back what `write_image` writes, and other files that OpenImageIO knows with one (grey),
+/// Reads back what `write_image` writes, and other files that OpenImageIO knows with one (gray),
 /// three or four channels; .exr is converted from linear light to sRGB. Alpha is 255 where there is
 /// none.
 /// @throws render::Error naming the file

@@ -15,7 +15,7 @@
 
 namespace isochron::stereo {
 
-/// A wall: a rectangle given by three corners, metres. Room frame, or, when carried by the head of
+/// A wall: a rectangle given by three corners, meters. Room frame, or, when carried by the head of
 /// the viewport's viewer, that head's frame (origin between the eyes, -Z ahead).
 struct Screen {
     glm::vec3 lower_left{-0.8f, 1.1f, -1.0f};
@@ -58,15 +58,15 @@ struct Window {
 struct Viewer {
     std::string name = "viewer";
     std::string head = "head";            ///< the device that tracks the head
-    glm::vec3 position{0.0f, 1.6f, 0.0f}; ///< of the head, until a device tells, metres
-    float eye_separation = 0.063f;        ///< metres, 0 to 0.1
+    glm::vec3 position{0.0f, 1.6f, 0.0f}; ///< of the head, until a device tells, meters
+    float eye_separation = 0.063f;        ///< meters, 0 to 0.1
     bool operator==(const Viewer&) const = default;
 };
 
 struct Installation {
     std::vector<Viewer> viewers{Viewer{}};       ///< at least one
     std::vector<Window> windows{Window{}};       ///< at least one, each with at least one viewport
-    float near_plane = 0.05f, far_plane = 50.0f; ///< metres
+    float near_plane = 0.05f, far_plane = 50.0f; ///< meters
     bool operator==(const Installation&) const = default;
 };
 

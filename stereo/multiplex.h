@@ -1,4 +1,4 @@
-// Two eyes' pictures in one, pixel by pixel: by colour, or by rows, columns or squares.
+// Two eyes' pictures in one, pixel by pixel: by color, or by rows, columns or squares.
 #pragma once
 
 #include "render/gl/gl_objects.h"

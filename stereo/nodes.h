@@ -11,7 +11,7 @@ namespace isochron::stereo {
 /// Nodes are counted from 0; there is one more than the largest that a window names.
 int node_count(const Installation& installation);
 
-/// Every process stands for one node. Where there are fewer processes than nodes, neighbouring
+/// Every process stands for one node. Where there are fewer processes than nodes, neighboring
 /// nodes share one: the first process has the first nodes, the last one the last.
 int rank_of(int node, int nodes, int ranks);
 

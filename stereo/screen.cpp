@@ -116,7 +116,7 @@ float distance_to(const Screen& screen, const interaction::Pose& head) {
 }
 
 float vertical_field_of_view(const Screen& screen, const interaction::Pose& head) {
-    constexpr float kNearest = 0.1f; // metres: nearer heads do not aim any wider
+    constexpr float kNearest = 0.1f; // meters: nearer heads do not aim any wider
     const float distance = std::max(distance_to(screen, head), kNearest);
     return 2.0f * std::atan(0.5f * size_of(screen).y / distance);
 }

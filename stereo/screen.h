@@ -29,7 +29,7 @@ constexpr double kSquareCorner = 1.0;
 /// @param eye_separation [m], 0 puts both eyes at the head's position
 glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separation);
 
-/// Generalised perspective projection (R. Kooima, "Generalized Perspective Projection", 2009): the
+/// Generalized perspective projection (R. Kooima, "Generalized Perspective Projection", 2009): the
 /// screen's corners fall on the corners of clip space, wherever the eye stands in front of it.
 /// The view's axes are the screen's, so both eyes of a screen look in the same direction.
 /// @param near_plane, far_plane distances along the screen's normal [m], 0 < near < far

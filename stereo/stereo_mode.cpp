@@ -52,7 +52,7 @@ std::string_view name_of(StereoMode mode) {
 }
 
 std::string_view name_of(Eye eye) {
-    return eye == Eye::left ? "left" : eye == Eye::right ? "right" : "centre";
+    return eye == Eye::left ? "left" : eye == Eye::right ? "right" : "center";
 }
 
 std::optional<StereoMode> stereo_mode_from_name(std::string_view name) {
@@ -85,7 +85,7 @@ StereoMode upright(StereoMode mode) {
 
 std::vector<Eye> eyes_of(StereoMode mode) {
     switch (mode) {
-    case StereoMode::mono: return {Eye::centre};
+    case StereoMode::mono: return {Eye::center};
     case StereoMode::left: return {Eye::left};
     case StereoMode::right: return {Eye::right};
     default: return {Eye::left, Eye::right};
@@ -93,7 +93,7 @@ std::vector<Eye> eyes_of(StereoMode mode) {
 }
 
 Eye place_of(Eye eye, StereoMode mode) {
-    if (eye == Eye::centre || !is_inverted(mode))
+    if (eye == Eye::center || !is_inverted(mode))
         return eye;
     return eye == Eye::left ? Eye::right : Eye::left;
 }

@@ -18,7 +18,7 @@ enum class StereoMode : std::uint8_t {
     side_by_side,          ///< left half, right half
     top_bottom,            ///< upper half, lower half
     anaglyph_red_cyan,     ///< red from the left eye, green and blue from the right one
-    anaglyph_dubois,       ///< for the same glasses, with less ghosting and truer colours
+    anaglyph_dubois,       ///< for the same glasses, with less ghosting and truer colors
     vertical_interlaced,   ///< rows alternate, even ones left (SGCT's word: down the window)
     horizontal_interlaced, ///< columns alternate, even ones left
     checkerboard,          ///< pixels alternate both ways, left where row + column is even
@@ -31,7 +31,7 @@ enum class StereoMode : std::uint8_t {
     horizontal_interlaced_inverted,
     checkerboard_inverted
 };
-enum class Eye : std::uint8_t { centre, left, right };
+enum class Eye : std::uint8_t { center, left, right };
 
 std::string_view name_of(StereoMode mode);
 std::string_view name_of(Eye eye); ///< `left`, as in file names
@@ -46,7 +46,7 @@ bool is_inverted(StereoMode mode);
 /// The mode with its eyes in their usual places.
 StereoMode upright(StereoMode mode);
 
-/// Which eyes are drawn, in order: mono draws the centre eye, `left` the left one alone, ...
+/// Which eyes are drawn, in order: mono draws the center eye, `left` the left one alone, ...
 std::vector<Eye> eyes_of(StereoMode mode);
 
 /// The eye whose picture is drawn and the one in whose place it is shown: the other one where the

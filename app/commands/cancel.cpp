@@ -31,7 +31,7 @@ CancelOnSignal::~CancelOnSignal() {
 
 void CancelOnSignal::check() const {
     if (received != 0)
-        throw Cancelled(received);
+        throw Canceled(received);
 }
 
 } // namespace isochron::app

@@ -8,9 +8,9 @@
 namespace isochron::app {
 
 /// Thrown to leave the work; `main` prints its line and exits with `status`.
-class Cancelled : public std::runtime_error {
+class Canceled : public std::runtime_error {
   public:
-    explicit Cancelled(int signal) : std::runtime_error("cancelled"), status(128 + signal) {}
+    explicit Canceled(int signal) : std::runtime_error("canceled"), status(128 + signal) {}
     int status; ///< 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP
 };
 
@@ -22,7 +22,7 @@ class CancelOnSignal {
     CancelOnSignal(const CancelOnSignal&) = delete;
     CancelOnSignal& operator=(const CancelOnSignal&) = delete;
 
-    /// @throws Cancelled when a signal has come
+    /// @throws Canceled when a signal has come
     void check() const;
 
   private:

@@ -191,17 +191,17 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
     command.option("--value-unit", read.value_unit, "Unit of the values, such as K")
         .group("Reading");
 
-    const char* colors = "Colours";
-    const Option color = command
-                             .option("--colour", arguments.color,
-                                     "A second array of the files to colour surfaces by")
-                             .group(colors);
+    const char* colors = "Colors";
+    const Option color =
+        command
+            .option("--color", arguments.color, "A second array of the files to color surfaces by")
+            .group(colors);
     command
-        .option("--colour-component", arguments.color_component,
+        .option("--color-component", arguments.color_component,
                 "Its component, where it is a vector array: a number from 0, or magnitude")
         .needs(color)
         .group(colors);
-    command.option("--colour-unit", arguments.color_unit, "Unit of its values")
+    command.option("--color-unit", arguments.color_unit, "Unit of its values")
         .needs(color)
         .group(colors);
 

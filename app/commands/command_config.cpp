@@ -56,13 +56,13 @@ void add_config(Command& program) {
     command.option("file", options->file, "ParaView's description of a CAVE (.pvx)").required();
     command.option("-o,--out", options->out, "Configuration to write (default: to the terminal)");
     command
-        .option("--unit", options->pvx.metres_per_unit,
-                "Metres per unit of the file: 0.3048 for feet, 0.001 for millimetres")
+        .option("--unit", options->pvx.meters_per_unit,
+                "Meters per unit of the file: 0.3048 for feet, 0.001 for millimeters")
         .positive()
         .shows_default();
     command
         .option("--origin", options->origin,
-                "Where the file's origin is in the room, metres: 0 1.6 0 where corners are "
+                "Where the file's origin is in the room, meters: 0 1.6 0 where corners are "
                 "given from the eyes")
         .values(3);
     command.footer("Exit status: 0 done, 1 bad input, 2 bad usage.");

@@ -344,7 +344,7 @@ void add_explore(Command& program) {
     command.option("--stereo", options->stereo, "Stereo mode to start in")
         .one_of(stereo_mode_names());
     command.option("--quality", options->quality, "auto, fast or quality")
-        .one_of(quality_mode_names());
+        .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option("--footprint", options->footprint,
                 "What a settled picture is drawn with: auto (the best that fits the frame "

@@ -42,7 +42,7 @@ void add_info(Command& program) {
         "equal bins over low to high), file_bytes, volume_bytes, bricks_bytes, cells_bytes,\n"
         "deltas_bytes, tree_bytes, raw_bytes, percent_of_raw (file without volume), tiers, plan\n"
         "(why these), levels, lossless, refers_to (files; null when it carries the values),\n"
-        "colour (only with an array to colour by: array, value_unit, type, low, high, nan_values,\n"
+        "color (only with an array to color by: array, value_unit, type, low, high, nan_values,\n"
         "bytes), lattice and max_variation (of the paper's tree), tree_entries and coherence (only "
         "with a\n"
         "tree), content_hash, sources, notes, tree (only with --tree: first_step, last_step, "

@@ -8,11 +8,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace isochron::app {
@@ -178,6 +181,28 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
     return fmt::format("{} (see {} --help)", what, name);
 }
 
+/// Flags that were spelled in another way up to version 0.1, and how they are now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOldFlags{{
+    {"--colour", "--color"},
+    {"--colour-component", "--color-component"},
+    {"--colour-unit", "--color-unit"},
+}};
+
+/// The arguments in today's spelling, last first, as the parser wants them.
+std::vector<std::string> arguments_from(int argc, const char* const* argv) {
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    for (std::string& argument : arguments) {
+        const std::size_t end = std::min(argument.find('='), argument.size());
+        for (const auto& [old, now] : kOldFlags)
+            if (std::string_view(argument).substr(0, end) == old) {
+                argument.replace(0, end, now);
+                break;
+            }
+    }
+    std::ranges::reverse(arguments);
+    return arguments;
+}
+
 } // namespace
 
 int run_program(const std::string& name, const std::string& description,
@@ -191,13 +216,13 @@ int run_program(const std::string& name, const std::string& description,
     for (const auto add : commands)
         add(root);
     try {
-        program.parse(argc, argv);
+        program.parse(arguments_from(argc, argv));
     } catch (const CLI::Success& request) {
         return program.exit(request);
     } catch (const CLI::ParseError& error) {
         return fail(name, complaint(program, error), 2);
-    } catch (const Cancelled& cancelled) {
-        return fail(name, cancelled.what(), cancelled.status);
+    } catch (const Canceled& canceled) {
+        return fail(name, canceled.what(), canceled.status);
     } catch (const ReportedElsewhere&) {
         return 0;
     } catch (const UsageError& error) {

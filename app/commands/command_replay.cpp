@@ -324,7 +324,7 @@ void add_replay(Command& program) {
     command.option("--stereo", options->stereo, "Stereo mode instead of the recorded one")
         .one_of(stereo_mode_names());
     command.option("--quality", options->quality, "Quality mode instead of the recorded one")
-        .one_of(quality_mode_names());
+        .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option("--footprint", options->footprint,
                 "What a settled picture is drawn with, instead of the configured: auto (the "

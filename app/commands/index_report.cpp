@@ -114,7 +114,7 @@ std::string sizes(const index::IndexFile& file) {
         if (const auto tier = static_cast<index::Tier>(i); file.plan().tiers.has(tier))
             text += fmt::format(", {} {}", index::kTierNames[i], bytes(stats.bytes_of(tier)));
     if (stats.color_bytes > 0)
-        text += fmt::format(", colours {}", bytes(stats.color_bytes));
+        text += fmt::format(", colors {}", bytes(stats.color_bytes));
     return text;
 }
 
@@ -155,9 +155,9 @@ std::string as_text(const IndexReport& report) {
     line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
     line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
     if (const index::ColorArray* color = file.color())
-        line("colours", fmt::format("{}, {}, {} to {}{}, {} NaN", color->array,
-                                    index::name_of(color->type), color->low, color->high,
-                                    with_space(color->value_unit), grouped(color->nan_values)));
+        line("colors", fmt::format("{}, {}, {} to {}{}, {} NaN", color->array,
+                                   index::name_of(color->type), color->low, color->high,
+                                   with_space(color->value_unit), grouped(color->nan_values)));
     line("file",
          fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
     for (const std::string& reason : file.plan().reasons)
@@ -231,13 +231,13 @@ std::string as_json(const IndexReport& report) {
         if (file.plan().tiers.has(static_cast<index::Tier>(i)))
             j["tiers"].push_back(index::kTierNames[i]);
     if (const index::ColorArray* color = file.color())
-        j["colour"] = {{"array", color->array},
-                       {"value_unit", color->value_unit},
-                       {"type", index::name_of(color->type)},
-                       {"low", color->low},
-                       {"high", color->high},
-                       {"nan_values", color->nan_values},
-                       {"bytes", stats.color_bytes}};
+        j["color"] = {{"array", color->array},
+                      {"value_unit", color->value_unit},
+                      {"type", index::name_of(color->type)},
+                      {"low", color->low},
+                      {"high", color->high},
+                      {"nan_values", color->nan_values},
+                      {"bytes", stats.color_bytes}};
     if (file.referral()) {
         j["refers_to"] = nlohmann::ordered_json::array();
         for (const std::filesystem::path& source : file.referral()->files)

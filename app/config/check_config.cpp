@@ -17,9 +17,9 @@ namespace isochron::app {
 namespace {
 
 constexpr float kSmallest = 0.02f, kLargest = 30.0f; ///< [m] sides of screens that people build
-constexpr float kSquare = 0.02f;     ///< pixels' width and height may differ by this fraction
-constexpr float kNeighbours = 0.10f; ///< [m] corners this near are meant to be one
-constexpr float kSeam = 0.005f;      ///< [m] and this is what a seam may take
+constexpr float kSquare = 0.02f;    ///< pixels' width and height may differ by this fraction
+constexpr float kNeighbors = 0.10f; ///< [m] corners this near are meant to be one
+constexpr float kSeam = 0.005f;     ///< [m] and this is what a seam may take
 constexpr const char* kScreenKey = "windows.viewports.projection";
 
 struct PlacedViewport {
@@ -109,7 +109,7 @@ class Judge {
         const glm::vec2 size = stereo::size_of(screen);
         if (std::max(size.x, size.y) > kLargest || std::min(size.x, size.y) < kSmallest)
             add(place.line, kScreenKey,
-                fmt::format("{}: {:.4g} x {:.4g} m is no size of a screen: corners are in metres",
+                fmt::format("{}: {:.4g} x {:.4g} m is no size of a screen: corners are in meters",
                             name_of(place), size.x, size.y));
         const glm::vec2 pixel = pixel_size(place);
         const float aspect = pixel.x / pixel.y;
@@ -144,7 +144,7 @@ class Judge {
         float widest = 0;
         for (const glm::vec3& p : corners_in_room(a.viewport.screen, anywhere, a.window.size))
             for (const glm::vec3& q : corners_in_room(b.viewport.screen, anywhere, b.window.size))
-                if (glm::distance(p, q) < kNeighbours)
+                if (glm::distance(p, q) < kNeighbors)
                     widest = std::max(widest, glm::distance(p, q));
         if (widest > kSeam)
             add(b.line, kScreenKey,
@@ -199,7 +199,7 @@ std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer&
     const stereo::Screen& screen = place.viewport.screen;
     const glm::vec2 low = place.viewport.position * glm::vec2(place.window.size);
     const glm::vec2 pixels = pixels_of(place), size = stereo::size_of(screen);
-    const glm::vec2 millimetres = 1000.0f * pixel_size(place);
+    const glm::vec2 millimeters = 1000.0f * pixel_size(place);
     const double angle = stereo::corner_angle(screen);
     const glm::vec3 eyes = screen.carried_by_head ? glm::vec3(0.0f) : viewer.position;
     return fmt::format(
@@ -215,7 +215,7 @@ std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer&
         stereo::distance_to(screen, {viewer.position, {1, 0, 0, 0}}),
         screen.fit_aspect
             ? "; fitted to the window's shape"
-            : fmt::format("; pixels {:.2f} x {:.2f} mm", millimetres.x, millimetres.y));
+            : fmt::format("; pixels {:.2f} x {:.2f} mm", millimeters.x, millimeters.y));
 }
 
 /// Which windows each node opens; nothing where there is one node.

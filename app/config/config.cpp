@@ -19,11 +19,6 @@ namespace {
 
 using interaction::QualityMode;
 
-const std::vector<std::pair<QualityMode, std::string>> kQualityModes{
-    {QualityMode::automatic, "auto"},
-    {QualityMode::fast, "fast"},
-    {QualityMode::quality, "quality"}};
-
 constexpr const char* kAnyFootprint = "auto";
 constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::surface};
 
@@ -34,7 +29,7 @@ void read_emulation(TomlReader& reader, interaction::EmulationOptions& emulation
 }
 
 void read_quality(TomlReader& reader, Config& config) {
-    reader.word("mode", quality_mode_names(),
+    reader.word("mode", interaction::all_names<QualityMode>(),
                 [&](const std::string& word) { config.quality = quality_mode_from_name(word); });
     reader.word("settled", settled_footprint_names(), [&](const std::string& word) {
         config.settled_footprint = settled_footprint_from_name(word);
@@ -67,8 +62,8 @@ void read_surface(TomlReader& reader, std::vector<ConfiguredSurface>& surfaces) 
     if (reader.has("isovalue"))
         surface.isovalue = isovalue;
     reader.number("quantile", 0.0, 1.0, surface.quantile);
-    reader.vector("colour", surface.color);
-    check_color(reader, "colour", surface.color);
+    reader.vector("color", surface.color);
+    check_color(reader, "color", surface.color);
     reader.number("opacity", 0.0, 1.0, surface.opacity);
 }
 
@@ -79,16 +74,11 @@ void read_surfaces(TomlReader& reader, Config& config) {
                                             interaction::kMostIsosurfaces, config.surfaces.size()));
 }
 
-void read_colouring(TomlReader& reader, interaction::Coloring& coloring) {
-    const auto words = [](const auto& names) {
-        return std::vector<std::string>(names.begin(), names.end());
-    };
-    reader.word("by", words(interaction::kColorByNames), [&](const std::string& word) {
-        coloring.by =
-            static_cast<interaction::ColorBy>(std::ranges::find(interaction::kColorByNames, word) -
-                                              interaction::kColorByNames.begin());
+void read_coloring(TomlReader& reader, interaction::Coloring& coloring) {
+    reader.word("by", interaction::all_names<interaction::ColorBy>(), [&](const std::string& word) {
+        coloring.by = *interaction::value_named<interaction::ColorBy>(word);
     });
-    reader.word("map", words(render::kColorMapNames),
+    reader.word("map", {render::kColorMapNames.begin(), render::kColorMapNames.end()},
                 [&](const std::string& word) { coloring.map = word; });
     glm::dvec2 range(0.0);
     reader.vector("range", range);
@@ -125,9 +115,9 @@ void read_rendering(TomlReader& reader, Config& config) {
     reader.number("near", 1e-3, 10.0, config.installation.near_plane);
     reader.number("far", 1.0, 1e5, config.installation.far_plane);
     reader.vector("background", config.background);
-    reader.vector("surface_colour", config.surface_colour);
+    reader.vector("surface_color", config.surface_color);
     check_color(reader, "background", config.background);
-    check_color(reader, "surface_colour", config.surface_colour);
+    check_color(reader, "surface_color", config.surface_color);
     reader.integer("samples", 0, 64, config.samples);
     reader.integer("picture_samples", 0, 64, config.picture_samples);
     reader.word("blending", {"auto", "linear", "display"}, [&](const std::string& word) {
@@ -159,34 +149,18 @@ void read_root(TomlReader& reader, Config& config) {
     reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
     reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });
     reader.table("lighting", [&](TomlReader& inner) { read_lighting(inner, config.appearance); });
-    reader.table("colouring", [&](TomlReader& inner) { read_colouring(inner, config.coloring); });
+    reader.table("coloring", [&](TomlReader& inner) { read_coloring(inner, config.coloring); });
     read_surfaces(reader, config);
     reader.table("placement", [&](TomlReader& inner) { read_placement(inner, config.placement); });
 }
 
 } // namespace
 
-std::string name_of(QualityMode mode) {
-    for (const auto& [candidate, name] : kQualityModes)
-        if (candidate == mode)
-            return name;
-    return {};
-}
-
 QualityMode quality_mode_from_name(const std::string& name) {
-    for (const auto& [mode, candidate] : kQualityModes)
-        if (candidate == name)
-            return mode;
+    if (const auto mode = interaction::value_named<QualityMode>(name))
+        return *mode;
     throw ConfigError(
         fmt::format("unknown quality mode '{}', expected auto, fast or quality", name));
-}
-
-std::vector<std::string> quality_mode_names() {
-    std::vector<std::string> names;
-    names.reserve(kQualityModes.size());
-    for (const auto& row : kQualityModes)
-        names.push_back(row.second);
-    return names;
 }
 
 std::optional<render::Footprint> settled_footprint_from_name(const std::string& name) {

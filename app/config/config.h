@@ -31,7 +31,7 @@ struct ConfiguredSurface {
     float opacity = 1.0f;
 };
 
-/// How colours blend: `linear` as light does, `display` in display values, which is faster on
+/// How colors blend: `linear` as light does, `display` in display values, which is faster on
 /// software GL; `automatic` takes that there, and linear light elsewhere.
 enum class Blending : std::uint8_t { automatic, linear, display };
 
@@ -58,10 +58,10 @@ struct Config {
     double frame_budget_ms = 0;   ///< that drawing may take; 0: one period of the display
     double still_budget_ms = 500; ///< likewise, once, of a picture that has come to rest
     PlacementOptions placement;
-    int upload_kilobytes_per_frame = 4096;         ///< cells sent to the GPU per frame at most
-    glm::vec3 background{0.055f, 0.063f, 0.078f};  ///< sRGB
-    glm::vec3 surface_colour{0.94f, 0.86f, 0.70f}; ///< sRGB
-    std::vector<ConfiguredSurface> surfaces;       ///< none: one of surface_colour
+    int upload_kilobytes_per_frame = 4096;        ///< cells sent to the GPU per frame at most
+    glm::vec3 background{0.055f, 0.063f, 0.078f}; ///< sRGB
+    glm::vec3 surface_color{0.94f, 0.86f, 0.70f}; ///< sRGB
+    std::vector<ConfiguredSurface> surfaces;      ///< none: one of surface_color
     interaction::Coloring coloring;
     render::CellAppearance appearance; ///< light and material
     Blending blending = Blending::automatic;
@@ -83,9 +83,7 @@ Config read_config(const std::filesystem::path& path);
 interaction::EmulationOptions emulation_for(const Config& config);
 
 /// Names as configuration files and the command line use them.
-std::string name_of(interaction::QualityMode mode);
 interaction::QualityMode quality_mode_from_name(const std::string& name); ///< @throws ConfigError
-std::vector<std::string> quality_mode_names();
 std::vector<std::string> stereo_mode_names();
 /// `auto` (empty), `gaussian`, `surface`: what a settled picture is drawn with.
 std::optional<render::Footprint> settled_footprint_from_name(const std::string& name);

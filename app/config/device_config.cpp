@@ -31,7 +31,7 @@ void pose(TomlReader& reader, std::string_view position, std::string_view orient
     if (reader.has(orientation))
         into.orientation = rotation_from_angles(glm::radians(degrees));
     if (glm::length(into.position) > kRoom)
-        reader.fail(position, fmt::format("expected metres in the room, got {} m",
+        reader.fail(position, fmt::format("expected meters in the room, got {} m",
                                           glm::length(into.position)));
 }
 

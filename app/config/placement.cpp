@@ -30,7 +30,7 @@ glm::dvec3 physical_size(const index::Grid& grid) {
     return size;
 }
 
-glm::dvec3 physical_centre(const index::Grid& grid) {
+glm::dvec3 physical_center(const index::Grid& grid) {
     glm::dvec3 middle;
     for (int axis = 0; axis < 3; ++axis)
         middle[axis] = (grid.vertices[axis] - 1) / 2.0;
@@ -43,7 +43,7 @@ interaction::Similarity place(const index::SeriesInfo& info, const PlacementOpti
     home.scale = options.size / std::max({size.x, size.y, size.z});
     home.rotation = upright(info.anatomy);
     home.translation = glm::dvec3(0, options.height, -options.distance) -
-                       home.scale * (home.rotation * physical_centre(info.grid));
+                       home.scale * (home.rotation * physical_center(info.grid));
     return home;
 }
 

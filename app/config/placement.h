@@ -6,8 +6,8 @@
 
 namespace isochron::app {
 
-/// The longest physical side becomes `size` metres; the centre is `height` metres high and
-/// `distance` metres ahead of a viewer at the room's origin.
+/// The longest physical side becomes `size` meters; the center is `height` meters high and
+/// `distance` meters ahead of a viewer at the room's origin.
 struct PlacementOptions {
     double size = 1.5, height = 1.3, distance = 1.5;
 };
@@ -20,7 +20,7 @@ interaction::Similarity place(const index::SeriesInfo& info, const PlacementOpti
 /// Distance between the first and the last vertex along each index axis, in physical units.
 glm::dvec3 physical_size(const index::Grid& grid);
 
-/// Centre of the volume in physical space.
-glm::dvec3 physical_centre(const index::Grid& grid);
+/// Center of the volume in physical space.
+glm::dvec3 physical_center(const index::Grid& grid);
 
 } // namespace isochron::app

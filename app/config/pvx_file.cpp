@@ -98,15 +98,15 @@ class PvxReader {
     /// A corner in the room.
     glm::vec3 corner(const XMLElement& machine, const char* attribute) const {
         const std::vector<float> n = numbers(machine, attribute, 3);
-        return options_.metres_per_unit * glm::vec3(n[0], n[1], n[2]) + options_.origin;
+        return options_.meters_per_unit * glm::vec3(n[0], n[1], n[2]) + options_.origin;
     }
 
     float separation(const XMLElement& element, const char* attribute) const {
-        const float metres = numbers(element, attribute, 1).front() * options_.metres_per_unit;
-        if (metres < 0.0f || metres > interaction::kWidestEyes)
+        const float meters = numbers(element, attribute, 1).front() * options_.meters_per_unit;
+        if (meters < 0.0f || meters > interaction::kWidestEyes)
             fail(element, fmt::format("{}: expected 0 to {} m, got {} m", attribute,
-                                      interaction::kWidestEyes, metres));
-        return metres;
+                                      interaction::kWidestEyes, meters));
+        return meters;
     }
 
     /// `<NAME Value="1"/>`, `<Option Name="NAME" Value="1"/>` or an attribute of the machine.
@@ -221,12 +221,12 @@ class PvxReader {
         if (separations_.rbegin()->first + 1 != static_cast<int>(separations_.size()))
             fail(process, "ViewerIds are numbered from 0 without a gap");
         import_.installation.viewers.clear();
-        for (const auto& [id, metres] : separations_)
+        for (const auto& [id, meters] : separations_)
             import_.installation.viewers.push_back(
                 {.name = id == 0 ? "viewer" : fmt::format("viewer {}", id + 1),
                  .head = id == 0 ? "head" : fmt::format("head {}", id + 1),
                  .position = options_.origin,
-                 .eye_separation = metres});
+                 .eye_separation = meters});
     }
 
     std::string file_;

@@ -10,7 +10,7 @@
 namespace isochron::app {
 
 struct PvxOptions {
-    float metres_per_unit = 1.0f; ///< of the file's corners and eye separations
+    float meters_per_unit = 1.0f; ///< of the file's corners and eye separations
     glm::vec3 origin{0.0f};       ///< [m] where the file's origin is in the room
 };
 

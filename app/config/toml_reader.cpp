@@ -5,9 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -39,6 +41,29 @@ std::string type_name(const toml::node& node) {
     }
 }
 
+/// Keys and words that were spelled in another way up to version 0.1, and how they are now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kSpellings{{
+    {"colour", "color"},
+    {"surface_colour", "surface_color"},
+    {"colouring", "coloring"},
+    {"grey", "gray"},
+}};
+
+/// Empty where there was no other.
+std::string_view old_spelling(std::string_view now) {
+    for (const auto& [old, current] : kSpellings)
+        if (current == now)
+            return old;
+    return {};
+}
+
+std::string_view new_spelling(std::string_view word) {
+    for (const auto& [old, current] : kSpellings)
+        if (old == word)
+            return current;
+    return word;
+}
+
 } // namespace
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
@@ -58,13 +83,20 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 TomlReader::TomlReader(const toml::table& table, std::string file, std::string where)
     : table_(table), file_(std::move(file)), where_(std::move(where)) {}
 
+const toml::node* TomlReader::find(std::string_view key) const {
+    if (const toml::node* node = table_.get(key))
+        return node;
+    const std::string_view old = old_spelling(key);
+    return old.empty() ? nullptr : table_.get(old);
+}
+
 const toml::node* TomlReader::get(std::string_view key) {
     known_.emplace_back(key);
-    return table_.get(key);
+    return find(key);
 }
 
 void TomlReader::fail(std::string_view key, const std::string& message) const {
-    const toml::node* node = table_.get(key);
+    const toml::node* node = find(key);
     const auto line = (node ? node->source() : table_.source()).begin.line;
     const std::string place = where_.empty() ? std::string(key) : where_ + "." + std::string(key);
     throw ConfigError(fmt::format("{}:{}: {}: {}", file_, line, place, message));
@@ -129,7 +161,7 @@ std::vector<double> TomlReader::numbers(std::string_view key, const toml::node& 
     if (!array || array->size() != count)
         fail(key, fmt::format("expected an array of {} numbers, got {}", count,
                               array ? fmt::format("one of {}", array->size()) : type_name(node)));
-    constexpr double kFar = 1e6; // metres or pixels: beyond any installation
+    constexpr double kFar = 1e6; // meters or pixels: beyond any installation
     std::vector<double> values;
     for (const toml::node& element : *array)
         values.push_back(finite_number(key, element, -kFar, kFar));
@@ -185,8 +217,9 @@ void TomlReader::word(std::string_view key, const std::vector<std::string>& word
                       const std::function<void(const std::string&)>& take) {
     std::string value;
     text(key, value);
-    if (!table_.contains(key))
+    if (!has(key))
         return;
+    value = new_spelling(value);
     if (std::find(words.begin(), words.end(), value) == words.end()) {
         const std::string near = nearest_word(value, words);
         fail(key,
@@ -228,14 +261,21 @@ bool TomlReader::tables(std::string_view key, const std::function<void(TomlReade
 
 bool TomlReader::table_or_tables(std::string_view key,
                                  const std::function<void(TomlReader&)>& read) {
-    const toml::node* node = table_.get(key);
+    const toml::node* node = find(key);
     return node && node->is_array() ? tables(key, read) : table(key, read);
 }
 
 void TomlReader::finish() const {
     for (const auto& [key, node] : table_) {
         const std::string name(key.str());
-        if (std::find(known_.begin(), known_.end(), name) != known_.end())
+        const auto knows = [&](std::string_view word) {
+            return std::find(known_.begin(), known_.end(), word) != known_.end();
+        };
+        if (knows(name))
+            continue;
+        // An old spelling beside the new one would be left out in silence.
+        const std::string_view now = new_spelling(name);
+        if (now != name && knows(now) && !table_.contains(now))
             continue;
         const std::string near = nearest_word(name, known_);
         throw ConfigError(fmt::format("{}:{}: unknown key '{}'{}{}", file_, key.source().begin.line,

@@ -50,7 +50,7 @@ class TomlReader {
               const std::function<void(const std::string&)>& take);
 
     int line() const { return static_cast<int>(table_.source().begin.line); } ///< of the table
-    bool has(std::string_view key) const { return table_.contains(key); }
+    bool has(std::string_view key) const { return find(key) != nullptr; }
 
     /// A sub-table, or an array of tables, each read by `read` and finished after it.
     /// @return false when absent
@@ -65,6 +65,8 @@ class TomlReader {
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
   private:
+    /// Under its name, or under the one that older files have for it.
+    const toml::node* find(std::string_view key) const;
     const toml::node* get(std::string_view key);
     double finite_number(std::string_view key, const toml::node& node, double low,
                          double high) const;

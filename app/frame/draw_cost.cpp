@@ -27,7 +27,7 @@ void DrawCost::add(const DrawLoad& load, Milliseconds time) {
 std::optional<Milliseconds> DrawCost::predict(const DrawLoad& load) const {
     if (weight_ == 0)
         return std::nullopt;
-    // In units of the mean load, so that neither part is favoured by its unit.
+    // In units of the mean load, so that neither part is favored by its unit.
     const double p = pixels_ / weight_, c = cells_ / weight_;
     if (p <= 0 && c <= 0)
         return Milliseconds(time_ / weight_);

@@ -1,78 +1,98 @@
 // Everything a user can set while exploring.
 #include "app/frame/explorer_state.h"
 
+#include "interaction/command_fields.h"
 #include "render/passes/color_map.h"
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <numeric>
 
 namespace isochron::app {
 namespace {
 
-bool holds(const std::vector<interaction::Isosurface>& surfaces) {
-    return !surfaces.empty() && surfaces.size() <= interaction::kMostIsosurfaces &&
+using interaction::Field;
+
+// Whether a state can hold a value: numbers are finite and within their field's limits.
+
+template <class T>
+bool holds(const Field& field, const T& value) {
+    if constexpr (std::integral<T> || std::floating_point<T>) {
+        const auto number = static_cast<double>(value);
+        return std::isfinite(number) && number >= field.low && number <= field.high;
+    } else {
+        return true;
+    }
+}
+template <class T>
+bool holds(const Field& field, const std::vector<T>& list) {
+    return list.size() >= field.least && list.size() <= field.most;
+}
+bool holds(const Field& field, const std::vector<interaction::Isosurface>& surfaces) {
+    return surfaces.size() >= field.least && surfaces.size() <= field.most &&
            std::ranges::all_of(surfaces, [](const interaction::Isosurface& surface) {
-               return std::isfinite(surface.isovalue) && surface.opacity >= 0 &&
-                      surface.opacity <= 1;
+               return std::isfinite(surface.isovalue) && holds(Field{"", 0, 1}, surface.opacity);
            });
+}
+bool holds(const Field&, const interaction::Coloring& coloring) {
+    return render::color_map_from_name(coloring.map).has_value();
+}
+bool holds(const Field&, const interaction::PlaybackState& playback) {
+    return holds(Field{"", interaction::kSlowest, interaction::kFastest}, playback.speed);
+}
+bool holds(const Field&, const interaction::Similarity& similarity) {
+    return std::isfinite(similarity.scale) && similarity.scale > 0;
+}
+bool holds(const Field&, const interaction::RoomPanel& panel) {
+    return is_finite(panel.pose);
+}
+bool holds(const Field& field, const interaction::Mark& mark) {
+    return !mark.point || holds(field, mark.point->step);
+}
+
+// @return false when the value is refused and `kept` is as it was
+
+template <class T>
+bool take(const Field& field, const T& given, T& kept) {
+    const bool taken = holds(field, given);
+    if (taken)
+        kept = given;
+    return taken;
+}
+bool take(const Field&, const std::string& given, stereo::StereoMode& kept) {
+    const auto mode = stereo::stereo_mode_from_name(given);
+    kept = mode.value_or(kept);
+    return mode.has_value();
+}
+
+template <class T>
+const T& as_command(const T& kept) {
+    return kept;
+}
+std::string as_command(stereo::StereoMode kept) {
+    return std::string(stereo::name_of(kept));
 }
 
 } // namespace
 
 bool ExplorerState::apply(const interaction::Commands& commands, std::size_t steps) {
-    bool taken = true;
-    const auto set = [&](auto& field, const auto& value, bool valid) {
-        if (valid)
-            field = value;
-        else
-            taken = false;
-    };
-    if (commands.isosurfaces && holds(*commands.isosurfaces)) {
-        isosurfaces = *commands.isosurfaces;
-        picked = std::min(picked, static_cast<std::uint32_t>(isosurfaces.size() - 1));
-    } else if (commands.isosurfaces) {
-        taken = false;
-    }
-    if (commands.picked)
-        set(picked, *commands.picked, *commands.picked < isosurfaces.size());
+    bool all_taken = true;
+    interaction::each_setting(
+        [&](Field field, const auto& given, auto& kept) {
+            const void* member = &kept;
+            if (member == &picked)
+                field.high = static_cast<double>(isosurfaces.size()) - 1;
+            else if (member == &step || member == &mark)
+                field.high = static_cast<double>(steps) - 1;
+            if (given && !take(field, *given, kept))
+                all_taken = false;
+            picked = std::min(picked, static_cast<std::uint32_t>(isosurfaces.size() - 1));
+        },
+        commands, *this);
     if (commands.isovalue)
-        set(isosurfaces[picked].isovalue, *commands.isovalue, std::isfinite(*commands.isovalue));
-    if (commands.coloring)
-        set(coloring, *commands.coloring,
-            render::color_map_from_name(commands.coloring->map).has_value());
-    if (commands.axes)
-        axes = *commands.axes;
-    if (commands.step)
-        set(step, *commands.step, *commands.step < steps);
-    if (commands.playback)
-        set(playback, *commands.playback,
-            commands.playback->speed >= interaction::kSlowest &&
-                commands.playback->speed <= interaction::kFastest);
-    if (commands.room_from_physical)
-        set(room_from_physical, *commands.room_from_physical,
-            std::isfinite(commands.room_from_physical->scale) &&
-                commands.room_from_physical->scale > 0);
-    if (commands.quality)
-        quality = *commands.quality;
-    if (commands.eye_separation)
-        set(eye_separation, *commands.eye_separation,
-            *commands.eye_separation >= 0 && *commands.eye_separation <= interaction::kWidestEyes);
-    if (commands.stereo) {
-        const auto mode = stereo::stereo_mode_from_name(*commands.stereo);
-        set(stereo, mode.value_or(stereo), mode.has_value());
-    }
-    if (commands.panel)
-        panel = *commands.panel;
-    if (commands.grid)
-        grid = *commands.grid;
-    if (commands.room_panel)
-        set(room_panel, *commands.room_panel, is_finite(commands.room_panel->pose));
-    if (commands.mark)
-        set(mark, *commands.mark, !commands.mark->point || commands.mark->point->step < steps);
-    if (commands.views)
-        set(views, *commands.views, commands.views->size() <= interaction::kMostViews);
-    return taken;
+        all_taken &= take({"isovalue"}, *commands.isovalue, isosurfaces[picked].isovalue);
+    return all_taken;
 }
 
 index::SurfacesQuery ExplorerState::surfaces() const {
@@ -91,22 +111,10 @@ index::SurfacesQuery ExplorerState::surfaces() const {
 
 interaction::Commands ExplorerState::as_commands() const {
     interaction::Commands all;
-    all.isosurfaces = isosurfaces;
-    all.picked = picked;
+    interaction::each_setting(
+        [](const Field&, auto& command, const auto& kept) { command = as_command(kept); }, all,
+        *this);
     all.isovalue = isovalue();
-    all.coloring = coloring;
-    all.axes = axes;
-    all.step = step;
-    all.playback = playback;
-    all.room_from_physical = room_from_physical;
-    all.quality = quality;
-    all.eye_separation = eye_separation;
-    all.stereo = std::string(stereo::name_of(stereo));
-    all.panel = panel;
-    all.grid = grid;
-    all.views = views;
-    all.room_panel = room_panel;
-    all.mark = mark;
     return all;
 }
 

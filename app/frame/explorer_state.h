@@ -11,7 +11,7 @@ struct ExplorerState {
     std::vector<interaction::Isosurface> isosurfaces{{}}; ///< 1 to kMostIsosurfaces
     std::uint32_t picked = 0;                             ///< the one that the isovalue moves
     interaction::Coloring coloring;
-    bool axes = true; ///< the box with its ticks and numbers
+    bool bounding_box = true; ///< the box with its ticks and numbers
     std::uint32_t step = 0;
     interaction::PlaybackState playback;
     interaction::Similarity room_from_physical;
@@ -35,7 +35,7 @@ struct ExplorerState {
     /// Commands that set every field.
     interaction::Commands as_commands() const;
 
-    /// The step, every surface's isovalue, in the order of `isosurfaces`, and what colours them.
+    /// The step, every surface's isovalue, in the order of `isosurfaces`, and what colors them.
     index::SurfacesQuery surfaces() const;
     bool operator==(const ExplorerState&) const = default;
 };

@@ -70,13 +70,13 @@ void make_steps(const SphereSeries& series, const StepSink& sink, const index::P
     std::vector<float> values(kSphereVertices[0] * kSphereVertices[1] * kSphereVertices[2]);
     for (std::size_t step = 0; step < series.steps; ++step) {
         const auto time = static_cast<double>(step);
-        const glm::dvec3 centre =
+        const glm::dvec3 center =
             glm::dvec3(22, 19, 22) + 0.25 * time * glm::dvec3(0.8, 0.36, 0.48);
         auto value = values.begin();
         for (std::size_t z = 0; z < kSphereVertices[2]; ++z)
             for (std::size_t y = 0; y < kSphereVertices[1]; ++y)
                 for (std::size_t x = 0; x < kSphereVertices[0]; ++x) {
-                    const glm::dvec3 d = glm::dvec3(x, y, z) - centre;
+                    const glm::dvec3 d = glm::dvec3(x, y, z) - center;
                     *value++ = static_cast<float>(255.0 * std::exp(-glm::dot(d, d) / 242.0));
                 }
         send(sink, values, time, series.type, 1.0F);

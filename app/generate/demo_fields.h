@@ -12,7 +12,7 @@
 namespace isochron::app {
 
 /// The moving spherical isosurface of the paper's measurements (section 6): 61 x 50 x 60 vertices
-/// at distance 1, 255 exp(-d^2 / 242) at distance d from a centre that moves along a line. At
+/// at distance 1, 255 exp(-d^2 / 242) at distance d from a center that moves along a line. At
 /// isovalue 112.5 the sphere has radius 14.07 and some 3,730 active cells.
 struct SphereSeries {
     static constexpr const char* kName = "sphere";

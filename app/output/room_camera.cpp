@@ -39,7 +39,7 @@ RoomCamera::RoomCamera(const stereo::Installation& installation) {
             for (const glm::vec3& corner : corners_in_room(viewport.screen, head, window.size))
                 include(corner);
         }
-    centre_ = 0.5f * (low + high);
+    center_ = 0.5f * (low + high);
     const float radius = std::max(0.5f * glm::distance(low, high), kNearest);
     distance_ = std::min(kMargin * radius / std::sin(kRoomView / 2), kFarthest);
 }
@@ -47,7 +47,7 @@ RoomCamera::RoomCamera(const stereo::Installation& installation) {
 Pose RoomCamera::pose() const {
     const glm::quat turn =
         glm::angleAxis(yaw_, glm::vec3(0, 1, 0)) * glm::angleAxis(-pitch_, glm::vec3(1, 0, 0));
-    return {centre_ + turn * glm::vec3(0, 0, distance_), glm::normalize(turn)};
+    return {center_ + turn * glm::vec3(0, 0, distance_), glm::normalize(turn)};
 }
 
 std::vector<WindowEvent> RoomCamera::feed(std::span<const WindowEvent> events) {
@@ -97,8 +97,8 @@ void RoomCamera::drag(glm::vec2 by) {
         pitch_ = std::clamp(pitch_ + kTurn * by.y, -kSteepest, kSteepest);
         return;
     }
-    const float metres = 2.0f * distance_ * std::tan(kRoomView / 2); // per window height
-    centre_ += pose().orientation * glm::vec3(-by.x * metres, by.y * metres, 0.0f);
+    const float meters = 2.0f * distance_ * std::tan(kRoomView / 2); // per window height
+    center_ += pose().orientation * glm::vec3(-by.x * meters, by.y * meters, 0.0f);
 }
 
 std::vector<std::string> RoomCamera::documentation() {

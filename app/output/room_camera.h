@@ -33,9 +33,9 @@ class RoomCamera {
     bool take(const interaction::WindowEvent& event);
     void drag(glm::vec2 by); ///< in window heights
 
-    glm::vec3 centre_{0.0f};    ///< that it circles, room
+    glm::vec3 center_{0.0f};    ///< that it circles, room
     float distance_ = 1.0f;     ///< [m]
-    float yaw_ = 0.6f;          ///< [rad] to the right of the centre
+    float yaw_ = 0.6f;          ///< [rad] to the right of the center
     float pitch_ = 0.5f;        ///< [rad] above it
     bool held_ = false;         ///< the key
     std::uint32_t buttons_ = 0; ///< of the mouse, by bit, pressed while the key was held

@@ -8,13 +8,13 @@
 
 namespace isochron::app {
 
-/// A head in its own frame: origin between the eyes, -Z ahead, metres.
+/// A head in its own frame: origin between the eyes, -Z ahead, meters.
 std::vector<render::Triangle> head_model(glm::vec3 color);
 
 /// A wand in its own frame, pointing along -Z.
 std::vector<render::Triangle> wand_model();
 
-/// Lines every half metre on the floor, between two corners of a rectangle.
+/// Lines every half meter on the floor, between two corners of a rectangle.
 std::vector<render::Line> floor_grid(glm::vec2 low, glm::vec2 high);
 
 } // namespace isochron::app

@@ -21,7 +21,7 @@ constexpr float kWandRay = 1.2f;              ///< [m]
 constexpr glm::vec3 kBackground(0.13f, 0.14f, 0.16f);
 constexpr glm::vec4 kFrame(0.85f, 0.87f, 0.90f, 0.9f), kRay(1.0f, 0.77f, 0.36f, 0.9f);
 
-/// Colours of the viewers and of what they see; the fifth viewer has the first one's.
+/// Colors of the viewers and of what they see; the fifth viewer has the first one's.
 constexpr std::array<glm::vec3, 4> kViewers{
     {{0.93f, 0.76f, 0.62f}, {0.55f, 0.77f, 0.95f}, {0.65f, 0.90f, 0.62f}, {0.92f, 0.62f, 0.85f}}};
 

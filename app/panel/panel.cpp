@@ -19,9 +19,9 @@ namespace {
 
 using interaction::Commands;
 
-constexpr ImU32 kBarColour = IM_COL32(120, 128, 140, 255);
-constexpr ImU32 kAskedColour = IM_COL32(255, 196, 92, 255);
-constexpr ImU32 kShownColour = IM_COL32(120, 220, 160, 255);
+constexpr ImU32 kBarColor = IM_COL32(120, 128, 140, 255);
+constexpr ImU32 kAskedColor = IM_COL32(255, 196, 92, 255);
+constexpr ImU32 kShownColor = IM_COL32(120, 220, 160, 255);
 const ImVec4 kDim(0.62f, 0.65f, 0.70f, 1.0f);
 const ImVec4 kPaper(0.115f, 0.125f, 0.145f, 1.0f);
 const ImVec4 kWarning(1.0f, 0.55f, 0.40f, 1.0f);
@@ -30,8 +30,8 @@ void text(const std::string& line) {
     ImGui::TextUnformatted(line.c_str());
 }
 
-void note(const std::string& line, const ImVec4& colour) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+void note(const std::string& line, const ImVec4& color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(0.0f);
     text(line);
     ImGui::PopTextWrapPos();
@@ -40,11 +40,11 @@ void note(const std::string& line, const ImVec4& colour) {
 
 /// On what changes by itself. In the room it never takes another line, which would move the
 /// controls below it: a replay must find them where the wand found them.
-void state_note(const PanelModel& model, const std::string& line, const ImVec4& colour) {
+void state_note(const PanelModel& model, const std::string& line, const ImVec4& color) {
     if (model.place == PanelPlace::in_room)
-        ImGui::TextColored(colour, "%s", line.c_str());
+        ImGui::TextColored(color, "%s", line.c_str());
     else
-        note(line, colour);
+        note(line, color);
 }
 
 /// Histogram of all values on a logarithmic scale; pressing or dragging picks an isovalue.
@@ -70,19 +70,19 @@ void histogram(const PanelModel& model, Commands& commands) {
             std::log1p(static_cast<double>(bins[bin])) / std::log1p(std::max(most, 1.0));
         const float x = corner.x + width * static_cast<float>(bin);
         list->AddRectFilled({x, corner.y + size.y * static_cast<float>(1.0 - height)},
-                            {x + width, corner.y + size.y}, kBarColour);
+                            {x + width, corner.y + size.y}, kBarColor);
     }
     // Halves keep the span finite for any two doubles.
     const double low = model.stats.low, high = model.stats.high, half_span = high / 2 - low / 2;
-    const auto mark = [&](double value, ImU32 colour) {
+    const auto mark = [&](double value, ImU32 color) {
         const double at =
             half_span > 0 ? std::clamp((value / 2 - low / 2) / half_span, 0.0, 1.0) : 0.5;
         const float x = corner.x + size.x * static_cast<float>(at);
-        list->AddLine({x, corner.y}, {x, corner.y + size.y}, colour, 2.0f);
+        list->AddLine({x, corner.y}, {x, corner.y + size.y}, color, 2.0f);
     };
     if (model.frame.shown)
-        mark(model.frame.shown->isovalues[shown_surface(model)], kShownColour);
-    mark(model.asked.isovalue(), kAskedColour);
+        mark(model.frame.shown->isovalues[shown_surface(model)], kShownColor);
+    mark(model.asked.isovalue(), kAskedColor);
     const double pointed = std::lerp(
         low, high, std::clamp((ImGui::GetIO().MousePos.x - corner.x) / size.x, 0.0f, 1.0f));
     if (ImGui::IsItemActive() && half_span > 0)
@@ -177,7 +177,12 @@ void time_section(const PanelModel& model, Commands& commands) {
 void view_section(const PanelModel& model, Commands& commands) {
     int mode = static_cast<int>(model.asked.quality);
     ImGui::SetNextItemWidth(110.0f);
-    if (ImGui::Combo("quality", &mode, "auto\0fast\0quality\0"))
+    constexpr auto& kModes = interaction::kNames<interaction::QualityMode>;
+    const auto name = [](void*, int i, const char** text) {
+        *text = kModes[static_cast<std::size_t>(i)].data();
+        return true;
+    };
+    if (ImGui::Combo("quality", &mode, name, nullptr, static_cast<int>(kModes.size())))
         commands.quality = static_cast<interaction::QualityMode>(mode);
     const bool settled = model.frame.pace == interaction::Pace::settled;
     // The footprint follows from what is drawn, and in the room the panel is a part of that.
@@ -197,11 +202,11 @@ void view_section(const PanelModel& model, Commands& commands) {
         }
         ImGui::EndCombo();
     }
-    float millimetres = model.asked.eye_separation * 1000.0f;
+    float millimeters = model.asked.eye_separation * 1000.0f;
     ImGui::SetNextItemWidth(-60.0f);
-    if (ImGui::SliderFloat("eyes", &millimetres, 0.0f, interaction::kWidestEyes * 1000.0f,
+    if (ImGui::SliderFloat("eyes", &millimeters, 0.0f, interaction::kWidestEyes * 1000.0f,
                            "%.0f mm", ImGuiSliderFlags_AlwaysClamp))
-        commands.eye_separation = millimetres / 1000.0f;
+        commands.eye_separation = millimeters / 1000.0f;
     if (ImGui::Button("Screenshot"))
         commands.screenshot = true;
     if (model.recording) {
@@ -305,7 +310,7 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
     isovalue_section(model, commands);
     surfaces_section(model, commands);
     ImGui::Separator();
-    colouring_section(model, commands);
+    coloring_section(model, commands);
     ImGui::Separator();
     time_section(model, commands);
     ImGui::Separator();

@@ -1,4 +1,4 @@
-// The panel's sections on surfaces and on what their colours mean.
+// The panel's sections on surfaces and on what their colors mean.
 #include "app/panel/panel_colors.h"
 
 #include "app/text.h"
@@ -15,7 +15,7 @@ namespace {
 using interaction::Commands;
 using interaction::Isosurface;
 
-/// A colour that no other surface has, and an isovalue between the picked one and the far end.
+/// A color that no other surface has, and an isovalue between the picked one and the far end.
 Isosurface another(const PanelModel& model) {
     const auto& surfaces = model.asked.isosurfaces;
     const auto& palette = render::surface_palette();
@@ -36,7 +36,7 @@ bool surface_line(const PanelModel& model, std::uint32_t i, std::vector<Isosurfa
     if (ImGui::RadioButton("##pick", model.asked.picked == i))
         commands.picked = i;
     ImGui::SameLine();
-    ImGui::ColorEdit3("##colour", &surface.color.x, ImGuiColorEditFlags_NoInputs);
+    ImGui::ColorEdit3("##color", &surface.color.x, ImGuiColorEditFlags_NoInputs);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(90.0f);
     ImGui::SliderFloat("##opacity", &surface.opacity, 0.0f, 1.0f, "%.2f",
@@ -90,7 +90,7 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
         commands.isosurfaces = surfaces;
 }
 
-void colouring_section(const PanelModel& model, Commands& commands) {
+void coloring_section(const PanelModel& model, Commands& commands) {
     interaction::Coloring coloring = model.asked.coloring;
     const auto choice = [](const char* label, const std::string& current, auto&& names,
                            auto&& choose) {
@@ -104,7 +104,7 @@ void colouring_section(const PanelModel& model, Commands& commands) {
     };
     constexpr std::array<std::string_view, 3> kWords{"which surface", "second array",
                                                      "first crossing"};
-    choice("colour", std::string(kWords[static_cast<std::size_t>(coloring.by)]), kWords,
+    choice("color", std::string(kWords[static_cast<std::size_t>(coloring.by)]), kWords,
            [&](std::size_t i) {
                const auto by = static_cast<interaction::ColorBy>(i);
                if (by == interaction::ColorBy::value && !model.second_array)
@@ -120,9 +120,9 @@ void colouring_section(const PanelModel& model, Commands& commands) {
     }
     if (coloring != model.asked.coloring)
         commands.coloring = coloring;
-    bool axes = model.asked.axes;
-    if (ImGui::Checkbox("box with numbers", &axes))
-        commands.axes = axes;
+    bool shown = model.asked.bounding_box;
+    if (ImGui::Checkbox("box with numbers", &shown))
+        commands.bounding_box = shown;
 }
 
 } // namespace isochron::app

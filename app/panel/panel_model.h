@@ -23,8 +23,8 @@ struct PanelModel {
     const index::SeriesInfo& info;
     const index::IndexStats& stats;
     const ExplorerState& asked;
-    bool second_array = false;           ///< there is one to colour by
-    std::array<double, 2> whole_range{}; ///< of what is coloured by
+    bool second_array = false;           ///< there is one to color by
+    std::array<double, 2> whole_range{}; ///< of what is colored by
     const FrameReport& frame;
     TimeSummary frame_times; ///< of the last frames
     double frames_per_second = 0;

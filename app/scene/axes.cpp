@@ -15,8 +15,8 @@
 namespace isochron::app {
 namespace {
 
-constexpr glm::vec4 kTickColour(0.72f, 0.76f, 0.82f, 0.9f);
-constexpr glm::vec4 kTextColour(0.86f, 0.89f, 0.93f, 1.0f);
+constexpr glm::vec4 kTickColor(0.72f, 0.76f, 0.82f, 0.9f);
+constexpr glm::vec4 kTextColor(0.86f, 0.89f, 0.93f, 1.0f);
 constexpr float kTickLength = 0.02f; ///< of the longest side
 constexpr int kMostTicks = 6;        ///< along the longest side
 constexpr float kLeftness = 0.35f;   ///< how much being left counts beside being low
@@ -66,10 +66,10 @@ AxisScale axis_scale(const index::SeriesInfo& info, int axis) {
     return {fmt::format("{}{}", "ijk"[axis], unit), 0.0, length};
 }
 
-std::optional<EdgeSides> labelled_edge(int axis, const render::Placement& placement,
-                                       const interaction::Pose& head) {
+std::optional<EdgeSides> labeled_edge(int axis, const render::Placement& placement,
+                                      const interaction::Pose& head) {
     const glm::vec3 eye(glm::inverse(placement.room_from_index) * glm::vec4(head.position, 1.0f));
-    const glm::vec3 centre = in_room(placement, 0.5f * placement.extent);
+    const glm::vec3 center = in_room(placement, 0.5f * placement.extent);
     const auto faces_viewer = [&](int face_axis, bool far) {
         return far ? eye[face_axis] > placement.extent[face_axis] : eye[face_axis] < 0.0f;
     };
@@ -81,7 +81,7 @@ std::optional<EdgeSides> labelled_edge(int axis, const render::Placement& placem
             continue;
         const glm::vec3 seen =
             glm::inverse(head.orientation) *
-            (in_room(placement, edge_middle(axis, sides, placement.extent)) - centre);
+            (in_room(placement, edge_middle(axis, sides, placement.extent)) - center);
         const float score = -seen.y - kLeftness * seen.x;
         if (!best || score > best_score) {
             best = sides;
@@ -98,7 +98,7 @@ Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
     const float longest = std::max({lengths.x, lengths.y, lengths.z});
     const glm::mat3 index_from_room = glm::inverse(glm::mat3(placement.room_from_index));
     for (int axis = 0; axis < 3; ++axis) {
-        const auto sides = labelled_edge(axis, placement, head);
+        const auto sides = labeled_edge(axis, placement, head);
         if (!sides)
             continue;
         const AxisScale scale = axis_scale(info, axis);
@@ -118,13 +118,13 @@ Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
             glm::vec3 at = middle;
             at[axis] = placement.extent[axis] *
                        static_cast<float>((value - scale.low) / (scale.high - scale.low));
-            axes.ticks.push_back({at, at + tick, kTickColour});
+            axes.ticks.push_back({at, at + tick, kTickColor});
             const std::string text = tick_text(value, ticks.step);
             widest = std::max(widest, text.size());
             labels.numbers.push_back({.label = {.text = text,
                                                 .at = at + 1.4f * tick,
                                                 .anchor = anchor,
-                                                .color = kTextColour},
+                                                .color = kTextColor},
                                       .multiple = std::llround(value / ticks.step)});
         }
         // The title stands beyond the numbers.
@@ -133,7 +133,7 @@ Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
                         .at = middle + 1.4f * tick,
                         .anchor = anchor,
                         .offset = away * room,
-                        .color = kTextColour};
+                        .color = kTextColor};
     }
     return axes;
 }

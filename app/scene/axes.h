@@ -31,8 +31,8 @@ using EdgeSides = std::array<bool, 2>;
 /// faces the viewer meets one that does not, the one lowest and, less so, furthest left as the
 /// viewer holds the head. Hence it is the same for both eyes, and nothing of the box hides it.
 /// Nothing when the viewer is inside the box.
-std::optional<EdgeSides> labelled_edge(int axis, const render::Placement& placement,
-                                       const interaction::Pose& head);
+std::optional<EdgeSides> labeled_edge(int axis, const render::Placement& placement,
+                                      const interaction::Pose& head);
 
 /// What is written along one edge, in vertex index coordinates.
 struct AxisLabels {

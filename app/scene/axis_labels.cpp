@@ -64,7 +64,7 @@ class Room {
     std::vector<render::Label> labels_;
 };
 
-/// Every n-th number such that neighbours do not touch.
+/// Every n-th number such that neighbors do not touch.
 std::vector<render::Label> thinned(const std::vector<AxisLabels::Number>& numbers,
                                    const Room& room) {
     std::vector<render::Label> kept;

@@ -1,4 +1,4 @@
-// What the colours on the surfaces stand for.
+// What the colors on the surfaces stand for.
 #include "app/scene/color_scale.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What the colours on the surfaces stand for.
+// What the colors on the surfaces stand for.
 #pragma once
 
 #include "app/frame/explorer_state.h"
@@ -10,16 +10,16 @@
 
 namespace isochron::app {
 
-/// Values and their colours.
+/// Values and their colors.
 struct ColorScale {
     std::string title;             ///< `temperature [K]`
     std::array<double, 2> range{}; ///< values at the ends of the map
-    std::array<double, 2> whole{}; ///< all that occur: what cells' colour coordinates span
+    std::array<double, 2> whole{}; ///< all that occur: what cells' color coordinates span
     render::ColorMap map{};
     bool operator==(const ColorScale&) const = default;
 };
 
-/// Nothing when colours tell surfaces apart, or when there is no second array to colour by.
+/// Nothing when colors tell surfaces apart, or when there is no second array to color by.
 std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file);
 
 } // namespace isochron::app

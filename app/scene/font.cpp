@@ -1,4 +1,4 @@
-// The font, rasterised by Dear ImGui.
+// The font, rasterized by Dear ImGui.
 #include "app/scene/font.h"
 
 #include <imgui.h>
@@ -42,7 +42,7 @@ void add_font(ImFontAtlas& fonts, float pixels) {
 
 render::GlyphAtlas room_font(float pixels) {
     ImFontAtlas fonts;
-    fonts.TexGlyphPadding = 8; // coarser mip levels must not mix neighbours
+    fonts.TexGlyphPadding = 8; // coarser mip levels must not mix neighbors
     add_font(fonts, pixels);
     unsigned char* coverage = nullptr;
     render::GlyphAtlas atlas;

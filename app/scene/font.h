@@ -11,7 +11,7 @@ namespace isochron::app {
 /// not installed the small bitmap font that Dear ImGui carries.
 void add_font(ImFontAtlas& fonts, float pixels);
 
-/// The font for text in the room, rasterised once, `pixels` high.
+/// The font for text in the room, rasterized once, `pixels` high.
 render::GlyphAtlas room_font(float pixels);
 
 } // namespace isochron::app

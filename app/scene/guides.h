@@ -14,7 +14,7 @@ struct Guides {
     bool operator==(const Guides&) const = default;
 };
 
-/// Lines in the room frame: every metre of 10 m x 10 m of floor about the origin, and a ring with a
+/// Lines in the room frame: every meter of 10 m x 10 m of floor about the origin, and a ring with a
 /// cross around the target.
 std::vector<render::Line> lines_of(const Guides& guides);
 

@@ -1,4 +1,4 @@
-// What the colours mean, written into every eye's picture: so captures and walls have it too.
+// What the colors mean, written into every eye's picture: so captures and walls have it too.
 #pragma once
 
 #include "app/scene/color_scale.h"
@@ -17,7 +17,7 @@ namespace isochron::app {
 struct Legend {
     std::span<const interaction::Isosurface> surfaces; ///< listed when there are several
     std::string value_unit;                            ///< of their isovalues
-    std::optional<ColorScale> scale;                   ///< what stands for the surfaces' colours
+    std::optional<ColorScale> scale;                   ///< what stands for the surfaces' colors
 };
 
 /// Height of text in a picture: a fortieth of it, as long as that can be read.

@@ -15,10 +15,10 @@
 namespace isochron::app {
 namespace {
 
-constexpr float kWandLength = 1.2f;             // metres
+constexpr float kWandLength = 1.2f;             // meters
 constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
-constexpr glm::vec4 kBoxColour(0.45f, 0.50f, 0.56f, 0.55f);
-constexpr glm::vec4 kWandColour(1.0f, 0.77f, 0.36f, 0.9f);
+constexpr glm::vec4 kBoxColor(0.45f, 0.50f, 0.56f, 0.55f);
+constexpr glm::vec4 kWandColor(1.0f, 0.77f, 0.36f, 0.9f);
 constexpr float kFontPixels = 32.0f; ///< of glyphs, which are shown smaller
 
 bool blends_light(const render::Gl& gl, Blending blending) {
@@ -64,7 +64,7 @@ void Scene::look(const ExplorerState& state, const interaction::Pose& head,
             .map = map_->name(), .low = share(scale->range[0]), .high = share(scale->range[1])};
     }
     mark_ = state.mark;
-    box_ = state.axes;
+    box_ = state.bounding_box;
     axes_ =
         box_ ? axes_for(info_, render::Placement::of(info_.grid, matrix(state.room_from_physical)),
                         head)
@@ -131,7 +131,7 @@ bool Scene::writes_depth(render::Footprint footprint) const {
 
 render::BoxLines Scene::box_in(const render::View& view, const render::Placement& placement) const {
     const glm::vec4 eye(view.eye_in_room(), 1.0f);
-    return render::box_lines(placement.extent, kBoxColour,
+    return render::box_lines(placement.extent, kBoxColor,
                              glm::vec3(glm::inverse(placement.room_from_index) * eye));
 }
 
@@ -169,7 +169,7 @@ void Scene::draw_guides(const render::View& view, const std::optional<interactio
         line_pass_.draw(view, glm::mat4(1.0f), guides_);
     if (wand) {
         const float length = panel_ && panel_->ray ? *panel_->ray : kWandLength;
-        const std::array ray{render::Line{{0, 0, 0}, {0, 0, -length}, kWandColour}};
+        const std::array ray{render::Line{{0, 0, 0}, {0, 0, -length}, kWandColor}};
         line_pass_.draw(view, room_from(*wand), ray, panel_ ? kPointing : kThin);
     }
     if (panel_)

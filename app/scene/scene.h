@@ -51,10 +51,10 @@ class Scene {
     void set_near_fade(const interaction::ComfortOptions& comfort,
                        std::span<const stereo::Viewpoint> viewers);
 
-    /// What is the same for all eyes of the frames to come: colours, and the edges of the box that
+    /// What is the same for all eyes of the frames to come: colors, and the edges of the box that
     /// carry numbers.
     /// @param head whose view they are chosen for
-    /// @param scale of the values that colours stand for; nothing when they tell surfaces apart
+    /// @param scale of the values that colors stand for; nothing when they tell surfaces apart
     void look(const ExplorerState& state, const interaction::Pose& head,
               const std::optional<ColorScale>& scale);
 

@@ -37,7 +37,7 @@ glm::vec3 on_wall(const PatternWall& wall, glm::vec2 place) {
            place.y * (wall.corners[1] - wall.corners[0]);
 }
 
-/// Metres.
+/// Meters.
 glm::vec2 size_of(const PatternWall& wall) {
     return {glm::distance(wall.corners[0], wall.corners[3]),
             glm::distance(wall.corners[0], wall.corners[1])};
@@ -83,7 +83,7 @@ std::vector<std::vector<glm::vec2>> strokes_of(Eye eye) {
     case Eye::right:
         return {{{0.0f, 0.0f}, {0.0f, 1.0f}, {0.6f, 1.0f}, {0.6f, 0.48f}, {0.0f, 0.48f}},
                 {{0.27f, 0.49f}, {0.58f, -0.04f}}};
-    case Eye::centre: break;
+    case Eye::center: break;
     }
     return {{{0.6f, 1.0f}, {0.0f, 1.0f}, {0.0f, 0.0f}, {0.6f, 0.0f}}};
 }
@@ -178,7 +178,7 @@ PatternWall pattern_wall(const stereo::Window& window, std::size_t viewport,
         name += fmt::format(" / {}", viewport + 1);
     // By where the viewer is configured to stand: the cross must not move with the head.
     const float distance = distance_to(shown.screen, {viewer.position, {1, 0, 0, 0}});
-    constexpr float kNearest = 0.1f; // metres
+    constexpr float kNearest = 0.1f; // meters
     return {.name = name,
             .corners = corners_in_room(shown.screen, head, pixels),
             .head_device = viewer.head,

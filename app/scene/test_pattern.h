@@ -47,7 +47,7 @@ glm::vec2 letter_place(stereo::Eye eye);
 
 /// On the wall, at zero parallax: its frame, a grid about its middle, its name and sizes, and in
 /// each eye's picture that eye's letter: L, R, or C midway. Before it a cross at a known depth,
-/// labelled with what both eyes must see of it. In the room the floor and the axes of every device
+/// labeled with what both eyes must see of it. In the room the floor and the axes of every device
 /// that has a pose: x red, y green, z blue; those of the wall's own viewer are carried ahead of the
 /// head.
 class TestPattern {

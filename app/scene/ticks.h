@@ -16,7 +16,7 @@ struct Ticks {
 /// numbers for graph labels", Graphics Gems, 1990; none for an empty or infinite range.
 Ticks nice_ticks(double low, double high, int most);
 
-/// The number with the digits that its neighbours need: `0.2`, `1500`, `2.5e-07`; never `-0`.
+/// The number with the digits that its neighbors need: `0.2`, `1500`, `2.5e-07`; never `-0`.
 std::string tick_text(double value, double step);
 
 } // namespace isochron::app

@@ -30,35 +30,6 @@ Latch latch_of(const interaction::RecordedFrame& frame) {
 
 } // namespace
 
-std::vector<std::string> differences(const Commands& a, const Commands& b) {
-    std::vector<std::string> names;
-    const auto compare = [&](const char* name, const auto& left, const auto& right) {
-        if (!(left == right))
-            names.emplace_back(name);
-    };
-    compare("isosurfaces", a.isosurfaces, b.isosurfaces);
-    compare("picked", a.picked, b.picked);
-    compare("isovalue", a.isovalue, b.isovalue);
-    compare("step", a.step, b.step);
-    compare("playback", a.playback, b.playback);
-    compare("room_from_physical", a.room_from_physical, b.room_from_physical);
-    compare("quality", a.quality, b.quality);
-    compare("eye_separation", a.eye_separation, b.eye_separation);
-    compare("stereo", a.stereo, b.stereo);
-    compare("panel", a.panel, b.panel);
-    compare("grid", a.grid, b.grid);
-    compare("room_panel", a.room_panel, b.room_panel);
-    compare("mark", a.mark, b.mark);
-    compare("haptics", a.haptics, b.haptics);
-    compare("views", a.views, b.views);
-    compare("axes", a.axes, b.axes);
-    compare("coloring", a.coloring, b.coloring);
-    compare("screenshot", a.screenshot, b.screenshot);
-    compare("quit", a.quit, b.quit);
-    compare("stamps", a.stamps, b.stamps);
-    return names;
-}
-
 ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,
                        std::size_t steps, const ReplayOptions& options) {
     ExplorerState state = fallback;
@@ -79,7 +50,7 @@ std::vector<std::string> replay_fixed_step(Session& session,
         if (options.from_devices) {
             Commands recomputed = session.commands_from(frame.input);
             interaction::merge(recomputed, frame.from_panel);
-            const auto fields = differences(frame.commands, recomputed);
+            const auto fields = interaction::differences(frame.commands, recomputed);
             if (!fields.empty())
                 different.push_back(fmt::format("frame {} at {:.3f} s: {}", number,
                                                 frame.input.time.count(), fmt::join(fields, ", ")));

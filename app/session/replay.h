@@ -11,10 +11,6 @@
 
 namespace isochron::app {
 
-/// Names of the fields in which two frames' commands differ.
-std::vector<std::string> differences(const interaction::Commands& recorded,
-                                     const interaction::Commands& recomputed);
-
 struct ReplayOptions {
     bool from_devices = false; ///< recompute the commands from the devices and compare
     std::optional<stereo::StereoMode> stereo;        ///< instead of every recorded one

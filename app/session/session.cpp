@@ -32,7 +32,7 @@ std::vector<interaction::Isosurface> first_surfaces(const Config& config,
         surfaces.push_back({surface.isovalue.value_or(quantile(stats, surface.quantile)),
                             surface.color, surface.opacity});
     if (surfaces.empty())
-        surfaces.push_back({quantile(stats, kFirstQuantile), config.surface_colour, 1.0f});
+        surfaces.push_back({quantile(stats, kFirstQuantile), config.surface_color, 1.0f});
     return surfaces;
 }
 
@@ -44,7 +44,7 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     state.eye_separation = config.installation.viewers.front().eye_separation;
     state.isosurfaces = first_surfaces(config, file.stats());
     state.coloring = config.coloring;
-    state.axes = config.bounding_box;
+    state.bounding_box = config.bounding_box;
     const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
     state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};
     state.stereo = config.installation.windows.front().stereo;
@@ -91,7 +91,7 @@ interaction::ControlContext Session::control_context() const {
     context.isosurfaces = static_cast<std::uint32_t>(state_.isosurfaces.size());
     context.picked = state_.picked;
     context.coloring = state_.coloring;
-    context.axes = state_.axes;
+    context.bounding_box = state_.bounding_box;
     context.has_second_array = file_->color() != nullptr;
     context.low = file_->stats().low;
     context.high = file_->stats().high;
@@ -100,7 +100,7 @@ interaction::ControlContext Session::control_context() const {
     context.playback = state_.playback;
     context.room_from_physical = state_.room_from_physical;
     context.home = home_.room_from_physical;
-    context.pivot = physical_centre(file_->info().grid);
+    context.pivot = physical_center(file_->info().grid);
     context.quality = state_.quality;
     context.eye_separation = state_.eye_separation;
     context.stereo = stereo::name_of(state_.stereo);
@@ -172,7 +172,7 @@ std::vector<glm::ivec2> Session::window_sizes() const {
     return sizes;
 }
 
-/// Nothing as long as the cells that are drawn are not coloured by what they are to be: their
+/// Nothing as long as the cells that are drawn are not colored by what they are to be: their
 /// coordinates would say something else.
 std::optional<ColorScale> Session::shown_scale() const {
     const index::ExtractionPtr& shown = scene_.shown();
@@ -199,7 +199,7 @@ Session::Picture Session::picture(const interaction::InputState& input,
             .cells = scene_.shown(),
             .isosurfaces = state_.isosurfaces,
             .scale = shown_scale(),
-            .axes = state_.axes,
+            .bounding_box = state_.bounding_box,
             .windows = window_sizes()};
 }
 

@@ -129,7 +129,7 @@ class Session {
         index::ExtractionPtr cells;
         std::vector<interaction::Isosurface> isosurfaces;
         std::optional<ColorScale> scale;
-        bool axes = true;
+        bool bounding_box = true;
         std::vector<glm::ivec2> windows;
         bool operator==(const Picture&) const = default;
     };

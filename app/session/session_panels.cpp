@@ -6,7 +6,7 @@
 namespace isochron::app {
 namespace {
 
-/// Frames over which the panel summarises frame times.
+/// Frames over which the panel summarizes frame times.
 constexpr std::size_t kShownFrames = 120;
 
 } // namespace

@@ -67,12 +67,12 @@ std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> 
     const std::string given = all ? all->info().array : "";
     if ((held ? held->array : "") != given)
         throw Error(fmt::format("{}: cannot be appended to: it holds {}, {} given", name,
-                                held ? "the colours " + held->array : "no colours",
-                                all ? "the colours " + given : "none"));
+                                held ? "the colors " + held->array : "no colors",
+                                all ? "the colors " + given : "none"));
     if (!all)
         return nullptr;
     if (held->type != all->info().type || held->scaling != all->info().scaling)
-        throw Error(fmt::format("{}: cannot be appended to: its colours {} differ in type or "
+        throw Error(fmt::format("{}: cannot be appended to: its colors {} differ in type or "
                                 "scaling",
                                 name, given));
     return std::make_unique<AppendedSeries>(std::move(index), std::move(all),

@@ -13,7 +13,7 @@ namespace isochron::index {
 std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
                                         const std::string& name, std::unique_ptr<VolumeSeries> all);
 
-/// Likewise for the array to colour by. @param all null when none is asked for
+/// Likewise for the array to color by. @param all null when none is asked for
 /// @throws Error naming the index when it holds another one, or one holds it and the other does not
 std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> index,
                                                const std::string& name,

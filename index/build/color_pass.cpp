@@ -1,4 +1,4 @@
-// The pass of a build that reads the array to colour by.
+// The pass of a build that reads the array to color by.
 #include "index/build/color_pass.h"
 
 #include "index/build/value_stats.h"
@@ -33,7 +33,7 @@ ColorArray read_colors(VolumeSeries& series, NewFile& file, std::uint64_t offset
         const auto stored = std::span(step).first(info.step_bytes());
         for (std::size_t t = first; t < last; ++t) {
             if (progress)
-                progress("reading colours",
+                progress("reading colors",
                          static_cast<double>(t - first) / static_cast<double>(last - first));
             series.read(t, stored);
             add_range(info.type, info.scaling, stored, range.low, range.high, range.nan_values);

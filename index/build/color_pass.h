@@ -1,4 +1,4 @@
-// The pass of a build that reads the array to colour by.
+// The pass of a build that reads the array to color by.
 #pragma once
 
 #include "index/file/index_file.h"

@@ -15,14 +15,14 @@ struct BuildOptions {
     unsigned threads = 0; ///< 0 for as many as there are processors
     /// When set the file refers to these instead of carrying a copy of the values.
     std::optional<Referral> referral = {};
-    /// Carried to colour surfaces by: another array of the same files. Outlives the build.
+    /// Carried to color surfaces by: another array of the same files. Outlives the build.
     VolumeSeries* color = nullptr;
     /// What picks it in the files, for an index that refers to them.
     std::optional<std::string> color_array = {}, color_component = {};
 };
 
 /// Reads a series once and writes NAME.isochron under a temporary name, then renames it.
-/// On any failure, also a cancelled one, nothing is left behind. An existing index is replaced;
+/// On any failure, also a canceled one, nothing is left behind. An existing index is replaced;
 /// any other existing file is refused. The same series and options give the same bytes, whatever
 /// the number of threads and of processes. Memory: one decoded step for each process, and some
 /// 150 MiB for each thread; the paper's tree, where asked for, takes 30 bytes for each cell-step

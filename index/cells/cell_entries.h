@@ -35,7 +35,7 @@ struct CellEntries {
 /// Cells as bits, 64 to a word from the lowest bit on; those past the last cell are 0.
 using CellBits = std::vector<std::uint64_t>;
 
-/// Finds the cells of which two neighbouring spans of time, each constant in the chosen cells, make
+/// Finds the cells of which two neighboring spans of time, each constant in the chosen cells, make
 /// one constant span, and takes them out of both.
 /// @param a, b extremes at any step of the two spans @return how many of the
 ///   cells are active at any isovalue at all

@@ -66,7 +66,7 @@ class ElementList {
             hit[e] = (columns_[e] >= lowest_column) & (columns_[e] <= highest_column) &
                      (rows_[e] >= lowest_row) & (rows_[e] <= highest_row);
         std::memset(hit.data() + head_.size, 0, 8);
-        // Neighbouring elements make one run, also from one pair of rows to the next.
+        // Neighboring elements make one run, also from one pair of rows to the next.
         std::uint32_t begin = 0, end = 0;
         for (std::uint32_t e = 0; e < head_.size; e += 8) {
             std::uint64_t eight;

@@ -34,7 +34,7 @@ class CellTier {
     /// Appends the active cells, and apart from them those that only the volume decides.
     void search(std::uint32_t step, LevelMap::Cut cut, std::vector<IdRun>& certain,
                 std::vector<IdRun>& ambiguous) const;
-    /// Appends what changes between neighbouring steps, either way. Needs deltas and an exact cut.
+    /// Appends what changes between neighboring steps, either way. Needs deltas and an exact cut.
     void change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut, std::vector<IdRun>& added,
                 std::vector<IdRun>& removed) const;
     /// Appends what may be active at one of two steps only: the entries of the time nodes that do

@@ -23,7 +23,7 @@ struct BrickLevels {
 /// Values of 8 and 16 bits and f32 are held as they are stored. i32 and f64 become f32: the scaled
 /// value relative to the middle of the data's range, in units of a power of two, rounded to the
 /// nearest; where that would cross an isovalue, to the last f32 on its own side instead. Isovalues
-/// that f32 cannot tell apart get neighbouring levels, so that this can always be done.
+/// that f32 cannot tell apart get neighboring levels, so that this can always be done.
 ///
 /// *Brick units* are `held * factor`: in the order of the scaled values, at most about 1 (4 at the
 /// end of floating point's range) in size over the whole data set.

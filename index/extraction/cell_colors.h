@@ -1,4 +1,4 @@
-// Values to colour cells by, as coordinates in a colour map.
+// Values to color cells by, as coordinates in a color map.
 #pragma once
 
 #include "index/volume/query.h"
@@ -10,7 +10,7 @@
 
 namespace isochron::index {
 
-/// A colour coordinate is a value's place in the range of all values, 0 to kColorSteps, or
+/// A color coordinate is a value's place in the range of all values, 0 to kColorSteps, or
 /// kNoColor where there is none: 13 bits.
 constexpr std::uint16_t kColorSteps = 8190, kNoColor = 8191;
 

@@ -153,7 +153,7 @@ class ValueBatch {
     using Ints = hn::Rebind<std::int32_t, typename Maker::D>;
     using V = hn::Vec<Ints>;
 
-    /// Two vertices with their neighbours along x.
+    /// Two vertices with their neighbors along x.
     HWY_INLINE void take_inner(std::size_t row, std::size_t slot, const T* v) {
         take(row, slot, v - 1);
         if constexpr (sizeof(T) == 2)
@@ -206,7 +206,7 @@ class ValueBatch {
         else
             return hn::Add(low(first), high(first));
     }
-    /// The outer neighbours' part along y or z: above minus below.
+    /// The outer neighbors' part along y or z: above minus below.
     HWY_INLINE V outer(std::size_t row, std::size_t slot) const {
         return hn::Sub(hn::Add(across(row + 2, slot), across(row + 3, slot)),
                        hn::Add(across(row, slot), across(row + 1, slot)));

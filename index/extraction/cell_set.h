@@ -14,9 +14,9 @@ namespace isochron::index {
 
 /// One cell as the GPU takes it: 12 bytes, no padding.
 struct CellPoint {
-    std::uint16_t x, y, z; ///< cell coordinates; the centre is at +0.5 in vertex index coordinates
-    /// Bits 0 to 2: which surface, 0 to kMostSurfaces - 1; bits 3 to 15: where its colour lies in a
-    /// colour map, 0 to 8191. Both 0 in a set of one query.
+    std::uint16_t x, y, z; ///< cell coordinates; the center is at +0.5 in vertex index coordinates
+    /// Bits 0 to 2: which surface, 0 to kMostSurfaces - 1; bits 3 to 15: where its color lies in a
+    /// color map, 0 to 8191. Both 0 in a set of one query.
     std::uint16_t style;
     /// Unit normal in physical space, pointing towards lower values, as GL_INT_2_10_10_10_REV;
     /// all zero where the gradient vanishes or is not finite.

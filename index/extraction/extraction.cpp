@@ -1,4 +1,4 @@
-// Searches for every surface, copies the bricks that their cells need and colours the cells.
+// Searches for every surface, copies the bricks that their cells need and colors the cells.
 #include "index/extraction/extraction.h"
 
 #include "index/error.h"
@@ -39,7 +39,7 @@ class Extracting {
     }
 
   private:
-    /// Adds the bricks and the colours. @return false when stopped
+    /// Adds the bricks and the colors. @return false when stopped
     bool fill(Extraction& result, const std::stop_token& stop) {
         const auto started = std::chrono::steady_clock::now();
         const BrickLevels levels = values_.levels(result.query.isovalues);

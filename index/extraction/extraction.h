@@ -20,7 +20,7 @@ struct Extraction {
     std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows where asked for
     std::vector<float> levels;     ///< of the isovalues, in brick units: see BrickLevels
     /// Coordinates of the cells, surface after surface in the order of ids; empty where none were
-    /// asked for, and where the index has no second array to colour by.
+    /// asked for, and where the index has no second array to color by.
     std::vector<std::uint16_t> colors;
     VolumeBricks bricks; ///< of the step, for all surfaces
     std::chrono::nanoseconds gather_time{0};

@@ -26,7 +26,7 @@ using FirstCrossingsPtr = std::shared_ptr<const FirstCrossings>;
 FirstCrossingsPtr first_crossings(const SeriesInfo& info, const Search& search, double isovalue,
                                   const std::stop_token& stop = {});
 
-/// Colour coordinates (`color_coordinate`) of the physical times of the cells' first crossings,
+/// Color coordinates (`color_coordinate`) of the physical times of the cells' first crossings,
 /// over the times of the whole series.
 void color_by_first_crossing(const FirstCrossings& crossings, const std::vector<double>& times,
                              std::span<const CellId> cells, std::span<std::uint16_t> out);

@@ -1,4 +1,4 @@
-// The colour coordinates of an extraction's cells.
+// The color coordinates of an extraction's cells.
 #include "index/extraction/surface_colors.h"
 
 #include "index/extraction/cell_colors.h"

@@ -1,4 +1,4 @@
-// The colour coordinates of an extraction's cells.
+// The color coordinates of an extraction's cells.
 #pragma once
 
 #include "index/extraction/first_crossing.h"
@@ -11,7 +11,7 @@
 
 namespace isochron::index {
 
-/// Colours the cells of one set of surfaces after the other. For the first crossings of an isovalue
+/// Colors the cells of one set of surfaces after the other. For the first crossings of an isovalue
 /// the whole series is searched once, and again only after a query has done without them: they take
 /// two bytes for each cell of the grid. Not thread-safe.
 class SurfaceColors {

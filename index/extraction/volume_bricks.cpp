@@ -15,7 +15,7 @@ namespace {
 std::array<std::uint32_t, 2> inner(std::uint32_t cell) {
     return {cell / kBrickEdge, (cell + 1) / kBrickEdge};
 }
-/// Of these and their outer neighbours.
+/// Of these and their outer neighbors.
 std::array<std::uint32_t, 2> outer(std::uint32_t cell, std::uint32_t vertices) {
     return {(cell == 0 ? 0 : cell - 1) / kBrickEdge, std::min(cell + 2, vertices - 1) / kBrickEdge};
 }

@@ -48,7 +48,7 @@ struct VolumeBricks {
 };
 
 /// Collects the bricks that hold the vertices of cells and what central differences there reach:
-/// the cells' vertices and their neighbours along each axis.
+/// the cells' vertices and their neighbors along each axis.
 class BrickGatherer {
   public:
     BrickGatherer(const Grid& grid, const BrickValues& values);

@@ -19,7 +19,7 @@ ColorSection::ColorSection(std::span<const std::byte> section, const std::filesy
     info_.scaling = array.scaling;
     const std::uint64_t expected = bytes(volume, array.type, !referral);
     if (section.size() != expected)
-        throw Error(fmt::format("colours of {} bytes, expected {}", section.size(), expected));
+        throw Error(fmt::format("colors of {} bytes, expected {}", section.size(), expected));
     if (!referral_)
         return;
     referral_->options.array = array.chosen_array;

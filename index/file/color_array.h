@@ -1,4 +1,4 @@
-// The second array of a series, which surfaces may be coloured by, and its section of the file.
+// The second array of a series, which surfaces may be colored by, and its section of the file.
 #pragma once
 
 #include "index/file/index_contents.h"
@@ -14,7 +14,7 @@ namespace isochron::index {
 
 /// The section: an XXH3-64 checksum for every step, padded to 64 bytes, and then, unless the file
 /// refers to its sources, the stored values step after step, as in the volume section. An index
-/// without colours has no such section. Thread-safe; the bytes outlive this.
+/// without colors has no such section. Thread-safe; the bytes outlive this.
 class ColorSection {
   public:
     /// @param index path of the file, for referrals  @param volume whose grid and times these are

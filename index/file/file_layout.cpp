@@ -56,7 +56,7 @@ FileHeader checked_header(const std::string& name, std::span<const std::byte> fi
     for (std::size_t i = 0; i < header.sections.size(); ++i)
         expect_inside(header.sections[i], kSectionNames[i]);
     if (header.colors.bytes > 0)
-        expect_inside(header.colors, "colours");
+        expect_inside(header.colors, "colors");
     return header;
 }
 

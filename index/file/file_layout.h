@@ -63,7 +63,7 @@ struct FileHeader {
     std::uint64_t content_hash = 0;
     std::array<Section, kSectionNames.size()> sections{};
     std::uint64_t checksum = 0; ///< XXH3 of the 4096 header bytes with this field 0
-    /// Behind what every index has, since few have it: the array to colour by, in an otherwise
+    /// Behind what every index has, since few have it: the array to color by, in an otherwise
     /// empty stretch between sections; all zero when there is none. The checksum is that of its
     /// table of checksums.
     Section colors{};

@@ -28,7 +28,7 @@ struct IndexStats {
     std::uint64_t bytes_of(Tier tier) const;
 };
 
-/// A second array of the same grid and times, which surfaces may be coloured by.
+/// A second array of the same grid and times, which surfaces may be colored by.
 struct ColorArray {
     std::string array; ///< its name, with its component
     std::string value_unit;

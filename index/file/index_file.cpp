@@ -139,7 +139,7 @@ class MappedIndex : public IndexFile {
         for (std::uint32_t step = 0; colors_ && step < steps(); ++step)
             if (!colors_->matches(step))
                 throw damaged(
-                    fmt::format("the checksum of the colours of step {} does not match", step));
+                    fmt::format("the checksum of the colors of step {} does not match", step));
         check_gaps();
     }
 
@@ -276,13 +276,13 @@ class MappedIndex : public IndexFile {
     void set_colors(const std::filesystem::path& path) {
         const Section& section = header_.colors;
         if (metadata_.color.has_value() != (section.bytes > 0))
-            throw damaged(metadata_.color ? "no section of colours" : "colours of no array");
+            throw damaged(metadata_.color ? "no section of colors" : "colors of no array");
         if (!metadata_.color)
             return;
         const auto bytes = file_.bytes().subspan(section.offset, section.bytes);
         const std::uint64_t table = steps() * sizeof(std::uint64_t);
         if (bytes.size() < table || checksum_of(bytes.first(table)) != section.checksum)
-            throw damaged("the checksum of the table of colours does not match");
+            throw damaged("the checksum of the table of colors does not match");
         try {
             colors_ = std::make_unique<ColorSection>(bytes, path, metadata_.info, *metadata_.color,
                                                      metadata_.referral);

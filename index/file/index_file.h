@@ -35,7 +35,7 @@ class IndexFile {
     /// draws. @throws Error when a source cannot be read or is not as it was
     virtual LoadedStep load(std::uint32_t step) const = 0;
 
-    /// Null when the index carries no array to colour by.
+    /// Null when the index carries no array to color by.
     virtual const ColorArray* color() const = 0;
     /// One step of it, as `load`. There must be one.
     virtual LoadedStep load_color(std::uint32_t step) const = 0;

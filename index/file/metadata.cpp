@@ -211,14 +211,14 @@ ColorArray color_of(const json& j) {
     j.at("value_unit").get_to(color.value_unit);
     const auto type = value_type_from_name(j.at("type").get<std::string>());
     if (!type)
-        throw Error("unknown type of colours");
+        throw Error("unknown type of colors");
     color.type = *type;
     j.at("slope").get_to(color.scaling.slope);
     j.at("intercept").get_to(color.scaling.intercept);
     j.at("low").get_to(color.low);
     j.at("high").get_to(color.high);
     if (!(color.low <= color.high) || !std::isfinite(color.low) || !std::isfinite(color.high))
-        throw Error(fmt::format("colours from {} to {}", color.low, color.high));
+        throw Error(fmt::format("colors from {} to {}", color.low, color.high));
     color.nan_values = whole<std::uint64_t>(j.at("nan_values"));
     get_optional(j, "chosen_array", color.chosen_array);
     get_optional(j, "chosen_component", color.chosen_component);

@@ -12,7 +12,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kKept = 4; // the step on screen, the one asked for, and a neighbour of each
+constexpr std::size_t kKept = 4; // the step on screen, the one asked for, and a neighbor of each
 
 } // namespace
 

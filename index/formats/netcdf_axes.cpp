@@ -123,15 +123,15 @@ Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable
 double to_go_with(const Positions& x, const Positions& other) {
     if (x.unit == other.unit)
         return 1;
-    const auto metres_of_x = metres(x.unit), metres_of_other = metres(other.unit);
-    if (metres_of_x && metres_of_other)
-        return *metres_of_other / *metres_of_x;
+    const auto meters_of_x = meters(x.unit), meters_of_other = meters(other.unit);
+    if (meters_of_x && meters_of_other)
+        return *meters_of_other / *meters_of_x;
     return std::pow(10.0, std::round(std::log10(std::abs(x.step / other.step))));
 }
 
 bool in_one_unit(const std::array<Positions, 3>& axes) {
     return std::ranges::all_of(axes, [&](const Positions& axis) {
-        return axis.unit == axes[0].unit || (metres(axis.unit) && metres(axes[0].unit));
+        return axis.unit == axes[0].unit || (meters(axis.unit) && meters(axes[0].unit));
     });
 }
 

@@ -91,7 +91,7 @@ constexpr std::array<RoleName, 38> kDimensionNames{{
 struct LengthUnit {
     std::string_view name; ///< in lower case
     std::string_view tidy;
-    double metres;
+    double meters;
 };
 constexpr std::array<LengthUnit, 26> kLengthUnits{{
     {"m", "m", 1},
@@ -173,9 +173,9 @@ std::string tidy_unit(std::string_view unit) {
     return lower == "1" ? "" : std::string(unit);
 }
 
-std::optional<double> metres(std::string_view unit) {
+std::optional<double> meters(std::string_view unit) {
     const LengthUnit* length = length_unit(unit);
-    return length ? std::optional(length->metres) : std::nullopt;
+    return length ? std::optional(length->meters) : std::nullopt;
 }
 
 } // namespace isochron::index

@@ -23,7 +23,7 @@ bool counts_downwards(const NetcdfFile& file, const NetcdfVariable& variable);
 /// `degrees` for those of longitude and latitude, `m` for `meters`, nothing for `1`, ...
 std::string tidy_unit(std::string_view unit);
 
-/// Metres of a unit of length, none for what is no length. @param unit tidy
-std::optional<double> metres(std::string_view unit);
+/// Meters of a unit of length, none for what is no length. @param unit tidy
+std::optional<double> meters(std::string_view unit);
 
 } // namespace isochron::index

@@ -27,7 +27,7 @@ struct StoredLayout {
 std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, SeriesInfo info,
                                         const StoredLayout& layout, const ReadOptions& options);
 
-/// Sets spacing and direction from the vectors between neighbouring vertices along the index axes.
+/// Sets spacing and direction from the vectors between neighboring vertices along the index axes.
 /// @throws Error naming the file when one vanishes, is not finite, or all lie in a plane
 void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file);
 

@@ -1,4 +1,4 @@
-// Bricks: quantised extremes of small blocks of cells at every step, and the exact search with
+// Bricks: quantized extremes of small blocks of cells at every step, and the exact search with
 // them.
 //
 //     const index::BrickGrid grid(values.grid);

@@ -25,7 +25,7 @@ constexpr std::size_t kBlock = 8;
 using ActiveWords = std::array<std::uint64_t, kBlock>;
 using Words = hn::CappedTag<std::uint64_t, kBlock>;
 
-/// For every row of cells between two neighbouring z planes, bits of those of one plane: whether
+/// For every row of cells between two neighboring z planes, bits of those of one plane: whether
 /// any of a cell's four vertices in the plane is upper, is lower (or NaN), is NaN. Rows take whole
 /// words and follow each other without gaps.
 class PlaneBits {

@@ -36,7 +36,7 @@ HWY_INLINE std::uint64_t bits_of(D d, Mask mask) {
     return bits;
 }
 
-/// Up to 64 neighbouring vertices, and whether one of them is NaN.
+/// Up to 64 neighboring vertices, and whether one of them is NaN.
 struct VertexBits {
     std::uint64_t upper; ///< of no meaning at a NaN
     bool nan;            ///< perhaps: a vertex behind the ones asked for counts too

@@ -21,7 +21,7 @@ struct ThiOptions {
     bool operator==(const ThiOptions&) const = default;
 };
 
-/// The entries of a THI tree before they are organised into lists: what every structure shares that
+/// The entries of a THI tree before they are organized into lists: what every structure shares that
 /// merges cells over time as the paper does.
 class ThiEntries {
   public:

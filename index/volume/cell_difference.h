@@ -14,7 +14,7 @@
 namespace isochron::index {
 
 /// How the differences along one axis weigh the four planes around a cell: two vertices and their
-/// outer neighbours, folded inwards at the border, where the difference is one-sided.
+/// outer neighbors, folded inwards at the border, where the difference is one-sided.
 struct AxisTaps {
     AxisTaps(std::uint32_t cell, std::uint32_t vertices, std::ptrdiff_t step) {
         const bool first = cell == 0, last = cell + 2 == vertices;

@@ -36,7 +36,7 @@ struct Grid {
         const auto c = cells();
         return {id % c[0], id / c[0] % c[1], id / c[0] / c[1]};
     }
-    /// Maps vertex index coordinates (a cell's centre is its lowest vertex + 0.5) to physical
+    /// Maps vertex index coordinates (a cell's center is its lowest vertex + 0.5) to physical
     /// space.
     glm::dmat4 physical_from_index() const;
 

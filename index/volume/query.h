@@ -24,7 +24,7 @@ struct Query {
 /// Isosurfaces that are shown together.
 constexpr std::size_t kMostSurfaces = 8;
 
-/// What cells carry colour coordinates of (index/extraction/cell_colors.h).
+/// What cells carry color coordinates of (index/extraction/cell_colors.h).
 enum class CellColoring : std::uint8_t {
     none,
     value,         ///< the second array on the surface

@@ -1,301 +1,258 @@
-// Commands to JSON and back.
+// Commands to JSON and back: one rule for each type of value, the fields from command_fields.h.
 #include "interaction/recording/commands_json.h"
 
+#include "interaction/command_fields.h"
+#include "interaction/navigation.h"
 #include "interaction/recording/json_values.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <concepts>
 #include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace isochron::interaction {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostStamps = 64;   ///< of one frame
-constexpr std::size_t kMostPulses = 64;   ///< likewise
-constexpr std::size_t kLongestName = 256; ///< [byte]
+/// A structure of fields, all of which a recording must have unless they are optional.
+template <class T>
+concept Part = requires(T& part) {
+    each_field([](const Field&, auto&) {}, part);
+};
 
-constexpr std::array<std::string_view, 3> kQualityNames{"auto", "fast", "quality"};
+// Found by name before they are defined, since parts hold lists of parts.
+template <class T>
+json to_json(const std::vector<T>& list);
+template <class T>
+void from_json(const json& value, const Field& field, std::vector<T>& into);
 
-std::uint32_t step_from(const json& value) {
-    return static_cast<std::uint32_t>(
-        natural(value, "step", std::numeric_limits<std::uint32_t>::max()));
+// Numbers, words and texts.
+
+template <class T>
+requires std::integral<T> || std::floating_point<T> json to_json(T value) {
+    return value;
+}
+json to_json(const std::string& text) {
+    return text;
+}
+template <Named Enum>
+json to_json(Enum value) {
+    return name_of(value);
 }
 
-json similarity_json(const Similarity& similarity) {
-    const glm::dvec3& t = similarity.translation;
+void from_json(const json& value, const Field& field, bool& into) {
+    into = boolean(value, field.key);
+}
+void from_json(const json& value, const Field& field, std::uint32_t& into) {
+    constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+    into = static_cast<std::uint32_t>(
+        natural(value, field.key, static_cast<std::uint64_t>(std::min(field.high, kMost))));
+}
+template <std::floating_point T>
+void from_json(const json& value, const Field& field, T& into) {
+    const bool limited = field.high < kAnyNumber;
+    into = static_cast<T>(limited ? number(value, field.key, field.low, field.high)
+                                  : number(value, field.key));
+}
+void from_json(const json& value, const Field& field, std::string& into) {
+    into = text(value, field.key, kLongestText);
+}
+template <Named Enum>
+void from_json(const json& value, const Field& field, Enum& into) {
+    const auto named = value_named<Enum>(text(value, field.key));
+    if (!named)
+        fail(field.key,
+             fmt::format("{} or {}", fmt::join(kNames<Enum>.begin(), kNames<Enum>.end() - 1, ", "),
+                         kNames<Enum>.back()),
+             value);
+    into = *named;
+}
+
+// Places and ranges.
+
+template <class T>
+json to_json(const glm::vec<3, T>& v) {
+    return {v.x, v.y, v.z};
+}
+json to_json(const std::array<double, 2>& range) {
+    return range;
+}
+json to_json(const Pose& pose) {
+    return pose_json(pose);
+}
+json to_json(const Similarity& similarity) {
     const glm::dquat& r = similarity.rotation;
-    return {{"translation", {t.x, t.y, t.z}},
+    return {{"translation", to_json(similarity.translation)},
             {"rotation", {r.x, r.y, r.z, r.w}},
             {"scale", similarity.scale}};
 }
 
-Similarity similarity_from(const json& value) {
-    Members members(value, "room_from_physical");
-    const json& t = list(members.at("translation"), "translation", 3, 3);
-    const json& r = list(members.at("rotation"), "rotation", 4, 4);
-    Similarity result;
+template <class T>
+void from_json(const json& value, const Field& field, glm::vec<3, T>& into) {
+    list(value, field.key, 3, 3);
     for (int i = 0; i < 3; ++i)
-        result.translation[i] = number(t[i], "translation");
-    result.rotation = glm::dquat(number(r[3], "rotation"), number(r[0], "rotation"),
-                                 number(r[1], "rotation"), number(r[2], "rotation"));
-    require_unit(result.rotation, "rotation", r);
+        from_json(value[i], field, into[i]);
+}
+void from_json(const json& value, const Field& field, std::array<double, 2>& into) {
+    list(value, field.key, 2, 2);
+    into = {number(value[0], field.key), number(value[1], field.key)};
+    if (!(into[0] < into[1]))
+        fail(field.key, "two ascending numbers", value);
+}
+void from_json(const json& value, const Field&, Pose& into) {
+    into = pose_from(value);
+}
+void from_json(const json& value, const Field& field, Similarity& into) {
+    Members members(value, field.key);
+    from_json(members.at("translation"), Field{"translation"}, into.translation);
+    const json& r = list(members.at("rotation"), "rotation", 4, 4);
+    into.rotation = glm::dquat(number(r[3], "rotation"), number(r[0], "rotation"),
+                               number(r[1], "rotation"), number(r[2], "rotation"));
+    require_unit(into.rotation, "rotation", r);
     const json& scale = members.at("scale");
-    result.scale = number(scale, "scale");
-    if (!(result.scale > 0))
+    into.scale = number(scale, "scale");
+    if (!(into.scale > 0))
         fail("scale", "a positive number", scale);
     members.done({"translation", "rotation", "scale"});
+}
+
+// Parts. An optional field that is not set is left out.
+
+template <Part T>
+json to_json(const T& part) {
+    json result = json::object();
+    const auto write = [&]<class V>(const Field& field, const V& value) {
+        if constexpr (requires { value.has_value(); }) {
+            if (value)
+                result[field.key] = to_json(*value);
+        } else {
+            result[field.key] = to_json(value);
+        }
+    };
+    each_field(write, part);
     return result;
 }
 
-json views_json(const std::vector<Viewpoint>& views) {
-    json result = json::array();
-    for (const Viewpoint& view : views)
-        result.push_back({{"name", view.name},
-                          {"room_from_physical", similarity_json(view.room_from_physical)}});
-    return result;
-}
-
-std::vector<Viewpoint> views_from(const json& value) {
-    std::vector<Viewpoint> views;
-    for (const json& each : list(value, "views", 0, kMostViews)) {
-        Members members(each, "views");
-        views.push_back({text(members.at("name"), "name", kLongestName),
-                         similarity_from(members.at("room_from_physical"))});
-        members.done({"name", "room_from_physical"});
-    }
-    return views;
-}
-
-PlaybackState playback_from(const json& value) {
-    Members members(value, "playback");
-    const PlaybackState state{boolean(members.at("playing"), "playing"),
-                              boolean(members.at("reverse"), "reverse"),
-                              boolean(members.at("loop"), "loop"),
-                              number(members.at("speed"), "speed", kSlowest, kFastest)};
-    members.done({"playing", "reverse", "loop", "speed"});
-    return state;
-}
-
-QualityMode quality_from(const json& value) {
-    const auto found = std::ranges::find(kQualityNames, text(value, "quality"));
-    if (found == kQualityNames.end())
-        fail("quality", "auto, fast or quality", value);
-    return static_cast<QualityMode>(found - kQualityNames.begin());
-}
-
-json isosurfaces_json(const std::vector<Isosurface>& surfaces) {
-    json result = json::array();
-    for (const Isosurface& surface : surfaces)
-        result.push_back({{"isovalue", surface.isovalue},
-                          {"color", {surface.color.x, surface.color.y, surface.color.z}},
-                          {"opacity", surface.opacity}});
-    return result;
-}
-
-float share(const json& value, std::string_view where) {
-    return static_cast<float>(number(value, where, 0.0, 1.0));
-}
-
-std::vector<Isosurface> isosurfaces_from(const json& value) {
-    std::vector<Isosurface> surfaces;
-    for (const json& one : list(value, "isosurfaces", 1, kMostIsosurfaces)) {
-        Members members(one, "isosurface");
-        Isosurface& surface = surfaces.emplace_back();
-        surface.isovalue = number(members.at("isovalue"), "isovalue");
-        const json& color = list(members.at("color"), "color", 3, 3);
-        for (int channel = 0; channel < 3; ++channel)
-            surface.color[channel] = share(color[channel], "color");
-        surface.opacity = share(members.at("opacity"), "opacity");
-        members.done({"isovalue", "color", "opacity"});
-    }
-    return surfaces;
-}
-
-json coloring_json(const Coloring& coloring) {
-    json result{{"by", kColorByNames[static_cast<std::size_t>(coloring.by)]},
-                {"map", coloring.map}};
-    if (coloring.range)
-        result["range"] = *coloring.range;
-    return result;
-}
-
-Coloring coloring_from(const json& value) {
-    Members members(value, "coloring");
-    Coloring coloring;
-    const json& by = members.at("by");
-    const auto found = std::ranges::find(kColorByNames, text(by, "by"));
-    if (found == kColorByNames.end())
-        fail("by", "surface, value or first_crossing", by);
-    coloring.by = static_cast<ColorBy>(found - kColorByNames.begin());
-    coloring.map = text(members.at("map"), "map", kLongestName);
-    if (const json* range = members.find("range")) {
-        list(*range, "range", 2, 2);
-        coloring.range = {number((*range)[0], "range"), number((*range)[1], "range")};
-        if (!((*coloring.range)[0] < (*coloring.range)[1]))
-            fail("range", "two ascending numbers", *range);
-    }
-    members.done({"by", "map", "range"});
-    return coloring;
-}
-
-json room_panel_json(const RoomPanel& panel) {
-    return {{"shown", panel.shown}, {"pose", pose_json(panel.pose)}};
-}
-
-RoomPanel room_panel_from(const json& value) {
-    Members members(value, "room_panel");
-    const RoomPanel panel{boolean(members.at("shown"), "shown"), pose_from(members.at("pose"))};
-    members.done({"shown", "pose"});
-    return panel;
+template <Part T>
+void from_json(const json& value, const Field& field, T& into) {
+    Members members(value, field.key);
+    std::vector<std::string_view> known;
+    const auto read = [&]<class V>(const Field& inner, V& member) {
+        known.emplace_back(inner.key);
+        if constexpr (requires { member.has_value(); }) {
+            if (const json* found = members.find(inner.key))
+                from_json(*found, inner, member.emplace());
+        } else {
+            from_json(members.at(inner.key), inner, member);
+        }
+    };
+    each_field(read, into);
+    members.done(known);
 }
 
 /// No place is null.
-json mark_json(const Mark& mark) {
-    if (!mark.point)
-        return nullptr;
-    const glm::dvec3& p = mark.point->position;
-    return {
-        {"position", {p.x, p.y, p.z}}, {"step", mark.point->step}, {"value", mark.point->value}};
+json to_json(const Mark& mark) {
+    return mark.point ? to_json(*mark.point) : json();
+}
+void from_json(const json& value, const Field& field, Mark& into) {
+    if (!value.is_null())
+        from_json(value, field, into.point.emplace());
 }
 
-Mark mark_from(const json& value) {
-    if (value.is_null())
-        return {};
-    Members members(value, "mark");
-    MarkedPoint point;
-    const json& position = list(members.at("position"), "position", 3, 3);
-    for (int i = 0; i < 3; ++i)
-        point.position[i] = number(position[i], "position");
-    point.step = step_from(members.at("step"));
-    point.value = number(members.at("value"), "value");
-    members.done({"position", "step", "value"});
-    return {point};
-}
-
-json haptics_json(const std::vector<HapticPulse>& pulses) {
+template <class T>
+json to_json(const std::vector<T>& list) {
     json result = json::array();
-    for (const HapticPulse& pulse : pulses)
-        result.push_back(
-            {{"hand", pulse.hand}, {"seconds", pulse.seconds}, {"amplitude", pulse.amplitude}});
+    for (const T& one : list)
+        result.push_back(to_json(one));
     return result;
 }
+template <class T>
+void from_json(const json& value, const Field& field, std::vector<T>& into) {
+    for (const json& one : list(value, field.key, field.least, field.most))
+        from_json(one, field, into.emplace_back());
+}
 
-std::vector<HapticPulse> haptics_from(const json& value) {
-    std::vector<HapticPulse> pulses;
-    for (const json& one : list(value, "haptics", 0, kMostPulses)) {
-        Members members(one, "haptics");
-        pulses.push_back({text(members.at("hand"), "hand", kLongestName),
-                          number(members.at("seconds"), "seconds", 0.0, kLongestPulse),
-                          share(members.at("amplitude"), "amplitude")});
-        members.done({"hand", "seconds", "amplitude"});
-    }
-    return pulses;
+// What JSON cannot hold.
+
+template <class T>
+bool writable(const T& value) {
+    if constexpr (std::floating_point<T>)
+        return std::isfinite(value);
+    else if constexpr (std::same_as<T, Pose>)
+        return is_finite(value);
+    else if constexpr (std::same_as<T, Similarity>)
+        return is_valid(value);
+    else if constexpr (std::same_as<T, Mark>)
+        return !value.point || writable(*value.point);
+    else if constexpr (std::same_as<T, glm::vec3> || std::same_as<T, glm::dvec3>)
+        return writable(value.x) && writable(value.y) && writable(value.z);
+    else if constexpr (requires { value.has_value(); })
+        return !value || writable(*value);
+    else if constexpr (Part<const T>) {
+        bool all = true;
+        each_field([&](const Field&, const auto& member) { all = all && writable(member); }, value);
+        return all;
+    } else if constexpr (requires { value.begin(); } && !std::same_as<T, std::string>)
+        return std::ranges::all_of(value, [](const auto& one) { return writable(one); });
+    else
+        return true;
 }
 
 } // namespace
 
 json commands_json(const Commands& commands) {
     json result = json::object();
-    if (commands.isosurfaces)
-        result["isosurfaces"] = isosurfaces_json(*commands.isosurfaces);
-    if (commands.picked)
-        result["picked"] = *commands.picked;
-    if (commands.isovalue)
-        result["isovalue"] = *commands.isovalue;
-    if (commands.step)
-        result["step"] = *commands.step;
-    if (const auto& playback = commands.playback)
-        result["playback"] = {{"playing", playback->playing},
-                              {"reverse", playback->reverse},
-                              {"loop", playback->loop},
-                              {"speed", playback->speed}};
-    if (commands.room_from_physical)
-        result["room_from_physical"] = similarity_json(*commands.room_from_physical);
-    if (commands.quality)
-        result["quality"] = kQualityNames[static_cast<std::size_t>(*commands.quality)];
-    if (commands.eye_separation)
-        result["eye_separation"] = *commands.eye_separation;
-    if (commands.stereo)
-        result["stereo"] = *commands.stereo;
-    if (commands.panel)
-        result["panel"] = *commands.panel;
-    if (commands.grid)
-        result["grid"] = *commands.grid;
-    if (commands.views)
-        result["views"] = views_json(*commands.views);
-    if (commands.axes)
-        result["axes"] = *commands.axes;
-    if (commands.coloring)
-        result["coloring"] = coloring_json(*commands.coloring);
-    if (commands.room_panel)
-        result["room_panel"] = room_panel_json(*commands.room_panel);
-    if (commands.mark)
-        result["mark"] = mark_json(*commands.mark);
-    if (commands.screenshot)
-        result["screenshot"] = true;
-    if (commands.quit)
-        result["quit"] = true;
-    if (!commands.stamps.empty())
-        result["stamps"] = commands.stamps;
-    if (!commands.haptics.empty())
-        result["haptics"] = haptics_json(commands.haptics);
+    const auto write = [&]<class V>(const Field& field, const V& value) {
+        if constexpr (std::same_as<V, bool>) {
+            if (value)
+                result[field.key] = true;
+        } else if constexpr (requires { value.has_value(); }) {
+            if (value)
+                result[field.key] = to_json(*value);
+        } else if (!value.empty()) {
+            result[field.key] = to_json(value);
+        }
+    };
+    each_field(write, commands);
     return result;
 }
 
 Commands commands_from(const json& value, std::string_view where) {
     Members members(value, where);
     Commands commands;
-    if (const json* found = members.find("isosurfaces"))
-        commands.isosurfaces = isosurfaces_from(*found);
-    if (const json* found = members.find("picked"))
-        commands.picked =
-            static_cast<std::uint32_t>(natural(*found, "picked", kMostIsosurfaces - 1));
-    if (const json* found = members.find("isovalue"))
-        commands.isovalue = number(*found, "isovalue");
-    if (const json* found = members.find("step"))
-        commands.step = step_from(*found);
-    if (const json* found = members.find("playback"))
-        commands.playback = playback_from(*found);
-    if (const json* found = members.find("room_from_physical"))
-        commands.room_from_physical = similarity_from(*found);
-    if (const json* found = members.find("quality"))
-        commands.quality = quality_from(*found);
-    if (const json* found = members.find("eye_separation"))
-        commands.eye_separation =
-            static_cast<float>(number(*found, "eye_separation", 0.0, kWidestEyes));
-    if (const json* found = members.find("stereo"))
-        commands.stereo = text(*found, "stereo", kLongestName);
-    if (const json* found = members.find("panel"))
-        commands.panel = boolean(*found, "panel");
-    if (const json* found = members.find("grid"))
-        commands.grid = boolean(*found, "grid");
-    if (const json* found = members.find("views"))
-        commands.views = views_from(*found);
-    if (const json* found = members.find("axes"))
-        commands.axes = boolean(*found, "axes");
-    if (const json* found = members.find("coloring"))
-        commands.coloring = coloring_from(*found);
-    if (const json* found = members.find("room_panel"))
-        commands.room_panel = room_panel_from(*found);
-    if (const json* found = members.find("mark"))
-        commands.mark = mark_from(*found);
-    if (const json* found = members.find("screenshot"))
-        commands.screenshot = boolean(*found, "screenshot");
-    if (const json* found = members.find("quit"))
-        commands.quit = boolean(*found, "quit");
-    if (const json* found = members.find("stamps"))
-        for (const json& stamp : list(*found, "stamps", 0, kMostStamps))
-            commands.stamps.push_back(text(stamp, "stamps", kLongestName));
-    if (const json* found = members.find("haptics"))
-        commands.haptics = haptics_from(*found);
-    members.done(
-        {"isosurfaces", "picked",         "isovalue",   "step",  "playback",   "room_from_physical",
-         "quality",     "eye_separation", "stereo",     "panel", "grid",       "views",
-         "axes",        "coloring",       "room_panel", "mark",  "screenshot", "quit",
-         "stamps",      "haptics"});
+    std::vector<std::string_view> known;
+    const auto read = [&]<class V>(const Field& field, V& member) {
+        for (const char* key : {field.key, field.old_key}) {
+            const json* found = key ? members.find(key) : nullptr;
+            if (key)
+                known.emplace_back(key);
+            if (!found)
+                continue;
+            if constexpr (requires { member.has_value(); })
+                from_json(*found, field, member.emplace());
+            else
+                from_json(*found, field, member);
+        }
+    };
+    each_field(read, commands);
+    members.done(known);
     return commands;
+}
+
+const char* unwritable_field(const Commands& commands) {
+    const char* key = nullptr;
+    each_field(
+        [&](const Field& field, const auto& value) {
+            if (!key && !writable(value))
+                key = field.key;
+        },
+        commands);
+    return key;
 }
 
 } // namespace isochron::interaction

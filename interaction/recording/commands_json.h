@@ -16,4 +16,8 @@ nlohmann::json commands_json(const Commands& commands);
 /// @throws Error without file and line: `scale: expected a finite number, got "big"`
 Commands commands_from(const nlohmann::json& value, std::string_view where);
 
+/// The key of the first field that holds what JSON cannot, such as a number that is not finite;
+/// null when all can be written.
+const char* unwritable_field(const Commands& commands);
+
 } // namespace isochron::interaction

@@ -43,7 +43,7 @@ const json& Members::at(const char* key) {
     throw Error(fmt::format("{}: \"{}\" is missing", where_, key));
 }
 
-void Members::done(std::initializer_list<std::string_view> known) const {
+void Members::done(std::span<const std::string_view> known) const {
     if (used_ == object_.size())
         return;
     for (const auto& [key, value] : object_.items())

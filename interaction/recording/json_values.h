@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -31,7 +32,10 @@ class Members {
     const nlohmann::json* find(const char* key);
     const nlohmann::json& at(const char* key);
     /// @param known every key that was asked for
-    void done(std::initializer_list<std::string_view> known) const;
+    void done(std::initializer_list<std::string_view> known) const {
+        done(std::span(known.begin(), known.size()));
+    }
+    void done(std::span<const std::string_view> known) const;
 
   private:
     const nlohmann::json& object_;

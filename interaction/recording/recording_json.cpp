@@ -237,32 +237,9 @@ void require_finite(const RecordedFrame& frame) {
                 require(std::isfinite(valuator), device.name);
         }
     }
-    for (const Commands* commands : {&frame.commands, &frame.from_panel}) {
-        for (const Isosurface& surface : commands->isosurfaces.value_or(std::vector<Isosurface>()))
-            require(std::isfinite(surface.isovalue) && std::isfinite(surface.opacity) &&
-                        std::isfinite(surface.color.x + surface.color.y + surface.color.z),
-                    "isosurfaces");
-        require(!commands->coloring || !commands->coloring->range ||
-                    (std::isfinite((*commands->coloring->range)[0]) &&
-                     std::isfinite((*commands->coloring->range)[1])),
-                "coloring");
-        require(!commands->isovalue || std::isfinite(*commands->isovalue), "isovalue");
-        require(!commands->room_from_physical || is_valid(*commands->room_from_physical),
-                "room_from_physical");
-        if (commands->views)
-            for (const Viewpoint& view : *commands->views)
-                require(is_valid(view.room_from_physical), "views");
-        require(!commands->eye_separation || std::isfinite(*commands->eye_separation),
-                "eye_separation");
-        require(!commands->room_panel || is_finite(commands->room_panel->pose), "room_panel");
-        require(!commands->mark || !commands->mark->point ||
-                    std::isfinite(commands->mark->point->value +
-                                  glm::dot(commands->mark->point->position, glm::dvec3(1.0))),
-                "mark");
-        for (const HapticPulse& pulse : commands->haptics)
-            require(std::isfinite(pulse.seconds) && std::isfinite(pulse.amplitude), "haptics");
-        require(!commands->playback || std::isfinite(commands->playback->speed), "speed");
-    }
+    for (const Commands* commands : {&frame.commands, &frame.from_panel})
+        if (const char* key = unwritable_field(*commands))
+            require(false, key);
 }
 
 } // namespace isochron::interaction

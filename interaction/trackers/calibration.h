@@ -13,7 +13,7 @@ namespace isochron::interaction {
 /// device is named after: the point between the eyes, the hand.
 struct Calibration {
     Pose room_from_tracker; ///< the tracker's origin and axes in the room
-    double scale = 1.0;     ///< metres per metre that the tracker reports
+    double scale = 1.0;     ///< meters per meter that the tracker reports
     Pose sensor_from_thing; ///< the thing in the sensor's own frame [m]
     bool operator==(const Calibration&) const = default;
 };

@@ -8,7 +8,7 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr double kMillimetre = 1e-3;     ///< [m]
+constexpr double kMillimeter = 1e-3;     ///< [m]
 constexpr double kMostBlocks = 1024;     ///< of one line
 constexpr std::size_t kMostNumbers = 64; ///< of one block; the longest known has 12
 
@@ -67,7 +67,7 @@ std::optional<int> id_of(const Block& block) {
 bool read_pose(const Block& position, const Block& rotation, DTrackBody& body) {
     if ((position.size() != 3 && position.size() != 6) || rotation.size() != 9)
         return false;
-    body.position = kMillimetre * glm::dvec3(position[0], position[1], position[2]);
+    body.position = kMillimeter * glm::dvec3(position[0], position[1], position[2]);
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
             body.rotation[column][row] = rotation[3 * column + row];
@@ -130,7 +130,7 @@ std::optional<DTrackMarker> marker_from(std::span<const Block> blocks) {
     const auto id = id_of(blocks[0]);
     if (!id || blocks[1].size() != 3)
         return std::nullopt;
-    return DTrackMarker{*id, kMillimetre * glm::dvec3(blocks[1][0], blocks[1][1], blocks[1][2])};
+    return DTrackMarker{*id, kMillimeter * glm::dvec3(blocks[1][0], blocks[1][1], blocks[1][2])};
 }
 
 /// The things of one line: their number, then each in `blocks` consecutive blocks.

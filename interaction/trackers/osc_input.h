@@ -15,8 +15,8 @@ struct OscDevice {
 
 /// Addresses under `prefix`, with any numeric argument types:
 ///
-///     PREFIX/NAME/pose x y z qx qy qz qw     metres, unit quaternion
-///     PREFIX/NAME/velocity vx vy vz wx wy wz metres and radians per second, of the next pose
+///     PREFIX/NAME/pose x y z qx qy qz qw     meters, unit quaternion
+///     PREFIX/NAME/velocity vx vy vz wx wy wz meters and radians per second, of the next pose
 ///     PREFIX/NAME/button i state             0 is up
 ///     PREFIX/NAME/valuator i value
 ///

@@ -33,7 +33,7 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
     : gl_(&gl), grid_(grid), ring_(gl, rounded_to_units(staging_bytes)),
       points_(gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole),
       message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
-      styles_(gl, "coloured cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
+      styles_(gl, "colored cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       corner_values_(gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none),
       corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none) {}
 

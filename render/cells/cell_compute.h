@@ -25,7 +25,7 @@ class CellCompute {
                      const DeviceArray& points) const;
 
     /// Gives every point of the set its style. @param styles by slot, two to a word; without
-    /// colours in the set they are not read, and what points had before is taken away
+    /// colors in the set they are not read, and what points had before is taken away
     void set_styles(const index::Extraction& set, const DeviceArray& styles,
                     const DeviceArray& points) const;
 

@@ -63,15 +63,15 @@ float largest_point(const Gl& gl) {
 
 /// The depth cue runs from the near to the far end of the volume's bounding sphere.
 glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, float strength) {
-    const glm::vec3 centre(eye_from_index * glm::vec4(0.5f * extent, 1.0f));
+    const glm::vec3 center(eye_from_index * glm::vec4(0.5f * extent, 1.0f));
     float radius = 0.0f;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 unit(corner & 1, corner >> 1 & 1, corner >> 2);
         const glm::vec3 at(eye_from_index * glm::vec4(extent * unit, 1.0f));
-        radius = std::max(radius, glm::length(at - centre));
+        radius = std::max(radius, glm::length(at - center));
     }
-    const float near = std::max(glm::length(centre) - radius, 0.0f);
-    const float far = glm::length(centre) + radius;
+    const float near = std::max(glm::length(center) - radius, 0.0f);
+    const float far = glm::length(center) + radius;
     return {near, 1.0f / std::max(far - near, 1e-6f), strength, 0.0f};
 }
 

@@ -55,7 +55,7 @@ struct SurfaceAppearance {
 /// Isosurfaces that are drawn at a time: what the style of a cell can number.
 constexpr std::size_t kMaxSurfaces = 8;
 
-/// Colours by value: cells carry the value's place in its whole range (`index::CellPoint`).
+/// Colors by value: cells carry the value's place in its whole range (`index::CellPoint`).
 struct ValueColors {
     GLuint map = 0;                       ///< GL_TEXTURE_1D in linear light, from low to high
     float low = 0.0f, high = 1.0f;        ///< ends of the map, as fractions of the whole range
@@ -74,7 +74,7 @@ struct NearFade {
 
 struct CellAppearance {
     std::array<SurfaceAppearance, kMaxSurfaces> surfaces;
-    std::optional<ValueColors> values; ///< instead of the surfaces' colours
+    std::optional<ValueColors> values; ///< instead of the surfaces' colors
 
     float ambient = 0.15f;
     float head_light = 0.50f;                   ///< from the eye

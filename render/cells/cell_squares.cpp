@@ -65,12 +65,12 @@ HWY_INLINE V3 set(const glm::vec4& row) {
     return {hn::Set(d, row.x), hn::Set(d, row.y), hn::Set(d, row.z)};
 }
 
-HWY_INLINE V at(const glm::vec4& row, const V3& centre) {
-    return hn::Add(dot(set(row), centre), hn::Set(Floats(), row.w));
+HWY_INLINE V at(const glm::vec4& row, const V3& center) {
+    return hn::Add(dot(set(row), center), hn::Set(Floats(), row.w));
 }
 
 /// Middles of the cells of the next words.
-HWY_INLINE V3 centres(const std::uint32_t* words) {
+HWY_INLINE V3 centers(const std::uint32_t* words) {
     const Floats d;
     const hn::RebindToUnsigned<Floats> du;
     const hn::RebindToSigned<Floats> di;
@@ -93,16 +93,16 @@ HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* wor
     const float radius2 = p.radius * p.radius;
     const float tilt2 = glm::dot(glm::vec3(p.row_w), glm::vec3(p.row_w));
     const V rr = hn::Set(d, radius2);
-    const V3 centre = centres(words), row_w = set(p.row_w);
-    const V w = at(p.row_w, centre);
+    const V3 center = centers(words), row_w = set(p.row_w);
+    const V w = at(p.row_w, center);
     const V depth = hn::Sub(hn::Mul(w, w), hn::Set(d, radius2 * tilt2));
     const auto is_near =
         hn::Or(hn::Le(w, zero), hn::Le(depth, hn::Mul(hn::Set(d, kLeastDepth), hn::Mul(w, w))));
     const auto behind = hn::Lt(w, hn::Set(d, -1.01f * p.radius * std::sqrt(tilt2)));
 
     const V over_w = hn::Div(one, w);
-    const V x = hn::Mul(at(p.row_x, centre), over_w), y = hn::Mul(at(p.row_y, centre), over_w);
-    const V z = hn::Mul(at(p.row_z, centre), over_w);
+    const V x = hn::Mul(at(p.row_x, center), over_w), y = hn::Mul(at(p.row_y, center), over_w);
+    const V z = hn::Mul(at(p.row_z, center), over_w);
     const auto off = [&](const glm::vec4& row, V along) {
         const V3 all = set(row);
         return V3{hn::NegMulAdd(along, row_w.x, all.x), hn::NegMulAdd(along, row_w.y, all.y),

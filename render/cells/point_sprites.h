@@ -6,7 +6,7 @@
 
 namespace isochron::render {
 
-/// GL drops a point whose centre is outside of the viewport, and lets one inside draw beyond the
+/// GL drops a point whose center is outside of the viewport, and lets one inside draw beyond the
 /// viewport's edge. So points are right only where no footprint of any cell that the volume could
 /// have crosses an edge, or comes so near to the eye's plane that its outline is no ellipse. A
 /// point is as wide as the longest side of what it shows: where spacing is far from even, quads

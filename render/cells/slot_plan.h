@@ -14,8 +14,8 @@ namespace isochron::render {
 constexpr unsigned kColorShift = 3;
 
 /// The first two words of an index::CellPoint.
-/// A style is the number of the surface and, from bit kColorShift on, the colour coordinate (0
-/// where the set has no colours).
+/// A style is the number of the surface and, from bit kColorShift on, the color coordinate (0
+/// where the set has no colors).
 struct CellPlace {
     std::uint16_t x = 0, y = 0, z = 0, style = 0;
     bool operator==(const CellPlace&) const = default;

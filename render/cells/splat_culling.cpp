@@ -76,8 +76,8 @@ HWY_INLINE bool make_profile(const TileNumbers& tiles, float middle, float reach
     const auto half = hn::Set(d, 0.5f * (tile - 1.0f));
     for (int i = 0; i < out.count; i += static_cast<int>(hn::Lanes(d))) {
         const auto number = hn::Iota(d, static_cast<float>(out.first + i));
-        const auto centre = hn::Mul(hn::Add(number, hn::Set(d, 0.5f)), hn::Set(d, tile));
-        const auto off = hn::Abs(hn::Sub(centre, hn::Set(d, middle)));
+        const auto center = hn::Mul(hn::Add(number, hn::Set(d, 0.5f)), hn::Set(d, tile));
+        const auto off = hn::Abs(hn::Sub(center, hn::Set(d, middle)));
         const auto farthest = hn::Add(off, hn::Add(half, hn::Set(d, kMargin)));
         const auto nearest =
             hn::Max(hn::Sub(off, hn::Add(half, hn::Set(d, kToSample))), hn::Zero(d));

@@ -37,7 +37,7 @@ constexpr int kWeightBits = 4;
 /// reference is coarser the farther off the eye, a tenth to a fifth of a degree, so that a standing
 /// head sorts rarely and what a new order changes is not seen.
 /// @param eye homogeneous, in vertex index coordinates: w = 1 for a position (on a voxel plane
-///        either neighbour is right), w = 0 for the direction towards the eye of a parallel view
+///        either neighbor is right), w = 0 for the direction towards the eye of a parallel view
 /// @param cells number of cells per axis
 /// @param spacing of the grid in space, in any unit
 TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells, const glm::vec3& spacing);

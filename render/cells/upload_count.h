@@ -11,7 +11,7 @@ struct UploadCount {
     std::uint64_t whole_ids = 0;   ///< that they have: to send them whole
     std::uint64_t id_bytes = 0;    ///< ids, with their slots where differences are sent
     std::uint64_t brick_bytes = 0; ///< bricks of the volume with their pages
-    std::uint64_t color_bytes = 0; ///< colour coordinates
+    std::uint64_t color_bytes = 0; ///< color coordinates
 
     UploadCount& operator+=(const UploadCount& other) {
         sets += other.sets;

@@ -18,7 +18,7 @@
 
 namespace isochron::render {
 
-/// Colour SRGB8_ALPHA8 and depth 32F. What is stored are display values; GL_FRAMEBUFFER_SRGB, on
+/// Color SRGB8_ALPHA8 and depth 32F. What is stored are display values; GL_FRAMEBUFFER_SRGB, on
 /// from `bind` and `clear` on, has the GL convert: shaders write light and read light, and blending
 /// and resolving average light. Passes that write display values switch it off meanwhile.
 class RenderTarget {
@@ -33,7 +33,7 @@ class RenderTarget {
     /// With several samples these hold what was resolved last.
     GLuint framebuffer() const { return framebuffer_.name(); }
     GLuint color_texture() const { return color_.name(); }
-    /// What is drawn into: colour and depth of every sample.
+    /// What is drawn into: color and depth of every sample.
     GLuint drawn_framebuffer() const { return many_ ? many_->framebuffer.name() : framebuffer(); }
 
     /// Does nothing when the size is the same already; otherwise the contents become undefined.
@@ -42,7 +42,7 @@ class RenderTarget {
     /// Draws go here from now on, with the viewport set to the whole target.
     void bind() const;
 
-    /// Fills colour, and depth with 1, whatever masks and scissor are set.
+    /// Fills color, and depth with 1, whatever masks and scissor are set.
     /// @param color sRGB, with its opacity
     void clear(glm::vec4 color) const;
 

@@ -5,15 +5,15 @@
 
 namespace isochron::render {
 
-/// Pre-multiplied colours go over what is there.
+/// Pre-multiplied colors go over what is there.
 inline void blend_over(const Gl& gl) {
     gl.Enable(GL_BLEND);
     gl.BlendEquation(GL_FUNC_ADD);
     gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/// First all colours, then the depth of the cores alone, where they are all there is: a soft edge
-/// that wrote depth would keep what is drawn later from showing through it. Leaves colours and
+/// First all colors, then the depth of the cores alone, where they are all there is: a soft edge
+/// that wrote depth would keep what is drawn later from showing through it. Leaves colors and
 /// depth writes on.
 /// @param draw called with whether depth alone is drawn
 template <class Draw>

@@ -1,4 +1,4 @@
-// Colour maps from curves in CIE L*a*b*.
+// Color maps from curves in CIE L*a*b*.
 #include "render/passes/color_map.h"
 
 #include "render/passes/cielab.h"
@@ -26,7 +26,7 @@ constexpr Curve kDusk{kDarkest, 94, 303, 455, 60, 0.65f};
 constexpr Curve kLagoon{kDarkest, 93, 300, 108, 50, 0.65f};
 constexpr Curve kColdHalf{kDarkest, 88, 280, 265, 60, 0};
 constexpr Curve kWarmHalf{kDarkest, 88, 30, 50, 60, 0};
-constexpr Curve kGrey{kDarkest, 96, 0, 0, 0, 0};
+constexpr Curve kGray{kDarkest, 96, 0, 0, 0, 0};
 
 constexpr int kFine = 4096; ///< steps of a curve before it is divided evenly
 
@@ -84,6 +84,8 @@ void append(std::vector<glm::vec3>& fine, const Curve& curve, bool backwards = f
 } // namespace
 
 std::optional<ColorMap> color_map_from_name(std::string_view name) {
+    if (name == "grey") // as recordings of version 0.1 spell it
+        return ColorMap::gray;
     const auto found = std::ranges::find(kColorMapNames, name);
     if (found == kColorMapNames.end())
         return std::nullopt;
@@ -99,7 +101,7 @@ std::vector<glm::vec3> color_map(ColorMap map) {
         append(fine, kColdHalf);
         append(fine, kWarmHalf, true);
         break;
-    case ColorMap::grey: append(fine, kGrey); break;
+    case ColorMap::gray: append(fine, kGray); break;
     }
     std::vector<glm::vec3> colors = evenly(fine, kColorMapSize);
     for (glm::vec3& color : colors)

@@ -1,4 +1,4 @@
-// Colour maps whose equal steps look equal, made from curves in CIE L*a*b*.
+// Color maps whose equal steps look equal, made from curves in CIE L*a*b*.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -15,26 +15,29 @@ namespace isochron::render {
 
 enum class ColorMap : std::uint8_t {
     dusk,   ///< violet over red to pale yellow, ever lighter
-    lagoon, ///< violet over green to yellow, ever lighter: readable with any colour vision
-    polar,  ///< blue over light grey to red: for values about a middle
-    grey    ///< lightness alone
+    lagoon, ///< violet over green to yellow, ever lighter: readable with any color vision
+    polar,  ///< blue over light gray to red: for values about a middle
+    gray    ///< lightness alone
 };
-constexpr std::array<std::string_view, 4> kColorMapNames{"dusk", "lagoon", "polar", "grey"};
+constexpr std::array<std::string_view, 4> kColorMapNames{"dusk", "lagoon", "polar", "gray"};
+constexpr std::string_view name_of(ColorMap map) {
+    return kColorMapNames[static_cast<std::size_t>(map)];
+}
 std::optional<ColorMap> color_map_from_name(std::string_view name);
 
 constexpr std::size_t kColorMapSize = 256;
 
-/// The map from low to high, linear light. Neighbours are equally far apart (Delta E*ab, within a
+/// The map from low to high, linear light. Neighbors are equally far apart (Delta E*ab, within a
 /// fifth), and lightness L* grows all the way (`polar`: to the middle, and falls behind it) from 32
 /// on, so that low values still show their shape before a dark background.
 std::vector<glm::vec3> color_map(ColorMap map);
 
-/// The map as GL_TEXTURE_1D that interpolates between its colours.
+/// The map as GL_TEXTURE_1D that interpolates between its colors.
 Texture color_map_texture(const Gl& gl, ColorMap map);
 
-/// Colours for up to eight surfaces that stay apart with the common kinds of colour blindness:
+/// Colors for up to eight surfaces that stay apart with the common kinds of color blindness:
 /// the set of M. Okabe and K. Ito, "Color Universal Design", 2002 (jfly.uni-koeln.de/color), its
-/// black replaced by a light grey since the background is dark. sRGB, 0 to 1.
+/// black replaced by a light gray since the background is dark. sRGB, 0 to 1.
 const std::array<glm::vec3, 8>& surface_palette();
 
 } // namespace isochron::render

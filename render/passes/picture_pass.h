@@ -18,7 +18,7 @@ class PicturePass {
     /// Draws into the view's viewport of the bound framebuffer; tests depth, and writes it where
     /// `opacity` is 1. Leaves depth test and depth writes on, blending and culling off.
     /// @param corners in the room: lower left, upper left, upper right, lower right
-    /// @param texture 2D, colours meant for the display, its first row at the bottom
+    /// @param texture 2D, colors meant for the display, its first row at the bottom
     /// @param opacity 0 to 1
     void draw(const View& view, const std::array<glm::vec3, 4>& corners, GLuint texture,
               float opacity) const;

@@ -20,12 +20,12 @@ void add_quad(std::vector<Triangle>& into, const std::array<glm::vec3, 4>& corne
 
 } // namespace
 
-std::vector<Triangle> ellipsoid(glm::vec3 centre, glm::vec3 radii, glm::vec3 color) {
+std::vector<Triangle> ellipsoid(glm::vec3 center, glm::vec3 radii, glm::vec3 color) {
     constexpr int kRings = 12, kSectors = 20;
     const auto point = [&](int ring, int sector) {
         const float polar = glm::pi<float>() * float(ring) / kRings;
         const float turn = glm::two_pi<float>() * float(sector) / kSectors;
-        return centre + radii * glm::vec3(std::sin(polar) * std::sin(turn), std::cos(polar),
+        return center + radii * glm::vec3(std::sin(polar) * std::sin(turn), std::cos(polar),
                                           std::sin(polar) * std::cos(turn));
     };
     std::vector<Triangle> triangles;

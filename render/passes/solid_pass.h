@@ -18,8 +18,8 @@ struct Triangle {
     glm::vec3 color;                  ///< sRGB, 0 to 1
 };
 
-/// An ellipsoid of facets about a centre.
-std::vector<Triangle> ellipsoid(glm::vec3 centre, glm::vec3 radii, glm::vec3 color);
+/// An ellipsoid of facets about a center.
+std::vector<Triangle> ellipsoid(glm::vec3 center, glm::vec3 radii, glm::vec3 color);
 /// A box between two corners, `low` below `high` on every axis.
 std::vector<Triangle> solid_box(glm::vec3 low, glm::vec3 high, glm::vec3 color);
 /// A pyramid over a base given counter-clockwise as seen from outside, without the base itself.

@@ -1,8 +1,8 @@
-// The colour of a cell from its style, and the form in which colours are written; needs frame.glsl
+// The color of a cell from its style, and the form in which colors are written; needs frame.glsl
 // and srgb.glsl.
 //
-// A style is 16 bits: 0 to 2 number the surface, 3 to 15 are the colour coordinate, the value to
-// colour by as a fraction of its whole range in steps of 1 / 8190; 8191 stands for no value.
+// A style is 16 bits: 0 to 2 number the surface, 3 to 15 are the color coordinate, the value to
+// color by as a fraction of its whole range in steps of 1 / 8190; 8191 stands for no value.
 
 const uint kNoValue = 8191u;
 

@@ -61,10 +61,10 @@ void main() {
     disc = kCorners[gl_VertexID & 3];
 #endif
     uvec3 cell = texelFetch(cells, slot).xyz;
-    vec4 centre = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
+    vec4 center = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
 
     uint style = cell.y >> 16;
-    vec3 in_eye = (EYE(eye_from_index) * centre).xyz;
+    vec3 in_eye = (EYE(eye_from_index) * center).xyz;
     vec3 lit = shade(in_eye, unpack_normal(cell.z), base_color(style));
     shaded = vec4(written(lit), surfaces[style & 7u].a * near_share(in_eye));
 
@@ -73,16 +73,16 @@ void main() {
         return;
     }
 
-    vec4 p = to_pixels(centre);
+    vec4 p = to_pixels(center);
     float rr = radius * radius;
     float d = p.w * p.w - rr * dot(EYE(row_w).xyz, EYE(row_w).xyz);
-    vec3 from_centre = EYE(eye_in_index).xyz - centre.xyz;
-    float eye_distance2 = dot(from_centre, from_centre);
+    vec3 from_center = EYE(eye_in_index).xyz - center.xyz;
+    float eye_distance2 = dot(from_center, from_center);
     if (soft_near_eye && EYE(eye_in_index).w != 0.0)
         shaded.a *= smoothstep(1.0, 2.0, sqrt(eye_distance2 / rr));
 
     if (p.w > 0.0 && d > 0.1 * p.w * p.w) {
-        // Coordinates relative to the centre's image keep small ellipses precise.
+        // Coordinates relative to the center's image keep small ellipses precise.
         vec2 m = p.xy / p.w;
         vec3 a = EYE(row_x).xyz - m.x * EYE(row_w).xyz;
         vec3 b = EYE(row_y).xyz - m.y * EYE(row_w).xyz;
@@ -120,11 +120,11 @@ void main() {
         // its own plane and clipped there.
         float along = rr / eye_distance2;
         float size = radius * sqrt(1.0 - along);
-        vec3 v = abs(from_centre);
+        vec3 v = abs(from_center);
         vec3 least = v.x <= v.y && v.x <= v.z ? vec3(1, 0, 0) : v.y <= v.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
-        vec3 e1 = normalize(cross(from_centre, least));
-        vec3 e2 = normalize(cross(from_centre, e1));
-        vec3 at = centre.xyz + along * from_centre + size * (disc.x * e1 + disc.y * e2);
+        vec3 e1 = normalize(cross(from_center, least));
+        vec3 e2 = normalize(cross(from_center, e1));
+        vec3 at = center.xyz + along * from_center + size * (disc.x * e1 + disc.y * e2);
         vec4 q = to_pixels(vec4(at, 1.0));
         gl_Position = vec4(q.xy * EYE(clip_per_pixel).xy, q.zw);
 #endif

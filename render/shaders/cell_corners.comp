@@ -11,7 +11,7 @@
 layout(std430, binding = 1) writeonly buffer Values { vec4 corner_values[]; };       // 2 a cell
 layout(std430, binding = 2) writeonly buffer Gradients { uvec4 corner_gradients[]; }; // 4 a cell
 
-// Towards lower values, in physical space; the last half is for the vertex's place in a colour map.
+// Towards lower values, in physical space; the last half is for the vertex's place in a color map.
 uvec2 packed_gradient(vec3 d) {
     if (!is_finite(d))
         return uvec2(0u);

@@ -1,5 +1,5 @@
 #version 450 core
-// A splat: its opacity falls off as a Gaussian that is cut at the outline, colour pre-multiplied.
+// A splat: its opacity falls off as a Gaussian that is cut at the outline, color pre-multiplied.
 // Computed per fragment rather than looked up in a table: exact at any size, and on software GL the
 // look-up costs more than all the rest of a splat.
 

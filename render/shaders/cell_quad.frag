@@ -1,5 +1,5 @@
 #version 450 core
-// A fast quad: one flat colour, corners and all.
+// A fast quad: one flat color, corners and all.
 
 #include "footprint.glsl"
 

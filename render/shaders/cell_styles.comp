@@ -1,5 +1,5 @@
 #version 450 core
-// Gives every cell its style, or takes the colours away from all.
+// Gives every cell its style, or takes the colors away from all.
 #include "work.glsl"
 #include "slots.glsl"
 

@@ -22,7 +22,7 @@ struct Eye {
 layout(std140, binding = 0) uniform Frame {
     Eye eyes[2];
     vec4 surfaces[8];   // linear light; a: opacity of a cell
-    vec4 no_value;      // colour where there is no value to colour by, linear light
+    vec4 no_value;      // color where there is no value to color by, linear light
     vec4 light;         // strengths of the ambient light, the head light and the key light
     vec4 material;      // reflectance, shininess, floor's share of the ambient light, outline
     vec4 near_fade;     // distance [m] up to which all is gone, 1 / the way to whole, grains per voxel

@@ -2,7 +2,7 @@
 //
 // A head light shows what the viewer looks at, a key light that stands still in the room tells the
 // turning of the head from the turning of the surface. Both shine on either side. Diffuse light and
-// the normalised highlight of Blinn and Phong share what Schlick's reflectance F splits between
+// the normalized highlight of Blinn and Phong share what Schlick's reflectance F splits between
 // them, so that no more light leaves than arrives: base (1 - F) + F (s + 8) / 8 (n.h)^s.
 
 #include "srgb.glsl"
@@ -20,7 +20,7 @@ vec3 reflected(vec3 n, vec3 to_eye, vec3 to_light, vec3 base) {
 // The light that a point of the surface sends to the eye.
 // @param at position, eye space [m]
 // @param normal in physical space, of any length; zero where there is none
-// @param base its colour, linear light
+// @param base its color, linear light
 vec3 shade(vec3 at, vec3 normal, vec3 base) {
     float distance_to_eye = length(at);
     vec3 to_eye = EYE(eye_in_index).w == 0.0 ? vec3(0, 0, 1) : -at / max(distance_to_eye, 1e-6);

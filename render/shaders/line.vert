@@ -3,7 +3,7 @@
 
 #include "srgb.glsl"
 
-layout(binding = 0) uniform samplerBuffer segments; // from, to, colour
+layout(binding = 0) uniform samplerBuffer segments; // from, to, color
 
 layout(std140, binding = 0) uniform Frame {
     mat4 clip_from_model;

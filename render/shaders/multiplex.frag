@@ -1,5 +1,5 @@
 #version 450 core
-// Two eyes' pictures in one: by colour, or by the parity of rows and columns of the window. The
+// Two eyes' pictures in one: by color, or by the parity of rows and columns of the window. The
 // textures give light and the target takes it.
 
 layout(binding = 0) uniform sampler2D left_eye;

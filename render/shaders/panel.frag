@@ -1,5 +1,5 @@
 #version 450 core
-// Triangles of the control panel: the glyph texture's coverage times the colour.
+// Triangles of the control panel: the glyph texture's coverage times the color.
 
 layout(binding = 0) uniform sampler2D glyphs;
 

@@ -1,5 +1,5 @@
 #version 450 core
-// A facet of one colour.
+// A facet of one color.
 
 flat in vec3 color;
 out vec4 result;

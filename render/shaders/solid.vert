@@ -1,7 +1,7 @@
 #version 450 core
 // A triangle's corner in eye space, and its brightness by a light at the eye.
 
-layout(binding = 0) uniform samplerBuffer triangles; // three corners, colour
+layout(binding = 0) uniform samplerBuffer triangles; // three corners, color
 uniform mat4 eye_from_model;
 uniform mat4 clip_from_eye;
 flat out vec3 color; // light

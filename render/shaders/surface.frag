@@ -19,7 +19,7 @@ const int kSteps = 3; // leave 0.001 voxel in noise, and 0.00001 on smooth surfa
 // The part of a view ray in the cell, its ends at s = -1 and s = 1; empty without length.
 struct Ray {
     vec3 middle, half_chord;
-    float along_middle, along_half; // how far along the ray, from the plane of the cell's centre
+    float along_middle, along_half; // how far along the ray, from the plane of the cell's center
 };
 
 // Where in the target this invocation looks, in pixels.
@@ -38,7 +38,7 @@ Ray ray_in_cell() {
     vec3 right = EYE(ray_right).xyz, up = EYE(ray_up).xyz;
     vec4 ahead = EYE(ray_ahead);
     vec3 direction = ahead.xyz + perspective * (pixel.x * right + pixel.y * up);
-    vec2 shift = pixel * centre.w - centre.xy;
+    vec2 shift = pixel * center.w - center.xy;
     vec3 origin = shift.x * right + shift.y * up;
 
     vec3 size = abs(direction);
@@ -47,7 +47,7 @@ Ray ray_in_cell() {
     vec3 inverse = 1.0 / direction;
     vec3 middle = -origin * inverse, reach = kHalf * abs(inverse);
     vec3 enter = middle - reach, leave = middle + reach;
-    float near_plane = -(centre.z + centre.w) / (ahead.w + perspective);
+    float near_plane = -(center.z + center.w) / (ahead.w + perspective);
     float first = max(max(enter.x, near_plane), max(enter.y, enter.z));
     float last = min(leave.x, min(leave.y, leave.z));
     float half_way = 0.5 * (first + last), half_length = 0.5 * (last - first);
@@ -104,13 +104,13 @@ vec3 gradient(vec3 p) {
 
 float depth_at(Ray ray, float s) {
     float along = ray.along_middle + s * ray.along_half;
-    float w = centre.w + along * EYE(eye_in_index).w;
-    return 0.5 + 0.5 * (centre.z + along * EYE(ray_ahead).w) / w;
+    float w = center.w + along * EYE(eye_in_index).w;
+    return 0.5 + 0.5 * (center.z + along * EYE(ray_ahead).w) / w;
 }
 
 vec3 place_at(Ray ray, float s) { return ray.middle + s * ray.half_chord; }
 
-vec3 in_eye(vec3 p) { return centre_in_eye + mat3(EYE(eye_from_index)) * p; }
+vec3 in_eye(vec3 p) { return center_in_eye + mat3(EYE(eye_from_index)) * p; }
 
 vec3 light_at(vec3 p) { return written(shade(in_eye(p), gradient(p), base.rgb)); }
 

@@ -6,11 +6,11 @@
 #define OF_CELL flat in
 #endif
 
-// A cell's own coordinates are voxels from its centre: they stay precise in any volume.
-OF_CELL vec4 centre; // in pixels from the middle of the viewport times w, z and w
-OF_CELL vec3 centre_in_eye;
+// A cell's own coordinates are voxels from its center: they stay precise in any volume.
+OF_CELL vec4 center; // in pixels from the middle of the viewport times w, z and w
+OF_CELL vec3 center_in_eye;
 OF_CELL uint hash;
-OF_CELL vec4 base; // colour in linear light, opacity
+OF_CELL vec4 base; // color in linear light, opacity
 // Trilinear interpolation as polynomials, coefficients of 1, x, y, z and of xy, xz, yz, xyz: of the
 // value, whatever its scale, and of the gradient towards lower values in physical space.
 OF_CELL vec4 linear, mixed;

@@ -32,7 +32,7 @@ void set_value(vec4 low, vec4 high) {
                  dot(difference, kXY));
 }
 
-// Zero where it is not finite, as where a neighbour is not a number.
+// Zero where it is not finite, as where a neighbor is not a number.
 vec3 unpack_gradient(uvec2 words) {
     vec3 g = vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x);
     return dot(g, g) < 1e30 ? g : vec3(0);
@@ -120,8 +120,8 @@ vec3 least_axis(vec3 v) {
 }
 
 // Corner of a quad in clip space. Its depth is never used: it stays clear of the near and far plane.
-vec4 corner_around(Slab slab, vec3 cell_centre, vec2 corner) {
-    vec4 seen = to_pixels(vec4(cell_centre + slab.middle, 1.0));
+vec4 corner_around(Slab slab, vec3 cell_center, vec2 corner) {
+    vec4 seen = to_pixels(vec4(cell_center + slab.middle, 1.0));
     vec3 row_w = EYE(row_w).xyz;
     // On the screen, turned so that a long cell gets a slim rectangle.
     vec2 at = seen.xy / seen.w;
@@ -135,7 +135,7 @@ vec4 corner_around(Slab slab, vec3 cell_centre, vec2 corner) {
 
     // Where the box reaches behind the eye's plane: across the way to the box's nearest point, from
     // which all of it is ahead.
-    vec3 to_middle = cell_centre + slab.middle - EYE(eye_in_index).xyz;
+    vec3 to_middle = cell_center + slab.middle - EYE(eye_in_index).xyz;
     vec3 nearest = to_middle - clamp(to_middle, -slab.half_size, slab.half_size);
     bool around_eye = nearest == vec3(0);
     vec3 ahead = normalize(around_eye ? vec3(1) : nearest);
@@ -164,9 +164,9 @@ void main() {
     int slot = slot_in_order(gl_VertexID >> 2);
     uvec3 cell = texelFetch(cells, slot).xyz;
     vec4 at = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
-    centre = to_pixels(at);
+    center = to_pixels(at);
     hash = hash_of(cell);
-    centre_in_eye = (EYE(eye_from_index) * at).xyz;
+    center_in_eye = (EYE(eye_from_index) * at).xyz;
     uint style = cell.y >> 16;
     base = vec4(base_color(style), surfaces[style & 7u].a);
 

@@ -13,7 +13,7 @@ layout(std140, binding = 0) uniform Volume {
     vec4 levels[2];       // of the surfaces, in brick units
 };
 
-// Of the four planes around a cell along one axis (its two vertices and their outer neighbours,
+// Of the four planes around a cell along one axis (its two vertices and their outer neighbors,
 // folded inwards at the border): where they lie in their bricks, and in which of two bricks.
 struct Planes {
     ivec4 offset;

@@ -28,7 +28,7 @@ std::string& glfw_complaint() {
                                                  : fmt::format("{}: {}", what, glfw_complaint()));
 }
 
-/// GLFW's one initialisation, shared by all windows.
+/// GLFW's one initialization, shared by all windows.
 class GlfwLibrary {
   public:
     static std::shared_ptr<GlfwLibrary> shared() {
@@ -113,7 +113,7 @@ class GlfwContext final : public GlContext {
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
         glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-        // Pictures are composed in textures; the window itself needs colour only.
+        // Pictures are composed in textures; the window itself needs color only.
         glfwWindowHint(GLFW_DEPTH_BITS, 0);
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
         glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);

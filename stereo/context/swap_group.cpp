@@ -74,7 +74,7 @@ void join_swap_group(const render::GlLoader& load) {
     if (!entry<int(XDisplay, GLuint, GLuint)>(load, "glXBindSwapBarrierNV")(display, kGroup,
                                                                             kBarrier))
         fail("the driver does not bind the swap group to a swap barrier: is there a "
-             "synchronisation board?");
+             "synchronization board?");
 }
 
 } // namespace isochron::stereo

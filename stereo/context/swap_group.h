@@ -1,4 +1,4 @@
-// Swapping of all windows of a cluster at once, by NVIDIA's driver and its synchronisation boards.
+// Swapping of all windows of a cluster at once, by NVIDIA's driver and its synchronization boards.
 #pragma once
 
 #include "render/gl/gl.h"

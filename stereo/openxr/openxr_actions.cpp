@@ -23,7 +23,7 @@ constexpr std::array kRows{
     ActionRow{HandAction::grab, XR_ACTION_TYPE_BOOLEAN_INPUT, "grab", "Grab the volume"},
     ActionRow{HandAction::fly, XR_ACTION_TYPE_BOOLEAN_INPUT, "fly", "Fly where the hand points"},
     ActionRow{HandAction::teleport, XR_ACTION_TYPE_BOOLEAN_INPUT, "teleport", "Aim and teleport"},
-    ActionRow{HandAction::recentre, XR_ACTION_TYPE_BOOLEAN_INPUT, "recentre", "Volume ahead"},
+    ActionRow{HandAction::recenter, XR_ACTION_TYPE_BOOLEAN_INPUT, "recenter", "Volume ahead"},
     ActionRow{HandAction::next_view, XR_ACTION_TYPE_BOOLEAN_INPUT, "next_view", "Next viewpoint"},
     ActionRow{HandAction::pick, XR_ACTION_TYPE_BOOLEAN_INPUT, "pick", "Pick the surface"},
     ActionRow{HandAction::fly_speed, XR_ACTION_TYPE_FLOAT_INPUT, "fly_speed", "Fly and back"},

@@ -23,7 +23,7 @@ enum class HandAction : std::uint8_t {
     grab,
     fly,
     teleport,
-    recentre,
+    recenter,
     next_view,
     pick,
     fly_speed,

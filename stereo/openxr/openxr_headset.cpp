@@ -191,7 +191,7 @@ class OpenXrHeadset final : public Headset {
             case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
                 throw OpenXrError(XR_ERROR_INSTANCE_LOST, "OpenXR: the runtime is going");
             case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING:
-                input_.recentre_at(
+                input_.recenter_at(
                     reinterpret_cast<const XrEventDataReferenceSpaceChangePending&>(*event)
                         .changeTime);
                 break;

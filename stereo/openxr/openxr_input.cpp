@@ -63,7 +63,7 @@ struct Button {
 constexpr std::array kButtons{Button{HandAction::grab, WandButton::grab},
                               Button{HandAction::fly, WandButton::fly},
                               Button{HandAction::teleport, WandButton::teleport},
-                              Button{HandAction::recentre, WandButton::recentre}};
+                              Button{HandAction::recenter, WandButton::recenter}};
 
 /// A control lies on one hand alone, whichever it is bound to.
 float stick(const OpenXrSession& session, const OpenXrActions& actions, HandAction action,
@@ -141,7 +141,7 @@ interaction::InputState OpenXrInput::poll(Seconds now, const OpenXrSession* sess
             hand.set_valuator(i, 0.0f);
     }
     if (session && session->display_time()) {
-        if (recentred_at_ && *session->display_time() >= *recentred_at_)
+        if (recentered_at_ && *session->display_time() >= *recentered_at_)
             forget();
         poll_head(now, *session);
         if (actions->sync(session->handle())) {

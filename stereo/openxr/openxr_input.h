@@ -23,7 +23,7 @@ class OpenXrInput {
     interaction::InputState poll(interaction::Seconds now, const OpenXrSession* session,
                                  const OpenXrActions* actions);
     /// The reference space moves at this display time: what was measured until then lies elsewhere.
-    void recentre_at(XrTime time) { recentred_at_ = time; }
+    void recenter_at(XrTime time) { recentered_at_ = time; }
     /// Everything may be elsewhere.
     void forget();
     std::vector<std::string> status() const;
@@ -38,7 +38,7 @@ class OpenXrInput {
     std::array<interaction::TrackedDevice, kHands.size()> hands_;
     std::array<bool, kHands.size()> seen_{};
     std::uint64_t keys_ = 0;
-    std::optional<XrTime> recentred_at_;
+    std::optional<XrTime> recentered_at_;
 };
 
 /// Name of a hand's device.

@@ -11,7 +11,7 @@ namespace isochron::stereo {
 enum class OpenXrSpace : std::uint8_t {
     automatic, ///< the stage where there is one, else local
     stage,     ///< the stage alone
-    local      ///< where the wearer was when the runtime was centred, at the viewer's place
+    local      ///< where the wearer was when the runtime was centered, at the viewer's place
 };
 
 /// How the GL context is handed to the runtime.

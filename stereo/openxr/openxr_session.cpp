@@ -82,7 +82,7 @@ void OpenXrSession::choose_blending() {
             return xrEnumerateEnvironmentBlendModes(instance_->handle(), instance_->headset(),
                                                     kStereo, list...);
         });
-    // The runtime's favourite comes first; the picture has a background of its own.
+    // The runtime's favorite comes first; the picture has a background of its own.
     if (!offered.empty() && std::ranges::find(offered, blending_) == offered.end())
         blending_ = offered.front();
 }

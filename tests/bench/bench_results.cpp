@@ -24,13 +24,13 @@ std::string read_text(const fs::path& path) {
 }
 
 struct ResultFiles {
-    fs::path index, render, artefacts, out;
+    fs::path index, render, artifacts, out;
 };
 
 void run_bench_results(const ResultFiles& files) {
     const std::string page = whole_page({.index = files.index.string(),
                                          .render = files.render.string(),
-                                         .artefacts = files.artefacts.string()},
+                                         .artifacts = files.artifacts.string()},
                                         read_text);
     if (files.out.empty())
         fmt::print("{}", page);
@@ -49,7 +49,7 @@ void add_results(app::Command& program) {
         .type_name("FILE.json");
     command.option("--render", files->render, "Results of `isochron-bench render --json`")
         .type_name("FILE.json");
-    command.option("--artefacts", files->artefacts, "Results of `isochron-bench artefacts --json`")
+    command.option("--artifacts", files->artifacts, "Results of `isochron-bench artifacts --json`")
         .type_name("FILE.json");
     command.option("-o,--out", files->out, "Markdown to write (default: print it)")
         .type_name("FILE.md");

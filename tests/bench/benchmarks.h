@@ -7,7 +7,7 @@ namespace isochron::bench {
 
 void add_index(app::Command& program);
 void add_render(app::Command& program);
-void add_artefacts(app::Command& program);
+void add_artifacts(app::Command& program);
 void add_results(app::Command& program);
 
 } // namespace isochron::bench

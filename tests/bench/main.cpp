@@ -5,6 +5,6 @@ int main(int argc, char** argv) {
     using namespace isochron;
     return app::run_program(
         "isochron-bench", "Measure Isochron's parts against their rivals.",
-        {bench::add_index, bench::add_render, bench::add_artefacts, bench::add_results}, argc,
+        {bench::add_index, bench::add_render, bench::add_artifacts, bench::add_results}, argc,
         argv);
 }

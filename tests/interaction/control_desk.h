@@ -53,8 +53,8 @@ class Desk {
             context.grid = *commands.grid;
         if (commands.views)
             views = *commands.views;
-        if (commands.axes)
-            context.axes = *commands.axes;
+        if (commands.bounding_box)
+            context.bounding_box = *commands.bounding_box;
         if (commands.picked)
             context.picked = *commands.picked;
         if (commands.coloring)
@@ -68,7 +68,7 @@ class Desk {
         return commands;
     }
     const Similarity& volume() const { return context.room_from_physical; }
-    glm::dvec3 centre() const { return transform(volume(), context.pivot); }
+    glm::dvec3 center() const { return transform(volume(), context.pivot); }
 
   private:
     Controls controls_;

@@ -52,11 +52,11 @@ TEST(Controls, GamepadTriggersChangeTheIsovalueAndSticksFly) {
     EXPECT_NEAR(desk.context.isovalue, 52.5, 1e-9);
     desk.frame({{"gamepad", std::nullopt, true, 0, {0, 0, 0, 0, 1, 0}}}, 0.1);
     EXPECT_NEAR(desk.context.isovalue, 50, 1e-9);
-    const glm::dvec3 before = desk.centre();
+    const glm::dvec3 before = desk.center();
     desk.frame({head_at(kStanding), {"gamepad", std::nullopt, true, 0, {0, -1, 0, 0, 0, 0}}}, 0.1);
-    expect_near(desk.centre() - before, {0, 0, 0.1}, 1e-7); // ahead: it comes nearer
+    expect_near(desk.center() - before, {0, 0, 0.1}, 1e-7); // ahead: it comes nearer
     desk.frame({head_at(kStanding), {"gamepad", std::nullopt, true, 0, {0, 0, 1, 0, 0, 0}}}, 0.1);
-    EXPECT_LT(desk.centre().x, before.x); // turning right: it swings to the left
+    EXPECT_LT(desk.center().x, before.x); // turning right: it swings to the left
     desk.frame({{"gamepad", std::nullopt, true, bit(GamepadButton::right_bumper), {}}});
     EXPECT_EQ(desk.context.step, 1u);
     desk.frame({{"gamepad", std::nullopt, true, bit(GamepadButton::a), {}}});
@@ -137,8 +137,8 @@ TEST(Controls, SwitchesReportOnlyChanges) {
 
 TEST(Controls, LooksGoRoundByKeys) {
     Desk desk;
-    EXPECT_EQ(desk.tap(bit(Action::axes)).axes, false);
-    EXPECT_EQ(desk.tap(bit(Action::axes)).axes, true);
+    EXPECT_EQ(desk.tap(bit(Action::bounding_box)).bounding_box, false);
+    EXPECT_EQ(desk.tap(bit(Action::bounding_box)).bounding_box, true);
     EXPECT_TRUE(desk.tap(bit(Action::next_surface)).empty()); // there is but one
     desk.context.isosurfaces = 3;
     EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 1u);

@@ -160,11 +160,11 @@ TEST(Navigator, TeleportBringsThePointedPlaceToTheFeet) {
     EXPECT_TRUE(desk.frame({head_at(head), wand_at(wand)}).empty());
 }
 
-TEST(Navigator, RecentrePutsTheVolumeAheadOfTheViewer) {
+TEST(Navigator, RecenterPutsTheVolumeAheadOfTheViewer) {
     Desk desk;
     const Pose head{{2, 1.8f, -3}, glm::angleAxis(1.57079633f, glm::vec3(0, 1, 0))};
     desk.frame({head_at(head)});
-    desk.frame({head_at(head), keys_down(bit(Action::recentre))});
+    desk.frame({head_at(head), keys_down(bit(Action::recenter))});
     // What was 1.5 m ahead (-Z) and 0.1 m to the right is now 1.5 m to -X and 0.1 m to -Z.
     expect_near(desk.volume().translation, {2 - 1.5, 1.3, -3 - 0.1}, 1e-6);
     EXPECT_NEAR(desk.volume().scale, desk.context.home.scale, 1e-12);

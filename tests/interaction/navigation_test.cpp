@@ -17,17 +17,17 @@ TEST(Controls, RestChangesNothing) {
     EXPECT_TRUE(desk.frame({}).empty());
 }
 
-TEST(Controls, OrbitKeepsTheCentreAndTheSize) {
+TEST(Controls, OrbitKeepsTheCenterAndTheSize) {
     for (unsigned seed = 0; seed < 50; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         Random random(seed);
         Desk desk;
-        const glm::dvec3 centre = desk.centre();
+        const glm::dvec3 center = desk.center();
         const Pose head{{float(uniform(random, -1, 1)), 1.5f, 0.3f}, random_rotation(random)};
         for (int frame = 0; frame < 100; ++frame)
             desk.frame({head_at(head), mouse_dragged({float(uniform(random, -0.2, 0.2)),
                                                       float(uniform(random, -0.2, 0.2))})});
-        expect_near(desk.centre(), centre);
+        expect_near(desk.center(), center);
         EXPECT_NEAR(desk.volume().scale, 0.01, 1e-12);
         EXPECT_NEAR(glm::length(desk.volume().rotation), 1.0, 1e-12);
     }
@@ -35,17 +35,17 @@ TEST(Controls, OrbitKeepsTheCentreAndTheSize) {
 
 TEST(Controls, OrbitTurnsTheFrontWithTheCursor) {
     Desk desk;
-    const glm::dvec3 front = physical(desk.volume(), desk.centre() + glm::dvec3(0, 0, 0.3));
+    const glm::dvec3 front = physical(desk.volume(), desk.center() + glm::dvec3(0, 0, 0.3));
     desk.frame({head_at(kStanding), mouse_dragged({0.1f, 0.0f})});
-    EXPECT_GT(transform(desk.volume(), front).x, desk.centre().x + 0.05);
+    EXPECT_GT(transform(desk.volume(), front).x, desk.center().x + 0.05);
     desk.frame({head_at(kStanding), mouse_dragged({-0.1f, 0.1f})});
-    EXPECT_LT(transform(desk.volume(), front).y, desk.centre().y - 0.05);
+    EXPECT_LT(transform(desk.volume(), front).y, desk.center().y - 0.05);
 }
 
-TEST(Controls, MovingKeepsTheCentreUnderTheCursor) {
+TEST(Controls, MovingKeepsTheCenterUnderTheCursor) {
     for (const bool by_shift : {false, true}) {
         Desk desk;
-        const glm::dvec3 before = desk.centre();
+        const glm::dvec3 before = desk.center();
         const double distance = glm::length(before - glm::dvec3(kStanding.position));
         if (by_shift)
             desk.frame(
@@ -53,14 +53,14 @@ TEST(Controls, MovingKeepsTheCentreUnderTheCursor) {
         else
             desk.frame({head_at(kStanding), mouse_dragged({0, 0, 0, 0, 0.1f, 0.2f})});
         const double height = 2 * distance * std::tan(0.45);
-        expect_near(desk.centre() - before, {0.1 * height, -0.2 * height, 0}, 1e-3);
+        expect_near(desk.center() - before, {0.1 * height, -0.2 * height, 0}, 1e-3);
         EXPECT_EQ(desk.volume().rotation, desk.context.home.rotation);
     }
 }
 
-TEST(Controls, WheelScalesAboutTheCentreWithinBounds) {
+TEST(Controls, WheelScalesAboutTheCenterWithinBounds) {
     Desk desk;
-    const glm::dvec3 centre = desk.centre();
+    const glm::dvec3 center = desk.center();
     std::vector<float> wheel(kMouseValuators, 0.0f);
     wheel[kMouseWheel] = 1;
     desk.frame({mouse_dragged(wheel)});
@@ -71,7 +71,7 @@ TEST(Controls, WheelScalesAboutTheCentreWithinBounds) {
             desk.frame({mouse_dragged(wheel)});
         EXPECT_GE(desk.volume().scale, 0.01e-3 * (1 - 1e-12));
         EXPECT_LE(desk.volume().scale, 0.01e3 * (1 + 1e-12));
-        expect_near(desk.centre(), centre, 1e-6);
+        expect_near(desk.center(), center, 1e-6);
     }
 }
 

@@ -139,7 +139,7 @@ class DisplayTest : public testing::TestWithParam<ContextKind> {
             return (centroid(left, 1).x - centroid(right, 1).x) / left.width;
         }
         const auto [left, right] = cut_eyes(draw(mode), mode);
-        // Only the anaglyph tells the eyes apart by colour; elsewhere every channel will do.
+        // Only the anaglyph tells the eyes apart by color; elsewhere every channel will do.
         const int right_channel = mode == StereoMode::anaglyph_red_cyan ? 2 : 0;
         return (centroid(left, 0).x - centroid(right, right_channel).x) / left.width;
     }
@@ -160,10 +160,10 @@ TEST_P(DisplayTest, DisparityHasTheSignAndSizeOfSimilarTriangles) {
     for (const StereoMode mode : kTwoEyedModes)
         for (const float distance : {0.5f, 0.8f, 1.0f, 1.5f, 3.0f, 20.0f}) {
             const glm::vec3 point(0.05f, 1.6f, -distance);
-            const double metres = kSeparation * (1.0 - distance) / distance;
+            const double meters = kSeparation * (1.0 - distance) / distance;
             const double fraction = crossed_disparity(display, mode, point, kSeparation);
             const double pixels = mode == StereoMode::side_by_side ? kSize.x / 2 : kSize.x;
-            EXPECT_NEAR(fraction * pixels, metres / 1.6 * pixels, 0.5)
+            EXPECT_NEAR(fraction * pixels, meters / 1.6 * pixels, 0.5)
                 << name_of(mode) << ", point at " << distance << " m";
             if (distance < 0.9f) {
                 EXPECT_GT(fraction * pixels, 2) << "crossed before the screen";
@@ -182,7 +182,7 @@ TEST_P(DisplayTest, DisparityOfAFittedScreenFollowsItsFittedWidth) {
                                   : mode == StereoMode::top_bottom ? glm::dvec2(800, 300)
                                                                    : glm::dvec2(800, 600);
         // The screen of 1.6 m x 0.9 m grows to the picture's aspect.
-        const double width = std::max(1.6, 0.9 * pixels.x / pixels.y); // metres
+        const double width = std::max(1.6, 0.9 * pixels.x / pixels.y); // meters
         const double fraction = crossed_disparity(display, mode, {0.0f, 1.55f, -2.0f}, kSeparation);
         EXPECT_NEAR(fraction * pixels.x, -kSeparation / 2.0 / width * pixels.x, 0.5)
             << name_of(mode);
@@ -201,17 +201,17 @@ TEST_P(DisplayTest, WithoutSeparationBothEyesSeeTheSame) {
     }
 }
 
-/// Fills each eye's picture with a colour of its own.
+/// Fills each eye's picture with a color of its own.
 void fill(const render::Gl& gl, Eye eye) {
     const std::map<Eye, glm::vec4> colors{
-        {Eye::centre, {1, 1, 1, 1}}, {Eye::left, {1, 0.2, 0.4, 1}}, {Eye::right, {0.6, 0.8, 0, 1}}};
+        {Eye::center, {1, 1, 1, 1}}, {Eye::left, {1, 0.2, 0.4, 1}}, {Eye::right, {0.6, 0.8, 0, 1}}};
     // What shaders write, and clears fill in, is light.
     const glm::vec3 light = render::linear_from_srgb(glm::vec3(colors.at(eye)));
     gl.ClearColor(light.x, light.y, light.z, 1.0f);
     gl.Clear(GL_COLOR_BUFFER_BIT);
 }
 using Rgb = std::array<int, 3>;
-constexpr Rgb kLeft{255, 51, 102}, kRight{153, 204, 0}, kCentre{255, 255, 255};
+constexpr Rgb kLeft{255, 51, 102}, kRight{153, 204, 0}, kCenter{255, 255, 255};
 
 Rgb rgb(const Image& image, int x, int y) {
     const std::uint8_t* pixel = image.at(x, y);
@@ -230,7 +230,7 @@ TEST_P(DisplayTest, EachEyeLandsWhereTheModeSays) {
                 rgb(window, kSize.x - 1, kSize.y - 1)};
     };
     using testing::ElementsAre;
-    EXPECT_THAT(corners(StereoMode::mono), ElementsAre(kCentre, kCentre, kCentre, kCentre));
+    EXPECT_THAT(corners(StereoMode::mono), ElementsAre(kCenter, kCenter, kCenter, kCenter));
     EXPECT_THAT(corners(StereoMode::left), ElementsAre(kLeft, kLeft, kLeft, kLeft));
     EXPECT_THAT(corners(StereoMode::right), ElementsAre(kRight, kRight, kRight, kRight));
     EXPECT_THAT(corners(StereoMode::side_by_side), ElementsAre(kLeft, kRight, kLeft, kRight));
@@ -320,7 +320,7 @@ TEST_P(DisplayTest, NothingOfAnEarlierFrameRemains) {
     }
 }
 
-TEST_P(DisplayTest, FollowsTheSizeOfTheWindowAndDrawsNothingWhenMinimised) {
+TEST_P(DisplayTest, FollowsTheSizeOfTheWindowAndDrawsNothingWhenMinimized) {
     Display display = display_of({});
     int drawn = 0;
     const auto draw = [&] {
@@ -367,9 +367,9 @@ TEST_P(DisplayTest, AnEyeThatWasNotDrawnCannotBeRead) {
     draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::side_by_side,
                   [](const auto&, Eye) {});
     draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::mono, [](const auto&, Eye) {});
-    EXPECT_NO_THROW(display.read_eye(Eye::centre));
+    EXPECT_NO_THROW(display.read_eye(Eye::center));
     EXPECT_THROW(display.read_eye(Eye::left), render::Error);
-    EXPECT_THROW(display.read_eye(Eye::centre, 1), render::Error);
+    EXPECT_THROW(display.read_eye(Eye::center, 1), render::Error);
 }
 
 INSTANTIATE_TEST_SUITE_P(, DisplayTest, testing::Values(ContextKind::egl, ContextKind::osmesa),

@@ -16,8 +16,8 @@ namespace {
 using render::Image;
 using Rgb = std::array<int, 3>;
 
-/// A picture in which every pixel of every eye of every viewport has a colour of its own.
-Rgb colour_of(Eye eye, std::size_t viewport, int x, int y) {
+/// A picture in which every pixel of every eye of every viewport has a color of its own.
+Rgb color_of(Eye eye, std::size_t viewport, int x, int y) {
     return {(37 * x + 11 * y) % 256, (5 * x + 53 * y + 90 * static_cast<int>(viewport)) % 256,
             eye == Eye::left ? 40 : 200};
 }
@@ -119,7 +119,7 @@ TEST_P(MultiplexTest, RowsColumnsAndSquaresAlternateFromTheWindowsTopLeftPixel) 
                 const auto [low, high] = pixels_of(window.viewports[v], window.size);
                 for (int y = low.y; y < high.y; ++y)
                     for (int x = low.x; x < high.x; ++x, ++compared) {
-                        const Rgb expected = colour_of(owner(mode, x, y), v, x - low.x, y - low.y);
+                        const Rgb expected = color_of(owner(mode, x, y), v, x - low.x, y - low.y);
                         const std::uint8_t* pixel = picture.at(x, y);
                         ASSERT_EQ((Rgb{pixel[0], pixel[1], pixel[2]}), expected) << x << ' ' << y;
                     }
@@ -154,7 +154,7 @@ TEST_P(MultiplexTest, DuboisAnaglyphIsHisMatricesInLinearLight) {
                     double sum = 0;
                     for (const int place : {0, 1}) {
                         const bool left = (place == 0) != is_inverted(mode);
-                        const Rgb from = colour_of(left ? Eye::left : Eye::right, 0, x, y);
+                        const Rgb from = color_of(left ? Eye::left : Eye::right, 0, x, y);
                         for (int k = 0; k < 3; ++k)
                             sum += kDubois[place][channel][k] * linear(from[k] / 255.0);
                     }
@@ -195,7 +195,7 @@ TEST_P(MultiplexTest, AQuadBufferedWindowHoldsEachEyeInABufferOfItsOwn) {
                 const auto [low, high] = pixels_of(window.viewports[v], window.size);
                 for (const bool at_left : {true, false}) {
                     const Eye eye = at_left != is_inverted(mode) ? Eye::left : Eye::right;
-                    const Rgb expected = colour_of(eye, v, 3, 4);
+                    const Rgb expected = color_of(eye, v, 3, 4);
                     const std::uint8_t* pixel = (at_left ? left : right).at(low.x + 3, low.y + 4);
                     EXPECT_EQ((Rgb{pixel[0], pixel[1], pixel[2]}), expected) << name_of(mode);
                     EXPECT_EQ(display.read_eye(Eye::left, v).width, high.x - low.x);

@@ -35,7 +35,7 @@ TEST(Nodes, EveryWindowIsOpenedByExactlyOneProcessWhateverTheirNumber) {
     }
 }
 
-TEST(Nodes, AProcessForEachNodeOpensItsWindowsAndFewerShareNeighbours) {
+TEST(Nodes, AProcessForEachNodeOpensItsWindowsAndFewerShareNeighbors) {
     const Installation cave = with_nodes({1, 2, 3, 4});
     EXPECT_EQ(node_count(cave), 5);
     EXPECT_THAT(windows_of(cave, 0, 5), IsEmpty());

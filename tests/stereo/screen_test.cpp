@@ -74,7 +74,7 @@ TEST(Screen, CornersFallOnTheCornersOfThePictureForEveryEye) {
     RandomRoom room(kSeed);
     for (int i = 0; i < 500; ++i) {
         const auto [screen, head] = room.screen_and_head();
-        for (const Eye eye : {Eye::centre, Eye::left, Eye::right})
+        for (const Eye eye : {Eye::center, Eye::left, Eye::right})
             expect_corners_on_corners(view_of(screen, head, eye, 0.08f, kNear, kFar, {640, 480}),
                                       screen, 2e-4f);
     }
@@ -111,7 +111,7 @@ TEST(Screen, EyesStandHalfTheSeparationToEachSideOfTheHead) {
         const glm::vec3 right_axis = head.orientation * glm::vec3(1, 0, 0);
         EXPECT_NEAR(glm::dot(at(Eye::right) - at(Eye::left), right_axis), 0.07f, 1e-5f);
         EXPECT_LT(glm::distance(0.5f * (at(Eye::left) + at(Eye::right)), head.position), 1e-5f);
-        EXPECT_LT(glm::distance(at(Eye::centre), head.position), 1e-5f);
+        EXPECT_LT(glm::distance(at(Eye::center), head.position), 1e-5f);
     }
 }
 
@@ -151,7 +151,7 @@ TEST(Screen, FittedScreensGrowAboutTheirMiddleSoThatShapesStayRoundAndInView) {
     screen.fit_aspect = true;
     const Pose head{{0.2f, 1.5f, 0.7f}, {1, 0, 0, 0}};
     for (const glm::ivec2 pixels : {glm::ivec2(640, 720), glm::ivec2(1920, 480), glm::ivec2(300)}) {
-        const render::View view = view_of(screen, head, Eye::centre, 0, kNear, kFar, pixels);
+        const render::View view = view_of(screen, head, Eye::center, 0, kNear, kFar, pixels);
         const glm::vec3 middle = 0.5f * (screen.lower_left + screen.upper_right);
         EXPECT_NEAR(ndc(view, middle).x, 0, 1e-5f);
         EXPECT_NEAR(ndc(view, middle).y, 0, 1e-5f);

@@ -40,7 +40,7 @@ TEST(StereoMode, OnlyInvertedModesExchangeTheEyes) {
     for (const StereoMode mode : all_stereo_modes()) {
         EXPECT_EQ(place_of(Eye::left, mode), is_inverted(mode) ? Eye::right : Eye::left);
         EXPECT_EQ(place_of(Eye::right, mode), is_inverted(mode) ? Eye::left : Eye::right);
-        EXPECT_EQ(place_of(Eye::centre, mode), Eye::centre);
+        EXPECT_EQ(place_of(Eye::center, mode), Eye::center);
         EXPECT_FALSE(is_inverted(upright(mode)));
     }
 }

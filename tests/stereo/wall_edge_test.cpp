@@ -36,7 +36,7 @@ std::vector<Edge> edges() {
             {"floor, right", floor, right, {1.5, 0, -1.5}, {1.5, 0, 1.5}}};
 }
 
-/// The point of a wall, metres in the room, where a point of the room is seen.
+/// The point of a wall, meters in the room, where a point of the room is seen.
 glm::vec3 seen_on(const Screen& screen, const Pose& head, Eye eye, glm::vec3 point) {
     const render::View view = view_of(screen, head, eye, kSeparation, 0.05f, 50.0f, {1000, 1000});
     const glm::vec4 clip = view.clip_from_eye * view.eye_from_room * glm::vec4(point, 1.0f);

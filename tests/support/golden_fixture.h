@@ -24,22 +24,22 @@ constexpr std::uint32_t kStep = 3;
 constexpr double kOuterRadius = 11.0, kInnerRadius = 6.5; ///< voxels
 constexpr double kFromRadius = 16.0; ///< isovalue plus radius of the data's spheres
 constexpr int kPerEdge = 24;         ///< points looked at
-inline const glm::dvec3 kSphereCentre(12.0 + kStep, 15.5, 15.5); ///< of the data, at that step
+inline const glm::dvec3 kSphereCenter(12.0 + kStep, 15.5, 15.5); ///< of the data, at that step
 constexpr double kBox = 31.0;                                    ///< side of the volume, voxels
 
 /// Both contexts are held to the same pictures: the same rasterizer draws in both, byte for byte
 /// alike. With another processor's instructions (SSE4.1 in place of AVX2) single channels round to
-/// the neighbouring value; no outline moves, which would change a pixel by a hundred and more.
+/// the neighboring value; no outline moves, which would change a pixel by a hundred and more.
 constexpr ImageTolerance kTolerance{.maximum = 12, .mean = 0.01};
 
 /// Turned, so that no edge of the box hides another.
-inline interaction::Similarity place_at(glm::dvec3 centre, double scale) {
+inline interaction::Similarity place_at(glm::dvec3 center, double scale) {
     interaction::Similarity placement;
     placement.scale = scale;
     placement.rotation =
         glm::angleAxis(0.3, glm::dvec3(1, 0, 0)) * glm::angleAxis(0.55, glm::dvec3(0, 1, 0));
     placement.translation =
-        centre - placement.scale * (placement.rotation * glm::dvec3(0.5 * kBox));
+        center - placement.scale * (placement.rotation * glm::dvec3(0.5 * kBox));
     return placement;
 }
 
@@ -73,7 +73,7 @@ inline Config one_window(StereoMode mode, glm::ivec2 size = kPicture) {
 }
 inline const interaction::Similarity kPlacement = place_at({0.12, 1.75, -2.5}, 0.039);
 
-/// The surface's colour is warm, those of the background, of the box and its numbers are cold.
+/// The surface's color is warm, those of the background, of the box and its numbers are cold.
 inline bool warm(const std::uint8_t* pixel) {
     return pixel[0] > pixel[2] + 12;
 }
@@ -87,7 +87,7 @@ inline Coverage warm_part(const Image& image) {
 /// @param radius voxels
 inline Coverage expected_part(const PinholeEye& eye, const interaction::Similarity& placement,
                               double radius) {
-    return test_support::expected_coverage(eye, in_room(placement, kSphereCentre),
+    return test_support::expected_coverage(eye, in_room(placement, kSphereCenter),
                                            placement.scale * radius);
 }
 
@@ -121,8 +121,8 @@ class GoldenPictures : public testing::TestWithParam<stereo::ContextKind> {
 /// The sphere has its place and its size; both within what the pixels can tell.
 /// @param swelling share of its area by which a footprint may be larger than the surface
 inline void expect_sphere(const Coverage& actual, const Coverage& expected, double swelling) {
-    EXPECT_NEAR(actual.centre.x, expected.centre.x, 0.5);
-    EXPECT_NEAR(actual.centre.y, expected.centre.y, 0.5);
+    EXPECT_NEAR(actual.center.x, expected.center.x, 0.5);
+    EXPECT_NEAR(actual.center.y, expected.center.y, 0.5);
     EXPECT_GT(actual.pixels, 0.97 * expected.pixels);
     EXPECT_LT(actual.pixels, (1.03 + swelling) * expected.pixels);
 }

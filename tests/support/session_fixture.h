@@ -13,7 +13,7 @@
 
 namespace isochron::app {
 
-/// A sphere that moves along x and breathes: 32^3 vertices, f32, distance from the centre negated.
+/// A sphere that moves along x and breathes: 32^3 vertices, f32, distance from the center negated.
 class MovingSphere final : public index::VolumeSeries {
   public:
     explicit MovingSphere(std::size_t steps) {

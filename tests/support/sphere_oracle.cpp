@@ -18,19 +18,19 @@ PinholeEye::PinholeEye(const stereo::Screen& screen, const interaction::Pose& he
       down_(glm::dvec3(screen.lower_left - screen.upper_left) / double(picture.y)),
       picture_(picture) {
     const glm::dvec3 right(head.orientation * glm::vec3(1, 0, 0));
-    if (eye != stereo::Eye::centre)
+    if (eye != stereo::Eye::center)
         eye_ += (eye == stereo::Eye::left ? -0.5 : 0.5) * eye_separation * right;
 }
 
-bool PinholeEye::sees(glm::dvec2 pixel, glm::dvec3 centre, double radius) const {
+bool PinholeEye::sees(glm::dvec2 pixel, glm::dvec3 center, double radius) const {
     const glm::dvec3 along =
         glm::normalize(upper_left_ + pixel.x * across_ + pixel.y * down_ - eye_);
-    const glm::dvec3 to_centre = centre - eye_;
-    return glm::dot(to_centre, along) > 0.0 && glm::length(glm::cross(to_centre, along)) < radius;
+    const glm::dvec3 to_center = center - eye_;
+    return glm::dot(to_center, along) > 0.0 && glm::length(glm::cross(to_center, along)) < radius;
 }
 
 std::optional<glm::dvec2> PinholeEye::pixel_of(glm::dvec3 point) const {
-    constexpr double kNearest = 0.1; // metres
+    constexpr double kNearest = 0.1; // meters
     const glm::dmat3 room_from_pixels(across_, down_, upper_left_ - eye_);
     const glm::dvec3 at = glm::inverse(room_from_pixels) * (point - eye_);
     const double screen_distance =
@@ -56,13 +56,13 @@ Coverage coverage(glm::ivec2 picture, const std::function<bool(int, int)>& cover
         found.pixels += pixels;
         sum += pixels * glm::dvec2(0.5 * (first + last + 1), y + 0.5);
     }
-    found.centre = sum / std::max(found.pixels, 1.0);
+    found.center = sum / std::max(found.pixels, 1.0);
     return found;
 }
 
-Coverage expected_coverage(const PinholeEye& eye, glm::dvec3 centre, double radius) {
+Coverage expected_coverage(const PinholeEye& eye, glm::dvec3 center, double radius) {
     return coverage(eye.picture(), [&](int x, int y) {
-        return eye.sees({x + 0.5, y + 0.5}, centre, radius);
+        return eye.sees({x + 0.5, y + 0.5}, center, radius);
     });
 }
 

@@ -22,7 +22,7 @@ class PinholeEye {
                double eye_separation, glm::ivec2 picture);
 
     /// Whether the line of sight through a pixel meets the sphere.
-    bool sees(glm::dvec2 pixel, glm::dvec3 centre, double radius) const;
+    bool sees(glm::dvec2 pixel, glm::dvec3 center, double radius) const;
     /// Where a point appears; nothing for what is not at least 0.1 m in front of the eye or outside
     /// the picture.
     std::optional<glm::dvec2> pixel_of(glm::dvec3 point) const;
@@ -36,11 +36,11 @@ class PinholeEye {
 /// What a convex thing covers: what is drawn over parts of it, such as thin lines, is counted in.
 struct Coverage {
     double pixels = 0;
-    glm::dvec2 centre{0.0};
+    glm::dvec2 center{0.0};
 };
 /// @param covered asked for the column and row of each pixel
 Coverage coverage(glm::ivec2 picture, const std::function<bool(int, int)>& covered);
-Coverage expected_coverage(const PinholeEye& eye, glm::dvec3 centre, double radius);
+Coverage expected_coverage(const PinholeEye& eye, glm::dvec3 center, double radius);
 
 /// Points on the edges of the box [0, extent]^3, evenly spaced, corners included.
 std::vector<glm::dvec3> points_on_edges(double extent, int per_edge);

@@ -43,7 +43,7 @@ class TestField {
     std::vector<std::uint64_t> storage_;
 };
 
-/// The sphere of the paper: 255 exp(-d^2 / 242), its centre (22, 19, 22) + 0.25 t (.8, .36, .48).
+/// The sphere of the paper: 255 exp(-d^2 / 242), its center (22, 19, 22) + 0.25 t (.8, .36, .48).
 double moving_sphere(double x, double y, double z, double t);
 
 /// A smooth random field: a sum of moving Fourier modes, within [-1, 1].

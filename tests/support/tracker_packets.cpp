@@ -13,8 +13,8 @@
 namespace isochron::test_support {
 namespace {
 
-std::string position_block(const glm::dvec3& metres) {
-    return fmt::format("[{:.3f} {:.3f} {:.3f}]", 1e3 * metres.x, 1e3 * metres.y, 1e3 * metres.z);
+std::string position_block(const glm::dvec3& meters) {
+    return fmt::format("[{:.3f} {:.3f} {:.3f}]", 1e3 * meters.x, 1e3 * meters.y, 1e3 * meters.z);
 }
 
 std::string rotation_block(const glm::dmat3& rotation) {

@@ -128,7 +128,7 @@ TEST_F(CommandLine, AnInterruptedBuildEndsWithStatus130AndLeavesTheOldIndexAlone
         const ChildResult result =
             isochron(build, {.interrupt_after = phase}); // as soon as it is printed
         EXPECT_EQ(result.status, 130);
-        EXPECT_THAT(result.err, HasSubstr("isochron: cancelled\n"));
+        EXPECT_THAT(result.err, HasSubstr("isochron: canceled\n"));
         EXPECT_EQ(folder.names(), before);
         EXPECT_EQ(folder.read("a.isochron"), old);
     }
@@ -149,47 +149,47 @@ void write_two_arrays(const test_support::TestFolder& folder, int steps) {
     }
 }
 
-TEST_F(CommandLine, ColourCarriesASecondArrayThatInfoShowsAndVerifyChecks) {
+TEST_F(CommandLine, ColorCarriesASecondArrayThatInfoShowsAndVerifyChecks) {
     write_two_arrays(folder, 3);
     for (const bool refer : {false, true}) {
-        std::vector<std::string> build{"build", "s?.vtk", "--array",    "speed",         "--colour",
-                                       "heat",  "-o",     "c.isochron", "--colour-unit", "K"};
+        std::vector<std::string> build{"build", "s?.vtk", "--array",    "speed",        "--color",
+                                       "heat",  "-o",     "c.isochron", "--color-unit", "K"};
         if (refer)
             build.push_back("--refer");
         const ChildResult built = isochron(build);
         ASSERT_EQ(built.status, 0) << built.err;
         const auto info = nlohmann::json::parse(isochron({"info", "c.isochron", "--json"}).out);
         EXPECT_EQ(info.at("array"), "speed");
-        EXPECT_EQ(info.at("colour").at("array"), "heat");
-        EXPECT_EQ(info.at("colour").at("value_unit"), "K");
-        EXPECT_EQ(info.at("colour").at("low"), -24);
-        EXPECT_EQ(info.at("colour").at("high"), 0);
+        EXPECT_EQ(info.at("color").at("array"), "heat");
+        EXPECT_EQ(info.at("color").at("value_unit"), "K");
+        EXPECT_EQ(info.at("color").at("low"), -24);
+        EXPECT_EQ(info.at("color").at("high"), 0);
         EXPECT_EQ(isochron({"verify", "c.isochron"}).status, 0);
         EXPECT_THAT(isochron({"info", "c.isochron"}).out, HasSubstr("heat, f32, -24 to 0 K"));
     }
-    // Of an index that refers to its files, verify reads the colours there.
+    // Of an index that refers to its files, verify reads the colors there.
     std::string changed = folder.read("s1.vtk");
     changed.replace(changed.rfind("-3"), 2, "-4");
     folder.write("s1.vtk", changed);
     expect_failure(isochron({"verify", "c.isochron"}), 1, "s1.vtk has changed");
 }
 
-TEST_F(CommandLine, ColoursAreAppendedWithTheRest) {
+TEST_F(CommandLine, ColorsAreAppendedWithTheRest) {
     write_two_arrays(folder, 4);
     const auto build = [&](const std::string& files, const std::vector<std::string>& more) {
         std::vector<std::string> all{"build", files, "--array", "speed", "-o", "c.isochron"};
         all.insert(all.end(), more.begin(), more.end());
         return isochron(all);
     };
-    ASSERT_EQ(build("s?.vtk", {"--colour", "heat"}).status, 0);
+    ASSERT_EQ(build("s?.vtk", {"--color", "heat"}).status, 0);
     const std::string whole = folder.read("c.isochron");
     std::filesystem::remove(folder.path() / "c.isochron");
-    ASSERT_EQ(build("s[01].vtk", {"--colour", "heat"}).status, 0);
-    expect_failure(build("s?.vtk", {"--append"}), 1, "it holds the colours heat, none given");
-    const ChildResult appended = build("s?.vtk", {"--append", "--colour", "heat"});
+    ASSERT_EQ(build("s[01].vtk", {"--color", "heat"}).status, 0);
+    expect_failure(build("s?.vtk", {"--append"}), 1, "it holds the colors heat, none given");
+    const ChildResult appended = build("s?.vtk", {"--append", "--color", "heat"});
     EXPECT_EQ(appended.status, 0) << appended.err;
     EXPECT_EQ(folder.read("c.isochron"), whole);
-    expect_failure(build("s?.vtk", {"--colour", "cold"}), 1, "cold");
+    expect_failure(build("s?.vtk", {"--color", "cold"}), 1, "cold");
 }
 
 } // namespace

@@ -51,7 +51,7 @@ TEST(CheckConfig, ASoundWindowHasNoProblems) {
     EXPECT_THAT(lines_of(window_with(kSquare)), IsEmpty());
 }
 
-TEST(CheckConfig, ScreensThatAreSkewedMirroredOrInMillimetresAreNamedWithFileLineAndKey) {
+TEST(CheckConfig, ScreensThatAreSkewedMirroredOrInMillimetersAreNamedWithFileLineAndKey) {
     EXPECT_THAT(lines_of(window_with("lower_left = [-1, 1, -1]\nupper_left = [-0.5, 3, -1]\n"
                                      "upper_right = [1.56, 3, -1]\n")),
                 ElementsAre("lab.toml:5: windows.viewports.projection: window west: the corner at "

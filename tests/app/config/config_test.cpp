@@ -28,7 +28,7 @@ TEST(Config, LooksArrive) {
     const Config config = parse_config(R"(
 [[surfaces]]
 isovalue = 2.5
-colour = [1.0, 0.5, 0.0]
+color = [1.0, 0.5, 0.0]
 opacity = 0.5
 [[surfaces]]
 quantile = 0.5
@@ -39,7 +39,7 @@ blending = "display"
 [lighting]
 key_direction = [0, 1, 0]
 reflectance = 0.1
-[colouring]
+[coloring]
 by = "value"
 map = "polar"
 range = [0.1, 0.3]
@@ -63,11 +63,11 @@ range = [0.1, 0.3]
 }
 
 TEST(Config, LooksThatCannotBeAreErrorsWithTheirPlace) {
-    EXPECT_THAT(error_of("[colouring]\nmap = \"rainbow\"\n"), HasSubstr("lab.toml:2"));
-    EXPECT_THAT(error_of("[colouring]\nrange = [2, 1]\n"), HasSubstr("ascending"));
+    EXPECT_THAT(error_of("[coloring]\nmap = \"rainbow\"\n"), HasSubstr("lab.toml:2"));
+    EXPECT_THAT(error_of("[coloring]\nrange = [2, 1]\n"), HasSubstr("ascending"));
     EXPECT_THAT(error_of("[lighting]\nkey_direction = [0, 0, 0]\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[[surfaces]]\nisovalue = 1\nquantile = 0.5\n"), HasSubstr("quantile"));
-    EXPECT_THAT(error_of("[[surfaces]]\ncolour = [0, 0, 2]\n"), HasSubstr("sRGB"));
+    EXPECT_THAT(error_of("[[surfaces]]\ncolor = [0, 0, 2]\n"), HasSubstr("sRGB"));
     std::string nine;
     for (int i = 0; i < 9; ++i)
         nine += "[[surfaces]]\nisovalue = 1\n";

@@ -135,7 +135,7 @@ TEST(DeviceConfig, WhatIsWrongIsNamedWithItsPlace) {
     expect(dtrack + body + "held_after_ms = 2000\n", "expected 0 < held_after_ms <= lost_after_ms");
     expect("[dtrack]\nport = 70000\n" + body, "lab.toml:2: dtrack.port");
     expect("[dtrack]\naddress = \"tracker.lab\"\n" + body, "expected a numeric IPv4 or IPv6");
-    expect("[dtrack]\nposition = [0, 2000, 0]\n" + body, "expected metres in the room, got 2000 m");
+    expect("[dtrack]\nposition = [0, 2000, 0]\n" + body, "expected meters in the room, got 2000 m");
     expect("[dtrack]\nscale = 0\n" + body, "lab.toml:2: dtrack.scale");
     expect("[osc]\nprefix = \"isochron\"\n[[osc.devices]]\nname = \"head\"\n",
            "osc.prefix: expected");

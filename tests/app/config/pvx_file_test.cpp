@@ -82,7 +82,7 @@ TEST_F(PvxFile, UnitAndOriginPutTheCornersIntoTheRoom) {
     const PvxImport import =
         read("<pvx><EyeSeparation Value=\"0.2\"/><Machine LowerLeft=\"-5 0 -5\" LowerRight=\"5 0 "
              "-5\" UpperRight=\"5 10 -5\"/></pvx>",
-             {.metres_per_unit = 0.3048f, .origin = {0.0f, 0.5f, 1.0f}});
+             {.meters_per_unit = 0.3048f, .origin = {0.0f, 0.5f, 1.0f}});
     const stereo::Screen& screen = import.installation.windows[0].viewports[0].screen;
     EXPECT_NEAR(screen.upper_right.x, 1.524f, 1e-5f);
     EXPECT_NEAR(screen.upper_right.y, 3.548f, 1e-5f);

@@ -1,4 +1,4 @@
-// Surfaces and colouring: what commands set, what is refused, and old recordings.
+// Surfaces and coloring: what commands set, what is refused, and old recordings.
 #include "app/frame/explorer_state.h"
 
 #include "interaction/recording/commands_json.h"
@@ -61,7 +61,7 @@ TEST(ExplorerState, SetsAllOfItselfThroughJson) {
     ExplorerState state;
     state.isosurfaces = three();
     state.picked = 2;
-    state.axes = false;
+    state.bounding_box = false;
     state.coloring = {interaction::ColorBy::value, "dusk", std::array{1.5, 2.5}};
     const auto json = interaction::commands_json(state.as_commands());
     ExplorerState again;

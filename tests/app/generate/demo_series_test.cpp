@@ -164,7 +164,7 @@ TEST(DemoSeries, AnotherOfThatNameIsNeverOverwritten) {
         HasSubstr("vorticity.pvd"));
 }
 
-TEST(DemoSeries, ACancelledOneLeavesNothing) {
+TEST(DemoSeries, ACanceledOneLeavesNothing) {
     TestFolder folder;
     struct Cancel {};
     EXPECT_THROW(generate(small_vorticity(1), folder.path(),

@@ -20,7 +20,7 @@ struct Analysis {
     double beyond_cutoff = 0.0; ///< energy where 3 |k| >= n
 };
 
-Analysis analyse(std::size_t n, const VectorField& velocity) {
+Analysis analyze(std::size_t n, const VectorField& velocity) {
     const Fourier fourier(n);
     const std::array u{fourier.spectrum_of(velocity[0]), fourier.spectrum_of(velocity[1]),
                        fourier.spectrum_of(velocity[2])};
@@ -81,7 +81,7 @@ TEST_P(Seeded, DivergenceStaysAtRoundOff) {
     NavierStokes flow(32, 0.01, random_velocity(32, GetParam(), 2.0));
     for (int i = 0; i < 20; ++i)
         flow.advance(0.02);
-    EXPECT_LT(analyse(32, flow.velocity()).divergence, 1e-14);
+    EXPECT_LT(analyze(32, flow.velocity()).divergence, 1e-14);
     EXPECT_LT(flow.divergence(), 1e-15);
 }
 
@@ -123,12 +123,12 @@ TEST_P(Seeded, NothingLiesBeyondTheCutoff) {
         const auto number = [&] { return static_cast<double>(bits()) * 0x1p-64 - 0.5; };
         return std::array{number(), number(), number()};
     });
-    ASSERT_GT(analyse(16, noise).beyond_cutoff, 0.1);
+    ASSERT_GT(analyze(16, noise).beyond_cutoff, 0.1);
     NavierStokes flow(16, 0.0, noise);
     for (int i = 0; i < 10; ++i)
         flow.advance(0.01);
     EXPECT_GT(flow.energy(), 1e-3);
-    EXPECT_LT(analyse(16, flow.velocity()).beyond_cutoff, 1e-28);
+    EXPECT_LT(analyze(16, flow.velocity()).beyond_cutoff, 1e-28);
 }
 
 // Were products to alias, what a mode gains would differ from what it gains where twice the points
@@ -195,7 +195,7 @@ TEST_P(Seeded, TimeIntegratorIsOfFourthOrder) {
 
 TEST_P(Seeded, RandomVelocityHasTheSpectrumThatWasAskedFor) {
     const double peak = 2.0;
-    const Analysis analysis = analyse(32, random_velocity(32, GetParam(), peak));
+    const Analysis analysis = analyze(32, random_velocity(32, GetParam(), peak));
     double total = 0.0;
     double expected_total = 0.0;
     for (std::size_t shell = 0; shell < analysis.energy.size(); ++shell) {

@@ -227,7 +227,7 @@ TEST_P(CaveTest, TheRoomShowsEveryWallsPictureWhereTheWallIs) {
     EXPECT_EQ(rgb({0.6f, 0.0f, -0.9f}), (Rgb{255, 0, 255})) << "floor, towards the front wall";
     EXPECT_EQ(rgb({0.6f, 0.0f, 0.9f}), (Rgb{0, 255, 255})) << "floor, towards the viewer";
     const Rgb head = rgb(viewer.head.position + glm::vec3(0, 0, 0.1f));
-    EXPECT_GT(head[0], head[2] + 20) << "skin, before a wall of another colour";
+    EXPECT_GT(head[0], head[2] + 20) << "skin, before a wall of another color";
     EXPECT_EQ(gl_.GetError(), GLenum{GL_NO_ERROR});
 }
 
@@ -270,7 +270,7 @@ TEST_P(CaveTest, FramesOfWallsAreSeenAllAlongThem) {
                      camera.position);
                 const float pixels = 0.5f * kRoom.y / std::tan(kRoomView / 2) / -at.z;
                 const glm::ivec2 pixel(glm::vec2(kRoom) / 2.0f + glm::vec2(at.x, -at.y) * pixels);
-                int brightest = 0; // of the neighbourhood: the line may run between pixels
+                int brightest = 0; // of the neighborhood: the line may run between pixels
                 for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
                     for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
                         if (x >= 0 && y >= 0 && x < room.width && y < room.height)

@@ -229,8 +229,8 @@ TEST(RoomPanelLetters, AreLargeEnoughAtArmsLength) {
     ASSERT_TRUE(x);
     constexpr float kMargins = 2 * 1.5f / 150.0f; // of the glyph's rectangle
     const float x_height = (x->high.y - x->low.y - kMargins) * PanelLayer::kFontPixels;
-    const double metres = x_height * defaults.width / PanelInRoom::kPixels.x;
-    const double degrees = std::atan(metres / defaults.distance) * 57.29578;
+    const double meters = x_height * defaults.width / PanelInRoom::kPixels.x;
+    const double degrees = std::atan(meters / defaults.distance) * 57.29578;
     EXPECT_GT(degrees, 0.6);
     EXPECT_LT(degrees, 1.2) << "beyond that little fits on it";
 }
@@ -256,7 +256,7 @@ class PickTest : public RoomPanelTest {
         state.devices.push_back(wand);
         return state;
     }
-    /// Those of the mark's colour, which nothing else has.
+    /// Those of the mark's color, which nothing else has.
     /// @param only_at this pixel, instead of all
     static std::vector<glm::ivec2> pink_pixels(const Image& image,
                                                const std::optional<glm::ivec2>& only_at = {}) {
@@ -270,24 +270,24 @@ class PickTest : public RoomPanelTest {
             }
         return found;
     }
-    const glm::dvec3 centre_{12.0, 15.5, 15.5}; ///< of the sphere at step 0, voxels of 1 mm
+    const glm::dvec3 center_{12.0, 15.5, 15.5}; ///< of the sphere at step 0, voxels of 1 mm
     std::optional<Session> session_;
 };
 
 TEST_P(PickTest, MarksThePointOfTheSurfaceThatTheRayMeets) {
     WandSession wand(*session_, window_of);
-    wand.frame(pointing(0, centre_));
-    wand.frame(pointing(bit(WandButton::pick), centre_));
-    wand.frame(pointing(bit(WandButton::pick), centre_));
+    wand.frame(pointing(0, center_));
+    wand.frame(pointing(bit(WandButton::pick), center_));
+    wand.frame(pointing(bit(WandButton::pick), center_));
     const auto& mark = session_->state().mark.point;
     ASSERT_TRUE(mark);
-    const InputState input = pointing(0, centre_);
+    const InputState input = pointing(0, center_);
     const auto& from = input.devices.back().pose->position;
     const auto& placement = session_->state().room_from_physical;
     const glm::dvec3 hand = glm::dvec3(glm::inverse(interaction::matrix(placement)) *
                                        glm::dvec4(glm::dvec3(from), 1.0));
     const double radius = 16.0 - session_->state().isovalue();
-    const glm::dvec3 expected = centre_ + radius * glm::normalize(hand - centre_);
+    const glm::dvec3 expected = center_ + radius * glm::normalize(hand - center_);
     EXPECT_LT(glm::distance(mark->position, expected), 0.05) << "the sphere is trilinear";
     EXPECT_EQ(mark->value, session_->state().isovalue());
     EXPECT_EQ(mark->step, 0u);
@@ -330,8 +330,8 @@ TEST_P(PickTest, MarksThePointOfTheSurfaceThatTheRayMeets) {
 
 TEST_P(PickTest, ReadsTheDataAtTheWandsTip) {
     WandSession wand(*session_, window_of);
-    InputState state = pointing(bit(WandButton::probe), centre_);
-    const glm::dvec3 tip = centre_ + glm::dvec3(3.0, 2.0, -4.0);
+    InputState state = pointing(bit(WandButton::probe), center_);
+    const glm::dvec3 tip = center_ + glm::dvec3(3.0, 2.0, -4.0);
     state.devices.back().pose->position =
         glm::vec3(interaction::transform(session_->state().room_from_physical, tip));
     for (int frame = 0; !session_->state().mark.point; ++frame) { // the reader has a thread

@@ -58,18 +58,18 @@ TEST(Axes, ThatAreObliqueRunFromTheirFirstVertex) {
     EXPECT_EQ(scale.high, 20);
 }
 
-TEST(Axes, AreLabelledAtTheOutlineOnlyLowAndLeftFirst) {
+TEST(Axes, AreLabeledAtTheOutlineOnlyLowAndLeftFirst) {
     const index::SeriesInfo info = info_of_box();
     const render::Placement placement = in_front(info);
     const interaction::Pose head = head_at({0.8f, 2.4f, 0.0f}); // right of the box, above it
-    const auto x = labelled_edge(0, placement, head);           // sides of y and z
-    const auto y = labelled_edge(1, placement, head);           // sides of z and x
+    const auto x = labeled_edge(0, placement, head);            // sides of y and z
+    const auto y = labeled_edge(1, placement, head);            // sides of z and x
     ASSERT_TRUE(x && y);
     EXPECT_EQ(*x, (EdgeSides{false, true})); // below, in front
     EXPECT_EQ(*y, (EdgeSides{true, false})); // in front, at the left
 }
 
-TEST(Axes, AreLabelledWhereOneFaceIsSeenAndTheNextIsNot) {
+TEST(Axes, AreLabeledWhereOneFaceIsSeenAndTheNextIsNot) {
     const index::SeriesInfo info = info_of_box();
     const render::Placement placement = in_front(info);
     std::mt19937 random(test_seed());
@@ -80,7 +80,7 @@ TEST(Axes, AreLabelledWhereOneFaceIsSeenAndTheNextIsNot) {
         const interaction::Pose head = head_at(position);
         const glm::vec3 eye(glm::inverse(placement.room_from_index) * glm::vec4(position, 1));
         for (int axis = 0; axis < 3; ++axis) {
-            const auto sides = labelled_edge(axis, placement, head);
+            const auto sides = labeled_edge(axis, placement, head);
             int seen_sides = 0; // of the two pairs of faces along the axis, those with one in view
             for (int k = 1; k <= 2; ++k)
                 seen_sides += eye[(axis + k) % 3] < 0 ||

@@ -1,4 +1,4 @@
-// The legend fits into the picture, and its colours and numbers belong together.
+// The legend fits into the picture, and its colors and numbers belong together.
 #include "app/scene/font.h"
 #include "app/scene/legend.h"
 

@@ -103,7 +103,7 @@ void expect_letter(const Shown& picture, Eye eye) {
         }
 }
 
-/// Where the cross is: the middle of all that has its colour, of which the label is left out.
+/// Where the cross is: the middle of all that has its color, of which the label is left out.
 glm::dvec2 cross_in(const Image& picture, double lowest) {
     const Coverage found =
         test_support::coverage({picture.width, static_cast<int>(lowest)}, [&](int x, int y) {
@@ -111,7 +111,7 @@ glm::dvec2 cross_in(const Image& picture, double lowest) {
             return pixel[0] > 200 && pixel[1] > 150 && pixel[2] < 80;
         });
     EXPECT_GT(found.pixels, 20);
-    return found.centre;
+    return found.center;
 }
 
 class TestPatterns : public testing::TestWithParam<stereo::ContextKind> {};

@@ -74,13 +74,13 @@ TEST_P(BoxBeforeCells, BlendsWithEveryFootprint) {
         if (footprint == Footprint::quad)
             commands.quality = interaction::QualityMode::fast;
         ASSERT_EQ(settle(session, commands), footprint);
-        const Image with = session.display().read_eye(Eye::centre);
+        const Image with = session.display().read_eye(Eye::center);
         Commands bare;
-        bare.axes = false;
+        bare.bounding_box = false;
         ASSERT_EQ(settle(session, bare), footprint);
-        const Image without = session.display().read_eye(Eye::centre);
+        const Image without = session.display().read_eye(Eye::center);
 
-        const PinholeEye pinhole = before_window(session, Eye::centre, kPicture);
+        const PinholeEye pinhole = before_window(session, Eye::center, kPicture);
         const auto edges = near_edges(pinhole, glm::dvec3(head.position), kPlacement);
         int before_cells = 0;
         for (int y = 0; y < with.height; ++y)

@@ -36,7 +36,7 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
         Commands mono;
         mono.stereo = "mono";
         ASSERT_EQ(settle(session, mono), one.footprint);
-        pictures[Eye::centre] = session.display().read_eye(Eye::centre);
+        pictures[Eye::center] = session.display().read_eye(Eye::center);
         std::map<Eye, double> expected_x, actual_x;
         for (const auto& [eye, picture] : pictures) {
             const std::string name = std::string(one.name) + "_" + std::string(name_of(eye));
@@ -47,8 +47,8 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
             const Coverage expected = expected_part(pinhole, kPlacement, kOuterRadius);
             expect_sphere(actual, expected, one.swelling);
             EXPECT_EQ(expect_box(picture, pinhole, kPlacement), 12 * kPerEdge);
-            actual_x[eye] = actual.centre.x;
-            expected_x[eye] = expected.centre.x;
+            actual_x[eye] = actual.center.x;
+            expected_x[eye] = expected.center.x;
         }
         const double disparity = expected_x[Eye::right] - expected_x[Eye::left];
         EXPECT_GT(disparity, 3.0) << "the sphere stands behind the screen";
@@ -69,7 +69,7 @@ TEST_P(GoldenPictures, TwoSurfacesThatLetLightThroughToEitherEye) {
     Session session(config, file_, *context);
     Commands commands = showing(kPlacement);
     commands.isovalue.reset();
-    commands.axes = false;
+    commands.bounding_box = false;
     commands.isosurfaces = {{kFromRadius - kOuterRadius, {0.95f, 0.60f, 0.20f}, 0.35f},
                             {kFromRadius - kInnerRadius, {0.15f, 0.45f, 1.00f}, 0.9f}};
     commands.picked = 0;

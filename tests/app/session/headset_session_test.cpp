@@ -28,7 +28,7 @@ PinholeEye oracle_of(const played::SubmittedView& view) {
     const stereo::Screen screen{corner(view.fov.left, view.fov.down),
                                 corner(view.fov.left, view.fov.up),
                                 corner(view.fov.right, view.fov.up)};
-    return {screen, view.pose, Eye::centre, 0, kEye};
+    return {screen, view.pose, Eye::center, 0, kEye};
 }
 
 class HeadsetSession : public testing::Test {
@@ -102,20 +102,20 @@ TEST_F(HeadsetSession, EachCantedEyeIsShownTheSphereWhereItStands) {
 TEST_F(HeadsetSession, TheDepthLayerHoldsTheDistanceOfTheSurface) {
     start();
     Commands commands = showing(kPlacement);
-    commands.axes = false;
+    commands.bounding_box = false;
     settle(commands);
     const played::SubmittedView& view = headset().frames.back().views.at(0);
     ASSERT_EQ(view.depth.size(), std::size_t(kEye.x) * kEye.y);
-    const glm::dvec3 centre = in_room(kPlacement, kSphereCentre);
+    const glm::dvec3 center = in_room(kPlacement, kSphereCenter);
     const glm::dvec3 eye(view.pose.position);
-    const auto pixel = oracle_of(view).pixel_of(centre);
+    const auto pixel = oracle_of(view).pixel_of(center);
     ASSERT_TRUE(pixel);
     const double z = view.depth[std::size_t(pixel->y) * kEye.x + std::size_t(pixel->x)];
     const double n = view.near_z, f = view.far_z;
-    const double along = n * f / (f - z * (f - n)); // metres in the eye's direction
+    const double along = n * f / (f - z * (f - n)); // meters in the eye's direction
     const glm::dvec3 ahead = glm::dquat(view.pose.orientation) * glm::dvec3(0, 0, -1);
     const glm::dvec3 front =
-        centre - kPlacement.scale * kOuterRadius * glm::normalize(centre - eye);
+        center - kPlacement.scale * kOuterRadius * glm::normalize(center - eye);
     EXPECT_NEAR(along, glm::dot(front - eye, ahead), 0.01);
 }
 
@@ -159,7 +159,7 @@ TEST_F(HeadsetSession, TheMirrorCutsTheLeftEyeToTheWindow) {
     const Coverage in_eye = warm_part(headset().frames.back().views.at(0).picture);
     const double smaller = 128.0 / kEye.x;
     EXPECT_NEAR(in_window.pixels, in_eye.pixels * smaller * smaller, 0.04 * in_window.pixels);
-    EXPECT_NEAR(in_window.centre.x, in_eye.centre.x * smaller, 0.7);
+    EXPECT_NEAR(in_window.center.x, in_eye.center.x * smaller, 0.7);
 }
 
 } // namespace

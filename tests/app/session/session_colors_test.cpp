@@ -1,4 +1,4 @@
-// Surfaces in the colours of a second array and of the time of first crossing.
+// Surfaces in the colors of a second array and of the time of first crossing.
 #include "tests/support/session_fixture.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ class AlongX final : public index::VolumeSeries {
     index::SeriesInfo info_;
 };
 
-/// How much of a picture shows the ends of the map `polar`, blue over light grey to red.
+/// How much of a picture shows the ends of the map `polar`, blue over light gray to red.
 struct Ends {
     std::size_t blue = 0, red = 0;
     double blue_x = 0, red_x = 0; ///< where they are, on average, in pixels

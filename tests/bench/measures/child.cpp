@@ -29,8 +29,8 @@ constexpr int kLookMs = 200; ///< between two looks for the user's wish to cance
     int status = 0;
     try {
         answer = work();
-    } catch (const app::Cancelled& cancelled) {
-        status = cancelled.status;
+    } catch (const app::Canceled& canceled) {
+        status = canceled.status;
     } catch (const std::exception& error) {
         answer = error.what();
         status = kFailed;

@@ -98,7 +98,7 @@ void time_searches(const StepValues& values, const Structure& structure,
     const double isovalue = row.isovalue;
     const auto steps = static_cast<std::uint32_t>(values.steps);
     // Backwards from the last step, forwards from all others.
-    const auto neighbour = [steps](std::uint32_t step) {
+    const auto neighbor = [steps](std::uint32_t step) {
         return step + 1 < steps ? step + 1 : step - 1;
     };
     std::vector<Operation> operations = compared;
@@ -122,13 +122,13 @@ void time_searches(const StepValues& values, const Structure& structure,
     if (structure.change && steps > 1) {
         change = operations.size();
         operations.push_back([&](std::uint32_t step) {
-            structure.change({step, isovalue}, {neighbour(step), isovalue});
+            structure.change({step, isovalue}, {neighbor(step), isovalue});
         });
     }
     if (structure.follow && steps > 1) {
         follow = operations.size();
         operations.push_back([&](std::uint32_t step) { // there and back, so that it can be repeated
-            structure.follow({neighbour(step), isovalue});
+            structure.follow({neighbor(step), isovalue});
             structure.follow({step, isovalue});
         });
     }

@@ -13,7 +13,7 @@ namespace isochron::bench {
 
 namespace {
 
-constexpr double kEyeSeparation = 0.063;       // metres
+constexpr double kEyeSeparation = 0.063;       // meters
 const glm::dvec3 kTowardsEye(0.45, 0.35, 1.0); // from the middle: no axis is seen end-on
 
 } // namespace
@@ -21,13 +21,13 @@ const glm::dvec3 kTowardsEye(0.45, 0.35, 1.0); // from the middle: no axis is se
 BenchCamera bench_camera(const index::SeriesInfo& info, int size, int eyes) {
     const glm::dmat4 room_from_physical = interaction::matrix(app::place(info));
     const glm::dmat4 physical_from_room = glm::inverse(room_from_physical);
-    const glm::dvec3 centre(room_from_physical * glm::dvec4(app::physical_centre(info.grid), 1.0));
+    const glm::dvec3 center(room_from_physical * glm::dvec4(app::physical_center(info.grid), 1.0));
     const double radius = 0.5 * glm::length(app::physical_size(info.grid)) *
                           glm::length(glm::dvec3(room_from_physical[0]));
     const double slope = std::tan(glm::radians(0.5 * BenchCamera::kAngle));
     const double distance = radius / std::sin(glm::radians(0.5 * BenchCamera::kAngle));
     const double near = 0.5 * (distance - radius), far = distance + 2.0 * radius;
-    const glm::dmat4 middle = glm::lookAt(centre + distance * glm::normalize(kTowardsEye), centre,
+    const glm::dmat4 middle = glm::lookAt(center + distance * glm::normalize(kTowardsEye), center,
                                           glm::dvec3(0.0, 1.0, 0.0));
 
     BenchCamera camera{render::Placement::of(info.grid, room_from_physical), {}, {}};
@@ -44,7 +44,7 @@ BenchCamera bench_camera(const index::SeriesInfo& info, int size, int eyes) {
              .corner = {eye * size, 0}});
         const glm::dmat4 physical_from_eye = physical_from_room * glm::inverse(eye_from_room);
         camera.poses.push_back({glm::dvec3(physical_from_eye[3]),
-                                glm::dvec3(physical_from_room * glm::dvec4(centre, 1.0)),
+                                glm::dvec3(physical_from_room * glm::dvec4(center, 1.0)),
                                 glm::normalize(glm::dvec3(physical_from_eye[1]))});
     }
     return camera;

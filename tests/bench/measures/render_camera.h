@@ -14,7 +14,7 @@ namespace isochron::bench {
 
 /// Where a camera stands, in the physical space of the series.
 struct CameraPose {
-    glm::dvec3 eye, centre, up;
+    glm::dvec3 eye, center, up;
 };
 
 struct BenchCamera {

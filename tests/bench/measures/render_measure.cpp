@@ -205,7 +205,7 @@ class Bench {
         target_.bind();
         target_.clear(kBackground);
         if (!is_blended(footprint) || !look_.linear_light)
-            gl_.Disable(GL_FRAMEBUFFER_SRGB); // as the pass does, whose colours need no conversion
+            gl_.Disable(GL_FRAMEBUFFER_SRGB); // as the pass does, whose colors need no conversion
         bare_.draw(camera_.views, is_blended(footprint));
         gl_.Finish();
     }

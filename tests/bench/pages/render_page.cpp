@@ -23,7 +23,7 @@ constexpr std::string_view kReading =
     "bare quads and static draws take turns at every step.\n"
     "- *VTK*: `vtkFlyingEdges3D` with normals and VTK's own renderer, for the same step, in the "
     "same GL context and on as many processors.\n"
-    "- *bare*: only the drawing of plain quads, of one flat colour, whose corners lie ready: what "
+    "- *bare*: only the drawing of plain quads, of one flat color, whose corners lie ready: what "
     "this GL can do. Footprints are drawn as points where no footprint crosses an edge of the "
     "picture, and where the processor draws only those that are seen: no quads that are hidden, no "
     "splats that would change a byte by less than its rounding; *as quads* is the time without "

@@ -52,7 +52,8 @@ RenderResults render_results_from_json(const std::string& text, const std::strin
             results.rows.push_back(record_from_json<RenderRow>(row));
         return results;
     } catch (const json::exception& error) {
-        throw index::Error(fmt::format("{}: no results of `isochron-bench render`: {}", name, error.what()));
+        throw index::Error(
+            fmt::format("{}: no results of `isochron-bench render`: {}", name, error.what()));
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include "app/text.h"
 #include "tests/bench/measures/timing.h"
-#include "tests/bench/pages/artefact_page.h"
+#include "tests/bench/pages/artifact_page.h"
 #include "tests/bench/pages/goals.h"
 #include "tests/bench/pages/paper_tables.h"
 #include "tests/bench/pages/render_page.h"
@@ -40,7 +40,7 @@ constexpr std::string_view kReading =
     "- *runs*: a search that leaves the ids where they lie. *ids*: cell ids as 32-bit numbers, for "
     "the THI tree and its variants candidates with their false positives. *full*: ids in order, "
     "without false positives, with positions and normals. *incremental*: added and removed ids to "
-    "the neighbouring step. *whole*: the complete set of the neighbouring step from that of this "
+    "the neighboring step. *whole*: the complete set of the neighboring step from that of this "
     "one. *sweep*: all steps once, forwards or backwards.\n"
     "- FP: false positives in percent of the active cells at the isovalue of the times; those over "
     "all queries are in the rows. FN: false negatives over all queries. A query is a step and one "
@@ -163,8 +163,8 @@ std::string results_page(const Results& results, const ResultPaths& paths) {
     std::string command = paths.index;
     if (!paths.render.empty())
         command += " --render " + paths.render;
-    if (!paths.artefacts.empty())
-        command += " --artefacts " + paths.artefacts;
+    if (!paths.artifacts.empty())
+        command += " --artifacts " + paths.artifacts;
     std::string text = fmt::format("# The index, measured\n\nMade from `{}` by `./run bench "
                                    "results {}`; not to be edited. "
                                    "Measured on {} with commit {}, {}, on {}, {} threads.\n\n",
@@ -207,9 +207,9 @@ std::string whole_page(const ResultPaths& paths,
     if (!paths.render.empty())
         page += render_section(render_results_from_json(read(paths.render), paths.render),
                                paths.render);
-    if (!paths.artefacts.empty())
-        page += artefact_section(artefacts_from_json(read(paths.artefacts), paths.artefacts),
-                                 paths.artefacts);
+    if (!paths.artifacts.empty())
+        page += artifact_section(artifacts_from_json(read(paths.artifacts), paths.artifacts),
+                                 paths.artifacts);
     return page;
 }
 

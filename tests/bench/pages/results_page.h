@@ -10,7 +10,7 @@ namespace isochron::bench {
 
 /// Files of results, as the page names them; empty: that part is left out.
 struct ResultPaths {
-    std::string index, render, artefacts;
+    std::string index, render, artifacts;
 };
 
 /// All parts, as Markdown; the same results give the same text.

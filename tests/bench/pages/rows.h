@@ -26,7 +26,7 @@ struct Row {
     std::optional<double> search_runs_us;
     double search_ids_us = 0;
     double search_full_us = 0; ///< ids, tested where they are candidates, positions and normals
-    std::optional<double> incremental_us;      ///< added and removed ids, to a neighbouring step
+    std::optional<double> incremental_us;      ///< added and removed ids, to a neighboring step
     std::optional<double> incremental_full_us; ///< the complete new set
     std::optional<double> delta_ids;           ///< added and removed cells from step to step, mean
     double sweep_ms = 0; ///< all steps once: the mean of forwards and backwards

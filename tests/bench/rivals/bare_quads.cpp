@@ -40,8 +40,8 @@ std::vector<glm::vec3> projected_corners(const render::View& view,
     corners.reserve(4 * places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
         const render::CellPlace& cell = places[order.empty() ? i : order[i]];
-        const glm::vec4 centre(cell.x + 0.5f, cell.y + 0.5f, cell.z + 0.5f, 1.0f);
-        const glm::vec4 p = centre * rows; // each of them times the centre
+        const glm::vec4 center(cell.x + 0.5f, cell.y + 0.5f, cell.z + 0.5f, 1.0f);
+        const glm::vec4 p = center * rows; // each of them times the center
         const float k = radius * radius / (p.w * p.w - radius * radius * glm::dot(w, w));
         std::array<float, 2> middle{}, half{};
         for (int axis = 0; axis < 2; ++axis) {

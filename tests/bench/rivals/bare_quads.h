@@ -26,7 +26,7 @@ class BareQuads {
     /// Takes the corners of one view, ahead of the draws.
     void set(std::size_t view, const std::vector<glm::vec3>& corners);
 
-    /// One flat colour, no texture; opaque quads test and write depth, others blend.
+    /// One flat color, no texture; opaque quads test and write depth, others blend.
     void draw(std::span<const render::View> views, bool blended) const;
 
   private:

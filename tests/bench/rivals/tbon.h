@@ -30,7 +30,7 @@ class Tbon {
 
   private:
     struct Node {
-        std::uint32_t first_child; ///< siblings are neighbours
+        std::uint32_t first_child; ///< siblings are neighbors
         std::uint32_t children;    ///< 0 for a leaf
         std::uint32_t x, y, z;     ///< in nodes of its own level
     };

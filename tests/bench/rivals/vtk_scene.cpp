@@ -25,7 +25,7 @@ std::unique_ptr<VtkScene> vtk_scene(const index::StepValues& values,
     };
     std::vector<CameraPose> in_image;
     for (const CameraPose& camera : cameras)
-        in_image.push_back({moved(camera.eye, 1), moved(camera.centre, 1), moved(camera.up, 0)});
+        in_image.push_back({moved(camera.eye, 1), moved(camera.center, 1), moved(camera.up, 0)});
     return std::unique_ptr<VtkScene>(make(values, in_image, size, threads));
 }
 

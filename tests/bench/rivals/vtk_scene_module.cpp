@@ -61,7 +61,7 @@ class VtkSceneInContext : public VtkScene {
             renderer->AddActor(actor_);
             vtkCamera& camera = *renderer->GetActiveCamera();
             camera.SetPosition(cameras[i].eye.x, cameras[i].eye.y, cameras[i].eye.z);
-            camera.SetFocalPoint(cameras[i].centre.x, cameras[i].centre.y, cameras[i].centre.z);
+            camera.SetFocalPoint(cameras[i].center.x, cameras[i].center.y, cameras[i].center.z);
             camera.SetViewUp(cameras[i].up.x, cameras[i].up.y, cameras[i].up.z);
             camera.SetViewAngle(BenchCamera::kAngle);
             const double distance = camera.GetDistance();

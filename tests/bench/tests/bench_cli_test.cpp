@@ -42,8 +42,7 @@ void expect_sound(const nlohmann::json& row) {
 }
 
 TEST_F(BenchCommand, MeasuresEveryStructureOnTheSphere) {
-    const ChildResult result =
-        bench({"index", "--quick", "--work", ".", "--json", "a.json"});
+    const ChildResult result = bench({"index", "--quick", "--work", ".", "--json", "a.json"});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("sphere u8, 5 steps, isovalue 112.5: 373"));
     EXPECT_THAT(result.out, HasSubstr("thi-compact-lists    L 64 MV 2"));
@@ -81,9 +80,9 @@ TEST_F(BenchCommand, MeasuresAGivenIndex) {
                         "balls.isochron"})
                   .status,
               0);
-    const ChildResult result = bench({"index", "balls.isochron", "--isovalue", "4.5",
-                                         "--repeat", "1", "--isovalues", "5", "--lattice", "16,32",
-                                         "--max-variation", "1", "--json", "a.json"});
+    const ChildResult result =
+        bench({"index", "balls.isochron", "--isovalue", "4.5", "--repeat", "1", "--isovalues", "5",
+               "--lattice", "16,32", "--max-variation", "1", "--json", "a.json"});
     ASSERT_EQ(result.status, 0) << result.err;
     const auto j = nlohmann::json::parse(folder.read("a.json"));
     ASSERT_EQ(j.at("rows").size(), 13u);
@@ -99,7 +98,7 @@ TEST_F(BenchCommand, MeasuresAGivenIndex) {
 TEST_F(BenchCommand, SaysWhatIsWrong) {
     for (const auto& [arguments, status, what] :
          std::vector<std::tuple<std::vector<std::string>, int, std::string>>{
-             {{}, 2, "expected index, render, artefacts, results"},
+             {{}, 2, "expected index, render, artifacts, results"},
              {{"index", "no.isochron"}, 1, "no.isochron"},
              {{"index", "--data", "cube"}, 2, "cube"},
              {{"index", "--lattice", "0"}, 2, "lattice"},
@@ -114,7 +113,7 @@ TEST_F(BenchCommand, SaysWhatIsWrong) {
 TEST_F(BenchCommand, CanBeInterruptedAndLeavesNothing) {
     const ChildResult result =
         bench({"index", "--data", "sphere-25", "--work", ".", "--json", "a.json"},
-                 {.interrupt_after = "counting errors"});
+              {.interrupt_after = "counting errors"});
     EXPECT_EQ(result.status, 130) << result.err;
     EXPECT_THAT(folder.names(), IsEmpty());
 }

@@ -25,8 +25,7 @@ class BenchRenderCommand : public testing::Test {
 };
 
 TEST_F(BenchRenderCommand, MeasuresEveryRowOfATinySeries) {
-    const ChildResult result =
-        bench({"render", "--quick", "--work", ".", "--json", "a.json"});
+    const ChildResult result = bench({"render", "--quick", "--work", ".", "--json", "a.json"});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("| what | goal | floor | measured | |"));
     EXPECT_THAT(folder.names(), ElementsAre("a.json")) << "nothing else is left behind";
@@ -62,11 +61,10 @@ TEST_F(BenchRenderCommand, MeasuresAGivenIndexAndContext) {
                   .status,
               0);
     const auto measure = [&](std::vector<std::string> more) {
-        std::vector<std::string> arguments{"render",     "slope.isochron",
-                                           "--repeat",  "1",          "--footprints",
-                                           "quad",      "--pictures", "40",
-                                           "--threads", "1",          "--context",
-                                           "osmesa",    "--json",     "b.json"};
+        std::vector<std::string> arguments{
+            "render",    "slope.isochron", "--repeat", "1",         "--footprints",
+            "quad",      "--pictures",     "40",       "--threads", "1",
+            "--context", "osmesa",         "--json",   "b.json"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const ChildResult result = bench(arguments);
         EXPECT_EQ(result.status, 0) << result.err;
@@ -97,11 +95,10 @@ TEST_F(BenchRenderCommand, RefusesWhatItCannotDraw) {
     }
 }
 
-TEST_F(BenchRenderCommand, CountsArtefactsAndShowsThem) {
-    const ChildResult result = bench(
-        {"artefacts", "--data",          "sphere-25", "--steps", "5",  "--every", "2",
-         "--lattice", "32",        "--max-variation", "3",         "--size",  "80", "--work",  ".",
-         "--out",     ".",         "--json",          "c.json"});
+TEST_F(BenchRenderCommand, CountsArtifactsAndShowsThem) {
+    const ChildResult result = bench({"artifacts", "--data", "sphere-25", "--steps", "5", "--every",
+                                      "2", "--lattice", "32", "--max-variation", "3", "--size",
+                                      "80", "--work", ".", "--out", ".", "--json", "c.json"});
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(folder.names(), ElementsAre("c.json", "sphere_false_positives.png",
                                             "sphere_kept_normals.png", "sphere_quality_fast.png"));
@@ -113,12 +110,12 @@ TEST_F(BenchRenderCommand, CountsArtefactsAndShowsThem) {
             EXPECT_GT(row.at(figure), 0.0) << figure;
 }
 
-TEST_F(BenchRenderCommand, CancelledItLeavesNothingBehind) {
+TEST_F(BenchRenderCommand, CanceledItLeavesNothingBehind) {
     const ChildResult result =
         bench({"render", "--data", "sphere-25", "--work", ".", "--repeat", "1000"},
-                 {.interrupt_after = "quad"});
+              {.interrupt_after = "quad"});
     EXPECT_EQ(result.status, 130);
-    EXPECT_THAT(result.err, HasSubstr("cancelled"));
+    EXPECT_THAT(result.err, HasSubstr("canceled"));
     EXPECT_THAT(folder.names(), IsEmpty());
 }
 

@@ -63,12 +63,12 @@ TEST_F(BenchRender, TheBoundingSphereTouchesThePicture) {
         const glm::vec3 extent = camera.placement.extent;
         for (const render::View& view : camera.views) {
             const glm::mat4 eye_from_index = view.eye_from_room * camera.placement.room_from_index;
-            const glm::vec3 centre(eye_from_index * glm::vec4(0.5f * extent, 1.0f));
+            const glm::vec3 center(eye_from_index * glm::vec4(0.5f * extent, 1.0f));
             const float radius =
-                glm::distance(centre, glm::vec3(eye_from_index * glm::vec4(extent, 1.0f)));
+                glm::distance(center, glm::vec3(eye_from_index * glm::vec4(extent, 1.0f)));
             // Seen from straight ahead: the sine of the half angle.
-            EXPECT_NEAR(radius / -centre.z, std::sin(glm::radians(22.5f)), 1e-4f);
-            const glm::vec4 middle = view.clip_from_eye * glm::vec4(centre, 1.0f);
+            EXPECT_NEAR(radius / -center.z, std::sin(glm::radians(22.5f)), 1e-4f);
+            const glm::vec4 middle = view.clip_from_eye * glm::vec4(center, 1.0f);
             EXPECT_NEAR(middle.x / middle.w, 0.0f, 1e-5f) << "zero parallax";
             EXPECT_NEAR(middle.y / middle.w, 0.0f, 1e-5f);
         }
@@ -212,7 +212,7 @@ TEST(InChild, IsToldWhenTheUserCancels) {
             signals.check();
         }
     };
-    EXPECT_THROW(in_child(interrupt_and_wait, signals), app::Cancelled);
+    EXPECT_THROW(in_child(interrupt_and_wait, signals), app::Canceled);
 }
 
 } // namespace

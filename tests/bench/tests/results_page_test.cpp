@@ -1,5 +1,5 @@
 // The page of results is the one that the committed figures give, and says what they say.
-#include "tests/bench/measures/artefacts.h"
+#include "tests/bench/measures/artifacts.h"
 #include "tests/bench/pages/goals.h"
 #include "tests/bench/pages/render_goals.h"
 #include "tests/bench/pages/render_page.h"
@@ -26,13 +26,13 @@ std::string read(const std::string& path) {
 TEST(ResultsPage, IsTheOneOfTheCommittedFigures) {
     const ResultPaths paths{.index = "docs/results/index.json",
                             .render = "docs/results/render.json",
-                            .artefacts = "docs/results/artefacts.json"};
+                            .artifacts = "docs/results/artifacts.json"};
     EXPECT_EQ(whole_page(paths, read), read("docs/RESULTS.md"))
         << "make it again: ./run bench results " << paths.index << " --render " << paths.render
-        << " --artefacts " << paths.artefacts << " -o docs/RESULTS.md";
+        << " --artifacts " << paths.artifacts << " -o docs/RESULTS.md";
     for (const Header& header : {results_from_json(read(paths.index), "").header,
                                  render_results_from_json(read(paths.render), "").header,
-                                 artefacts_from_json(read(paths.artefacts), "").header}) {
+                                 artifacts_from_json(read(paths.artifacts), "").header}) {
         EXPECT_FALSE(header.commit.empty());
         EXPECT_FALSE(header.processor.empty());
     }
@@ -73,7 +73,7 @@ TEST(ResultsPage, PutsThePublishedFiguresNextToOurs) {
     Results results = results_of({row});
     results.details[0].percent_at_isovalue = 10.6;
     const std::string page =
-        results_page(results, {.index = "a.json", .render = {}, .artefacts = {}});
+        results_page(results, {.index = "a.json", .render = {}, .artifacts = {}});
     EXPECT_THAT(page, HasSubstr("commit 0123abcd, some compiler, on some processor"));
     // Table 1 and Table 2 share this setting; others were not measured.
     EXPECT_THAT(page, HasSubstr("| 64 | 2 | 25 | paper | 37.2 | 1.3 | 2140 | 740 | 2.90 |\n"

@@ -66,7 +66,7 @@ TEST_F(IndexBuildTest, AStepThatCannotBeReadLeavesNothingBehind) {
     EXPECT_THAT(names_in(folder.path()), IsEmpty());
 }
 
-TEST_F(IndexBuildTest, CancellingInAnyPhaseLeavesTheOldIndexAsItWas) {
+TEST_F(IndexBuildTest, CancelingInAnyPhaseLeavesTheOldIndexAsItWas) {
     build_index(series, folder.path() / "a", {});
     const std::string old = read_file(folder.path() / "a");
     std::vector<std::string> phases;

@@ -43,7 +43,7 @@ void expect_changes(const TestField& field, const std::vector<double>& isovalues
     }
 }
 
-TEST(CellDeltas, AreTheSetDifferencesOfNeighbouringSteps) {
+TEST(CellDeltas, AreTheSetDifferencesOfNeighboringSteps) {
     std::mt19937 random(test_seed());
     std::vector<double> isovalues;
     for (int k = 1; k < 256; k += 7)

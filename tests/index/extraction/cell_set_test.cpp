@@ -199,7 +199,7 @@ TEST(CellSet, NormalsOfASphereThatIsBrightInsidePointOutwards) {
     }
 }
 
-TEST(CellSet, ANormalNeedsFiniteNeighboursAndAGradient) {
+TEST(CellSet, ANormalNeedsFiniteNeighborsAndAGradient) {
     TestField flat({6, 6, 6}, 1, ValueType::f32, [](double, double, double, double) { return 4; });
     for (const CellPoint& point : all_cells(flat.view(), 0).points)
         EXPECT_EQ(point.normal, 0u);
@@ -214,9 +214,9 @@ TEST(CellSet, ANormalNeedsFiniteNeighboursAndAGradient) {
             return set.points[std::size_t((z * 5 + y) * 5 + x)].normal;
         };
         EXPECT_EQ(normal(2, 2, 2), 0u) << "a vertex of its own";
-        EXPECT_EQ(normal(3, 2, 2), 0u) << "a neighbour along x";
-        EXPECT_EQ(normal(2, 0, 2), 0u) << "a neighbour along y";
-        EXPECT_NE(normal(3, 3, 2), 0u) << "a diagonal neighbour does not matter";
+        EXPECT_EQ(normal(3, 2, 2), 0u) << "a neighbor along x";
+        EXPECT_EQ(normal(2, 0, 2), 0u) << "a neighbor along y";
+        EXPECT_NE(normal(3, 3, 2), 0u) << "a diagonal neighbor does not matter";
         EXPECT_NE(normal(4, 2, 2), 0u);
     }
 }

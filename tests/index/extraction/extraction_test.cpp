@@ -129,7 +129,7 @@ class ColoredExtraction : public testing::Test {
     std::shared_ptr<const IndexFile> file_;
 };
 
-TEST_F(ColoredExtraction, HasTheColoursOfBruteForceForEverySurface) {
+TEST_F(ColoredExtraction, HasTheColorsOfBruteForceForEverySurface) {
     const Extract extract = extract_from(file_);
     for (int round = 0; round < 40; ++round) {
         SurfacesQuery query{std::uint32_t(random_() % kSteps), {}};
@@ -171,7 +171,7 @@ TEST_F(ColoredExtraction, AStoppedSweepGivesNothingAndTheNextIsWhole) {
     EXPECT_EQ(extract(query, {})->colors, first_crossings_of(query));
 }
 
-TEST(Extraction, WithoutASecondArrayThereAreNoValuesToColourBy) {
+TEST(Extraction, WithoutASecondArrayThereAreNoValuesToColorBy) {
     const TestFolder folder;
     const TestField field({9, 9, 9}, 1, ValueType::u8, moving_sphere);
     const Extract extract = extract_from(indexed(folder, field.view()));

@@ -1,4 +1,4 @@
-// Colours: the second array in the file, its values on the surface, and first crossings.
+// Colors: the second array in the file, its values on the surface, and first crossings.
 #include "index/build/appended_series.h"
 #include "index/build/index_build.h"
 #include "index/error.h"
@@ -101,7 +101,7 @@ TEST_F(Colors, ThatAreDamagedAreFoundByVerify) {
         IndexFile::open(bad)->verify();
         FAIL() << "no error";
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("colours of step 4"));
+        EXPECT_THAT(error.what(), HasSubstr("colors of step 4"));
     }
     bytes[header.colors.offset] ^= 1; // the table of checksums
     std::ofstream(folder_.path() / "worse.isochron", std::ios::binary) << bytes;
@@ -134,7 +134,7 @@ TEST(ColorCoordinate, RunsFromEndToEndAndKnowsWhatHasNoValue) {
 }
 
 TEST_F(Colors, OfCellsAreThoseOfAFieldThatIsLinear) {
-    // Where volume and colours are linear, every cut lies on a plane and colours are exact there.
+    // Where volume and colors are linear, every cut lies on a plane and colors are exact there.
     const TestField plane(kVertices, 1, ValueType::f64, [](double x, double y, double z, double) {
         return x + 0.3 * y - 0.2 * z;
     });
@@ -150,7 +150,7 @@ TEST_F(Colors, OfCellsAreThoseOfAFieldThatIsLinear) {
         EXPECT_EQ(coordinate, color_coordinate(2 * isovalue + 1, 0, 30));
 }
 
-TEST_F(Colors, OfCellsLieBetweenTheirVerticesColours) {
+TEST_F(Colors, OfCellsLieBetweenTheirVerticesColors) {
     const StepValues volume = volume_.view(), colors = colors_.view();
     const auto cells = BruteForce(volume, 2).active(0.1);
     const auto sorted = sorted_values(colors);

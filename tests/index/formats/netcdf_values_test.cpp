@@ -315,7 +315,7 @@ TEST(RealNetcdf, OfTheOceanIsMissingOnLand) {
     const SeriesInfo& info = series->info();
     EXPECT_EQ(info.times, std::vector<double>{359670});
     EXPECT_EQ(info.grid.spacing.x, 2.8125);
-    EXPECT_NEAR(info.grid.spacing.z, 2.3, 1e-6); // hundreds of metres
+    EXPECT_NEAR(info.grid.spacing.z, 2.3, 1e-6); // hundreds of meters
     EXPECT_EQ(gaps_in(values_of<float>(*series, 0)).size(), 200564u);
 }
 

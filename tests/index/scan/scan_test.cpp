@@ -37,7 +37,7 @@ void expect_exact(const StepValues& values, const std::vector<double>& isovalues
     }
 }
 
-/// All values, their neighbours, and what lies beyond both ends.
+/// All values, their neighbors, and what lies beyond both ends.
 std::vector<double> ties(const StepValues& values) {
     std::vector<double> isovalues{-1e300, 0, 1e300};
     double last = kNaN;

@@ -31,16 +31,16 @@ TEST(ThiThreads, StopsWhenProgressThrowsInAnyPhase) {
             phases.emplace_back(phase);
     });
     EXPECT_EQ(phases.size(), 3u);
-    struct Cancelled {};
+    struct Canceled {};
     for (const std::string& last : phases)
         EXPECT_THROW(build_thi_tree(
                          field.view(), {},
                          [&](std::string_view phase, double) {
                              if (phase == last)
-                                 throw Cancelled{};
+                                 throw Canceled{};
                          },
                          4),
-                     Cancelled);
+                     Canceled);
 }
 
 } // namespace

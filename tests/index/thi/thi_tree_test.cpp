@@ -50,7 +50,7 @@ void expect_exact(const StepValues& values, const ThiOptions& options,
     expect_exact(ThiTree(bytes), values, isovalues);
 }
 
-/// Some of the values, their neighbours, and what lies beyond both ends.
+/// Some of the values, their neighbors, and what lies beyond both ends.
 std::vector<double> ties(const StepValues& values, std::size_t most = 60) {
     std::vector<double> distinct = sorted_values(values);
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());

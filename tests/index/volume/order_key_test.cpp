@@ -12,7 +12,7 @@
 namespace isochron::index {
 namespace {
 
-/// Values of all magnitudes and both signs, the limits and their neighbours.
+/// Values of all magnitudes and both signs, the limits and their neighbors.
 template <class T>
 std::vector<T> samples(std::mt19937& random) {
     using Limits = std::numeric_limits<T>;

@@ -125,7 +125,7 @@ TEST_P(OscTest, WrongTypesUnknownAddressesAndNonsenseAreCounted) {
                                      osc_message("/isochron/wand/valuator", {{'f', 0.5}, {'f', 1}}),
                                      osc_message("/isochron/wand/button", {}), text})
         ASSERT_TRUE(sender.send(wrong));
-    ASSERT_TRUE(sender.send(osc_message("/isochron/wand/colour", {{'i', 1}})));
+    ASSERT_TRUE(sender.send(osc_message("/isochron/wand/color", {{'i', 1}})));
     ASSERT_TRUE(sender.send(osc_pose("/other/wand/pose", kLeaning)));
     ASSERT_TRUE(sender.send(osc_pose("/isochron/wandpose", kLeaning)));
     ASSERT_TRUE(sender.send("no message at all"));

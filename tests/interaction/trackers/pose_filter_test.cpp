@@ -74,7 +74,7 @@ TEST(PoseFilter, WhatIsNoPoseIsRefused) {
     EXPECT_EQ(tracker.tracking(), Tracking::held) << "garbage does not keep a pose alive";
 }
 
-TEST(PoseFilter, RoundedQuaternionsAreNormalised) {
+TEST(PoseFilter, RoundedQuaternionsAreNormalized) {
     Tracker tracker;
     Pose pose = at(0);
     pose.orientation = glm::quat(1.01f, 0, 0, 0);

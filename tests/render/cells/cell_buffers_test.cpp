@@ -29,7 +29,7 @@ class CellUpload : public CellUploadTest {
         gl_.CopyNamedBufferSubData = counting_copy;
     }
 
-    /// Each drawn cell with its colour coordinate against those of the set.
+    /// Each drawn cell with its color coordinate against those of the set.
     void expect_colors(const CellBuffers& buffers) {
         const index::Extraction& set = *buffers.shown();
         const auto points = drawn_points(buffers);
@@ -42,7 +42,7 @@ class CellUpload : public CellUploadTest {
                 ASSERT_EQ(style >> 3, set.colors.empty() ? 0u : set.colors[rank]);
             }
     }
-    /// The set with colours of its own, among them the first, the last, and none.
+    /// The set with colors of its own, among them the first, the last, and none.
     index::ExtractionPtr colored(const index::ExtractionPtr& set) {
         auto with = std::make_shared<index::Extraction>(*set);
         for (std::size_t i = 0; i < with->cells(); ++i)
@@ -171,7 +171,7 @@ TEST_P(CellUpload, CountsTheIdsAndTheBytesThatAreSent) {
     EXPECT_EQ(buffers.count(), (UploadCount{2, 410, 800, 1680, bricks * brick}));
 }
 
-TEST_P(CellUpload, ColoursOnOffAndChangedAreThoseOfTheSetWithAnyBudget) {
+TEST_P(CellUpload, ColorsOnOffAndChangedAreThoseOfTheSetWithAnyBudget) {
     CellBuffers buffers(gl_, field_.view().grid, 512);
     const auto set = extractions_.of_cells(0, {random_ids(301), {}, random_ids(90)});
     const auto other = extractions_.of_cells(1, {random_ids(295), random_ids(7)});
@@ -204,7 +204,7 @@ TEST_P(CellUpload, ColoursOnOffAndChangedAreThoseOfTheSetWithAnyBudget) {
     }
 }
 
-TEST_P(CellUpload, ColoursAreCountedApartFromIds) {
+TEST_P(CellUpload, ColorsAreCountedApartFromIds) {
     CellBuffers buffers(gl_, field_.view().grid);
     const auto set = extractions_.of_cells(0, {random_ids(401)});
     buffers.upload(set, kEnough);

@@ -18,7 +18,7 @@ constexpr int kSize = 101;
 
 class CellPasses : public GlTest {
   protected:
-    /// The volume's z axis goes away from the eye at (0.5, 0.5) of x and y; one voxel is a metre.
+    /// The volume's z axis goes away from the eye at (0.5, 0.5) of x and y; one voxel is a meter.
     CellPasses() {
         view_.size = {kSize, kSize};
         view_.clip_from_eye = glm::perspective(0.5f, 1.0f, 0.1f, 200.0f);
@@ -66,7 +66,7 @@ class CellPasses : public GlTest {
     CellPass pass_{gl_};
 };
 
-TEST_P(CellPasses, QuadsWriteTheDepthOfTheirCellsCentre) {
+TEST_P(CellPasses, QuadsWriteTheDepthOfTheirCellsCenter) {
     draw(showing(gl_, cell_set({{0, 0, 7}})), Footprint::quad);
     EXPECT_NEAR(depth_in_the_middle(), depth_of_cell(7), 1e-6f);
 }
@@ -113,7 +113,7 @@ TEST_P(CellPasses, BothSidesOfACellAreLitAlikeAndOneWithoutNormalFacesTheViewer)
     EXPECT_NEAR(reds[0], reds[1], 1);
     EXPECT_NEAR(reds[0], reds[2], 1);
     EXPECT_NEAR(reds[0], 255 * appearance_.surfaces[0].color.x,
-                3); // full light gives the colour itself
+                3); // full light gives the color itself
 }
 
 TEST_P(CellPasses, LightFallsOffWithTheAngleOfTheNormal) {

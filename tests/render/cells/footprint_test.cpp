@@ -96,7 +96,7 @@ TEST_P(FootprintGeometry, AQuadIsTheRectangleOnTheEllipsesAxes) {
         const Image image = draw(scene, Footprint::quad, {});
         EXPECT_EQ(wrong_pixels(image, 127,
                                [&](const glm::dvec2& at) {
-                                   const glm::dvec2 d = at - ellipse.centre;
+                                   const glm::dvec2 d = at - ellipse.center;
                                    return std::abs(glm::dot(d, u)) < major &&
                                           std::abs(glm::dot(d, v)) < minor;
                                }),
@@ -130,13 +130,13 @@ TEST_P(FootprintGeometry, ACellBesideTheEyeIsCutAtTheEyesPlane) {
     scene.view.size = {160, 160};
     scene.view.clip_from_eye = glm::perspective(glm::radians(120.0f), 1.0f, 0.001f, 10.0f);
     const glm::dvec3 spacing(0.10, 0.12, 0.15);
-    const glm::dvec3 centre(0.35, 0.05, -0.1);
+    const glm::dvec3 center(0.35, 0.05, -0.1);
     scene.placement.room_from_index =
-        glm::mat4(glm::scale(glm::translate(glm::dmat4(1.0), centre), spacing) *
+        glm::mat4(glm::scale(glm::translate(glm::dmat4(1.0), center), spacing) *
                   glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5)));
     const Image image = draw(scene, Footprint::gaussian, {.gaussian_sigma = 1e6f});
     // The fade near the eye lowers the opacity of the whole footprint.
-    const glm::dvec3 to_eye = -centre / spacing / 2.0; // eye, in radii from the centre
+    const glm::dvec3 to_eye = -center / spacing / 2.0; // eye, in radii from the center
     const double distance = glm::length(to_eye);
     ASSERT_GT(distance, 1.0);
     const double along = 1.0 / (distance * distance);

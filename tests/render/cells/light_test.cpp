@@ -105,7 +105,7 @@ TEST_P(Lights, TooManySamplesAreAnErrorThatSaysHowManyThereAre) {
     }
 }
 
-TEST_P(Lights, OfAQuadAreItsSurfacesColourWhetherConvertedByShaderOrTarget) {
+TEST_P(Lights, OfAQuadAreItsSurfacesColorWhetherConvertedByShaderOrTarget) {
     look_.surfaces[5].color = {0.25f, 0.5f, 0.75f};
     for (const Footprint footprint : {Footprint::quad, Footprint::gaussian})
         for (const bool linear : {true, false}) {
@@ -144,7 +144,7 @@ TEST_P(Lights, OfFastQuadsPassThroughTheCellsThatAreLeftOut) {
     EXPECT_LT(seen, 0.85 * all);
 }
 
-TEST_P(Lights, TakeTheirColourFromTheMapAtTheValue) {
+TEST_P(Lights, TakeTheirColorFromTheMapAtTheValue) {
     const Texture map = color_map_texture(gl_, ColorMap::dusk);
     const auto colors = color_map(ColorMap::dusk);
     look_.values =

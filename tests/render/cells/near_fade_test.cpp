@@ -179,9 +179,9 @@ TEST_P(NearFadeTest, SplatsFadeByTheDistanceOfTheirCellsAndQuadsAreThereOrNot) {
     int part = 0, there = 0;
     double expected_there = 0;
     for (std::uint32_t z = 0; z < 39; ++z) {
-        const glm::dvec3 centre(placement.room_from_index *
+        const glm::dvec3 center(placement.room_from_index *
                                 glm::vec4(2.5f, 2.5f, static_cast<float>(z) + 0.5f, 1));
-        const double wanted = share(centre);
+        const double wanted = share(center);
         part += wanted > 0 && wanted < 1;
         const float whole = alpha_of(z, Footprint::gaussian, false);
         EXPECT_NEAR(alpha_of(z, Footprint::gaussian, true), wanted * whole, 1e-4) << z;

@@ -9,12 +9,12 @@ namespace isochron::render {
 
 /// An ellipse in pixels from the middle of the viewport, y up.
 struct Ellipse {
-    glm::dvec2 centre;
+    glm::dvec2 center;
     glm::dvec2 major, minor; ///< half axes
 
-    /// 1 on the outline, less inside; linear along rays from the centre.
+    /// 1 on the outline, less inside; linear along rays from the center.
     double distance(const glm::dvec2& at) const {
-        const glm::dvec2 d = at - centre;
+        const glm::dvec2 d = at - center;
         return std::hypot(glm::dot(d, major) / glm::dot(major, major),
                           glm::dot(d, minor) / glm::dot(minor, minor));
     }
@@ -26,12 +26,12 @@ struct Ellipse {
 /// eigenvectors are the axes. Written in double and with inverses, as far from the shader's dual
 /// form as the same ellipse allows.
 /// @param pixel_from_index clip space, x and y scaled to pixels
-inline Ellipse paper_ellipse(const glm::dmat4& pixel_from_index, const glm::dvec3& centre,
+inline Ellipse paper_ellipse(const glm::dmat4& pixel_from_index, const glm::dvec3& center,
                              double radius) {
     glm::dmat4 q(1.0);
-    q[3] = glm::dvec4(-centre, glm::dot(centre, centre) - radius * radius);
+    q[3] = glm::dvec4(-center, glm::dot(center, center) - radius * radius);
     for (int i = 0; i < 3; ++i)
-        q[i][3] = -centre[i];
+        q[i][3] = -center[i];
     const glm::dmat4 inverse = glm::inverse(pixel_from_index);
     const glm::dmat4 p = glm::transpose(inverse) * q * inverse;
     constexpr int kSeen[3] = {0, 1, 3}; // x, y, w

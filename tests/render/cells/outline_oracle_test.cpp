@@ -17,13 +17,13 @@ TEST(OutlineOracle, PointsOfTheSphereFillTheEllipseAndNoMore) {
     for (int round = 0; round < 60; ++round) {
         const Scene scene = random_scene(random);
         const glm::dmat4 m = scene.pixel_from_index();
-        const glm::dvec3 centre = glm::dvec3(scene.cell) + 0.5;
-        const Ellipse ellipse = paper_ellipse(m, centre, scene.radius);
+        const glm::dvec3 center = glm::dvec3(scene.cell) + 0.5;
+        const Ellipse ellipse = paper_ellipse(m, center, scene.radius);
         double farthest = 0.0;
         for (int i = 0; i < 20000; ++i) {
             const glm::dvec3 n =
                 glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-            const glm::dvec4 at = m * glm::dvec4(centre + n * scene.radius, 1.0);
+            const glm::dvec4 at = m * glm::dvec4(center + n * scene.radius, 1.0);
             farthest = std::max(farthest, ellipse.distance(glm::dvec2(at) / at.w));
         }
         EXPECT_LE(farthest, 1.0 + 1e-6);

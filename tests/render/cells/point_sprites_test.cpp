@@ -67,7 +67,7 @@ TEST(PointSprites, ServeOnlyWhereNoFootprintCrossesAnEdgeOrIsTooLarge) {
             // Half sides of the upright box around the rectangle, or around the ellipse.
             const glm::dvec2 a = glm::abs(ellipse.major), b = glm::abs(ellipse.minor);
             const glm::dvec2 reach = rectangle ? a + b : glm::sqrt(a * a + b * b);
-            for (const glm::dvec2& at : {ellipse.centre + reach, ellipse.centre - reach}) {
+            for (const glm::dvec2& at : {ellipse.center + reach, ellipse.center - reach}) {
                 ASSERT_LE(std::abs(at.x), half.x + 0.5) << "round " << round;
                 ASSERT_LE(std::abs(at.y), half.y + 0.5) << "round " << round;
             }
@@ -128,7 +128,7 @@ TEST(PointSprites, AreWholeFootprintsOnlyWhereTheseAreNearlySquares) {
 
 class PointPasses : public GlTest {
   protected:
-    /// Whether the picture has that colour at (x, y) or in one of the eight pixels around it.
+    /// Whether the picture has that color at (x, y) or in one of the eight pixels around it.
     static bool shown_beside(const Image& image, const std::uint8_t* color, int x, int y) {
         for (int v = std::max(y - 1, 0); v <= std::min(y + 1, image.height - 1); ++v)
             for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u)

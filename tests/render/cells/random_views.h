@@ -22,7 +22,7 @@ struct Scene {
         return pixel * glm::dmat4(view.clip_from_eye) * glm::dmat4(view.eye_from_room) *
                glm::dmat4(placement.room_from_index);
     }
-    /// From the eye to the cell's centre [voxels].
+    /// From the eye to the cell's center [voxels].
     double eye_distance() const {
         const glm::dvec4 eye =
             glm::inverse(glm::dmat4(view.eye_from_room) * glm::dmat4(placement.room_from_index))[3];

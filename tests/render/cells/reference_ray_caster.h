@@ -28,7 +28,7 @@ class ReferenceRayCaster {
   public:
     ReferenceRayCaster(const VertexField& field, const View& view, const Placement& placement);
 
-    /// @param pixel from the lower left corner of the viewport; centres are at +0.5
+    /// @param pixel from the lower left corner of the viewport; centers are at +0.5
     /// @return where the ray from the near to the far plane changes sides, nearest first
     std::vector<RayHit> hits(glm::dvec2 pixel) const;
     std::optional<RayHit> first_hit(glm::dvec2 pixel) const;

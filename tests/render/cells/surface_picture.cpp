@@ -37,10 +37,10 @@ Placement placed_at_origin(const index::Grid& grid, const glm::dmat4& room_from_
     const auto cells = grid.cells();
     const glm::dvec3 extent(cells[0], cells[1], cells[2]);
     const glm::dmat4 physical = grid.physical_from_index();
-    const glm::dvec3 centre(physical * glm::dvec4(0.5 * extent, 1.0));
+    const glm::dvec3 center(physical * glm::dvec4(0.5 * extent, 1.0));
     const double radius = 0.5 * glm::length(glm::dmat3(physical) * extent);
     return Placement::of(
-        grid, glm::translate(glm::scale(room_from_physical, glm::dvec3(1.0 / radius)), -centre));
+        grid, glm::translate(glm::scale(room_from_physical, glm::dvec3(1.0 / radius)), -center));
 }
 
 SurfaceTest::SurfaceTest() : normals_gl_(with_normals(gl_)), pass_(normals_gl_) {}

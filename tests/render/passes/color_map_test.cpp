@@ -1,4 +1,4 @@
-// Colour maps: lightness that never turns back, and steps that look equal.
+// Color maps: lightness that never turns back, and steps that look equal.
 #include "render/passes/color_map.h"
 
 #include "render/gl/srgb.h"
@@ -20,7 +20,7 @@ std::vector<glm::vec3> in_lab(ColorMap map) {
     return lab;
 }
 
-constexpr std::array kAllMaps{ColorMap::dusk, ColorMap::lagoon, ColorMap::polar, ColorMap::grey};
+constexpr std::array kAllMaps{ColorMap::dusk, ColorMap::lagoon, ColorMap::polar, ColorMap::gray};
 
 TEST(ColorMaps, GrowLighterAllTheWayOrUpToTheMiddle) {
     for (const ColorMap map : kAllMaps) {
@@ -44,7 +44,7 @@ TEST(ColorMaps, StandOutFromADarkBackgroundAndAreNeverWhite) {
         }
 }
 
-TEST(ColorMaps, StepThroughEqualDifferencesOfColour) {
+TEST(ColorMaps, StepThroughEqualDifferencesOfColor) {
     for (const ColorMap map : kAllMaps) {
         const auto lab = in_lab(map);
         std::vector<float> steps;

@@ -47,7 +47,7 @@ class RoomPasses : public GlTest {
         return {glm::vec3(-half, -half, -distance), glm::vec3(-half, half, -distance),
                 glm::vec3(half, half, -distance), glm::vec3(half, -half, -distance)};
     }
-    /// A picture whose lower left quarter alone is of a colour.
+    /// A picture whose lower left quarter alone is of a color.
     RenderTarget picture(glm::vec4 rest, glm::vec4 lower_left) {
         RenderTarget made(gl_, {10, 10});
         made.clear(rest);

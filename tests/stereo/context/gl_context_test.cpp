@@ -30,8 +30,8 @@ std::array<unsigned char, 4> drawn_pixel(GlContext& context, float red, float gr
     storage(texture, 1, GL_RGBA8, 1, 1);
     gen_framebuffers(1, &framebuffer);
     attach(framebuffer, GL_COLOR_ATTACHMENT0, texture, 0);
-    const float colour[] = {red, green, blue, 1};
-    clear(framebuffer, GL_COLOR, 0, colour);
+    const float color[] = {red, green, blue, 1};
+    clear(framebuffer, GL_COLOR, 0, color);
     std::array<unsigned char, 4> pixel{};
     read(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, sizeof pixel, pixel.data());
     return pixel;

@@ -100,7 +100,7 @@ TEST_F(SwapGroup, WhatTheBoardsLackIsSaid) {
     EXPECT_THAT(complaint(), HasSubstr("join"));
     driver = {};
     driver.binds = 0;
-    EXPECT_THAT(complaint(), HasSubstr("synchronisation board"));
+    EXPECT_THAT(complaint(), HasSubstr("synchronization board"));
 }
 
 } // namespace

@@ -174,7 +174,7 @@ TEST_F(WindowTest, FillsTheMonitorWhenFullscreenAndNamesOneThatDoesNotExist) {
     }
 }
 
-TEST_F(WindowTest, TwoWindowsShareOneInitialisation) {
+TEST_F(WindowTest, TwoWindowsShareOneInitialization) {
     const auto first = open("first");
     {
         const auto second = open("second");

@@ -95,7 +95,7 @@ TEST_F(PlayedTest, CantedAsymmetricEyesSeeTheirCornersInTheCorners) {
     }
 }
 
-TEST_F(PlayedTest, WithoutAStageTheViewersPlaceStandsForWhereTheRuntimeWasCentred) {
+TEST_F(PlayedTest, WithoutAStageTheViewersPlaceStandsForWhereTheRuntimeWasCentered) {
     headset().has_stage = false;
     headset().head = headset().local_in_stage;
     headset().head.position.x += 0.25f;

@@ -88,11 +88,11 @@ TEST_F(HandsTest, AHandThatIsGuessedAtMovesNothing) {
     EXPECT_EQ(device("wand").tracking(), Tracking::held);
 }
 
-TEST_F(HandsTest, ARecentredRoomIsBelievedAtOnce) {
+TEST_F(HandsTest, ARecenteredRoomIsBelievedAtOnce) {
     take_controllers();
     connect();
     settle();
-    headset().happens(Happening::recentre);
+    headset().happens(Happening::recenter);
     frame();
     headset().head.position.z += 3.0f;
     frame();
@@ -155,7 +155,7 @@ const std::vector<Control> kControls{
     {kTouch, true, "squeeze/value", 0, bit(WandButton::grab)},
     {kTouch, false, "trigger/value", bit(WandButton::fly)},
     {kTouch, false, "a/click", bit(WandButton::teleport)},
-    {kTouch, false, "b/click", bit(WandButton::recentre)},
+    {kTouch, false, "b/click", bit(WandButton::recenter)},
     {kTouch, false, "thumbstick/click", 0, 0, bit(Action::pick)},
     {kTouch, true, "thumbstick/click", 0, 0, bit(Action::next_view)},
     {kTouch, false, "thumbstick/y", 0, 0, 0, WandValuator::fly},

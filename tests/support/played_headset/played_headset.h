@@ -76,7 +76,7 @@ enum class Happening : std::uint8_t {
     hide,         ///< another program is shown: SYNCHRONIZED, nothing to render
     cover,        ///< VISIBLE without input focus
     show,         ///< FOCUSED again
-    recentre,     ///< the reference spaces move
+    recenter,     ///< the reference spaces move
     lose_session, ///< LOSS_PENDING, then every call fails
     lose_at_once, ///< the session fails without an event
     lose_instance ///< the runtime dies

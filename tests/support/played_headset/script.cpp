@@ -34,7 +34,7 @@ Happening happening_of(const std::string& name) {
                                                       {"hide", Happening::hide},
                                                       {"cover", Happening::cover},
                                                       {"show", Happening::show},
-                                                      {"recentre", Happening::recentre},
+                                                      {"recenter", Happening::recenter},
                                                       {"lose_session", Happening::lose_session},
                                                       {"lose_at_once", Happening::lose_at_once},
                                                       {"lose_instance", Happening::lose_instance}};

@@ -106,7 +106,7 @@ void push_state(XrSessionState state) {
 
 namespace {
 
-void push_recentred() {
+void push_recentered() {
     XrEventDataBuffer buffer{};
     XrEventDataReferenceSpaceChangePending event{XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING};
     event.session = reinterpret_cast<XrSession>(world().session_handle);
@@ -124,7 +124,7 @@ void happen(Happening what, Session& session) {
     case Happening::hide: session.hidden = session.covered = true; break;
     case Happening::cover: session.hidden = false, session.covered = true; break;
     case Happening::show: session.hidden = session.covered = false; break;
-    case Happening::recentre: push_recentred(); break;
+    case Happening::recenter: push_recentered(); break;
     case Happening::lose_session: push_state(XR_SESSION_STATE_LOSS_PENDING); break;
     case Happening::lose_at_once: session.lost = true; break;
     case Happening::lose_instance: world().instance_lost = true; break;

@@ -1,5 +1,5 @@
 // The paper's two sources of error in pixels.
-#include "tests/bench/measures/artefacts.h"
+#include "tests/bench/measures/artifacts.h"
 
 #include "index/error.h"
 #include "index/extraction/id_sort.h"
@@ -19,7 +19,7 @@ namespace isochron::bench {
 
 template <class AnyRow, class Field>
 void each_field(AnyRow& row,
-                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, ArtefactRow> {
+                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, ArtifactRow> {
     field("data", row.data);
     field("footprint", row.footprint);
     field("l", row.l);
@@ -74,23 +74,23 @@ const std::vector<NamedFootprint>& splats() {
 
 } // namespace
 
-std::string to_json_text(const ArtefactResults& results) {
+std::string to_json_text(const ArtifactResults& results) {
     ordered_json j{{"header", record_to_json(results.header)}, {"rows", ordered_json::array()}};
-    for (const ArtefactRow& row : results.rows)
+    for (const ArtifactRow& row : results.rows)
         j["rows"].push_back(record_to_json(row));
     return json_text(j);
 }
 
-ArtefactResults artefacts_from_json(const std::string& text, const std::string& name) {
+ArtifactResults artifacts_from_json(const std::string& text, const std::string& name) {
     try {
         const json j = json::parse(text);
-        ArtefactResults results{record_from_json<Header>(j.at("header")), {}};
+        ArtifactResults results{record_from_json<Header>(j.at("header")), {}};
         for (const json& row : j.at("rows"))
-            results.rows.push_back(record_from_json<ArtefactRow>(row));
+            results.rows.push_back(record_from_json<ArtifactRow>(row));
         return results;
     } catch (const json::exception& error) {
         throw index::Error(
-            fmt::format("{}: no results of `isochron-bench artefacts`: {}", name, error.what()));
+            fmt::format("{}: no results of `isochron-bench artifacts`: {}", name, error.what()));
     }
 }
 
@@ -112,13 +112,13 @@ PixelDifference difference(const render::Image& a, const render::Image& b) {
             .changed_percent = 100.0 * static_cast<double>(changed) / count};
 }
 
-ArtefactSets artefact_sets(const index::StepValues& values, const index::ThiTree& tree,
+ArtifactSets artifact_sets(const index::StepValues& values, const index::ThiTree& tree,
                            const index::Query& query) {
     std::vector<index::CellId> active, found;
     index::scan(values, query, active);
     const index::KeyMap keys(values.type, values.scaling);
     tree.search(query.step, keys.threshold(query.isovalue), found);
-    ArtefactSets sets{shaded(values, query, active), nullptr, shaded(values, query, found)};
+    ArtifactSets sets{shaded(values, query, active), nullptr, shaded(values, query, found)};
 
     auto kept = std::make_shared<CellSet>(*sets.exact);
     for (const SpanCells& span : span_cells(values, tree, query)) {
@@ -133,11 +133,11 @@ ArtefactSets artefact_sets(const index::StepValues& values, const index::ThiTree
     return sets;
 }
 
-ArtefactBench::ArtefactBench(const render::Gl& gl, std::shared_ptr<const index::IndexFile> file,
+ArtifactBench::ArtifactBench(const render::Gl& gl, std::shared_ptr<const index::IndexFile> file,
                              int size)
     : gl_(gl), file_(std::move(file)), size_(size), pass_(gl) {}
 
-render::Image ArtefactBench::draw(index::CellSetPtr set, render::Footprint footprint) {
+render::Image ArtifactBench::draw(index::CellSetPtr set, render::Footprint footprint) {
     const BenchCamera camera = bench_camera(file_->info(), size_, 1);
     const render::RenderTarget target(gl_, {size_, size_});
     const auto cells = render::CellBuffers::of_points(gl_, set->points);
@@ -147,12 +147,12 @@ render::Image ArtefactBench::draw(index::CellSetPtr set, render::Footprint footp
     return target.read();
 }
 
-ArtefactPictures ArtefactBench::draw(const ArtefactSets& sets, render::Footprint footprint) {
+ArtifactPictures ArtifactBench::draw(const ArtifactSets& sets, render::Footprint footprint) {
     return {draw(sets.exact, footprint), draw(sets.kept_normals, footprint),
             draw(sets.false_positives, footprint)};
 }
 
-std::vector<ArtefactRow> ArtefactBench::measure(const std::string& data,
+std::vector<ArtifactRow> ArtifactBench::measure(const std::string& data,
                                                 const index::ThiOptions& options, double isovalue,
                                                 std::uint32_t every,
                                                 const index::Progress& progress) {
@@ -160,9 +160,9 @@ std::vector<ArtefactRow> ArtefactBench::measure(const std::string& data,
     const auto bytes = index::build_thi_tree(values, options);
     const index::ThiTree tree(bytes);
     const NormalError angles = normal_error(values, tree, isovalue);
-    std::vector<ArtefactRow> rows;
+    std::vector<ArtifactRow> rows;
     for (const NamedFootprint& footprint : splats()) {
-        ArtefactRow& row = rows.emplace_back();
+        ArtifactRow& row = rows.emplace_back();
         row.data = data;
         row.footprint = footprint.name;
         row.l = options.lattice;
@@ -175,14 +175,14 @@ std::vector<ArtefactRow> ArtefactBench::measure(const std::string& data,
     for (std::uint32_t step = 0; step < steps; step += every) {
         progress(fmt::format("{} L {} MV {}", data, options.lattice, options.max_variation),
                  static_cast<double>(step) / steps);
-        const ArtefactSets sets = artefact_sets(values, tree, {step, isovalue});
+        const ArtifactSets sets = artifact_sets(values, tree, {step, isovalue});
         const double active = static_cast<double>(sets.exact->ids.size());
         const double found = static_cast<double>(sets.false_positives->ids.size());
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const ArtefactPictures pictures = draw(sets, splats()[i].footprint);
+            const ArtifactPictures pictures = draw(sets, splats()[i].footprint);
             const PixelDifference normals = difference(pictures.exact, pictures.kept_normals);
             const PixelDifference more = difference(pictures.exact, pictures.false_positives);
-            ArtefactRow& row = rows[i];
+            ArtifactRow& row = rows[i];
             row.cells += share * active;
             row.normals_mean += share * normals.mean;
             row.normals_p99 += share * normals.p99;
@@ -210,9 +210,9 @@ render::Image side_by_side(const std::vector<render::Image>& pictures) {
 render::Image difference_picture(const render::Image& a, const render::Image& b, int gain) {
     render::Image picture = a;
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
-        const int grey = std::min(gain * difference_at(&a.rgba[i], &b.rgba[i]), 255);
+        const int gray = std::min(gain * difference_at(&a.rgba[i], &b.rgba[i]), 255);
         std::fill_n(picture.rgba.begin() + static_cast<std::ptrdiff_t>(i), 3,
-                    static_cast<std::uint8_t>(grey));
+                    static_cast<std::uint8_t>(gray));
         picture.rgba[i + 3] = 255;
     }
     return picture;

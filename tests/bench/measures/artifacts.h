@@ -17,7 +17,7 @@
 namespace isochron::bench {
 
 /// How one picture differs from another of the same size, over the pixels where either shows
-/// something. A pixel's difference is that of its colour channel that differs most, of 255.
+/// something. A pixel's difference is that of its color channel that differs most, of 255.
 struct PixelDifference {
     double mean = 0, p99 = 0;
     double changed_percent = 0; ///< of those pixels: by more than kVisible
@@ -26,7 +26,7 @@ struct PixelDifference {
 PixelDifference difference(const render::Image& a, const render::Image& b);
 
 /// One footprint of one series, drawn from one tree: means over the steps.
-struct ArtefactRow {
+struct ArtifactRow {
     std::string data, footprint;
     std::uint32_t l = 0, max_variation = 0;
     double cells = 0;
@@ -36,39 +36,39 @@ struct ArtefactRow {
     double false_mean = 0, false_p99 = 0, false_changed_percent = 0;
 };
 
-struct ArtefactResults {
+struct ArtifactResults {
     Header header;
-    std::vector<ArtefactRow> rows;
+    std::vector<ArtifactRow> rows;
 };
-std::string to_json_text(const ArtefactResults& results);
+std::string to_json_text(const ArtifactResults& results);
 /// @throws index::Error when something is missing, or of another kind
-ArtefactResults artefacts_from_json(const std::string& text, const std::string& name);
+ArtifactResults artifacts_from_json(const std::string& text, const std::string& name);
 
 /// What is drawn of one step.
-struct ArtefactSets {
+struct ArtifactSets {
     index::CellSetPtr exact;           ///< the active cells with normals of the step itself
     index::CellSetPtr kept_normals;    ///< the same with the normals that the tree stores
     index::CellSetPtr false_positives; ///< all that the tree finds, with normals of the step
 };
-ArtefactSets artefact_sets(const index::StepValues& values, const index::ThiTree& tree,
+ArtifactSets artifact_sets(const index::StepValues& values, const index::ThiTree& tree,
                            const index::Query& query);
 
 /// The three as pictures, from the camera of the rendering benchmark.
-struct ArtefactPictures {
+struct ArtifactPictures {
     render::Image exact, kept_normals, false_positives;
 };
 
 /// Draws series in a context that is current.
-class ArtefactBench {
+class ArtifactBench {
   public:
     /// @param size of the pictures, across and up, pixels
-    ArtefactBench(const render::Gl& gl, std::shared_ptr<const index::IndexFile> file, int size);
+    ArtifactBench(const render::Gl& gl, std::shared_ptr<const index::IndexFile> file, int size);
 
-    ArtefactPictures draw(const ArtefactSets& sets, render::Footprint footprint);
+    ArtifactPictures draw(const ArtifactSets& sets, render::Footprint footprint);
     render::Image draw(index::CellSetPtr set, render::Footprint footprint);
 
     /// @param steps every so many of them are drawn
-    std::vector<ArtefactRow> measure(const std::string& data, const index::ThiOptions& options,
+    std::vector<ArtifactRow> measure(const std::string& data, const index::ThiOptions& options,
                                      double isovalue, std::uint32_t every,
                                      const index::Progress& progress);
 

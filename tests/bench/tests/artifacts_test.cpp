@@ -1,5 +1,5 @@
 // The pixels that kept normals and false positives change.
-#include "tests/bench/measures/artefacts.h"
+#include "tests/bench/measures/artifacts.h"
 
 #include "index/error.h"
 #include "index/scan/scan.h"
@@ -27,7 +27,7 @@ render::Image picture(std::initializer_list<std::pair<int, int>> pixels) {
     return image;
 }
 
-TEST(Artefacts, AreCountedOverPixelsThatShowSomething) {
+TEST(Artifacts, AreCountedOverPixelsThatShowSomething) {
     const render::Image a = picture({{10, 255}, {90, 255}, {200, 0}, {30, 255}, {0, 0}}),
                         b = picture({{10, 255}, {50, 255}, {0, 0}, {35, 255}, {40, 9}});
     const PixelDifference found = difference(a, b);
@@ -37,20 +37,20 @@ TEST(Artefacts, AreCountedOverPixelsThatShowSomething) {
     EXPECT_EQ(difference(picture({{9, 0}}), picture({{0, 0}})).mean, 0.0);
     const render::Image marked = difference_picture(a, b, 4);
     EXPECT_EQ(int(marked.at(1, 0)[0]), 160);
-    EXPECT_EQ(int(marked.at(1, 0)[2]), 160) << "grey";
+    EXPECT_EQ(int(marked.at(1, 0)[2]), 160) << "gray";
     EXPECT_EQ(int(marked.at(2, 0)[1]), 255) << "as bright as it gets";
     const render::Image both = side_by_side({a, b});
     EXPECT_EQ(both.width, 10);
     EXPECT_EQ(int(both.at(6, 0)[0]), 50);
 }
 
-TEST(Artefacts, ComeFromTheNormalsOfTheMiddleOfTheSpanAndFromCandidates) {
+TEST(Artifacts, ComeFromTheNormalsOfTheMiddleOfTheSpanAndFromCandidates) {
     const TestField field({30, 28, 31}, 9, ValueType::u8, index::moving_sphere);
     const index::StepValues& values = field.view();
     const auto bytes = index::build_thi_tree(values, {.lattice = 16, .max_variation = 3});
     const index::ThiTree tree(bytes);
     const Query query{5, 112.5};
-    const ArtefactSets sets = artefact_sets(values, tree, query);
+    const ArtifactSets sets = artifact_sets(values, tree, query);
 
     std::vector<index::CellId> active;
     index::scan(values, query, active);
@@ -85,19 +85,19 @@ TEST(Artefacts, ComeFromTheNormalsOfTheMiddleOfTheSpanAndFromCandidates) {
     EXPECT_GT(kept, 20u) << "and some for longer than a step";
 }
 
-TEST(Artefacts, GoThroughJsonUnchanged) {
-    ArtefactRow row;
+TEST(Artifacts, GoThroughJsonUnchanged) {
+    ArtifactRow row;
     row.data = "sphere";
     row.footprint = "gaussian";
     row.l = 64;
     row.max_variation = 2;
     row.normals_mean = 1.25;
     row.false_changed_percent = 3.5;
-    const std::string text = to_json_text(ArtefactResults{{"0123abcd", "p", "c", "d", 2}, {row}});
-    const ArtefactResults read = artefacts_from_json(text, "a.json");
+    const std::string text = to_json_text(ArtifactResults{{"0123abcd", "p", "c", "d", 2}, {row}});
+    const ArtifactResults read = artifacts_from_json(text, "a.json");
     EXPECT_EQ(to_json_text(read), text);
     EXPECT_EQ(read.rows.at(0).false_changed_percent, 3.5);
-    EXPECT_THROW(artefacts_from_json("[]", "a.json"), index::Error);
+    EXPECT_THROW(artifacts_from_json("[]", "a.json"), index::Error);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// `isochron-bench artefacts`: what kept normals and false positives do to pictures, and the paper's
+// `isochron-bench artifacts`: what kept normals and false positives do to pictures, and the paper's
 // pair of renderings.
 #include "app/commands/cancel.h"
 #include "app/commands/progress_bar.h"
@@ -6,7 +6,7 @@
 #include "stereo/image_file.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
-#include "tests/bench/measures/artefacts.h"
+#include "tests/bench/measures/artifacts.h"
 #include "tests/bench/measures/data_sets.h"
 #include "tests/bench/measures/isovalues.h"
 #include "tests/bench/measures/work_folder.h"
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ArtefactArguments {
+struct ArtifactArguments {
     fs::path json, pictures, work = fs::temp_directory_path();
     std::vector<std::string> data{"sphere-55", "vorticity"};
     std::vector<std::uint32_t> lattices{32, 64, 128}, max_variations{1, 2, 3};
@@ -37,13 +37,13 @@ void write_pictures(const fs::path& folder, const std::string& data,
                     const std::shared_ptr<const index::IndexFile>& file, double isovalue,
                     const index::ThiOptions& options, const render::Gl& gl) {
     constexpr int kSize = 320, kGain = 4;
-    ArtefactBench bench(gl, file, kSize);
+    ArtifactBench bench(gl, file, kSize);
     const index::StepValues& values = file->values();
     const auto bytes = index::build_thi_tree(values, options);
     const index::Query query{static_cast<std::uint32_t>(values.steps / 2 - values.steps / 8),
                              isovalue};
-    const ArtefactSets sets = artefact_sets(values, index::ThiTree(bytes), query);
-    const ArtefactPictures splats = bench.draw(sets, render::Footprint::gaussian);
+    const ArtifactSets sets = artifact_sets(values, index::ThiTree(bytes), query);
+    const ArtifactPictures splats = bench.draw(sets, render::Footprint::gaussian);
     const auto write = [&](const char* what, const std::vector<render::Image>& pictures) {
         stereo::write_image(side_by_side(pictures), folder / fmt::format("{}_{}.png", data, what));
     };
@@ -54,13 +54,13 @@ void write_pictures(const fs::path& folder, const std::string& data,
                               difference_picture(splats.exact, splats.false_positives, kGain)});
 }
 
-void run_bench_artefacts(const ArtefactArguments& arguments) {
+void run_bench_artifacts(const ArtifactArguments& arguments) {
     const app::CancelOnSignal signals;
     const WorkFolder folder(arguments.work);
     const auto context = stereo::make_context(*stereo::context_kind_from_name(arguments.context),
                                               {.size = {16, 16}});
     const render::Gl gl(context->loader());
-    ArtefactResults results{this_machine(), {}};
+    ArtifactResults results{this_machine(), {}};
     app::ProgressBar bar;
     const index::Progress progress = [&](std::string_view phase, double fraction) {
         signals.check();
@@ -71,10 +71,10 @@ void run_bench_artefacts(const ArtefactArguments& arguments) {
         const auto file = build_file(data, folder.path() / (name + ".isochron"), progress);
         const double isovalue =
             data.isovalue ? *data.isovalue : isovalue_with(file->values(), data.active_cells);
-        ArtefactBench bench(gl, file, arguments.size);
+        ArtifactBench bench(gl, file, arguments.size);
         for (const std::uint32_t lattice : arguments.lattices)
             for (const std::uint32_t max_variation : arguments.max_variations)
-                for (const ArtefactRow& row : bench.measure(data.name, {lattice, max_variation},
+                for (const ArtifactRow& row : bench.measure(data.name, {lattice, max_variation},
                                                             isovalue, arguments.every, progress)) {
                     fmt::print("{} {}, L {} MV {}: kept normals {:.3g} deg, {:.3g} of 255, {:.3g} "
                                "% of pixels; false positives {:.3g} % of cells, {:.3g} % of "
@@ -95,10 +95,10 @@ void run_bench_artefacts(const ArtefactArguments& arguments) {
 
 } // namespace
 
-void add_artefacts(app::Command& program) {
-    auto arguments = std::make_shared<ArtefactArguments>();
+void add_artifacts(app::Command& program) {
+    auto arguments = std::make_shared<ArtifactArguments>();
     app::Command command = program.subcommand(
-        "artefacts", "Count the pixels that change where normals are kept over a time span, and "
+        "artifacts", "Count the pixels that change where normals are kept over a time span, and "
                      "where false positives of the THI tree are drawn.");
     command.option("--json", arguments->json, "Write the rows, with commit and processor")
         .type_name("FILE");
@@ -135,7 +135,7 @@ void add_artefacts(app::Command& program) {
         .existing_folder()
         .type_name("DIR")
         .shows_default();
-    command.on_run([arguments] { run_bench_artefacts(*arguments); });
+    command.on_run([arguments] { run_bench_artifacts(*arguments); });
 }
 
 } // namespace isochron::bench

@@ -1,5 +1,5 @@
 // The part of the page of results that is about the paper's two sources of error.
-#include "tests/bench/pages/artefact_page.h"
+#include "tests/bench/pages/artifact_page.h"
 
 #include <fmt/format.h>
 
@@ -12,23 +12,23 @@ namespace isochron::bench {
 namespace {
 
 /// The largest share of pixels over all rows of one MaxVariation.
-double most(const std::vector<ArtefactRow>& rows, std::uint32_t max_variation,
-            double ArtefactRow::*figure) {
+double most(const std::vector<ArtifactRow>& rows, std::uint32_t max_variation,
+            double ArtifactRow::*figure) {
     double largest = 0;
-    for (const ArtefactRow& row : rows)
+    for (const ArtifactRow& row : rows)
         if (row.max_variation == max_variation)
             largest = std::max(largest, row.*figure);
     return largest;
 }
 
-std::string summary(const std::vector<ArtefactRow>& rows) {
+std::string summary(const std::vector<ArtifactRow>& rows) {
     std::string text;
     for (const std::uint32_t max_variation : {1u, 2u, 3u})
         text += fmt::format(
             "- MaxVariation {}: kept normals change up to {:.3g} % of the pixels, false positives "
             "up to {:.3g} %.\n",
-            max_variation, most(rows, max_variation, &ArtefactRow::normals_changed_percent),
-            most(rows, max_variation, &ArtefactRow::false_changed_percent));
+            max_variation, most(rows, max_variation, &ArtifactRow::normals_changed_percent),
+            most(rows, max_variation, &ArtifactRow::false_changed_percent));
     return text +
            "\nFalse positives are no scattered cells: they are the shell that the surface passes "
            "through during a span, so splats of them cover what lies behind. Kept normals light a "
@@ -37,7 +37,7 @@ std::string summary(const std::vector<ArtefactRow>& rows) {
 
 } // namespace
 
-std::string artefact_section(const ArtefactResults& results, const std::string& source) {
+std::string artifact_section(const ArtifactResults& results, const std::string& source) {
     const Header& header = results.header;
     std::string text = fmt::format(
         "\n# Two sources of error, in pixels\n\nMade from `{}`. Measured on {} with commit {}, {}, "
@@ -50,7 +50,7 @@ std::string artefact_section(const ArtefactResults& results, const std::string& 
         "pictures of 512^2 from the camera of the benchmark, over pixels where either shows the "
         "surface, means over every 8th step. *Kept normals*: the angle between the normal in the "
         "middle of a cell's span and that of the step on screen, and what it does to pixels: the "
-        "mean and the 99th percentile of the difference of the colour channel that differs most, "
+        "mean and the 99th percentile of the difference of the color channel that differs most, "
         "of 255, and the share of pixels that change by more than {}. *False positives*: cells "
         "found in addition, in percent of the active ones, and the same of pixels when they are "
         "drawn.\n\n",
@@ -59,7 +59,7 @@ std::string artefact_section(const ArtefactResults& results, const std::string& 
     text += "| series | footprint | L | MaxVariation | angle mean | 99 % | kept normals: mean | "
             "99 % | pixels changed | false positives | drawn: mean | 99 % | pixels changed |\n"
             "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-    for (const ArtefactRow& row : results.rows)
+    for (const ArtifactRow& row : results.rows)
         text += fmt::format(
             "| {} | {} | {} | {} | {:.3g} deg | {:.3g} deg | {:.3g} | {:.3g} | {:.3g} % | {:.3g} % "
             "| {:.3g} | {:.3g} | {:.3g} % |\n",

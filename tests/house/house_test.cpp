@@ -1,4 +1,6 @@
 // The house stays as it was drawn: no floor looks upwards, every file says what it is for.
+#include "tests/support/paths.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +48,7 @@ std::vector<std::string> upward_includes(const fs::path& root) {
 }
 
 TEST(House, NoFloorLooksUpwards) {
-    EXPECT_EQ(upward_includes(SOURCE_ROOT), std::vector<std::string>{});
+    EXPECT_EQ(upward_includes(isochron::test_support::source_root()), std::vector<std::string>{});
 }
 
 TEST(House, AnUpwardIncludeIsFound) {
@@ -60,7 +62,8 @@ TEST(House, AnUpwardIncludeIsFound) {
 
 TEST(House, EverySourceStartsWithItsOwnHeader) {
     for (const auto& [floor, allowed] : kMayInclude)
-        for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_ROOT) / floor)) {
+        for (const auto& entry :
+             fs::recursive_directory_iterator(fs::path(isochron::test_support::source_root()) / floor)) {
             fs::path header = entry.path();
             header.replace_extension(".h");
             if (entry.path().extension() != ".cpp" || !fs::exists(header))
@@ -69,7 +72,7 @@ TEST(House, EverySourceStartsWithItsOwnHeader) {
             std::string line;
             while (std::getline(file, line) && !line.starts_with("#include")) {
             }
-            const std::string own = fs::relative(header, SOURCE_ROOT).string();
+            const std::string own = fs::relative(header, isochron::test_support::source_root()).string();
             EXPECT_EQ(line, "#include \"" + own + "\"") << "so that the header stands on its own";
         }
 }
@@ -77,7 +80,8 @@ TEST(House, EverySourceStartsWithItsOwnHeader) {
 TEST(House, NoFileHoldsTwoIdeas) {
     constexpr int kMost = 400;
     for (const char* folder : {"index", "interaction", "render", "stereo", "app", "tests"})
-        for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_ROOT) / folder)) {
+        for (const auto& entry :
+             fs::recursive_directory_iterator(fs::path(isochron::test_support::source_root()) / folder)) {
             const std::string extension = entry.path().extension();
             if (extension != ".h" && extension != ".cpp")
                 continue;
@@ -89,7 +93,8 @@ TEST(House, NoFileHoldsTwoIdeas) {
 
 TEST(House, EveryFileSaysFirstWhatItIsFor) {
     for (const auto& [floor, allowed] : kMayInclude)
-        for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCE_ROOT) / floor)) {
+        for (const auto& entry :
+             fs::recursive_directory_iterator(fs::path(isochron::test_support::source_root()) / floor)) {
             const std::string extension = entry.path().extension();
             if (extension != ".h" && extension != ".cpp")
                 continue;

@@ -84,7 +84,7 @@ void ClusterJob::share_frames(Session& session) {
 
 void ClusterJob::follow(Session& session, const FrameDone& done) {
     for (std::size_t number = 0; auto order = frames_.next(); ++number) {
-        session.windows().poll_events();
+        session.outputs().windows().poll_events();
         session.frame(
             order->input, order->commands, order->waiting,
             order->latched.devices.empty() ? Latch{} : [&order] { return order->latched; });

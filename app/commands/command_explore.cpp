@@ -86,9 +86,9 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
     header.program = kProgram;
     header.configuration = config.text;
     header.data = std::filesystem::absolute(path).string();
-    const glm::ivec2 window = session.windows()[0].framebuffer_size();
+    const glm::ivec2 window = session.outputs().windows()[0].framebuffer_size();
     // An emulated installation is as large as configured.
-    if (!session.windows().room() && session.windows().number(0) == 0)
+    if (!session.outputs().windows().room() && session.outputs().windows().number(0) == 0)
         header.window = {window.x, window.y};
     header.data_hash = fmt::format("{:016x}", file.content_hash());
     header.start = session.state().as_commands();
@@ -175,8 +175,8 @@ void show_test_pattern(const ExploreOptions& options, const ClusterJob& job) {
     const auto clock = [start = std::chrono::steady_clock::now()] {
         return Seconds(std::chrono::steady_clock::now() - start);
     };
-    for (bool running = true; running && !show.windows().should_close();) {
-        const auto events = show.windows().poll_events();
+    for (bool running = true; running && !show.outputs().windows().should_close();) {
+        const auto events = show.outputs().windows().poll_events();
         emulation.feed(options.emulate ? camera.feed(events) : events);
         const Seconds now = clock();
         const interaction::InputState input =
@@ -235,15 +235,15 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         stereo::Windows windows = open(options, config, job, headset.get());
         opened.emplace(config, file, std::move(windows), index::Extract(), std::move(headset));
         opened->set_state(start_from(opened->state(), options, file->info().steps()));
-        opened->set_screenshots(options.screenshots);
+        opened->outputs().set_screenshots(options.screenshots);
         if (config.cluster.swap_group && job.size() > 1)
-            stereo::join_swap_group(opened->windows());
+            stereo::join_swap_group(opened->outputs().windows());
     });
     Session& session = *opened;
     job.require_same(start_fact(session));
     job.share_frames(session);
-    HeadsetLoop in_headset(session.headset());
-    const stereo::Windows& windows = session.windows();
+    HeadsetLoop in_headset(session.outputs().headset());
+    const stereo::Windows& windows = session.outputs().windows();
     // The writer lives on the thread that writes: a slow disk delays the recording, not the
     // picture.
     BackgroundWork recording;
@@ -265,7 +265,8 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         job.follow(session);
     for (bool running = job.leads(); running && !session.should_close();) {
         const auto events = session.panel_events(windows.poll_events());
-        if (config.devices.empty() && !session.headset()) // a tracked wand points by itself
+        if (config.devices.empty() &&
+            !session.outputs().headset()) // a tracked wand points by itself
             emulation.set_panel(session.state().room_panel, session.room_panel_size());
         emulation.feed(options.emulate ? camera.feed(events) : events);
         const bool paced = in_headset.begin_frame(clock());
@@ -296,7 +297,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     recording.finish();
     if (recorder)
         recorder->finish();
-    session.pictures().finish();
+    session.outputs().pictures().finish();
     for (const std::string& line : trackers.status())
         fmt::print(stderr, "{}\n", line);
     for (const std::string& line : in_headset.status())

@@ -2,7 +2,7 @@
 //
 //     quality.learn(quality.collect(log));                  // every frame
 //     const bool redraw = quality.choose(state, changed, how, best, report) || changed;
-//     if (redraw) { quality.begin(log.next()); ... quality.viewed(view); ... quality.end(...); }
+//     if (redraw) { quality.begin(log.next()); ... quality.end(report, of_cell, time); }
 #pragma once
 
 #include "app/config/config.h"
@@ -10,7 +10,6 @@
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "app/frame/quality_controller.h"
-#include "render/gl/view.h"
 
 #include <optional>
 #include <span>
@@ -39,7 +38,7 @@ class FrameQuality {
     void learn(std::span<const DrawSample> samples);
 
     /// What drawing one cell in every view of the last frame comes to.
-    DrawLoad view() const { return {views_, pixels_}; }
+    const DrawLoad& view() const { return view_; }
     /// Other processes draw with the same footprint: from now on this is their slowest one's.
     void charge(const DrawLoad& view) { charged_ = view; }
 
@@ -52,9 +51,9 @@ class FrameQuality {
 
     /// Between these two, the frame is drawn.
     void begin(std::uint64_t frame);
-    void viewed(const render::View& view);
+    /// @param of_cell what one cell in every view came to
     /// @param processor time of giving the commands, with the upload
-    void end(const FrameReport& report, Milliseconds processor);
+    void end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor);
 
     /// Refreshes of the display that passed without a new frame in the time between two frames.
     unsigned missed(interaction::Seconds between) const;
@@ -65,7 +64,7 @@ class FrameQuality {
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
     DrawMeter meter_;
-    double views_ = 0, pixels_ = 0; ///< of the frame drawn last
+    DrawLoad view_; ///< of one cell in the frame drawn last
     std::optional<DrawLoad> charged_;
 };
 

@@ -56,34 +56,18 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                  stereo::Windows windows, index::Extract extract,
                  std::unique_ptr<stereo::Headset> headset)
-    : config_(std::move(config)), file_(std::move(file)), windows_(std::move(windows)),
-      gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
-      gate_(config_.stillness), comfort_(config_.comfort),
+    : config_(std::move(config)), file_(std::move(file)),
+      outputs_(config_, std::move(windows), std::move(headset)),
+      state_(start_state(config_, *file_)), home_(state_), gate_(config_.stillness),
+      comfort_(config_.comfort),
       extractor_(extract ? std::move(extract)
                          : index::extract_from(file_, std::nullopt,
-                                               render::CellBuffers::wanted_shading(gl_))),
-      scene_(gl_, file_->info(), config_),
-      displays_(headset ? std::deque<stereo::Display>() : make_displays(gl_, windows_, config_)),
-      headset_(std::move(headset)), panel_(gl_), room_panel_(gl_, config_.panel), picker_(file_),
-      stereo_modes_(live_stereo_modes(windows_)),
+                                               render::CellBuffers::wanted_shading(outputs_.gl()))),
+      scene_(outputs_.gl(), file_->info(), config_), panel_(outputs_.gl(), outputs_.windows()),
+      room_panel_(outputs_.gl(), config_.panel), picker_(file_),
       // A headset has its own rate, which the configuration tells.
-      quality_(gl_, config_, headset_ ? std::nullopt : windows_.first().refresh_rate()) {
-    if (headset_) {
-        headset_display_.emplace(gl_, windows_.drawing(), windows_[0], config_.openxr.mirror,
-                                 display_options(gl_, config_));
-        headset_->attach(windows_.drawing(), gl_);
-    }
-    if (windows_.room())
-        room_.emplace(gl_, *windows_.room(), config_.installation);
-    picture_options(gl_, config_, {1, 1}); // wrong ones are told now, not when the first is taken
-    if (windows_.console())
-        console_.emplace(gl_, windows_.drawing(), *windows_.console());
-}
-
-Session::~Session() {
-    if (headset_)
-        headset_->detach();
-}
+      quality_(outputs_.gl(), config_,
+               outputs_.headset() ? std::nullopt : outputs_.windows().first().refresh_rate()) {}
 
 interaction::ControlContext Session::control_context() const {
     interaction::ControlContext context;
@@ -109,7 +93,7 @@ interaction::ControlContext Session::control_context() const {
     context.panel_distance = room_panel_.distance();
     context.grid = state_.grid;
     context.views = &state_.views;
-    context.stereo_modes = &stereo_modes_;
+    context.stereo_modes = &outputs_.stereo_modes();
     return context;
 }
 
@@ -165,13 +149,6 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     }
 }
 
-std::vector<glm::ivec2> Session::window_sizes() const {
-    std::vector<glm::ivec2> sizes;
-    for (std::size_t i = 0; i < windows_.count(); ++i)
-        sizes.push_back(windows_[i].framebuffer_size());
-    return sizes;
-}
-
 /// Nothing as long as the cells that are drawn are not colored by what they are to be: their
 /// coordinates would say something else.
 std::optional<ColorScale> Session::shown_scale() const {
@@ -185,22 +162,22 @@ std::optional<ColorScale> Session::shown_scale() const {
 Session::Picture Session::picture(const interaction::InputState& input,
                                   const FrameReport& report) const {
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
-    return {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
-            .eyes = headset_ ? headset_->eyes() : std::vector<stereo::HeadsetEye>(),
-            .wand = wand ? wand->pose : std::nullopt,
-            .panel = room_panel_.shown(state_.room_panel),
+    return {.audience = {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
+                         .eyes = outputs_.headset_eyes(),
+                         .wand = wand ? wand->pose : std::nullopt,
+                         .panel = room_panel_.shown(state_.room_panel),
+                         .stereo = state_.stereo},
             .mark = state_.mark,
             .guides = {state_.grid, interaction::teleport_target(input)},
             .veil = {static_cast<float>(report.comfort.fade),
                      static_cast<float>(report.comfort.vignette)},
             .room_from_physical = state_.room_from_physical,
-            .stereo = state_.stereo,
             .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
             .cells = scene_.shown(),
             .isosurfaces = state_.isosurfaces,
             .scale = shown_scale(),
             .bounding_box = state_.bounding_box,
-            .windows = window_sizes()};
+            .windows = outputs_.window_sizes()};
 }
 
 /// The devices that the views are made of, asked for as late as can be.
@@ -229,65 +206,36 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
         measure = take_shared_choice(measure, report);
     now.footprint = report.footprint;
     // While a headset wants no picture, there is nothing to draw and nothing to learn from it.
-    const bool wanted = !headset_ || !now.eyes.empty();
-    report.redrawn = wanted && (now != drawn_ || measure);
-}
-
-/// How a window shows a picture.
-stereo::StereoMode Session::mode_in(const stereo::Window& window, const Picture& now) const {
-    const stereo::StereoMode mode = mode_of(window, config_.installation, now.stereo);
-    return room_ ? RoomView::shown(mode) : mode;
+    report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure);
 }
 
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
                         FrameReport& report) {
-    const auto panel = [&](glm::ivec2 size) { draw_panel_overlay(size, report); };
-    panel_drawn_ = false;
+    const bool leads = !shared_ || shared_->leads();
+    const Outputs::Overlay panel =
+        leads ? [&](glm::ivec2 size) { draw_panel_overlay(size, report); } : Outputs::Overlay();
+    drawn_ = now;
     StopWatch watch;
     if (report.redrawn) {
         quality_.begin(log_.next());
         scene_.set_guides(now.guides);
-        scene_.set_panel(now.panel);
-        scene_.set_near_fade(config_.comfort, now.viewers);
+        scene_.set_panel(now.audience.panel);
+        scene_.set_near_fade(config_.comfort, now.audience.viewers);
         scene_.set_veil(now.veil);
-        scene_.look(state_, now.viewers.front().head, now.scale);
+        scene_.look(state_, now.audience.viewers.front().head, now.scale);
+        const auto scene = [this](const ScenePlace&, std::span<const render::View> views) {
+            draw_views(views);
+        };
+        const DrawLoad of_cell = outputs_.draw(now.audience, scene, panel);
+        quality_.end(report, of_cell, report.upload + watch.lap());
+    } else {
+        outputs_.draw_again(now.audience, panel);
     }
-    for (std::size_t i = 0; i < displays_.size(); ++i) {
-        // The panel lies over one window.
-        const bool first = i == 0 && (!shared_ || shared_->leads());
-        const auto overlay = first && !room_ ? panel : stereo::Display::Overlay();
-        if (!report.redrawn) {
-            displays_[i].draw_overlay_again(overlay);
-            continue;
-        }
-        displays_[i].draw(
-            now.viewers, mode_in(displays_[i].window(), now),
-            [&](std::span<const render::View> views) { draw_for(views, now); }, overlay);
-    }
-    if (headset_)
-        draw_headset(now, report.redrawn, panel);
-    if (report.redrawn)
-        quality_.end(report, report.upload + watch.lap());
-    drawn_ = now;
-    if (room_) {
-        room_->set_panel(now.panel);
-        room_->draw(displays_, now.viewers, now.wand, input, panel);
-    }
+    outputs_.draw_room(input, panel);
 }
 
-void Session::draw_for(std::span<const render::View> views, const Picture& now) {
-    for (const render::View& view : views)
-        quality_.viewed(view);
-    scene_.draw(views, now.room_from_physical, now.footprint, now.wand);
-}
-
-void Session::draw_headset(const Picture& now, bool redrawn,
-                           const stereo::Display::Overlay& overlay) {
-    if (redrawn)
-        headset_display_->draw(now.eyes,
-                               [&](std::span<const render::View> views) { draw_for(views, now); });
-    headset_display_->submit(*headset_, now.eyes, !redrawn);
-    headset_display_->mirror(overlay);
+void Session::draw_views(std::span<const render::View> views) {
+    scene_.draw(views, drawn_->room_from_physical, drawn_->footprint, drawn_->audience.wand);
 }
 
 bool Session::captures(const FrameReport& report) {
@@ -334,26 +282,18 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
 
     StopWatch stages;
     draw_eyes(now, input, report);
-    if (console_)
-        interaction::merge(panel_commands_,
-                           console_->draw(panel_model(PanelPlace::whole, report), report.time));
+    interaction::merge(panel_commands_, panel_.draw_alone(panel_models(report), report.time));
     report.draw = stages.lap();
     if (shared_)
         wait_for_others();
     report.barrier = stages.lap();
-    for (stereo::Display& display : displays_)
-        display.present();
-    if (room_)
-        room_->present();
-    if (console_)
-        console_->present();
-    if (headset_)
-        headset_display_->present();
+    outputs_.present();
+    panel_.present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     if (captures(report))
-        take_screenshots();
-    show_messages(pictures_.messages());
+        outputs_.take_screenshots();
+    show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
     report.total = whole.lap();
     log_.add(report);

@@ -16,7 +16,7 @@ void Session::show_shared_cells() {
 }
 
 bool Session::should_close() const {
-    return windows_.should_close() || (shared_ && shared_->close_wanted());
+    return outputs_.windows().should_close() || (shared_ && shared_->close_wanted());
 }
 
 std::string Session::failure() const {
@@ -39,9 +39,9 @@ void Session::learn_costs() {
 
 /// So that every wall shows the same frame at the same time.
 void Session::wait_for_others() {
-    gl_.Finish(); // what is drawn yet would be shown later
+    outputs_.gl().Finish(); // what is drawn yet would be shown later
     FrameAnswer answer;
-    answer.close = windows_.should_close();
+    answer.close = outputs_.windows().should_close();
     answer.failure = extractor_.failure().value_or("");
     answer.view = quality_.view();
     answer.surface_limit = scene_.surface_limit();

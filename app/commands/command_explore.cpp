@@ -232,7 +232,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     } else {
         job.follow(session);
     }
-    job.end_frames();
+    session.frames().end();
     live.finish();
     session.outputs().pictures().finish();
     print_status(live);

@@ -236,7 +236,7 @@ std::vector<std::string> show(Session& session, const Prepared& all, bool live, 
                                   bar.show("replaying", static_cast<double>(number + 1) / frames);
                               });
     }
-    job.end_frames();
+    session.frames().end();
     return different;
 }
 

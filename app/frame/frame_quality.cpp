@@ -52,8 +52,7 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
         input.settled = std::min(*settled_, best);
     if (how == Choosing::by_pace)
         input.settled = input.settled.value_or(best);
-    const DrawLoad each = charged_.value_or(view());
-    input.load = {static_cast<double>(report.cells) * each.cells, each.pixels};
+    input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
     QualityController& controller = still ? still_ : steady_;
     const QualityChoice choice = controller.choose(input);
     report.footprint = choice.footprint;

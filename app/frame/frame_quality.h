@@ -1,6 +1,7 @@
 // The quality of a session's frames: budgets, measurement and choice brought together.
 //
 //     quality.learn(quality.collect(log));                  // every frame
+//     quality.charge(quality.view());
 //     const bool redraw = quality.choose(state, changed, how, best, report) || changed;
 //     if (redraw) { quality.begin(log.next()); ... quality.end(report, of_cell, time); }
 #pragma once
@@ -39,8 +40,9 @@ class FrameQuality {
 
     /// What drawing one cell in every view of the last frame comes to.
     const DrawLoad& view() const { return view_; }
-    /// Other processes draw with the same footprint: from now on this is their slowest one's.
-    void charge(const DrawLoad& view) { charged_ = view; }
+    /// What the next choice counts on for that: all processes draw with the same footprint, so it is
+    /// that of the one that draws most.
+    void charge(const DrawLoad& of_cell) { charged_ = of_cell; }
 
     /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
     /// and with its cells.
@@ -65,7 +67,7 @@ class FrameQuality {
     interaction::Seconds changed_at_{0};
     DrawMeter meter_;
     DrawLoad view_; ///< of one cell in the frame drawn last
-    std::optional<DrawLoad> charged_;
+    DrawLoad charged_;
 };
 
 } // namespace isochron::app

@@ -1,6 +1,7 @@
 // One session: the data, the worker, the eyes, and the story of one frame.
 #include "app/session/session.h"
 
+#include "app/session/start_state.h"
 #include "interaction/navigator.h"
 
 #include <chrono>
@@ -25,32 +26,6 @@ class StopWatch {
     Clock::time_point last_ = Clock::now();
 };
 
-std::vector<interaction::Isosurface> first_surfaces(const Config& config,
-                                                    const index::IndexStats& stats) {
-    std::vector<interaction::Isosurface> surfaces;
-    for (const ConfiguredSurface& surface : config.surfaces)
-        surfaces.push_back({surface.isovalue.value_or(quantile(stats, surface.quantile)),
-                            surface.color, surface.opacity});
-    if (surfaces.empty())
-        surfaces.push_back({quantile(stats, kFirstQuantile), config.surface_color, 1.0f});
-    return surfaces;
-}
-
-ExplorerState start_state(const Config& config, const index::IndexFile& file) {
-    ExplorerState state;
-    state.room_from_physical = place(file.info(), config.placement);
-    state.quality = config.quality;
-    state.grid = config.grid;
-    state.eye_separation = config.installation.viewers.front().eye_separation;
-    state.isosurfaces = first_surfaces(config, file.stats());
-    state.coloring = config.coloring;
-    state.bounding_box = config.bounding_box;
-    const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
-    state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};
-    state.stereo = config.installation.windows.front().stereo;
-    return state;
-}
-
 } // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
@@ -68,6 +43,14 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       // A headset has its own rate, which the configuration tells.
       quality_(outputs_.gl(), config_,
                outputs_.headset() ? std::nullopt : outputs_.windows().first().refresh_rate()) {}
+
+bool Session::should_close() const {
+    return outputs_.windows().should_close() || frames_->close_wanted();
+}
+
+std::string Session::failure() const {
+    return frames_->failure(extractor_);
+}
 
 interaction::ControlContext Session::control_context() const {
     interaction::ControlContext context;
@@ -108,9 +91,7 @@ Commands Session::commands_from(const interaction::InputState& input) {
 }
 
 void Session::request_cells(Waiting waiting) {
-    index::Request request{state_.surfaces(), std::nullopt};
-    if (shared_ && waiting == Waiting::never)
-        request.query = shared_->cells().ask(request.query);
+    index::Request request{frames_->ask(state_.surfaces(), waiting), std::nullopt};
     const auto steps = static_cast<std::uint32_t>(file_->info().steps());
     if (state_.playback.playing && steps > 1)
         request.next_step =
@@ -125,16 +106,16 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
         extractor_.wait();
         report.wait = watch.lap();
     }
-    const index::ExtractionPtr newest = extractor_.newest();
+    const CellsInFrame cells = frames_->cells(extractor_, scene_.shown(), waiting);
     const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
     const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
-    if (shared_ && waiting == Waiting::never)
-        show_shared_cells();
-    else
-        scene_.upload(newest, volume);
+    if (cells.show)
+        scene_.upload(*cells.show, volume);
     // A replay shows what was asked for, however many upload budgets that takes.
-    while (waiting == Waiting::for_cells && newest && scene_.shown() != newest)
-        scene_.upload(newest);
+    while (waiting == Waiting::for_cells && *cells.show && scene_.shown() != *cells.show)
+        scene_.upload(*cells.show);
+    if (cells.stage && scene_.stage(cells.stage))
+        frames_->staged();
     if (!scene_.has_volume()) // the picture has not come to rest
         report.pace = interaction::Pace::moving;
     report.upload = watch.lap();
@@ -191,6 +172,22 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
     return seen;
 }
 
+/// The slowest process counts: all draw with one footprint.
+void Session::learn_costs() {
+    quality_.learn(frames_->samples(quality_.collect(log_)));
+    quality_.charge(frames_->largest(quality_.view()));
+}
+
+/// The leader's choice counts. @return whether it wants this frame measured
+bool Session::agree(bool measure, FrameReport& report) {
+    const FrameChoice choice =
+        frames_->agree({report.footprint, report.reason, report.final, measure});
+    report.footprint = choice.footprint;
+    report.reason = choice.reason;
+    report.final = choice.final;
+    return choice.measure;
+}
+
 void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report) {
     learn_costs();
     const bool live = waiting == Waiting::never;
@@ -198,12 +195,10 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool changed = now != drawn_;
     render::Footprint best = scene_.best_footprint();
-    if (shared_ && report.cells > shared_->surface_limit())
+    if (report.cells > frames_->surface_limit())
         best = render::Footprint::gaussian;
-    bool measure = quality_.choose(
-        state_, changed, live ? Choosing::by_measurement : Choosing::by_pace, best, report);
-    if (shared_)
-        measure = take_shared_choice(measure, report);
+    const Choosing how = live ? Choosing::by_measurement : Choosing::by_pace;
+    const bool measure = agree(quality_.choose(state_, changed, how, best, report), report);
     now.footprint = report.footprint;
     // While a headset wants no picture, there is nothing to draw and nothing to learn from it.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure);
@@ -211,9 +206,9 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
 
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
                         FrameReport& report) {
-    const bool leads = !shared_ || shared_->leads();
-    const Outputs::Overlay panel =
-        leads ? [&](glm::ivec2 size) { draw_panel_overlay(size, report); } : Outputs::Overlay();
+    const Outputs::Overlay panel = frames_->leads()
+                                       ? [&](glm::ivec2 size) { draw_panel_overlay(size, report); }
+                                       : Outputs::Overlay();
     drawn_ = now;
     StopWatch watch;
     if (report.redrawn) {
@@ -238,11 +233,22 @@ void Session::draw_views(std::span<const render::View> views) {
     scene_.draw(views, drawn_->room_from_physical, drawn_->footprint, drawn_->audience.wand);
 }
 
+/// What others are told before a frame is shown.
+FrameAnswer Session::answer() const {
+    outputs_.gl().Finish(); // what is drawn yet would be shown later
+    FrameAnswer answer;
+    answer.close = outputs_.windows().should_close();
+    answer.failure = extractor_.failure().value_or("");
+    answer.view = quality_.view();
+    answer.surface_limit = scene_.surface_limit();
+    return answer;
+}
+
 bool Session::captures(const FrameReport& report) {
     return captures_.take({.time = report.time,
                            .asked = report.asked,
                            .shown = report.shown,
-                           .failed = has_no_answer(),
+                           .failed = frames_->has_no_answer(extractor_),
                            .final = report.final});
 }
 
@@ -254,12 +260,7 @@ void Session::show_messages(std::vector<std::string> messages) {
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
                                   Waiting waiting, const Latch& latch) {
     StopWatch whole, since_input;
-    Latch heads = latch;
-    if (shared_ && shared_->leads()) { // all walls are seen from the same heads
-        const auto newest = latch ? latch() : interaction::InputState{input.time, {}};
-        shared_->begin(input, commands, waiting, viewers_heads(newest, config_.installation));
-        heads = [newest] { return newest; };
-    }
+    const Latch heads = frames_->begin(input, commands, waiting, latch, config_.installation);
     FrameReport report;
     report.time = input.time;
     report.tracking = tracking_of(input);
@@ -284,8 +285,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     draw_eyes(now, input, report);
     interaction::merge(panel_commands_, panel_.draw_alone(panel_models(report), report.time));
     report.draw = stages.lap();
-    if (shared_)
-        wait_for_others();
+    frames_->swap_barrier([this] { return answer(); });
     report.barrier = stages.lap();
     outputs_.present();
     panel_.present();

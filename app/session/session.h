@@ -7,7 +7,8 @@
 //     }
 #pragma once
 
-#include "app/cluster/shared_frames.h"
+#include "app/cluster/frame_sharing.h"
+#include "app/cluster/frames_alone.h"
 #include "app/config/config.h"
 #include "app/frame/capture_wait.h"
 #include "app/frame/explorer_state.h"
@@ -42,8 +43,9 @@ class Session {
     Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::Windows windows,
             index::Extract extract = {}, std::unique_ptr<stereo::Headset> headset = nullptr);
 
-    /// Shares every frame from now on with other processes. @param frames outlives the session
-    void join(SharedFrames& frames) { shared_ = &frames; }
+    /// How every frame from now on is shared; a session starts alone. @param frames not null
+    void share_frames(std::unique_ptr<FrameSharing> frames) { frames_ = std::move(frames); }
+    FrameSharing& frames() { return *frames_; }
     /// This process or another one has a window that the user wants to close.
     bool should_close() const;
 
@@ -112,12 +114,10 @@ class Session {
     Picture picture(const interaction::InputState& input, const FrameReport& report) const;
     interaction::InputState seen(const interaction::InputState& input, const Latch& latch,
                                  FrameReport& report);
-    void show_shared_cells();
     void learn_costs();
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
-    bool take_shared_choice(bool measure, FrameReport& report);
-    void wait_for_others();
-    bool has_no_answer() const;
+    bool agree(bool measure, FrameReport& report);
+    FrameAnswer answer() const;
     bool captures(const FrameReport& report);
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
@@ -145,8 +145,7 @@ class Session {
     std::function<interaction::Seconds()> clock_;
     FrameLog log_;
     FrameQuality quality_;
-    std::vector<DrawSample> samples_; ///< that the others have not been told of
-    SharedFrames* shared_ = nullptr;  ///< null: one process alone
+    std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     CaptureWait captures_;
     bool recording_ = false;
     std::string message_;

@@ -40,8 +40,8 @@ class FrameQuality {
 
     /// What drawing one cell in every view of the last frame comes to.
     const DrawLoad& view() const { return view_; }
-    /// What the next choice counts on for that: all processes draw with the same footprint, so it is
-    /// that of the one that draws most.
+    /// What the next choice counts on for that: all processes draw with the same footprint, so
+    /// it is that of the one that draws most.
     void charge(const DrawLoad& of_cell) { charged_ = of_cell; }
 
     /// Advances by one frame and says in its report how it is drawn, at the report's time and pace

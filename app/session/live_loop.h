@@ -1,7 +1,7 @@
 // The live loop: what devices state becomes frames, at the pace of what shows them, until the user
 // leaves.
 //
-//     LiveLoop live(config, std::move(trackers), {.emulated = emulate}, session.outputs().headset());
+//     LiveLoop live(config, std::move(trackers), {}, session.outputs().headset());
 //     live.record("walk.jsonl", header);
 //     live.run(session);
 //     live.finish();

@@ -1,8 +1,8 @@
 // Recordings: what goes in comes out, and no file, however broken, does more than complain.
-#include "interaction/command_fields.h"
 #include "interaction/recording/recording.h"
 
 #include "tests/interaction/input_builders.h"
+#include "tests/interaction/recording/random_commands.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,79 +57,6 @@ class RecordingFile : public testing::Test {
                              testing::UnitTest::GetInstance()->current_test_info()->name();
     const fs::path path_ = folder_ / "walk.jsonl";
 };
-
-Similarity random_similarity(Random& random) {
-    return {{uniform(random, -9, 9), uniform(random, -9, 9), uniform(random, -9, 9)},
-            glm::normalize(glm::dquat(random_rotation(random))),
-            std::exp(uniform(random, -9, 9))};
-}
-
-/// Any value that a field may have.
-struct RandomValue {
-    Random& random;
-
-    bool sometimes() { return random() % 4 == 0; }
-    void operator()(const Field&, bool& into) { into = random() % 2 == 0; }
-    void operator()(const Field& field, std::uint32_t& into) {
-        into = field.high < kAnyNumber
-                   ? static_cast<std::uint32_t>(random() % (static_cast<unsigned>(field.high) + 1))
-                   : random();
-    }
-    template <std::floating_point T>
-    void operator()(const Field& field, T& into) {
-        into = static_cast<T>(field.high < kAnyNumber ? uniform(random, field.low, field.high)
-                                                      : std::exp(uniform(random, -300, 300)));
-        into = std::clamp(into, static_cast<T>(std::max(field.low, -1e30)),
-                          static_cast<T>(std::min(field.high, 1e300)));
-    }
-    void operator()(const Field&, std::string& into) {
-        into = std::array{"side_by_side", "zwölf\n", "stamp \"1\"", ""}[random() % 4];
-    }
-    template <Named Enum>
-    void operator()(const Field&, Enum& into) {
-        into = static_cast<Enum>(random() % kNames<Enum>.size());
-    }
-    template <class T>
-    void operator()(const Field& field, glm::vec<3, T>& into) {
-        for (int i = 0; i < 3; ++i)
-            (*this)(field, into[i]);
-    }
-    void operator()(const Field&, std::array<double, 2>& into) {
-        into[0] = uniform(random, -9, 9);
-        into[1] = into[0] + uniform(random, 1e-3, 9);
-    }
-    void operator()(const Field&, Pose& into) { into = {{1e-30f, 2, -3}, random_rotation(random)}; }
-    void operator()(const Field&, Similarity& into) { into = random_similarity(random); }
-    void operator()(const Field& field, Mark& into) {
-        into = {};
-        if (!sometimes())
-            (*this)(field, into.point.emplace());
-    }
-    template <class T>
-    void operator()(const Field& field, std::optional<T>& into) {
-        into.reset();
-        if (sometimes())
-            (*this)(field, into.emplace());
-    }
-    template <class T>
-    void operator()(const Field& field, std::vector<T>& into) {
-        into.clear();
-        const std::size_t most = std::min<std::size_t>(field.most, 3);
-        for (std::size_t n = field.least + random() % (most + 1 - field.least); n > 0; --n)
-            (*this)(field, into.emplace_back());
-    }
-    template <class T>
-    void operator()(const Field&, T& part) requires requires {
-        each_field(*this, part);
-    }
-    { each_field(*this, part); }
-};
-
-Commands random_commands(Random& random) {
-    Commands commands;
-    each_field(RandomValue{random}, commands);
-    return commands;
-}
 
 DeviceState random_device(Random& random, std::string name) {
     DeviceState device{std::move(name), std::nullopt, random() % 4 != 0, 0, {}};

@@ -1,8 +1,14 @@
 // The quality of a session's frames: budgets, measurement and choice brought together.
 //
 //     quality.learn(quality.collect(log));                  // every frame
-//     const bool redraw = quality.choose(state, changed, how, best, report) || changed;
-//     if (redraw) { quality.begin(log.next()); ... quality.viewed(view); ... quality.end(...); }
+//     if (quality.choose(state, changed, Choosing::by_measurement, best, report) || changed) {
+//         quality.begin(log.next());
+//         for (const render::View& view : views) {
+//             draw(view, report.footprint);
+//             quality.viewed(view);
+//         }
+//         quality.end(report, processor_time);
+//     }
 #pragma once
 
 #include "app/config/config.h"

@@ -1,10 +1,10 @@
 // Pictures to keep, drawn apart from those on the displays: nobody waits for them, so they have
 // more samples.
 //
-//     const KeptPictures kept{gl, windows, config, displays, room, [&](auto& display, auto window)
-//     {
-//         display.draw(viewers, mode, scene);
-//     }};
+//     const KeptPictures kept{gl, windows, config, displays, room,
+//                             [&](stereo::Display& display, std::size_t window) {
+//                                 display.draw(viewers, modes[window], scene);
+//                             }};
 //     kept.each([&](std::size_t window, const stereo::Display& display) {
 //         write(display.read_window());
 //     });

@@ -224,6 +224,11 @@ void frame_quality_example(FrameQuality& quality, FrameLog& log, const ExplorerS
 #include "app/frame/frame_quality.example"
 }
 
+void table_schema_example(void (*read_placement)(TomlReader&, PlacementOptions&),
+                          PlacementOptions& placement) {
+#include "app/config/table_schema.example"
+}
+
 void quality_controller_example(DrawMeter& meter, const interaction::MotionGate& gate) {
 #include "app/frame/quality_controller.example"
 }

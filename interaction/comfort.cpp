@@ -7,7 +7,7 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr double kLongestFrame = 0.1; ///< [s] a stall must not darken the picture at once
+constexpr double kLongestFade = 0.1; ///< [s] a stall must not darken the picture at once
 
 /// Moves towards `wanted` at the pace of a fade.
 double approached(double value, double wanted, double seconds, Seconds fade) {
@@ -43,7 +43,7 @@ double Comfort::wanted_vignette(const glm::dvec3& head, const Similarity& volume
 ComfortState Comfort::update(const InputState& input, const Similarity& volume) {
     const DeviceState* head = input.find("head");
     const double seconds =
-        time_ ? std::clamp((input.time - *time_).count(), 0.0, kLongestFrame) : 0.0;
+        time_ ? std::clamp((input.time - *time_).count(), 0.0, kLongestFade) : 0.0;
     const glm::dvec3 place =
         head && head->pose && is_finite(*head->pose) ? head->pose->position : glm::vec3(0);
     const double vignette = time_ ? wanted_vignette(place, volume, seconds) : 0.0;

@@ -12,7 +12,7 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr double kLongestFrame = 0.1;    ///< [s] a stall must not become a leap
+constexpr double kLongestStep = 0.1;    ///< [s] a stall must not become a leap
 constexpr float kSteepest = 1.5f;        ///< [rad] of looking up or down
 constexpr glm::vec2 kHand{0.2f, -0.25f}; ///< [m] the wand, right of and below the head
 constexpr float kAimDistance = 1.5f;     ///< [m] from the head, where cursor and wand ray meet
@@ -234,7 +234,7 @@ InputState DesktopEmulation::poll(Seconds now) {
         keys |= std::uint64_t{s.switches[i].shown} << i;
     }
     s.look();
-    s.walk(static_cast<float>(std::clamp(elapsed, 0.0, kLongestFrame)));
+    s.walk(static_cast<float>(std::clamp(elapsed, 0.0, kLongestStep)));
     if (s.shown(reset) && !was_reset)
         s.stand_at_start();
 

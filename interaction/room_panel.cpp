@@ -12,7 +12,7 @@ constexpr float kGaze = 0.26f;   ///< [rad] below the horizon, where eyes rest: 
 constexpr float kEdgeOn = 0.05f; ///< cosine to the normal below which nobody can read or point
 constexpr float kInSight = 0.7f; ///< cosine of the angle off the way ahead, up to which it is there
 constexpr float kInReach = 2.0f; ///< times the distance at which it appears, likewise
-constexpr glm::vec3 kUp(0.0f, 1.0f, 0.0f);
+constexpr glm::vec3 kRoomUp(0.0f, 1.0f, 0.0f);
 
 } // namespace
 
@@ -38,7 +38,7 @@ std::array<glm::vec3, 4> corners_of(const Pose& panel, const PanelSize& size) {
 }
 
 Pose facing(const glm::vec3& middle, const glm::vec3& eyes) {
-    const glm::vec3 towards = eyes - middle, across = glm::cross(kUp, towards);
+    const glm::vec3 towards = eyes - middle, across = glm::cross(kRoomUp, towards);
     if (!(glm::length(across) > 1e-4f)) // right above or below the eyes: no edge can be level
         return {middle, glm::quat(1.0f, 0.0f, 0.0f, 0.0f)};
     const glm::vec3 z = glm::normalize(towards), x = glm::normalize(across);
@@ -46,7 +46,7 @@ Pose facing(const glm::vec3& middle, const glm::vec3& eyes) {
 }
 
 Pose ahead_of(const Pose& head, float distance) {
-    const glm::quat turn = glm::angleAxis(static_cast<float>(heading(head)), kUp);
+    const glm::quat turn = glm::angleAxis(static_cast<float>(heading(head)), kRoomUp);
     const glm::vec3 way = turn * glm::vec3(0.0f, -std::sin(kGaze), -std::cos(kGaze));
     return facing(head.position + distance * way, head.position);
 }

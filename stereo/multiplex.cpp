@@ -5,33 +5,38 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+
+#include <fmt/format.h>
 
 namespace isochron::stereo {
 namespace {
 
-/// The numbers by which multiplex.frag knows the modes.
-constexpr std::array<std::pair<StereoMode, GLint>, 5> kShaderModes{{
-    {StereoMode::anaglyph_red_cyan, 0},
-    {StereoMode::anaglyph_dubois, 1},
-    {StereoMode::vertical_interlaced, 2},
-    {StereoMode::horizontal_interlaced, 3},
-    {StereoMode::checkerboard, 4},
-}};
+/// The modes that multiplex.frag composes.
+constexpr std::array kShown{StereoMode::anaglyph_red_cyan, StereoMode::anaglyph_dubois,
+                            StereoMode::vertical_interlaced, StereoMode::horizontal_interlaced,
+                            StereoMode::checkerboard};
 
-const std::pair<StereoMode, GLint>* find(StereoMode mode) {
-    return std::ranges::find(kShaderModes, upright(mode), &std::pair<StereoMode, GLint>::first);
+GLint number_in_shader(StereoMode mode) {
+    return static_cast<GLint>(upright(mode));
 }
 
 } // namespace
 
 Multiplex::Multiplex(const render::Gl& gl)
     : program_(render::link_program(
-          gl, {render::shader_file("full_screen.vert"), render::shader_file("multiplex.frag")})),
+          gl, {render::shader_file("full_screen.vert"), render::shader_file("multiplex.frag")},
+          shader_prelude())),
       no_attributes_(gl) {}
 
+std::string Multiplex::shader_prelude() {
+    std::string prelude;
+    for (const StereoMode mode : kShown)
+        prelude += fmt::format("#define {} {}\n", name_of(mode), number_in_shader(mode));
+    return prelude;
+}
+
 bool Multiplex::shows(StereoMode mode) {
-    return find(mode) != kShaderModes.end();
+    return std::ranges::find(kShown, upright(mode)) != kShown.end();
 }
 
 void Multiplex::draw(const EyePicture& left, const EyePicture& right, StereoMode mode,
@@ -42,7 +47,7 @@ void Multiplex::draw(const EyePicture& left, const EyePicture& right, StereoMode
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     const GLuint program = program_.name();
     gl.UseProgram(program);
-    gl.ProgramUniform1i(program, gl.GetUniformLocation(program, "mode"), find(mode)->second);
+    gl.ProgramUniform1i(program, gl.GetUniformLocation(program, "mode"), number_in_shader(mode));
     const auto place = [&](const char* name, glm::ivec2 at) {
         gl.ProgramUniform2i(program, gl.GetUniformLocation(program, name), at.x, at.y);
     };

@@ -7,6 +7,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <string>
+
 namespace isochron::stereo {
 
 /// One eye's picture where it lies: pixels of a texture.
@@ -24,6 +26,9 @@ struct EyePicture {
 class Multiplex {
   public:
     explicit Multiplex(const render::Gl& gl);
+
+    /// What multiplex.frag is compiled with: the number of each mode under its name.
+    static std::string shader_prelude();
 
     /// Whether the mode puts both eyes into the same pixels' place, which is what `draw` is for.
     static bool shows(StereoMode mode);

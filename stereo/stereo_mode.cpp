@@ -1,54 +1,53 @@
 // Names of the stereo modes and the eyes each of them draws.
 #include "stereo/stereo_mode.h"
 
-#include <algorithm>
 #include <array>
+#include <string>
 
 namespace isochron::stereo {
 namespace {
 
-using enum StereoMode;
+constexpr std::array<std::string_view, 11> kModeNames{"mono",
+                                                      "left",
+                                                      "right",
+                                                      "quadbuffer",
+                                                      "side_by_side",
+                                                      "top_bottom",
+                                                      "anaglyph_red_cyan",
+                                                      "anaglyph_dubois",
+                                                      "vertical_interlaced",
+                                                      "horizontal_interlaced",
+                                                      "checkerboard"};
+static_assert(kModeNames.size() == static_cast<std::size_t>(StereoMode::checkerboard) + 1);
 
-/// A word for a mode; the first row of a mode holds its name, further ones what else is understood.
-struct ModeRow {
-    StereoMode mode;
-    std::string_view name;
-    StereoMode upright;
-};
-constexpr std::array kModes{
-    ModeRow{mono, "mono", mono},
-    ModeRow{left, "left", left},
-    ModeRow{right, "right", right},
-    ModeRow{quadbuffer, "quadbuffer", quadbuffer},
-    ModeRow{side_by_side, "side_by_side", side_by_side},
-    ModeRow{top_bottom, "top_bottom", top_bottom},
-    ModeRow{anaglyph_red_cyan, "anaglyph_red_cyan", anaglyph_red_cyan},
-    ModeRow{anaglyph_dubois, "anaglyph_dubois", anaglyph_dubois},
-    ModeRow{vertical_interlaced, "vertical_interlaced", vertical_interlaced},
-    ModeRow{horizontal_interlaced, "horizontal_interlaced", horizontal_interlaced},
-    ModeRow{checkerboard, "checkerboard", checkerboard},
-    ModeRow{quadbuffer_inverted, "quadbuffer_inverted", quadbuffer},
-    ModeRow{side_by_side_inverted, "side_by_side_inverted", side_by_side},
-    ModeRow{top_bottom_inverted, "top_bottom_inverted", top_bottom},
-    ModeRow{anaglyph_red_cyan_inverted, "anaglyph_red_cyan_inverted", anaglyph_red_cyan},
-    ModeRow{anaglyph_dubois_inverted, "anaglyph_dubois_inverted", anaglyph_dubois},
-    ModeRow{vertical_interlaced_inverted, "vertical_interlaced_inverted", vertical_interlaced},
-    ModeRow{horizontal_interlaced_inverted, "horizontal_interlaced_inverted",
-            horizontal_interlaced},
-    ModeRow{checkerboard_inverted, "checkerboard_inverted", checkerboard},
-    ModeRow{mono, "mono_inverted", mono},
-    ModeRow{right, "left_inverted", right},
-    ModeRow{left, "right_inverted", left},
-};
+/// The bit that an inverted mode has besides its upright one.
+constexpr std::uint8_t kInverted = 0x80;
 
-const ModeRow& row_of(StereoMode mode) {
-    return *std::ranges::find(kModes, mode, &ModeRow::mode); // every mode has a row
+std::size_t number_of(StereoMode mode) {
+    return static_cast<std::size_t>(upright(mode));
+}
+
+const std::string& inverted_name(StereoMode mode) {
+    static const auto names = [] {
+        std::array<std::string, kModeNames.size()> all;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            all[i] = std::string(kModeNames[i]) + "_inverted";
+        return all;
+    }();
+    return names[number_of(mode)];
+}
+
+std::vector<StereoMode> upright_modes() {
+    std::vector<StereoMode> modes;
+    for (std::size_t i = 0; i < kModeNames.size(); ++i)
+        modes.push_back(static_cast<StereoMode>(i));
+    return modes;
 }
 
 } // namespace
 
 std::string_view name_of(StereoMode mode) {
-    return row_of(mode).name;
+    return is_inverted(mode) ? inverted_name(mode) : kModeNames[number_of(mode)];
 }
 
 std::string_view name_of(Eye eye) {
@@ -56,31 +55,48 @@ std::string_view name_of(Eye eye) {
 }
 
 std::optional<StereoMode> stereo_mode_from_name(std::string_view name) {
-    const auto row = std::ranges::find(kModes, name, &ModeRow::name);
-    return row == kModes.end() ? std::nullopt : std::optional(row->mode);
+    for (const StereoMode mode : upright_modes()) {
+        if (name == kModeNames[number_of(mode)])
+            return mode;
+        if (name == inverted_name(mode))
+            return inverted(mode);
+    }
+    return std::nullopt;
 }
 
 std::vector<StereoMode> all_stereo_modes() {
-    std::vector<StereoMode> modes;
-    for (const ModeRow& row : kModes)
-        if (name_of(row.mode) == row.name)
-            modes.push_back(row.mode);
+    std::vector<StereoMode> modes = upright_modes();
+    for (const StereoMode mode : upright_modes())
+        if (is_inverted(inverted(mode)))
+            modes.push_back(inverted(mode));
     return modes;
 }
 
 std::vector<std::string_view> stereo_mode_words() {
     std::vector<std::string_view> words;
-    for (const ModeRow& row : kModes)
-        words.push_back(row.name);
+    for (const StereoMode mode : all_stereo_modes())
+        words.push_back(name_of(mode));
+    for (const StereoMode mode : upright_modes())
+        if (!is_inverted(inverted(mode)))
+            words.emplace_back(inverted_name(mode));
     return words;
 }
 
+StereoMode inverted(StereoMode mode) {
+    switch (mode) {
+    case StereoMode::mono: return StereoMode::mono;
+    case StereoMode::left: return StereoMode::right;
+    case StereoMode::right: return StereoMode::left;
+    default: return static_cast<StereoMode>(static_cast<std::uint8_t>(mode) ^ kInverted);
+    }
+}
+
 bool is_inverted(StereoMode mode) {
-    return upright(mode) != mode;
+    return (static_cast<std::uint8_t>(mode) & kInverted) != 0;
 }
 
 StereoMode upright(StereoMode mode) {
-    return row_of(mode).upright;
+    return static_cast<StereoMode>(static_cast<std::uint8_t>(mode) & ~kInverted);
 }
 
 std::vector<Eye> eyes_of(StereoMode mode) {

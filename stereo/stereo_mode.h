@@ -9,7 +9,8 @@
 namespace isochron::stereo {
 
 /// Rows and columns are counted from the window's top left pixel, which is row 0 and column 0 and
-/// belongs to the left eye, wherever a viewport begins. `_inverted` exchanges the two eyes.
+/// belongs to the left eye, wherever a viewport begins. Modes of two eyes also exist with the eyes
+/// exchanged, see `inverted`.
 enum class StereoMode : std::uint8_t {
     mono,                  ///< one eye, midway between the two
     left,                  ///< the left eye alone
@@ -21,18 +22,12 @@ enum class StereoMode : std::uint8_t {
     anaglyph_dubois,       ///< for the same glasses, with less ghosting and truer colors
     vertical_interlaced,   ///< rows alternate, even ones left (SGCT's word: down the window)
     horizontal_interlaced, ///< columns alternate, even ones left
-    checkerboard,          ///< pixels alternate both ways, left where row + column is even
-    quadbuffer_inverted,
-    side_by_side_inverted,
-    top_bottom_inverted,
-    anaglyph_red_cyan_inverted,
-    anaglyph_dubois_inverted,
-    vertical_interlaced_inverted,
-    horizontal_interlaced_inverted,
-    checkerboard_inverted
+    checkerboard           ///< pixels alternate both ways, left where row + column is even
 };
+
 enum class Eye : std::uint8_t { center, left, right };
 
+/// `checkerboard`, `checkerboard_inverted`
 std::string_view name_of(StereoMode mode);
 std::string_view name_of(Eye eye); ///< `left`, as in file names
 /// Also knows `mono_inverted`, which is `mono`, and `left_inverted`, which is `right`, and the
@@ -42,6 +37,9 @@ std::vector<StereoMode> all_stereo_modes();
 /// Every word that `stereo_mode_from_name` knows.
 std::vector<std::string_view> stereo_mode_words();
 
+/// The mode with its eyes exchanged: mono stays mono, and left becomes right.
+StereoMode inverted(StereoMode mode);
+/// Whether a mode of two eyes has them exchanged.
 bool is_inverted(StereoMode mode);
 /// The mode with its eyes in their usual places.
 StereoMode upright(StereoMode mode);

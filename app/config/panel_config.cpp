@@ -6,14 +6,14 @@
 namespace isochron::app {
 namespace {
 
-constexpr int kSmallest = 200, kLargest = 16384; ///< [pixel] sides of the console
+constexpr int kSmallestPanel = 200, kLargestPanel = 16384; ///< [pixel] sides of the console
 
 stereo::Window read_console(TomlReader& reader) {
     stereo::Window window;
     window.name = "console";
     window.size = {480, 900};
-    reader.integers("size", kSmallest, kLargest, window.size);
-    reader.integers("position", 0, kLargest, window.position);
+    reader.integers("size", kSmallestPanel, kLargestPanel, window.size);
+    reader.integers("position", 0, kLargestPanel, window.position);
     return window;
 }
 

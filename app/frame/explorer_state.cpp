@@ -14,6 +14,9 @@ namespace {
 
 using interaction::Field;
 
+static_assert(interaction::kMostIsosurfaces == index::kMostSurfaces,
+              "what commands may ask for is what is searched and drawn");
+
 // Whether a state can hold a value: numbers are finite and within their field's limits.
 
 template <class T>

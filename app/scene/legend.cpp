@@ -13,10 +13,10 @@
 namespace isochron::app {
 namespace {
 
-constexpr glm::vec4 kPaper(0.05f, 0.06f, 0.07f, 0.72f);
-constexpr glm::vec4 kInk(0.90f, 0.92f, 0.95f, 1.0f);
+constexpr glm::vec4 kLegendPaper(0.05f, 0.06f, 0.07f, 0.72f);
+constexpr glm::vec4 kLegendInk(0.90f, 0.92f, 0.95f, 1.0f);
 constexpr int kPatches = 64; ///< of which the bar is made
-constexpr int kMostTicks = 6;
+constexpr int kMostLegendTicks = 6;
 constexpr float kBarHeight = 11.0f, kBarWidth = 1.0f, kMargin = 1.0f; ///< heights of the text
 
 class Layout {
@@ -29,7 +29,7 @@ class Layout {
         text_.fill({}, height_ * at, height_ * (at + size), color, quads_);
     }
     void write(const std::string& line, glm::vec2 at) {
-        text_.set({.text = line, .anchor = {0.0f, 0.5f}, .offset = at, .color = kInk}, height_,
+        text_.set({.text = line, .anchor = {0.0f, 0.5f}, .offset = at, .color = kLegendInk}, height_,
                   quads_);
         right_ = std::max(right_, at.x + render::text_width(text_.atlas(), line));
         top_ = std::max(top_, at.y + 0.5f);
@@ -44,7 +44,7 @@ class Layout {
             return {};
         std::vector<render::ScreenQuad> all;
         text_.fill({}, glm::vec2(-0.5f * kMargin * height_), size - 0.5f * kMargin * height_,
-                   kPaper, all);
+                   kLegendPaper, all);
         all.insert(all.end(), quads_.begin(), quads_.end());
         // Whole pixels: a legend has no depth to lose.
         const glm::vec2 origin = glm::floor(corner + 0.5f * kMargin * height_);
@@ -71,11 +71,11 @@ void write_scale(const ColorScale& scale, Layout& layout) {
                     glm::vec4(render::srgb_from_linear(colors[at]), 1.0f));
     }
     const auto [low, high] = scale.range;
-    const Ticks ticks = nice_ticks(low, high, kMostTicks);
+    const Ticks ticks = nice_ticks(low, high, kMostLegendTicks);
     for (const double value : ticks.values) {
         const auto up = static_cast<float>((value - low) / (high - low));
         const float y = 0.5f + kBarHeight * up;
-        layout.fill({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, kInk);
+        layout.fill({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, kLegendInk);
         layout.write(tick_text(value, ticks.step), {kBarWidth + 0.7f, y});
     }
     layout.write(scale.title, {0.0f, kBarHeight + 1.6f});

@@ -10,8 +10,8 @@ namespace isochron::app {
 namespace {
 
 constexpr float kArm = 0.6f, kHalfWidth = 0.07f, kRim = 0.07f; ///< of the cross, heights of text
-constexpr glm::vec4 kColor(1.0f, 0.45f, 0.85f, 1.0f), kInk(0.95f, 0.96f, 0.98f, 1.0f),
-    kPaper(0.05f, 0.06f, 0.07f, 0.78f);
+constexpr glm::vec4 kColor(1.0f, 0.45f, 0.85f, 1.0f), kMarkInk(0.95f, 0.96f, 0.98f, 1.0f),
+    kMarkPaper(0.05f, 0.06f, 0.07f, 0.78f);
 
 std::string place_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
     const glm::dvec3& p = point.position;
@@ -46,16 +46,16 @@ std::vector<render::ScreenQuad> mark_quads(const interaction::MarkedPoint& point
         for (const bool upright : {false, true}) {
             const glm::vec2 arm(kArm + rim, kHalfWidth + rim);
             const glm::vec2 reach = height * (upright ? glm::vec2(arm.y, arm.x) : arm);
-            text.fill(in_room, -reach, reach, rim > 0 ? kPaper : kColor, quads);
+            text.fill(in_room, -reach, reach, rim > 0 ? kMarkPaper : kColor, quads);
         }
     text.fill(in_room, height * glm::vec2(kAside - kMargin, kAside - kMargin),
-              height * glm::vec2(kAside + width + kMargin, kAside + top + kMargin), kPaper, quads);
+              height * glm::vec2(kAside + width + kMargin, kAside + top + kMargin), kMarkPaper, quads);
     for (std::size_t i = 0; i < lines.size(); ++i)
         text.set({.text = lines[i],
                   .at = in_room,
                   .anchor = {0.0f, 0.0f},
                   .offset = {kAside, kAside + top - kLine * static_cast<float>(i + 1)},
-                  .color = i == 0 ? kColor : kInk},
+                  .color = i == 0 ? kColor : kMarkInk},
                  height, quads);
     return quads;
 }

@@ -19,9 +19,9 @@ using Extremes = ChunkRanks::Extremes;
 constexpr std::size_t kFewest = 512;
 
 /// The head and the references of a unit that is being built.
-class UnitBytes {
+class UnitUnderWay {
   public:
-    UnitBytes(std::uint32_t magic, std::uint32_t tables, std::uint32_t steps, std::uint32_t cells,
+    UnitUnderWay(std::uint32_t magic, std::uint32_t tables, std::uint32_t steps, std::uint32_t cells,
               bool lossless, std::vector<std::byte>& out)
         : head_{magic, tables, steps, cells, lossless, 0, 0}, refs_(tables), out_(out) {
         out_.clear();
@@ -63,7 +63,7 @@ struct CellUnitBuilder::Cells {
     std::uint32_t first; ///< step among those of the ranks
     bool lossless;
     CellTableBuilder& table;
-    UnitBytes& unit;
+    UnitUnderWay& unit;
     std::vector<std::array<CellBits, 2>>& bits; ///< of the children, by depth
 
     /// Sets the bits of the cells that are constant over the node's span, after building the nodes
@@ -106,7 +106,7 @@ void CellUnitBuilder::build_cells(const ChunkRanks& ranks, std::uint32_t first, 
                                   std::vector<std::byte>& out) {
     assert(first < ranks.steps());
     const std::uint32_t steps = ranks.steps() - first;
-    UnitBytes unit(CellUnit::kMagic, TimeNode::count(steps), steps, ranks.cells(), lossless, out);
+    UnitUnderWay unit(CellUnit::kMagic, TimeNode::count(steps), steps, ranks.cells(), lossless, out);
     const std::size_t words = (ranks.cells() + 63) / 64;
     bits_.resize(std::bit_width(steps) + 1);
     for (auto& of_depth : bits_)
@@ -124,7 +124,7 @@ void CellUnitBuilder::build_deltas(const ChunkRanks& ranks, std::uint32_t first,
                                    std::vector<std::byte>& out) {
     assert(first <= 1 && first < ranks.steps());
     const std::uint32_t steps = ranks.steps() - first;
-    UnitBytes unit(DeltaUnit::kMagic, 2 * steps, steps, ranks.cells(), true, out);
+    UnitUnderWay unit(DeltaUnit::kMagic, 2 * steps, steps, ranks.cells(), true, out);
     CellBits changed((ranks.cells() + 63) / 64);
     for (std::uint32_t into = first == 0 ? 1 : 0; into < steps; ++into) {
         const Extremes before = ranks.at(first + into - 1), after = ranks.at(first + into);

@@ -8,7 +8,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kChunk = 1 << 14; ///< cells between two looks at the stop token
+constexpr std::size_t kCellsPerLook = 1 << 14; ///< cells between two looks at the stop token
 
 /// Ends of a cell's twelve edges among its vertices, x in bit 0, y in bit 1, z in bit 2.
 constexpr std::array<std::array<int, 2>, 12> kEdges{{{0, 1},
@@ -24,9 +24,9 @@ constexpr std::array<std::array<int, 2>, 12> kEdges{{{0, 1},
                                                      {2, 6},
                                                      {3, 7}}};
 
-using Corners = std::array<double, 8>;
+using CornerValues = std::array<double, 8>;
 
-double mean_on_surface(const Corners& values, const Corners& colors, double isovalue) {
+double mean_on_surface(const CornerValues& values, const CornerValues& colors, double isovalue) {
     double sum = 0.0;
     int cuts = 0;
     for (const auto& [a, b] : kEdges) {
@@ -51,11 +51,11 @@ class CornerReader {
             offsets_[k] = (k & 1) + nx * ((k >> 1 & 1) + ny * (k >> 2));
     }
 
-    Corners at(CellId cell) const {
+    CornerValues at(CellId cell) const {
         const auto [x, y, z] = values_.grid.cell_of(cell);
         const std::uint64_t nx = values_.grid.vertices[0], ny = values_.grid.vertices[1];
         const std::uint64_t first = x + nx * (y + ny * z);
-        Corners corners;
+        CornerValues corners;
         visit_value_type(values_.type, [&]<class T>(std::type_identity<T>) {
             const T* stored = reinterpret_cast<const T*>(bytes_.data()) + first;
             for (std::size_t k = 0; k < corners.size(); ++k)
@@ -87,7 +87,7 @@ bool color_cells(const StepValues& volume, const StepValues& colors, const Query
                  std::span<std::uint16_t> out, const std::stop_token& stop) {
     const CornerReader values(volume, query.step), color_values(colors, query.step);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (i % kChunk == 0 && stop.stop_requested())
+        if (i % kCellsPerLook == 0 && stop.stop_requested())
             return false;
         const double mean =
             mean_on_surface(values.at(cells[i]), color_values.at(cells[i]), query.isovalue);

@@ -17,7 +17,7 @@ namespace {
 /// both cells, whatever rounding does.
 constexpr double kSlack = 1e-9;
 
-using Corners = std::array<float, 8>; ///< brick units, x fastest
+using CellCorners = std::array<float, 8>; ///< brick units, x fastest
 
 /// The vertices of an extraction's bricks.
 class BrickVertices {
@@ -25,8 +25,8 @@ class BrickVertices {
     BrickVertices(const VolumeBricks& bricks, const Grid& grid) : bricks_(bricks), tiling_(grid) {}
 
     /// @return nothing where a brick is missing: then the cell is not active
-    std::optional<Corners> of_cell(const glm::ivec3& cell) {
-        Corners corners;
+    std::optional<CellCorners> of_cell(const glm::ivec3& cell) {
+        CellCorners corners;
         for (int corner = 0; corner < 8; ++corner) {
             const glm::ivec3 v = cell + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
             if (!find(v / kEdge))
@@ -65,7 +65,7 @@ class BrickVertices {
     const std::byte* bytes_ = nullptr;
 };
 
-bool is_active(const Corners& corners, float level) {
+bool is_active(const CellCorners& corners, float level) {
     bool below = false, above = false;
     for (const float value : corners) {
         if (std::isnan(value))
@@ -84,7 +84,7 @@ double value_at(const Cubic& k, double s) {
 }
 
 /// @param from, step start and length of the stretch, from the cell's lowest vertex
-Cubic cubic_along(const Corners& corners, double level, const glm::dvec3& from,
+Cubic cubic_along(const CellCorners& corners, double level, const glm::dvec3& from,
                   const glm::dvec3& step) {
     // One axis after the other, each raising the degree by one.
     std::array<Cubic, 8> values{};

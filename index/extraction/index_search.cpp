@@ -15,7 +15,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kChunk = 1 << 16;     ///< candidates between two looks at the stop token
+constexpr std::size_t kCandidatesPerLook = 1 << 16;     ///< candidates between two looks at the stop token
 constexpr std::size_t kScanChunk = 1 << 22; ///< cells between two looks at the stop token
 
 class IndexSearch {
@@ -102,12 +102,12 @@ class IndexSearch {
         // Ascending first: the test then walks through the volume instead of jumping about in it.
         sort_ids(candidates_, loaded.values.grid.cell_count());
         set.ids.reserve(set.ids.size() + candidates_.size());
-        for (std::size_t at = 0; at < candidates_.size(); at += kChunk) {
+        for (std::size_t at = 0; at < candidates_.size(); at += kCandidatesPerLook) {
             if (stop.stop_requested())
                 return false;
             const auto first = candidates_.begin() + static_cast<std::ptrdiff_t>(at);
             chunk_.assign(first, first + static_cast<std::ptrdiff_t>(
-                                             std::min(kChunk, candidates_.size() - at)));
+                                             std::min(kCandidatesPerLook, candidates_.size() - at)));
             keep_active(loaded.values, set.query, chunk_);
             set.ids.insert(set.ids.end(), chunk_.begin(), chunk_.end());
         }

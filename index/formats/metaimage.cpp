@@ -37,9 +37,9 @@ constexpr std::array<std::pair<std::string_view, StoredType>, 12> kTypes{{
     {"MET_DOUBLE", StoredType::f64},
 }};
 
-class Header {
+class MetaImageHeader {
   public:
-    explicit Header(const fs::path& path) : file_(path.string()) {
+    explicit MetaImageHeader(const fs::path& path) : file_(path.string()) {
         constexpr std::size_t kMost = 1 << 16;
         const std::string head = head_of(path, kMost);
         std::size_t at = 0;
@@ -93,7 +93,7 @@ class Header {
     std::uint64_t bytes_ = 0;
 };
 
-void orient(const Header& header, std::size_t dimensions, const std::string& name, SeriesInfo& info,
+void orient(const MetaImageHeader& header, std::size_t dimensions, const std::string& name, SeriesInfo& info,
             double& time_step, double& first_time) {
     std::vector<double> spacing = header.numbers({"ElementSpacing", "ElementSize"}, dimensions);
     const auto matrix =
@@ -118,7 +118,7 @@ void orient(const Header& header, std::size_t dimensions, const std::string& nam
     }
 }
 
-void find_data(const Header& header, const fs::path& path, std::uint64_t vertices,
+void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_t vertices,
                StoredLayout& layout) {
     const std::string name = path.string();
     const std::string file = *header.find({"ElementDataFile"});
@@ -153,7 +153,7 @@ void find_data(const Header& header, const fs::path& path, std::uint64_t vertice
 
 std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptions& options) {
     const std::string name = path.string();
-    const Header header(path);
+    const MetaImageHeader header(path);
     const auto sizes = integers_of(*header.find({"DimSize"}), "DimSize", name);
     if (sizes.size() != 3 && sizes.size() != 4)
         throw Error(

@@ -28,9 +28,9 @@ struct Extent {
     bool in_records = false;
 };
 
-class Header {
+class ClassicHeader {
   public:
-    Header(std::span<const std::byte> bytes, std::string file)
+    ClassicHeader(std::span<const std::byte> bytes, std::string file)
         : bytes_(bytes), file_(std::move(file)), version_(std::to_integer<int>(bytes[3])) {
         at_ = 4;
         records_ = size();
@@ -162,7 +162,7 @@ bool is_classic_netcdf(const fs::path& path) {
 
 void expect_whole_classic_netcdf(const fs::path& path) {
     const MappedFile file(path);
-    Header(file.bytes(), path.string());
+    ClassicHeader(file.bytes(), path.string());
 }
 
 } // namespace isochron::index

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What both versions of the header say.
-struct Header {
+struct NiftiHeader {
     std::int64_t dim[8];
     double pixdim[8];
     std::int32_t datatype, xyzt_units, qform_code, sform_code;
@@ -56,7 +56,7 @@ class Fields {
 constexpr std::size_t kBytes1 = 348, kBytes2 = 540;
 
 template <class Real>
-void read_geometry(const Fields& f, std::size_t quatern, Header& h) {
+void read_geometry(const Fields& f, std::size_t quatern, NiftiHeader& h) {
     for (std::size_t i = 0; i < 3; ++i) {
         h.quatern[i] = f.at<Real>(quatern + i * sizeof(Real));
         h.qoffset[i] = f.at<Real>(quatern + (3 + i) * sizeof(Real));
@@ -65,8 +65,8 @@ void read_geometry(const Fields& f, std::size_t quatern, Header& h) {
     }
 }
 
-Header header_1(const Fields& f) {
-    Header h{};
+NiftiHeader header_1(const Fields& f) {
+    NiftiHeader h{};
     for (std::size_t i = 0; i < 8; ++i) {
         h.dim[i] = f.at<std::int16_t>(40 + 2 * i);
         h.pixdim[i] = f.at<float>(76 + 4 * i);
@@ -83,8 +83,8 @@ Header header_1(const Fields& f) {
     return h;
 }
 
-Header header_2(const Fields& f) {
-    Header h{};
+NiftiHeader header_2(const Fields& f) {
+    NiftiHeader h{};
     for (std::size_t i = 0; i < 8; ++i) {
         h.dim[i] = f.at<std::int64_t>(16 + 8 * i);
         h.pixdim[i] = f.at<double>(104 + 8 * i);
@@ -101,7 +101,7 @@ Header header_2(const Fields& f) {
     return h;
 }
 
-Header read_header(const fs::path& path) {
+NiftiHeader read_header(const fs::path& path) {
     const std::string name = path.string();
     const std::string head = head_of(path, kBytes2);
     if (head.size() < kBytes1)
@@ -115,7 +115,7 @@ Header read_header(const fs::path& path) {
         const std::string magic = head.substr(size == kBytes1 ? 344 : 4, 4);
         if (magic[0] != 'n' || (magic[1] != '+' && magic[1] != 'i') || magic[3] != '\0')
             throw Error(fmt::format("{}: not NIfTI (an Analyze header has no orientation)", name));
-        Header header = size == kBytes1 ? header_1(fields) : header_2(fields);
+        NiftiHeader header = size == kBytes1 ? header_1(fields) : header_2(fields);
         header.bytes = static_cast<std::size_t>(size);
         header.big_endian = swapped;
         header.pair = magic[1] == 'i';
@@ -145,7 +145,7 @@ StoredType type_of(std::int32_t datatype, const std::string& name) {
 }
 
 // The rotation of nifti1.h's METHOD 2, columns scaled by pixdim, the third turned by qfac.
-glm::dmat3 quaternion_axes(const Header& h) {
+glm::dmat3 quaternion_axes(const NiftiHeader& h) {
     double b = h.quatern[0], c = h.quatern[1], d = h.quatern[2];
     double a = 1.0 - (b * b + c * c + d * d);
     if (a < 1e-7) { // a rotation by half a turn: only rounding keeps a from 0
@@ -166,7 +166,7 @@ glm::dmat3 quaternion_axes(const Header& h) {
 }
 
 // The sform wins over the qform, as most tools have it; it alone may be sheared, which is kept.
-void orient(const Header& h, const std::string& name, SeriesInfo& info) {
+void orient(const NiftiHeader& h, const std::string& name, SeriesInfo& info) {
     glm::dmat3 axes(0.0);
     if (h.sform_code > 0) {
         for (int row = 0; row < 3; ++row) {
@@ -228,7 +228,7 @@ fs::path image_beside(const fs::path& header) {
 
 std::unique_ptr<VolumeFile> open_nifti(const fs::path& path, const ReadOptions& options) {
     const std::string name = path.string();
-    const Header h = read_header(path);
+    const NiftiHeader h = read_header(path);
     const std::int64_t dimensions = h.dim[0];
     if (dimensions < 3 || dimensions > 7)
         throw Error(fmt::format("{}: {} dimensions, expected 3, or 4 with time", name, dimensions));

@@ -26,7 +26,7 @@ struct TypeNames {
     StoredType type;
     std::string_view names; ///< each between bars
 };
-constexpr std::array<TypeNames, 10> kTypes{{
+constexpr std::array<TypeNames, 10> kNrrdTypes{{
     {StoredType::i8, "|signed char|int8|int8_t|"},
     {StoredType::u8, "|uchar|unsigned char|uint8|uint8_t|"},
     {StoredType::i16, "|short|short int|signed short|signed short int|int16|int16_t|"},
@@ -54,9 +54,9 @@ constexpr std::array<SpaceName, 5> kSpaces{{
     {"3d-left-handed", "3d-left-handed", Anatomy::none, {1, 1, -1}},
 }};
 
-class Header {
+class NrrdHeader {
   public:
-    explicit Header(const fs::path& path) : file_(path.string()) {
+    explicit NrrdHeader(const fs::path& path) : file_(path.string()) {
         file_bytes(path);
         std::ifstream in(path, std::ios::binary);
         std::string line;
@@ -143,7 +143,7 @@ std::vector<std::string> vectors_in(std::string_view text) {
     return vectors;
 }
 
-Axes axes_of(const Header& header) {
+Axes axes_of(const NrrdHeader& header) {
     const std::string& file = header.file();
     Axes axes;
     axes.sizes = integers_of(header.need("sizes"), "sizes", file);
@@ -196,7 +196,7 @@ Axes axes_of(const Header& header) {
     return axes;
 }
 
-std::vector<double> per_axis(const Header& header, const std::string& key, std::size_t count) {
+std::vector<double> per_axis(const NrrdHeader& header, const std::string& key, std::size_t count) {
     const auto text = header.find(key);
     if (!text)
         return {};
@@ -219,7 +219,7 @@ std::vector<std::string> quoted_in(std::string_view text) {
     return quoted;
 }
 
-void orient(const Header& header, const Axes& axes, SeriesInfo& info, StoredLayout& layout) {
+void orient(const NrrdHeader& header, const Axes& axes, SeriesInfo& info, StoredLayout& layout) {
     const std::string& file = header.file();
     const std::size_t count = axes.sizes.size();
     const auto spacings = per_axis(header, "spacings", count);
@@ -271,7 +271,7 @@ void orient(const Header& header, const Axes& axes, SeriesInfo& info, StoredLayo
         info.time_unit = units[*axes.time];
 }
 
-void find_data(const Header& header, const fs::path& path, std::uint64_t value_bytes,
+void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t value_bytes,
                StoredLayout& layout) {
     const std::string& file = header.file();
     const std::string encoding = lower_case(header.need("encoding"));
@@ -321,7 +321,7 @@ void find_data(const Header& header, const fs::path& path, std::uint64_t value_b
 } // namespace
 
 std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& options) {
-    const Header header(path);
+    const NrrdHeader header(path);
     const std::string& file = header.file();
     const Axes axes = axes_of(header);
     SeriesInfo info;
@@ -331,10 +331,10 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
     orient(header, axes, info, layout);
 
     const std::string type = lower_case(header.need("type"));
-    const auto known = std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeNames& entry) {
+    const auto known = std::find_if(kNrrdTypes.begin(), kNrrdTypes.end(), [&](const TypeNames& entry) {
         return entry.names.find("|" + type + "|") != entry.names.npos;
     });
-    if (known == kTypes.end())
+    if (known == kNrrdTypes.end())
         throw Error(fmt::format("{}: type {}, expected integers of up to 64 bits, float or double",
                                 file, type));
     layout.array = {"values", known->type};

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr std::string_view kFormat = "isochron recording";
 constexpr std::size_t kMostDevices = 64;
-constexpr std::size_t kMostValuators = 64;
+constexpr std::size_t kMostValuatorsOfOne = 64;
 constexpr std::size_t kLongestName = 256; ///< [byte]
 
 json velocity_json(const Velocity& velocity) {
@@ -72,7 +72,7 @@ DeviceState device_from(const json& value) {
     if (const json* found = members.find("buttons"))
         device.buttons = natural(*found, "buttons", std::numeric_limits<std::uint64_t>::max());
     if (const json* found = members.find("valuators"))
-        for (const json& valuator : list(*found, "valuators", 0, kMostValuators))
+        for (const json& valuator : list(*found, "valuators", 0, kMostValuatorsOfOne))
             device.valuators.push_back(small_number(valuator, "valuators"));
     if (const json* found = members.find("lost"))
         device.pose_lost = boolean(*found, "lost");

@@ -13,7 +13,7 @@ namespace isochron::interaction {
 namespace {
 
 /// Per poll or latch. At 300 frames per second a display that shows 20 keeps up.
-constexpr std::size_t kKept = 32;
+constexpr std::size_t kMostDatagrams = 32;
 
 void add_body(TrackedDevice& device, const DTrackBody& body, Seconds measured,
               std::optional<Seconds> stamp) {
@@ -87,7 +87,7 @@ struct DTrackInput::State {
     }
 
     void receive(Seconds now) {
-        for (const Datagram& datagram : socket.take(kKept))
+        for (const Datagram& datagram : socket.take(kMostDatagrams))
             take(datagram, now);
     }
 };

@@ -18,7 +18,7 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr std::size_t kKept = 512; ///< datagrams per poll or latch; each may be one button
+constexpr std::size_t kMostMessages = 512; ///< datagrams per poll or latch; each may be one button
 constexpr int kDeepest = 4;        ///< of bundles in bundles
 constexpr std::string_view kBundle("#bundle\0", 8);
 constexpr double kFraction = 4294967296.0; ///< of a second in a time tag
@@ -215,7 +215,7 @@ struct OscInput::State {
     }
 
     void receive(Seconds now) {
-        for (const Datagram& datagram : socket.take(kKept))
+        for (const Datagram& datagram : socket.take(kMostMessages))
             take(datagram.bytes, {now - datagram.age, now - datagram.age, std::nullopt});
     }
 };

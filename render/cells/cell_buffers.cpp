@@ -14,7 +14,7 @@ namespace isochron::render {
 namespace {
 
 /// Cells looked at in one call, so that a frame never stalls on a large set: some 1 ms.
-constexpr std::size_t kLookedAt = 1 << 18;
+constexpr std::size_t kIdsLookedAt = 1 << 18;
 constexpr std::size_t kWord = sizeof(std::uint32_t);
 
 /// Where one set of buffers is gone, another may lie at its address.
@@ -124,7 +124,7 @@ void CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
 
 /// Goes on with the set on its way. @return whether all of it is on the GPU
 bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
-    merged_ = merged_ || (ranked_ ? ranked_->copy(kLookedAt) : plan_->merge(kLookedAt));
+    merged_ = merged_ || (ranked_ ? ranked_->copy(kIdsLookedAt) : plan_->merge(kIdsLookedAt));
     if (!merged_)
         return false;
     if (sending_bricks_ && !send_bricks(bytes, sent))
@@ -158,7 +158,7 @@ void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
 
 bool CellBuffers::send_message(std::size_t bytes, std::size_t& sent) {
     message_.reserve(plan_->words(), DeviceArray::Contents::dropped);
-    std::size_t cells = kLookedAt;
+    std::size_t cells = kIdsLookedAt;
     while (!plan_->done()) {
         const std::size_t rest = (plan_->words() - words_sent_) * kWord;
         const std::size_t most = std::min(bytes - sent, rest);

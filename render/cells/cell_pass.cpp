@@ -36,7 +36,7 @@ struct EyeBlock {
 };
 struct Frame {
     std::array<EyeBlock, 2> eyes;
-    std::array<glm::vec4, kMaxSurfaces> surfaces;
+    std::array<glm::vec4, index::kMostSurfaces> surfaces;
     glm::vec4 no_value;
     glm::vec4 light;
     glm::vec4 material;
@@ -52,7 +52,7 @@ struct Frame {
     std::int32_t soft_near_eye;
     glm::vec2 padding{0.0f};
 };
-static_assert(sizeof(Frame) == 2 * (3 * 64 + 10 * 16) + (kMaxSurfaces + 7) * 16);
+static_assert(sizeof(Frame) == 2 * (3 * 64 + 10 * 16) + (index::kMostSurfaces + 7) * 16);
 constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
 
 float largest_point(const Gl& gl) {
@@ -161,7 +161,7 @@ Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footpr
         .drawn_surfaces = surfaces,
         .soft_near_eye = gaussian,
     };
-    for (std::size_t i = 0; i < kMaxSurfaces; ++i) {
+    for (std::size_t i = 0; i < index::kMostSurfaces; ++i) {
         const auto& [color, opacity] = look.surfaces[i];
         frame.surfaces[i] =
             glm::vec4(linear_from_srgb(color),
@@ -273,9 +273,9 @@ std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footp
                                                  const CellAppearance& appearance) {
     if (footprint != Footprint::surface)
         return {{.surfaces = ~0, .blended = footprint == Footprint::gaussian}};
-    const std::size_t shown = cells.shown() ? cells.shown()->surfaces.size() : kMaxSurfaces;
+    const std::size_t shown = cells.shown() ? cells.shown()->surfaces.size() : index::kMostSurfaces;
     Layer opaque, translucent{.blended = true};
-    for (std::size_t i = 0; i < std::min(shown, kMaxSurfaces); ++i)
+    for (std::size_t i = 0; i < std::min(shown, index::kMostSurfaces); ++i)
         (is_translucent(appearance.surfaces[i]) ? translucent : opaque).surfaces |= 1 << i;
     std::vector<Layer> layers{opaque, translucent};
     std::erase_if(layers, [](const Layer& layer) { return layer.surfaces == 0; });

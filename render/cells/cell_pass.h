@@ -1,6 +1,7 @@
 // Draws a set of cells as fast quads, as Gaussian splats (ShellSplatting) or as the exact surface.
 #pragma once
 
+#include "index/volume/query.h"
 #include "render/cells/cell_buffers.h"
 #include "render/cells/order_cache.h"
 #include "render/cells/placement.h"
@@ -53,7 +54,6 @@ struct SurfaceAppearance {
 };
 
 /// Isosurfaces that are drawn at a time: what the style of a cell can number.
-constexpr std::size_t kMaxSurfaces = 8;
 
 /// Colors by value: cells carry the value's place in its whole range (`index::CellPoint`).
 struct ValueColors {
@@ -73,7 +73,7 @@ struct NearFade {
 };
 
 struct CellAppearance {
-    std::array<SurfaceAppearance, kMaxSurfaces> surfaces;
+    std::array<SurfaceAppearance, index::kMostSurfaces> surfaces;
     std::optional<ValueColors> values; ///< instead of the surfaces' colors
 
     float ambient = 0.15f;

@@ -1,6 +1,8 @@
 // Compiling and linking of shader files.
 #include "render/gl/shader.h"
 
+#include "index/volume/query.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -58,8 +60,9 @@ std::string complete_text(const ShaderSource& source, std::string_view prelude,
                           std::string_view definition) {
     const std::string text = with_includes(source.text);
     const std::size_t version_end = text.find('\n') + 1;
-    return fmt::format("{}#define {}\n{}#line 2\n{}", text.substr(0, version_end), definition,
-                       prelude, text.substr(version_end));
+    return fmt::format("{}#define {}\n#define MOST_SURFACES {}\n{}#line 2\n{}",
+                       text.substr(0, version_end), definition, index::kMostSurfaces, prelude,
+                       text.substr(version_end));
 }
 
 Shader compile(const Gl& gl, const ShaderSource& source, std::string_view prelude) {

@@ -1,7 +1,8 @@
 // Programs from the shader files in render/shaders, whose text is part of the library.
 //
-// A line `#include "name.glsl"` is replaced by that file's text. VERTEX_STAGE or FRAGMENT_STAGE is
-// defined, so that both stages can include the same declarations.
+// A line `#include "name.glsl"` is replaced by that file's text. VERTEX_STAGE, FRAGMENT_STAGE or
+// COMPUTE_STAGE is defined, so that stages can include the same declarations, and MOST_SURFACES,
+// how many isosurfaces are shown together at most.
 #pragma once
 
 #include "render/gl/gl_objects.h"

@@ -121,8 +121,8 @@ Texture color_map_texture(const Gl& gl, ColorMap map) {
     return texture;
 }
 
-const std::array<glm::vec3, 8>& surface_palette() {
-    static const std::array<glm::vec3, 8> kColors = [] {
+const std::array<glm::vec3, index::kMostSurfaces>& surface_palette() {
+    static const std::array<glm::vec3, index::kMostSurfaces> kColors = [] {
         constexpr std::array<std::array<int, 3>, 8> kBytes{{{230, 159, 0},
                                                             {86, 180, 233},
                                                             {0, 158, 115},
@@ -131,7 +131,7 @@ const std::array<glm::vec3, 8>& surface_palette() {
                                                             {213, 94, 0},
                                                             {204, 121, 167},
                                                             {200, 200, 200}}};
-        std::array<glm::vec3, 8> colors;
+        std::array<glm::vec3, index::kMostSurfaces> colors;
         for (std::size_t i = 0; i < colors.size(); ++i)
             colors[i] = glm::vec3(kBytes[i][0], kBytes[i][1], kBytes[i][2]) / 255.0f;
         return colors;

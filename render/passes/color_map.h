@@ -1,6 +1,7 @@
 // Color maps whose equal steps look equal, made from curves in CIE L*a*b*.
 #pragma once
 
+#include "index/volume/query.h"
 #include "render/gl/gl_objects.h"
 
 #include <glm/vec3.hpp>
@@ -38,6 +39,6 @@ Texture color_map_texture(const Gl& gl, ColorMap map);
 /// Colors for up to eight surfaces that stay apart with the common kinds of color blindness:
 /// the set of M. Okabe and K. Ito, "Color Universal Design", 2002 (jfly.uni-koeln.de/color), its
 /// black replaced by a light gray since the background is dark. sRGB, 0 to 1.
-const std::array<glm::vec3, 8>& surface_palette();
+const std::array<glm::vec3, index::kMostSurfaces>& surface_palette();
 
 } // namespace isochron::render

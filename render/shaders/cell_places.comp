@@ -7,7 +7,7 @@ layout(std430, binding = 1) readonly buffer Message { uint message[]; };
 
 layout(location = 2) uniform bool whole;           // ids by slot; else slot and id of each change
 layout(location = 3) uniform uvec2 cells;          // of the grid, along x and y
-layout(location = 4) uniform uint surface_ends[8]; // where whole: slots behind each surface
+layout(location = 4) uniform uint surface_ends[MOST_SURFACES]; // where whole: slots behind each surface
 
 void main() {
     uint i = my_work();

@@ -21,7 +21,7 @@ struct Eye {
 
 layout(std140, binding = 0) uniform Frame {
     Eye eyes[2];
-    vec4 surfaces[8];   // linear light; a: opacity of a cell
+    vec4 surfaces[MOST_SURFACES];   // linear light; a: opacity of a cell
     vec4 no_value;      // color where there is no value to color by, linear light
     vec4 light;         // strengths of the ambient light, the head light and the key light
     vec4 material;      // reflectance, shininess, floor's share of the ambient light, outline

@@ -4,7 +4,7 @@
 
 layout(binding = 0) uniform sampler2D left_eye;
 layout(binding = 1) uniform sampler2D right_eye;
-uniform int mode;          // as in multiplex.cpp
+uniform int mode; // one of the names that Multiplex::shader_prelude defines
 uniform ivec2 left_from_window, right_from_window; // from a pixel of the window to the eye's
 uniform int window_height;                         // pixels
 out vec4 color;
@@ -27,14 +27,16 @@ void main() {
     int row = window_height - 1 - window_pixel.y, column = window_pixel.x;
     vec3 both;
     switch (mode) {
-    case 0:
+    case anaglyph_red_cyan:
         both = vec3(left.r, right.gb);
         break;
-    case 1:
+    case anaglyph_dubois:
         both = clamp(dubois_left * left + dubois_right * right, 0.0, 1.0);
         break;
     default:
-        int count = mode == 2 ? row : mode == 3 ? column : row + column;
+        int count = mode == vertical_interlaced     ? row
+                  : mode == horizontal_interlaced ? column
+                                                  : row + column;
         both = (count & 1) == 0 ? left : right;
     }
     color = vec4(both, 1.0);

@@ -18,7 +18,7 @@ constexpr int kGlxScreen = 0x800C;
 constexpr std::string_view kExtension = "GLX_NV_swap_group";
 constexpr GLuint kGroup = 1, kBarrier = 1;
 
-[[noreturn]] void fail(const std::string& why) {
+[[noreturn]] void refuse(const std::string& why) {
     throw render::Error(
         fmt::format("cluster.swap_group: {}; without it the windows are swapped one after the "
                     "other, as soon as all processes have drawn",
@@ -29,7 +29,7 @@ template <class Function>
 Function* entry(const render::GlLoader& load, const char* name) {
     auto* found = reinterpret_cast<Function*>(load(name));
     if (!found)
-        fail(fmt::format("there is no {}: expected a window of GLX, with NVIDIA's driver", name));
+        refuse(fmt::format("there is no {}: expected a window of GLX, with NVIDIA's driver", name));
     return found;
 }
 
@@ -51,7 +51,7 @@ void join_swap_group(const render::GlLoader& load) {
     const GlxContext context = entry<GlxContext()>(load, "glXGetCurrentContext")();
     const GlxDrawable window = entry<GlxDrawable()>(load, "glXGetCurrentDrawable")();
     if (!display || !context || !window)
-        fail("expected a window of GLX");
+        refuse("expected a window of GLX");
     int screen = 0;
     entry<int(XDisplay, GlxContext, int, int*)>(load, "glXQueryContext")(display, context,
                                                                          kGlxScreen, &screen);
@@ -59,21 +59,21 @@ void join_swap_group(const render::GlLoader& load) {
     const char* extensions =
         entry<const char*(XDisplay, int)>(load, "glXQueryExtensionsString")(display, screen);
     if (!extensions || !contains(extensions, kExtension))
-        fail(fmt::format("the driver has no {}", kExtension));
+        refuse(fmt::format("the driver has no {}", kExtension));
 
     GLuint groups = 0, barriers = 0;
     entry<int(XDisplay, int, GLuint*, GLuint*)>(load, "glXQueryMaxSwapGroupsNV")(
         display, screen, &groups, &barriers);
     if (groups < kGroup || barriers < kBarrier)
-        fail(fmt::format("the driver offers {} swap groups and {} swap barriers, expected one of "
+        refuse(fmt::format("the driver offers {} swap groups and {} swap barriers, expected one of "
                          "each",
                          groups, barriers));
     if (!entry<int(XDisplay, GlxDrawable, GLuint)>(load, "glXJoinSwapGroupNV")(display, window,
                                                                                kGroup))
-        fail("the driver does not let the window join a swap group");
+        refuse("the driver does not let the window join a swap group");
     if (!entry<int(XDisplay, GLuint, GLuint)>(load, "glXBindSwapBarrierNV")(display, kGroup,
                                                                             kBarrier))
-        fail("the driver does not bind the swap group to a swap barrier: is there a "
+        refuse("the driver does not bind the swap group to a swap barrier: is there a "
              "synchronization board?");
 }
 

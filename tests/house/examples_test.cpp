@@ -36,8 +36,8 @@ Found examples_left_out(const fs::path& root, const std::string& compiled) {
 }
 
 TEST(Examples, AllAreCompiled) {
-    const std::string compiled = text_of(fs::path(SOURCE_ROOT) / "tests/house/header_examples.cpp");
-    EXPECT_EQ(examples_left_out(SOURCE_ROOT, compiled), Found{})
+    const std::string compiled = text_of(checkout() / "tests/house/header_examples.cpp");
+    EXPECT_EQ(examples_left_out(checkout(), compiled), Found{})
         << "tests/house/header_examples.cpp needs a function for each";
 }
 

@@ -39,7 +39,7 @@ std::vector<std::string> upward_includes(const fs::path& root) {
 }
 
 TEST(House, NoFloorLooksUpwards) {
-    EXPECT_EQ(upward_includes(SOURCE_ROOT), std::vector<std::string>{});
+    EXPECT_EQ(upward_includes(checkout()), std::vector<std::string>{});
 }
 
 TEST(House, AnUpwardIncludeIsFound) {
@@ -51,11 +51,11 @@ TEST(House, AnUpwardIncludeIsFound) {
 
 TEST(House, EverySourceStartsWithItsOwnHeader) {
     for (const char* floor : kFloors)
-        for (const std::string& source : sources(SOURCE_ROOT, floor)) {
+        for (const std::string& source : sources(checkout(), floor)) {
             const fs::path header = fs::path(source).replace_extension(".h");
-            if (header == source || !fs::exists(SOURCE_ROOT / header))
+            if (header == source || !fs::exists(checkout() / header))
                 continue;
-            std::ifstream file(SOURCE_ROOT / fs::path(source));
+            std::ifstream file(checkout() / source);
             std::string line;
             while (std::getline(file, line) && !line.starts_with("#include")) {
             }
@@ -67,8 +67,8 @@ TEST(House, EverySourceStartsWithItsOwnHeader) {
 TEST(House, NoFileHoldsTwoIdeas) {
     constexpr int kMost = 400;
     for (const char* folder : {"index", "interaction", "render", "stereo", "app", "tests"})
-        for (const std::string& source : sources(SOURCE_ROOT, folder)) {
-            std::ifstream file(SOURCE_ROOT / fs::path(source));
+        for (const std::string& source : sources(checkout(), folder)) {
+            std::ifstream file(checkout() / source);
             const auto lines = std::count(std::istreambuf_iterator<char>(file), {}, '\n');
             EXPECT_LE(lines, kMost) << source;
         }
@@ -76,8 +76,8 @@ TEST(House, NoFileHoldsTwoIdeas) {
 
 TEST(House, EveryFileSaysFirstWhatItIsFor) {
     for (const char* floor : kFloors)
-        for (const std::string& source : sources(SOURCE_ROOT, floor)) {
-            std::ifstream file(SOURCE_ROOT / fs::path(source));
+        for (const std::string& source : sources(checkout(), floor)) {
+            std::ifstream file(checkout() / source);
             std::string line;
             std::getline(file, line);
             EXPECT_TRUE(line.starts_with("// ")) << source;

@@ -1,6 +1,8 @@
 // The source tree as its tests see it.
 #include "tests/house/source_tree.h"
 
+#include "tests/support/paths.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +12,10 @@
 namespace isochron::house {
 
 namespace fs = std::filesystem;
+
+fs::path checkout() {
+    return test_support::source_root();
+}
 
 std::vector<std::string> sources(const fs::path& root, const std::string& folder) {
     std::vector<std::string> found;

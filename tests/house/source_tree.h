@@ -9,6 +9,8 @@ namespace isochron::house {
 
 inline constexpr const char* kFloors[]{"index", "interaction", "render", "stereo", "app"};
 
+std::filesystem::path checkout();
+
 struct Include {
     int line;         ///< from 1
     std::string path; ///< as it is written: `render/gl/gl.h`

@@ -109,14 +109,14 @@ std::vector<std::string> includes_against_the_order(const fs::path& root) {
 using Found = std::vector<std::string>;
 
 TEST(Wings, EachIncludesOnlyWhatStandsBehindIt) {
-    EXPECT_EQ(includes_against_the_order(SOURCE_ROOT), Found{});
+    EXPECT_EQ(includes_against_the_order(checkout()), Found{});
 }
 
 TEST(Wings, AllOfTheOrderAreThere) {
     for (const auto& [floor, steps] : kOrder)
         for (const auto& step : steps)
             for (const std::string& wing : step) {
-                const fs::path place = fs::path(SOURCE_ROOT) / floor / wing;
+                const fs::path place = checkout() / floor / wing;
                 EXPECT_TRUE(fs::is_directory(place) || fs::exists(place.string() + ".h") ||
                             fs::exists(place.string() + ".cpp"))
                     << place;

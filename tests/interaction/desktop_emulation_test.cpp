@@ -12,7 +12,7 @@ namespace isochron::interaction {
 namespace {
 
 /// Emulation with the default options, polled at a steady rate.
-class Desk {
+class EmulatedDesk {
   public:
     InputState poll(std::vector<WindowEvent> events = {}, double elapsed = 1.0 / 60) {
         emulation_.feed(events);
@@ -55,7 +55,7 @@ TEST(DesktopEmulation, StartsWhereTheOptionsSay) {
 
 TEST(DesktopEmulation, WalkingCoversTheSameDistanceAtAnyFrameRate) {
     for (const double rate : {15.0, 30.0, 60.0, 144.0}) {
-        Desk desk;
+        EmulatedDesk desk;
         desk.poll({}, 0);
         InputState input = desk.poll({press(key_named('W'))}, 1 / rate);
         for (int frame = 1; frame < rate; ++frame)
@@ -65,20 +65,20 @@ TEST(DesktopEmulation, WalkingCoversTheSameDistanceAtAnyFrameRate) {
 }
 
 TEST(DesktopEmulation, ShiftWalksThreeTimesAsFast) {
-    Desk desk;
+    EmulatedDesk desk;
     desk.poll({}, 0);
     const InputState input = desk.poll({press(key_named('D')), press(Key::left_shift)}, 0.1);
     expect_near(pose_of(input, "head").position, {0.3f, 1.6f, 0});
 }
 
 TEST(DesktopEmulation, TheFirstPollAndAStallMoveLittle) {
-    Desk desk;
+    EmulatedDesk desk;
     expect_near(pose_of(desk.poll({press(key_named('E'))}, 5), "head").position, {0, 1.6f, 0});
     expect_near(pose_of(desk.poll({}, 60), "head").position, {0, 1.7f, 0});
 }
 
 TEST(DesktopEmulation, WalkingFollowsTheHeadingButStaysLevel) {
-    Desk desk;
+    EmulatedDesk desk;
     desk.poll({}, 0);
     desk.poll({cursor_at(0.5f, 0.5f), MouseButtonEvent{MouseButton::right, true},
                cursor_at(0.5f + 3.14159265f / 4 / 2, 0.3f),
@@ -92,7 +92,7 @@ TEST(DesktopEmulation, WalkingFollowsTheHeadingButStaysLevel) {
 }
 
 TEST(DesktopEmulation, LookingUpEndsShortOfTheZenith) {
-    Desk desk;
+    EmulatedDesk desk;
     desk.poll({cursor_at(0.5f, 0.9f), MouseButtonEvent{MouseButton::right, true}});
     for (int i = 0; i < 10; ++i) {
         desk.poll({cursor_at(0.5f, 0.1f)});
@@ -105,7 +105,7 @@ TEST(DesktopEmulation, LookingUpEndsShortOfTheZenith) {
 }
 
 TEST(DesktopEmulation, HomeBringsTheHeadBack) {
-    Desk desk;
+    EmulatedDesk desk;
     const Pose start = pose_of(desk.poll(), "head");
     desk.poll({press(key_named('W'))});
     desk.poll({release(key_named('W'))});
@@ -114,7 +114,7 @@ TEST(DesktopEmulation, HomeBringsTheHeadBack) {
 }
 
 TEST(DesktopEmulation, DragsCountPerButtonInWindowHeights) {
-    Desk desk;
+    EmulatedDesk desk;
     desk.poll({cursor_at(0.2f, 0.2f)});
     const InputState input = desk.poll(
         {cursor_at(0.3f, 0.3f), MouseButtonEvent{MouseButton::left, true}, cursor_at(0.4f, 0.5f),
@@ -136,7 +136,7 @@ TEST(DesktopEmulation, EveryTapIsOneEdgeHoweverSlowTheFrames) {
     for (unsigned seed = 0; seed < 50; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         Random random(seed);
-        Desk desk;
+        EmulatedDesk desk;
         int taps = 0, edges = 0;
         bool shown = false;
         const auto see = [&](const InputState& input) {
@@ -159,7 +159,7 @@ TEST(DesktopEmulation, EveryTapIsOneEdgeHoweverSlowTheFrames) {
 }
 
 TEST(DesktopEmulation, RepeatedPressesOfAHeldKeyAreOne) {
-    Desk desk;
+    EmulatedDesk desk;
     EXPECT_TRUE(
         acts(desk.poll({press(Key::up), press(Key::up), press(Key::up)}), Action::isovalue_up));
     for (int frame = 0; frame < 5; ++frame)
@@ -168,7 +168,7 @@ TEST(DesktopEmulation, RepeatedPressesOfAHeldKeyAreOne) {
 }
 
 TEST(DesktopEmulation, TwoKeysOfOneActionHoldItTogether) {
-    Desk desk;
+    EmulatedDesk desk;
     EXPECT_TRUE(acts(desk.poll({press(Key::left_shift)}), Action::shift));
     desk.poll({press(Key::right_shift)});
     desk.poll({release(Key::left_shift)});
@@ -177,7 +177,7 @@ TEST(DesktopEmulation, TwoKeysOfOneActionHoldItTogether) {
 }
 
 TEST(DesktopEmulation, LosingTheFocusReleasesEverything) {
-    Desk desk;
+    EmulatedDesk desk;
     desk.poll({press(key_named('W')), press(key_named('G')),
                MouseButtonEvent{MouseButton::left, true}, cursor_at(0.5f, 0.5f)});
     desk.poll({FocusEvent{false}});
@@ -215,7 +215,7 @@ TEST(DesktopEmulation, TheWandRestsAtTheRightAndItsRayMeetsTheCursors) {
 }
 
 TEST(DesktopEmulation, WandButtonsAndValuatorsHaveKeys) {
-    Desk desk;
+    EmulatedDesk desk;
     const InputState input = desk.poll(
         {press(key_named('G')), press(key_named('F')), press(Key::page_up), press(key_named('Z'))});
     const DeviceState& wand = *input.find("wand");
@@ -224,7 +224,7 @@ TEST(DesktopEmulation, WandButtonsAndValuatorsHaveKeys) {
 }
 
 TEST(DesktopEmulation, AGamepadAppearsWithADeadZoneAndGoesAgain) {
-    Desk desk;
+    EmulatedDesk desk;
     const InputState input =
         desk.poll({GamepadEvent{true, {0.1f, -0.14f, 1.0f, -0.575f, -1.0f, 1.0f}, 5}});
     ASSERT_NE(input.find("gamepad"), nullptr);

@@ -11,7 +11,7 @@ namespace isochron::interaction {
 namespace {
 
 constexpr PanelSize kSize{0.5f, 0.6f};
-constexpr std::uint64_t kGrab = bit(WandButton::grab), kFly = bit(WandButton::fly);
+constexpr std::uint64_t kGrabButton = bit(WandButton::grab), kFly = bit(WandButton::fly);
 
 Pose random_pose(Random& random) {
     const auto coordinate = [&] { return static_cast<float>(uniform(random, -2, 2)); };
@@ -128,55 +128,55 @@ class PanelPointerTest : public testing::Test {
 TEST_F(PanelPointerTest, AClickOnThePanelIsThePanelsAlone) {
     EXPECT_FALSE(point(kInside).pressed);
     EXPECT_NEAR(pointer_.touch().hit->at.x, kInside.x, 1e-4);
-    EXPECT_TRUE(point(kInside, kGrab | kFly).pressed);
+    EXPECT_TRUE(point(kInside, kGrabButton | kFly).pressed);
     EXPECT_EQ(buttons_left(), 0u);
     EXPECT_FALSE(point(kInside, kFly).pressed);
     EXPECT_EQ(buttons_left(), 0u);
 }
 
 TEST_F(PanelPointerTest, AClickBesideItIsTheWorldsAndStaysSoOverThePanel) {
-    EXPECT_FALSE(point(kBeside, kGrab).hit);
-    EXPECT_EQ(buttons_left(), kGrab);
-    EXPECT_FALSE(point(kInside, kGrab).hit);
+    EXPECT_FALSE(point(kBeside, kGrabButton).hit);
+    EXPECT_EQ(buttons_left(), kGrabButton);
+    EXPECT_FALSE(point(kInside, kGrabButton).hit);
     EXPECT_FALSE(pointer_.touch().pressed);
-    EXPECT_EQ(buttons_left(), kGrab);
+    EXPECT_EQ(buttons_left(), kGrabButton);
     EXPECT_TRUE(point(kInside).hit);
-    EXPECT_TRUE(point(kInside, kGrab).pressed);
+    EXPECT_TRUE(point(kInside, kGrabButton).pressed);
 }
 
 TEST_F(PanelPointerTest, ADragStaysWithThePanelUntilTheButtonIsLetGo) {
-    point(kInside, kGrab);
-    const PanelTouch& dragged = point(kBeside, kGrab);
+    point(kInside, kGrabButton);
+    const PanelTouch& dragged = point(kBeside, kGrabButton);
     EXPECT_TRUE(dragged.pressed);
     ASSERT_TRUE(dragged.hit);
     EXPECT_NEAR(dragged.hit->at.x, kBeside.x, 1e-4) << "on the panel's plane";
     EXPECT_EQ(buttons_left(), 0u);
     EXPECT_FALSE(point(kBeside).hit);
-    point(kBeside, kGrab);
-    EXPECT_EQ(buttons_left(), kGrab);
+    point(kBeside, kGrabButton);
+    EXPECT_EQ(buttons_left(), kGrabButton);
 }
 
 TEST_F(PanelPointerTest, ADragOutlivesALostPoseAndNoneBeginsInOne) {
-    point(kInside, kGrab);
+    point(kInside, kGrabButton);
     input_.devices[1].pose_valid = false;
     EXPECT_TRUE(update().pressed);
     EXPECT_NEAR(pointer_.touch().hit->at.x, kInside.x, 1e-4);
     EXPECT_EQ(buttons_left(), 0u);
     input_.devices[1].buttons = 0;
     EXPECT_FALSE(update().hit);
-    input_.devices[1].buttons = kGrab;
+    input_.devices[1].buttons = kGrabButton;
     EXPECT_FALSE(update().pressed);
-    EXPECT_EQ(buttons_left(), kGrab);
+    EXPECT_EQ(buttons_left(), kGrabButton);
 }
 
 TEST_F(PanelPointerTest, AButtonThatItTookDoesNotReachTheWorldWhenThePanelGoes) {
-    point(kInside, kGrab);
+    point(kInside, kGrabButton);
     touched_.panel.shown = false;
-    EXPECT_FALSE(point(kInside, kGrab).pressed);
+    EXPECT_FALSE(point(kInside, kGrabButton).pressed);
     EXPECT_EQ(buttons_left(), 0u);
     point(kInside);
-    point(kInside, kGrab);
-    EXPECT_EQ(buttons_left(), kGrab);
+    point(kInside, kGrabButton);
+    EXPECT_EQ(buttons_left(), kGrabButton);
 }
 
 TEST_F(PanelPointerTest, TheButtonThatCallsThePanelIsNotTaken) {
@@ -209,13 +209,13 @@ TEST_F(PanelPointerTest, TheMousesWheelScrollsWhereTheWandPoints) {
 TEST_F(PanelPointerTest, CarriedByItsTitleItStaysOnTheRayAndFacesTheEyes) {
     point(kTitle);
     const float distance = pointer_.touch().hit->distance;
-    point(kTitle, kGrab);
+    point(kTitle, kGrabButton);
     ASSERT_TRUE(pointer_.carried());
     for (const float turn : {0.1f, 0.2f, 0.3f, 0.3f, 0.3f, 0.3f}) { // and comes to rest
         touched_.panel.pose = *pointer_.carried();
         const glm::quat aim = glm::angleAxis(turn, glm::vec3(0, 1, 0));
         input_.devices[1].pose = Pose{kHand, aim};
-        input_.devices[1].buttons = kGrab;
+        input_.devices[1].buttons = kGrabButton;
         update();
         ASSERT_TRUE(pointer_.carried());
         const glm::vec3 held = kHand + aim * glm::vec3(0, 0, -distance);
@@ -232,8 +232,8 @@ TEST_F(PanelPointerTest, CarriedByItsTitleItStaysOnTheRayAndFacesTheEyes) {
 }
 
 TEST_F(PanelPointerTest, AClickBelowTheTitleDoesNotCarryIt) {
-    point(kInside, kGrab);
-    point(kTitle, kGrab);
+    point(kInside, kGrabButton);
+    point(kTitle, kGrabButton);
     EXPECT_FALSE(pointer_.carried());
 }
 

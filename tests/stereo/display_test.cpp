@@ -108,7 +108,7 @@ glm::dvec2 centroid(const Image& image, int channel) {
 constexpr glm::ivec2 kSize{800, 600};
 constexpr float kSeparation = 0.064f;
 /// In front of the middle of the default screen: 1.6 m wide, 0.9 m high, 1.0 m ahead.
-const Pose kHead{{0.0f, 1.55f, 0.0f}, {1.0f, 0.0f, 0.0f, 0.0f}};
+const Pose kViewerHead{{0.0f, 1.55f, 0.0f}, {1.0f, 0.0f, 0.0f, 0.0f}};
 
 /// The left and the right eye's picture, cut out of a window by what the mode is documented to be.
 std::pair<Image, Image> cut_eyes(const Image& window, StereoMode mode) {
@@ -130,7 +130,7 @@ class DisplayTest : public testing::TestWithParam<ContextKind> {
     /// of the picture's width: crossed disparity is positive.
     double crossed_disparity(Display& display, StereoMode mode, glm::vec3 point, float separation) {
         const auto draw = [&](StereoMode shown) {
-            draw_each_eye(gl_, display, kHead, separation, shown,
+            draw_each_eye(gl_, display, kViewerHead, separation, shown,
                           [&](const render::View& view, Eye) { dot_.draw(view, point); });
             return display.read_window();
         };
@@ -192,7 +192,7 @@ TEST_P(DisplayTest, DisparityOfAFittedScreenFollowsItsFittedWidth) {
 TEST_P(DisplayTest, WithoutSeparationBothEyesSeeTheSame) {
     Display display = display_of({});
     for (const StereoMode mode : {StereoMode::side_by_side, StereoMode::top_bottom}) {
-        draw_each_eye(gl_, display, kHead, 0.0f, mode, [&](const render::View& view, Eye) {
+        draw_each_eye(gl_, display, kViewerHead, 0.0f, mode, [&](const render::View& view, Eye) {
             dot_.draw(view, {0.3f, 1.7f, -2.0f});
         });
         const auto [left, right] = cut_eyes(display.read_window(), mode);
@@ -221,7 +221,7 @@ Rgb rgb(const Image& image, int x, int y) {
 TEST_P(DisplayTest, EachEyeLandsWhereTheModeSays) {
     Display display = display_of({});
     const auto corners = [&](StereoMode mode) -> std::array<Rgb, 4> {
-        draw_each_eye(gl_, display, kHead, kSeparation, mode,
+        draw_each_eye(gl_, display, kViewerHead, kSeparation, mode,
                       [&](const render::View&, Eye eye) { fill(gl_, eye); });
         const Image window = display.read_window();
         EXPECT_EQ(window.width, kSize.x);
@@ -244,7 +244,7 @@ TEST_P(DisplayTest, TheAnaglyphHoldsTheLeftPictureInRedAndTheRightOneInGreenAndB
     window.viewports.front().position = {0.25f, 0.1f}; // its corner is not the window's
     window.viewports.front().size = {0.5f, 0.5f};
     Display display = display_of(window);
-    draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::anaglyph_red_cyan,
+    draw_each_eye(gl_, display, kViewerHead, kSeparation, StereoMode::anaglyph_red_cyan,
                   [&](const render::View& view, Eye) {
                       dot_.draw(view, {0.1f, 1.5f, -3.0f});
                   });
@@ -270,7 +270,7 @@ TEST_P(DisplayTest, DrawsEachEyeOfEachViewportOnceAndTheOverlayOnceOverAll) {
         std::vector<Eye> eyes;
         int overlays = 0;
         draw_each_eye(
-            gl_, display, kHead, kSeparation, mode,
+            gl_, display, kViewerHead, kSeparation, mode,
             [&](const render::View& view, Eye eye) {
                 eyes.push_back(eye);
                 GLint viewport[4];
@@ -304,7 +304,7 @@ TEST_P(DisplayTest, NothingOfAnEarlierFrameRemains) {
     const auto draw = [&](glm::ivec2 size, const Display::Overlay& overlay) {
         context_.size = size;
         draw_each_eye(
-            gl_, display, kHead, kSeparation, StereoMode::side_by_side,
+            gl_, display, kViewerHead, kSeparation, StereoMode::side_by_side,
             [&](const render::View&, Eye eye) { fill(gl_, eye); }, overlay);
         return display.read_window();
     };
@@ -324,7 +324,7 @@ TEST_P(DisplayTest, FollowsTheSizeOfTheWindowAndDrawsNothingWhenMinimized) {
     Display display = display_of({});
     int drawn = 0;
     const auto draw = [&] {
-        draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::side_by_side,
+        draw_each_eye(gl_, display, kViewerHead, kSeparation, StereoMode::side_by_side,
                       [&](const render::View&, Eye eye) {
                           ++drawn;
                           fill(gl_, eye);
@@ -354,7 +354,7 @@ TEST_P(DisplayTest, TheBackgroundIsSeenWhereNothingIsDrawn) {
     gl_.Enable(GL_SCISSOR_TEST); // what others leave behind does not matter
     gl_.Scissor(0, 0, 1, 1);
     gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::anaglyph_red_cyan,
+    draw_each_eye(gl_, display, kViewerHead, kSeparation, StereoMode::anaglyph_red_cyan,
                   [](const auto&, Eye) {});
     const Image window = display.read_window();
     EXPECT_EQ(rgb(window, 0, 0), (Rgb{51, 102, 153}));
@@ -364,9 +364,10 @@ TEST_P(DisplayTest, TheBackgroundIsSeenWhereNothingIsDrawn) {
 
 TEST_P(DisplayTest, AnEyeThatWasNotDrawnCannotBeRead) {
     Display display = display_of({});
-    draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::side_by_side,
+    draw_each_eye(gl_, display, kViewerHead, kSeparation, StereoMode::side_by_side,
                   [](const auto&, Eye) {});
-    draw_each_eye(gl_, display, kHead, kSeparation, StereoMode::mono, [](const auto&, Eye) {});
+    draw_each_eye(gl_, display, kViewerHead, kSeparation, StereoMode::mono,
+                  [](const auto&, Eye) {});
     EXPECT_NO_THROW(display.read_eye(Eye::center));
     EXPECT_THROW(display.read_eye(Eye::left), render::Error);
     EXPECT_THROW(display.read_eye(Eye::center, 1), render::Error);

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "render/gl/gl.h"
 #include "tests/support/image_compare.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -120,7 +121,7 @@ TEST(ImageCompare, SeesSmallDifferencesAndWritesThem) {
     EXPECT_TRUE(images_match(other, image, {.maximum = 4, .mean = 1}, "compare"));
     EXPECT_FALSE(images_match(other, image, {.maximum = 3, .mean = 1}, "compare"));
     EXPECT_FALSE(images_match(other, image, {.maximum = 4, .mean = 0.001}, "compare"));
-    const fs::path failed = fs::path(BINARY_ROOT) / "failed_images" / "compare.png";
+    const fs::path failed = fs::path(test_support::binary_root()) / "failed_images" / "compare.png";
     const Image beside = read_image(failed);
     EXPECT_EQ(beside.width, 48);
     EXPECT_EQ(beside.at(5, 0)[0], other.at(5, 0)[0]);

@@ -109,8 +109,8 @@ TEST_P(MultiplexTest, RowsColumnsAndSquaresAlternateFromTheWindowsTopLeftPixel) 
         Display display = display_of(window);
         for (const StereoMode mode :
              {StereoMode::vertical_interlaced, StereoMode::horizontal_interlaced,
-              StereoMode::checkerboard, StereoMode::vertical_interlaced_inverted,
-              StereoMode::horizontal_interlaced_inverted, StereoMode::checkerboard_inverted}) {
+              StereoMode::checkerboard, inverted(StereoMode::vertical_interlaced),
+              inverted(StereoMode::horizontal_interlaced), inverted(StereoMode::checkerboard)}) {
             SCOPED_TRACE(testing::Message()
                          << name_of(mode) << ", " << window.size.x << " x " << window.size.y);
             const Image picture = draw(display, mode);
@@ -146,7 +146,7 @@ TEST_P(MultiplexTest, DuboisAnaglyphIsHisMatricesInLinearLight) {
     window.size = {63, 47};
     Display display = display_of(window);
     for (const StereoMode mode :
-         {StereoMode::anaglyph_dubois, StereoMode::anaglyph_dubois_inverted}) {
+         {StereoMode::anaglyph_dubois, inverted(StereoMode::anaglyph_dubois)}) {
         const Image picture = draw(display, mode);
         for (int y = 0; y < window.size.y; ++y)
             for (int x = 0; x < window.size.x; ++x)
@@ -181,7 +181,7 @@ TEST_P(MultiplexTest, RedAndCyanChangePlacesWhenInverted) {
     window.size = {63, 47};
     Display display = display_of(window);
     const Image usual = draw(display, StereoMode::anaglyph_red_cyan);
-    const Image inverted = draw(display, StereoMode::anaglyph_red_cyan_inverted);
+    const Image inverted = draw(display, stereo::inverted(StereoMode::anaglyph_red_cyan));
     EXPECT_EQ(usual.at(5, 5)[2], 200) << "blue is the right eye's";
     EXPECT_EQ(inverted.at(5, 5)[2], 40);
 }
@@ -189,7 +189,7 @@ TEST_P(MultiplexTest, RedAndCyanChangePlacesWhenInverted) {
 TEST_P(MultiplexTest, AQuadBufferedWindowHoldsEachEyeInABufferOfItsOwn) {
     for (const Window& window : odd_windows()) {
         Display display = display_of(window);
-        for (const StereoMode mode : {StereoMode::quadbuffer, StereoMode::quadbuffer_inverted}) {
+        for (const StereoMode mode : {StereoMode::quadbuffer, inverted(StereoMode::quadbuffer)}) {
             const Image left = draw(display, mode), right = display.read_right_buffer();
             for (std::size_t v = 0; v < window.viewports.size(); ++v) {
                 const auto [low, high] = pixels_of(window.viewports[v], window.size);
@@ -215,11 +215,11 @@ TEST_P(MultiplexTest, InvertedHalvesHoldTheOtherEye) {
         return int(draw(display, mode).at(x, y)[2]);
     };
     EXPECT_EQ(blue(StereoMode::side_by_side, 5, 5), 40);
-    EXPECT_EQ(blue(StereoMode::side_by_side_inverted, 5, 5), 200);
-    EXPECT_EQ(blue(StereoMode::side_by_side_inverted, 60, 5), 40);
+    EXPECT_EQ(blue(inverted(StereoMode::side_by_side), 5, 5), 200);
+    EXPECT_EQ(blue(inverted(StereoMode::side_by_side), 60, 5), 40);
     EXPECT_EQ(blue(StereoMode::top_bottom, 5, 5), 40);
-    EXPECT_EQ(blue(StereoMode::top_bottom_inverted, 5, 5), 200);
-    EXPECT_EQ(blue(StereoMode::top_bottom_inverted, 5, 40), 40);
+    EXPECT_EQ(blue(inverted(StereoMode::top_bottom), 5, 5), 200);
+    EXPECT_EQ(blue(inverted(StereoMode::top_bottom), 5, 40), 40);
 }
 
 INSTANTIATE_TEST_SUITE_P(, MultiplexTest, testing::Values(ContextKind::egl, ContextKind::osmesa),

@@ -67,11 +67,11 @@ void expect_corners_on_corners(const render::View& view, const Screen& screen, f
     }
 }
 
-constexpr unsigned kSeed = 20041;
+constexpr unsigned kScreenSeed = 20041;
 
 TEST(Screen, CornersFallOnTheCornersOfThePictureForEveryEye) {
-    SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-    RandomRoom room(kSeed);
+    SCOPED_TRACE(testing::Message() << "seed " << kScreenSeed);
+    RandomRoom room(kScreenSeed);
     for (int i = 0; i < 500; ++i) {
         const auto [screen, head] = room.screen_and_head();
         for (const Eye eye : {Eye::center, Eye::left, Eye::right})
@@ -83,8 +83,8 @@ TEST(Screen, CornersFallOnTheCornersOfThePictureForEveryEye) {
 /// The oracle: the ray from the eye through the point meets the screen's plane; where, measured
 /// along the screen's edges, is where the point is seen. No matrix is involved.
 TEST(Screen, PointsAreSeenWhereTheirRayMeetsTheScreen) {
-    SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-    RandomRoom room(kSeed);
+    SCOPED_TRACE(testing::Message() << "seed " << kScreenSeed);
+    RandomRoom room(kScreenSeed);
     for (int i = 0; i < 500; ++i) {
         const auto [screen, head] = room.screen_and_head();
         const Eye eye = i % 2 ? Eye::left : Eye::right;
@@ -102,7 +102,7 @@ TEST(Screen, PointsAreSeenWhereTheirRayMeetsTheScreen) {
 }
 
 TEST(Screen, EyesStandHalfTheSeparationToEachSideOfTheHead) {
-    RandomRoom room(kSeed);
+    RandomRoom room(kScreenSeed);
     for (int i = 0; i < 50; ++i) {
         const auto [screen, head] = room.screen_and_head();
         const auto at = [&, &s = screen, &h = head](Eye eye) {
@@ -125,7 +125,7 @@ TEST(Screen, DepthRunsFromNearToFar) {
 }
 
 TEST(Screen, CarriedScreensFollowTheHead) {
-    RandomRoom room(kSeed);
+    RandomRoom room(kScreenSeed);
     Screen carried;
     carried.lower_left = {-0.5f, -0.4f, -1.0f};
     carried.upper_left = {-0.5f, 0.3f, -1.1f};
@@ -180,7 +180,7 @@ TEST(Screen, ProjectionStaysFiniteWithTheEyeOnOrBehindTheScreen) {
 
 TEST(ScreenProblems, GoodScreensHaveNone) {
     EXPECT_THAT(problems(Screen{}), testing::IsEmpty());
-    RandomRoom room(kSeed);
+    RandomRoom room(kScreenSeed);
     const glm::vec2 size = size_of(Screen{});
     EXPECT_NEAR(size.x, 1.6f, 1e-6f);
     EXPECT_NEAR(size.y, 0.9f, 1e-6f);

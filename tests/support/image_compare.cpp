@@ -2,6 +2,7 @@
 #include "tests/support/image_compare.h"
 
 #include "stereo/image_file.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 using render::Image;
 
 fs::path written(const Image& image, const std::string& name) {
-    const fs::path folder = fs::path(BINARY_ROOT) / "failed_images";
+    const fs::path folder = fs::path(test_support::binary_root()) / "failed_images";
     fs::create_directories(folder);
     const fs::path path = folder / (name + ".png");
     stereo::write_image(image, path);
@@ -74,7 +75,7 @@ testing::AssertionResult images_match(const Image& actual, const Image& expected
 
 testing::AssertionResult matches_golden(const Image& actual, const std::string& name,
                                         ImageTolerance tolerance) {
-    const fs::path golden = fs::path(TEST_DATA) / "golden" / (name + ".png");
+    const fs::path golden = fs::path(test_support::test_data()) / "golden" / (name + ".png");
     if (!fs::exists(golden))
         return testing::AssertionFailure()
                << golden << " does not exist; the actual picture is " << written(actual, name);

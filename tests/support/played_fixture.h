@@ -5,6 +5,7 @@
 
 #include "stereo/headset_display.h"
 #include "stereo/openxr/openxr_headset.h"
+#include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +21,7 @@ using played::Happening;
 
 /// The real loader finds the played runtime by these.
 inline void use_played_runtime() {
-    setenv("XR_RUNTIME_JSON", BINARY_ROOT "/played_headset.json", 1);
+    setenv("XR_RUNTIME_JSON", (test_support::binary_root() + "/played_headset.json").c_str(), 1);
     unsetenv("ISOCHRON_PLAYED_HEADSET");
     unsetenv("XR_ENABLE_API_LAYERS");
 }

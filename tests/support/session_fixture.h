@@ -3,6 +3,7 @@
 
 #include "app/session/session.h"
 #include "index/build/index_build.h"
+#include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ inline std::shared_ptr<const index::IndexFile> build_sphere(const std::filesyste
 
 /// A configuration for small pictures without a window.
 inline Config small_config(stereo::StereoMode mode = stereo::StereoMode::side_by_side) {
-    Config config = read_config(SOURCE_ROOT "/configs/headless.toml");
+    Config config = read_config(test_support::source_root() + "/configs/headless.toml");
     config.installation.windows.front().size = {256, 128};
     config.installation.windows.front().stereo = mode;
     return config;

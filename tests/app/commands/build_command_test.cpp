@@ -1,5 +1,6 @@
 // Building, appending, referring: what the commands leave behind, and what changes between queries.
 #include "tests/app/commands/command_line.h"
+#include "tests/support/paths.h"
 
 #include <nlohmann/json.hpp>
 
@@ -78,7 +79,7 @@ TEST_F(CommandLine, AnIndexThatRefersToItsSourcesAnswersAsOneThatCarriesThem) {
     const std::string referred = answer();
     EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
     // Seen from elsewhere, too.
-    EXPECT_EQ(run_child(BINARY_ROOT "/isochron",
+    EXPECT_EQ(run_child(test_support::binary_root() + "/isochron",
                         {"verify", (folder.path() / "a.isochron").string()}, "/", {})
                   .status,
               0);

@@ -190,7 +190,8 @@ TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsAFailure) {
 TEST_F(CommandLine, ConfigSchemaPrintsTheShippedSchema) {
     const ChildResult result = isochron({"config", "schema"});
     EXPECT_EQ(result.status, 0) << result.err;
-    std::ifstream shipped(SOURCE_ROOT "/configs/isochron.schema.json", std::ios::binary);
+    std::ifstream shipped(test_support::source_root() + "/configs/isochron.schema.json",
+                          std::ios::binary);
     EXPECT_EQ(result.out, std::string(std::istreambuf_iterator<char>(shipped), {}));
 }
 

@@ -3,6 +3,7 @@
 #include "tests/support/session_fixture.h"
 
 #include "interaction/recording/recording.h"
+#include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
 
 #include <fmt/format.h>
@@ -61,7 +62,7 @@ class ClusterJobTest : public testing::Test {
 
     /// What a shell makes of one process's part; `$isochron` is the program.
     static std::string part(const std::string& script) {
-        return fmt::format("isochron='{}/isochron'; {}", BINARY_ROOT, script);
+        return fmt::format("isochron='{}/isochron'; {}", test_support::binary_root(), script);
     }
     /// A job of as many processes as there are scripts.
     ChildResult job(const std::vector<std::string>& scripts) {

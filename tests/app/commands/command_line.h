@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/support/child_process.h"
+#include "tests/support/paths.h"
 #include "tests/support/test_seed.h"
 
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ class CommandLine : public testing::Test {
     }
 
     ChildResult isochron(const std::vector<std::string>& arguments, const ChildOptions& how = {}) {
-        return run_child(BINARY_ROOT "/isochron", arguments, folder.path(), how);
+        return run_child(test_support::binary_root() + "/isochron", arguments, folder.path(), how);
     }
     static std::vector<std::string> build_of(const std::string& files,
                                              const std::vector<std::string>& more = {}) {

@@ -5,6 +5,7 @@
 #include "app/config/shipped_configs.h"
 #include "interaction/recording/recording.h"
 #include "stereo/image_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
 
 #include <gmock/gmock.h>
@@ -22,7 +23,7 @@ namespace {
 class Program {
   public:
     explicit Program(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), BINARY_ROOT "/isochron");
+        arguments.insert(arguments.begin(), test_support::binary_root() + "/isochron");
         std::vector<char*> argv;
         for (std::string& argument : arguments)
             argv.push_back(argument.data());

@@ -3,6 +3,7 @@
 #include "tests/support/session_fixture.h"
 
 #include "stereo/image_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +21,8 @@ class HeadsetProgram : public testing::Test {
   protected:
     HeadsetProgram() {
         build_sphere(folder_.path());
-        setenv("XR_RUNTIME_JSON", BINARY_ROOT "/played_headset.json", 1);
+        setenv("XR_RUNTIME_JSON", (test_support::binary_root() + "/played_headset.json").c_str(),
+               1);
     }
     ~HeadsetProgram() override {
         for (const char* name : {"ISOCHRON_PLAYED_HEADSET", "XR_ENABLE_API_LAYERS",
@@ -35,7 +37,7 @@ class HeadsetProgram : public testing::Test {
     }
     /// `hmd.toml` with one line changed.
     std::string changed_config(const std::string& line, const std::string& into) const {
-        std::ifstream shipped(SOURCE_ROOT "/configs/hmd.toml");
+        std::ifstream shipped(test_support::source_root() + "/configs/hmd.toml");
         std::string text{std::istreambuf_iterator<char>(shipped), {}};
         text.replace(text.find(line), line.size(), into);
         return folder_.write("hmd.toml", text).string();
@@ -43,7 +45,7 @@ class HeadsetProgram : public testing::Test {
     ChildResult explore(std::vector<std::string> more) {
         std::vector<std::string> arguments{"explore", file("sphere.isochron")};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        return run_child(BINARY_ROOT "/isochron", arguments, folder_.path());
+        return run_child(test_support::binary_root() + "/isochron", arguments, folder_.path());
     }
     /// Lines of the played headset's log that have this member.
     std::vector<json> logged(const char* member) const {

@@ -3,6 +3,7 @@
 
 #include "interaction/recording/recording.h"
 #include "tests/support/child_process.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 
@@ -15,7 +16,7 @@ using testing::HasSubstr;
 class InstallationCommand : public testing::Test {
   protected:
     ChildResult isochron(const std::vector<std::string>& arguments) {
-        return run_child(BINARY_ROOT "/isochron", arguments, folder.path());
+        return run_child(test_support::binary_root() + "/isochron", arguments, folder.path());
     }
     TestFolder folder;
 };

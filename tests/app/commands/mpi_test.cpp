@@ -1,5 +1,6 @@
 // Building by several processes of an MPI job.
 #include "tests/support/child_process.h"
+#include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>
@@ -45,9 +46,9 @@ class MpiBuild : public testing::Test {
                                            "--oversubscribe",
                                            "-n",
                                            std::to_string(processes),
-                                           BINARY_ROOT "/isochron"};
+                                           test_support::binary_root() + "/isochron"};
         if (processes == 0)
-            arguments = {BINARY_ROOT "/isochron"};
+            arguments = {test_support::binary_root() + "/isochron"};
         arguments.insert(arguments.end(),
                          {"build", type.substr(0, 1) + "?.raw", "--dims", std::to_string(kX),
                           std::to_string(kY), std::to_string(kZ), "--type", type, "-o", out});

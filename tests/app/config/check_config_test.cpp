@@ -2,6 +2,7 @@
 #include "app/config/check_config.h"
 
 #include "app/config/shipped_configs.h"
+#include "tests/support/paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -34,14 +35,16 @@ const std::string kSquare =
 
 TEST(CheckConfig, EveryShippedConfigurationIsFoundByNameAndNothingIsWrongWithIt) {
     std::size_t files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(SOURCE_ROOT "/configs"))
+    for (const auto& entry :
+         std::filesystem::directory_iterator(test_support::source_root() + "/configs"))
         files += entry.path().extension() == ".toml";
     EXPECT_EQ(shipped_config_names().size(), files) << "one is not in app/CMakeLists.txt";
     for (const std::string& name : shipped_config_names()) {
         const Config config = read_config(name);
         for (const ConfigProblem& problem : problems_of(config))
             ADD_FAILURE() << line_of(problem, config);
-        EXPECT_NO_THROW(check_config(SOURCE_ROOT "/configs/" + name + ".toml")) << name;
+        EXPECT_NO_THROW(check_config(test_support::source_root() + "/configs/" + name + ".toml"))
+            << name;
     }
     EXPECT_THAT(shipped_config_names(),
                 ElementsAre("cave4", "desk", "desktop", "headless", "hmd", "powerwall"));

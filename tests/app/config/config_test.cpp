@@ -2,6 +2,7 @@
 #include "app/config/config.h"
 #include "app/config/toml_reader.h"
 #include "tests/app/config/config_error.h"
+#include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +17,8 @@ using testing::HasSubstr;
 
 TEST(Config, EveryShippedFileIsValid) {
     int files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(SOURCE_ROOT "/configs"))
+    for (const auto& entry :
+         std::filesystem::directory_iterator(test_support::source_root() + "/configs"))
         if (entry.path().extension() == ".toml") {
             EXPECT_NO_THROW(read_config(entry.path())) << entry.path();
             ++files;

@@ -53,7 +53,7 @@ TEST(DisplayConfig, ViewersWindowsAndViewportsArrive) {
     EXPECT_EQ(lab.viewers[1].eye_separation, 0.058f);
     EXPECT_EQ(config.emulation.head.position, glm::vec3(0, 1.8f, 0));
     ASSERT_EQ(lab.windows.size(), 2u);
-    EXPECT_EQ(lab.windows[0].stereo, stereo::StereoMode::checkerboard_inverted);
+    EXPECT_EQ(lab.windows[0].stereo, stereo::inverted(stereo::StereoMode::checkerboard));
     EXPECT_EQ(lab.windows[0].position, glm::ivec2(-1920, 5));
     EXPECT_FALSE(lab.windows[0].border);
     ASSERT_EQ(lab.windows[0].viewports.size(), 2u);

@@ -35,7 +35,7 @@ class PvxFile : public testing::Test {
     test_support::TestFolder folder_;
 };
 
-const std::string kCave = R"(<?xml version="1.0" ?>
+const std::string kCavePvx = R"(<?xml version="1.0" ?>
 <pvx>
   <Process Type="client"/>
   <Process Type="server">
@@ -52,7 +52,7 @@ const std::string kCave = R"(<?xml version="1.0" ?>
 )";
 
 TEST_F(PvxFile, MachinesViewersAndCornersArrive) {
-    const PvxImport import = read(kCave);
+    const PvxImport import = read(kCavePvx);
     const stereo::Installation& cave = import.installation;
     ASSERT_EQ(cave.windows.size(), 2u);
     const stereo::Window& front = cave.windows[0];
@@ -93,7 +93,7 @@ TEST_F(PvxFile, UnitAndOriginPutTheCornersIntoTheRoom) {
 }
 
 TEST_F(PvxFile, WhatIsWrittenAsTomlIsTheSameInstallation) {
-    const stereo::Installation cave = read(kCave).installation;
+    const stereo::Installation cave = read(kCavePvx).installation;
     const Config config = parse_config(display_config_text(cave), "cave.toml");
     EXPECT_EQ(config.installation, cave);
 }

@@ -2,6 +2,7 @@
 #include "app/config/config.h"
 #include "app/config/toml_reader.h"
 #include "tests/app/config/config_error.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +24,9 @@ using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 
-const fs::path kConfigs = fs::path(SOURCE_ROOT) / "configs";
+fs::path configs() {
+    return fs::path(test_support::source_root()) / "configs";
+}
 
 std::string text_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -122,7 +125,7 @@ class Checker {
 };
 
 TEST(ConfigSchema, TheShippedOneIsTheReadersOwn) {
-    std::istringstream shipped(text_of(kConfigs / "isochron.schema.json")), own(config_schema());
+    std::istringstream shipped(text_of(configs() / "isochron.schema.json")), own(config_schema());
     std::string line, expected;
     bool more = true;
     for (int number = 1; more; ++number) {
@@ -137,7 +140,7 @@ TEST(ConfigSchema, TheShippedOneIsTheReadersOwn) {
 TEST(ConfigSchema, EveryShippedConfigurationKeepsToItAndNamesIt) {
     const Checker checker(json::parse(config_schema()));
     int files = 0;
-    for (const auto& entry : fs::directory_iterator(kConfigs)) {
+    for (const auto& entry : fs::directory_iterator(configs())) {
         if (entry.path().extension() != ".toml")
             continue;
         const std::string text = text_of(entry.path());

@@ -19,7 +19,7 @@ namespace {
 constexpr glm::ivec2 kPicture(1280, 960);
 
 /// A box of which each number tells which axis it belongs to: by its decade.
-index::SeriesInfo info_of_box() {
+index::SeriesInfo info_of_labeled_box() {
     index::SeriesInfo info;
     info.length_unit = "mm";
     info.grid.vertices = {11, 21, 31};
@@ -79,7 +79,7 @@ class AxisLabelsTest : public testing::Test {
         return p[0] < q[2] && q[0] < p[2] && p[1] < q[3] && q[1] < p[3];
     }
 
-    index::SeriesInfo info_ = info_of_box();
+    index::SeriesInfo info_ = info_of_labeled_box();
     render::Placement placement_ = cube_of(info_);
     render::GlyphAtlas atlas_ = room_font(32);
     Axes axes_;

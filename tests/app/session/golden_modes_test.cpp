@@ -2,6 +2,7 @@
 #include "tests/support/golden_fixture.h"
 
 #include "stereo/image_file.h"
+#include "tests/support/paths.h"
 
 #include <stdexcept>
 
@@ -41,7 +42,7 @@ Image part_of(const Image& image, glm::ivec2 corner, glm::ivec2 size) {
 class GoldenModes : public GoldenPictures {
   protected:
     static Image golden(Eye eye) {
-        return stereo::read_image(std::string(TEST_DATA "/golden/surface_") +
+        return stereo::read_image((test_support::test_data() + "/golden/surface_") +
                                   std::string(name_of(eye)) + ".png");
     }
     /// A part of the window shows what this eye sees.

@@ -1,5 +1,6 @@
 // `isochron-bench` as a user runs it.
 #include "tests/support/child_process.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -15,10 +16,11 @@ using testing::IsEmpty;
 class BenchCommand : public testing::Test {
   protected:
     ChildResult bench(const std::vector<std::string>& arguments, const ChildOptions& how = {}) {
-        return run_child(BINARY_ROOT "/isochron-bench", arguments, folder.path(), how);
+        return run_child(test_support::binary_root() + "/isochron-bench", arguments, folder.path(),
+                         how);
     }
     ChildResult isochron(const std::vector<std::string>& arguments, const ChildOptions& how = {}) {
-        return run_child(BINARY_ROOT "/isochron", arguments, folder.path(), how);
+        return run_child(test_support::binary_root() + "/isochron", arguments, folder.path(), how);
     }
     TestFolder folder;
 };

@@ -4,6 +4,7 @@
 #include "tests/bench/pages/render_goals.h"
 #include "tests/bench/pages/render_page.h"
 #include "tests/bench/pages/results_page.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 
@@ -18,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string read(const std::string& path) {
-    std::ifstream file(std::string(SOURCE_ROOT) + "/" + path, std::ios::binary);
+    std::ifstream file(test_support::source_root() + "/" + path, std::ios::binary);
     EXPECT_TRUE(file) << path;
     return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -43,7 +44,7 @@ TEST(ResultsPage, ShowsOnlyPicturesThatAreThere) {
     const std::regex picture(R"(!\[[^\]]*\]\(([^)]+)\))");
     int shown = 0;
     for (std::sregex_iterator i(page.begin(), page.end(), picture), end; i != end; ++i, ++shown)
-        EXPECT_TRUE(std::filesystem::exists(std::string(SOURCE_ROOT) + "/docs/" + (*i)[1].str()))
+        EXPECT_TRUE(std::filesystem::exists(test_support::source_root() + "/docs/" + (*i)[1].str()))
             << (*i)[1];
     EXPECT_GE(shown, 3);
 }

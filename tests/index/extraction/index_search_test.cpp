@@ -3,6 +3,7 @@
 #include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "tests/support/memory_series.h"
+#include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +56,8 @@ TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeByEveryMethod) {
 /// The whole way of a real series: reader, file, tree, incremental search, exact test.
 TEST(IndexSearch, FindsInTheFmriSeriesWhatTheScanFindsAtEveryStepAnd64Quantiles) {
     const TestFolder folder;
-    const auto series = open_series({TEST_DATA "/fmri/filtered_func_data.nii.gz"});
+    const auto series =
+        open_series({test_support::test_data() + "/fmri/filtered_func_data.nii.gz"});
     build_index(*series, folder.path() / "a.isochron", {.with_tree = true});
     const auto file = IndexFile::open(folder.path() / "a.isochron");
     const Search by_bricks = search_in(file), by_tree = search_in(file, SearchMethod::tree),

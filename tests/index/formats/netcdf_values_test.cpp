@@ -1,5 +1,6 @@
 // Values of NetCDF files: every type in every form, packed, missing, and those of real files.
 #include "tests/index/formats/netcdf_writer.h"
+#include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <gmock/gmock.h>
@@ -287,8 +288,8 @@ TEST(NetcdfFiles, MayBeReadByManyThreadsAtOnce) {
 
 // Sums and single values from the files' text as ncdump 4.9 prints it.
 TEST(RealNetcdf, OfTheMetOfficeHasItsTemperatures) {
-    const auto series =
-        open_series({std::filesystem::path(TEST_DATA) / "formats" / "small_theta_colpex.nc"});
+    const auto series = open_series(
+        {std::filesystem::path(test_support::test_data()) / "formats" / "small_theta_colpex.nc"});
     const SeriesInfo& info = series->info();
     EXPECT_EQ(info.array, "air_potential_temperature");
     EXPECT_EQ(info.value_unit, "K");
@@ -310,8 +311,8 @@ TEST(RealNetcdf, OfTheMetOfficeHasItsTemperatures) {
 }
 
 TEST(RealNetcdf, OfTheOceanIsMissingOnLand) {
-    const auto series =
-        open_series({std::filesystem::path(TEST_DATA) / "formats" / "foam.ocean.nc"});
+    const auto series = open_series(
+        {std::filesystem::path(test_support::test_data()) / "formats" / "foam.ocean.nc"});
     const SeriesInfo& info = series->info();
     EXPECT_EQ(info.times, std::vector<double>{359670});
     EXPECT_EQ(info.grid.spacing.x, 2.8125);

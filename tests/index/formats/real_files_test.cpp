@@ -1,4 +1,5 @@
 // Files that other people's tools wrote: values and geometry against independent readings.
+#include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <glm/vec4.hpp>
@@ -9,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::filesystem::path kFormats = std::filesystem::path(TEST_DATA) / "formats";
+const std::filesystem::path kFormats = std::filesystem::path(test_support::test_data()) / "formats";
 
 struct Sums {
     std::int64_t plain = 0, weighted = 0; ///< of v, and of v (i mod 1009), which sees the order
@@ -33,8 +34,8 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
 
 // All sums below: NumPy over the bytes after the header, in file order.
 TEST(RealNifti, FourDimensionalSeriesReadsForwardsAndBackwards) {
-    const auto series =
-        open_series({std::filesystem::path(TEST_DATA) / "fmri" / "filtered_func_data.nii.gz"});
+    const auto series = open_series(
+        {std::filesystem::path(test_support::test_data()) / "fmri" / "filtered_func_data.nii.gz"});
     ASSERT_EQ(series->info().steps(), 64u);
     EXPECT_EQ(series->info().times[63], 63.0);
     EXPECT_EQ(series->info().anatomy, Anatomy::none); // neither qform nor sform

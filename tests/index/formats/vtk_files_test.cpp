@@ -1,4 +1,5 @@
 // Files of VTK: every encoding of .vti, legacy .vtk, the choice of arrays, and damaged files.
+#include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <glm/geometric.hpp>
@@ -12,8 +13,9 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::filesystem::path kFolder = std::filesystem::path(TEST_DATA) / "vti";
-const std::filesystem::path kFlow = std::filesystem::path(TEST_DATA) / "formats" / "flow.vti";
+const std::filesystem::path kFolder = std::filesystem::path(test_support::test_data()) / "vti";
+const std::filesystem::path kFlow =
+    std::filesystem::path(test_support::test_data()) / "formats" / "flow.vti";
 
 std::vector<std::int16_t> expected_values() {
     auto values = ramp<std::int16_t>(60);

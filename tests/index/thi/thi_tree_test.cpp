@@ -2,6 +2,7 @@
 #include "index/thi/thi_tree.h"
 
 #include "index/scan/scan.h"
+#include "tests/support/paths.h"
 #include "tests/support/test_field.h"
 
 #include <gtest/gtest.h>
@@ -76,9 +77,9 @@ TEST(ThiTree, FindsTheActiveCellsOfTheMovingSphere) {
 }
 
 /// All bytes of a gzipped file.
-std::vector<char> unzipped(const char* path) {
+std::vector<char> unzipped(const std::string& path) {
     std::vector<char> bytes(std::size_t{64} << 20);
-    const gzFile file = gzopen(path, "rb");
+    const gzFile file = gzopen(path.c_str(), "rb");
     const int size = file ? gzread(file, bytes.data(), static_cast<unsigned>(bytes.size())) : 0;
     if (file)
         gzclose(file);
@@ -87,7 +88,8 @@ std::vector<char> unzipped(const char* path) {
 }
 
 TEST(ThiTree, FindsTheActiveCellsOfAnFmriSeries) {
-    const std::vector<char> bytes = unzipped(TEST_DATA "/fmri/filtered_func_data.nii.gz");
+    const std::vector<char> bytes =
+        unzipped(test_support::test_data() + "/fmri/filtered_func_data.nii.gz");
     ASSERT_GT(bytes.size(), 352u);
     const auto read = [&]<class T>(std::size_t offset, T number) {
         std::memcpy(&number, bytes.data() + offset, sizeof number);

@@ -1,6 +1,7 @@
 // docs/FORMATS.md tells every key of `commands` in a recording, and no other.
 #include "interaction/command_fields.h"
 #include "interaction/recording/commands_json.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -59,7 +60,7 @@ std::map<std::string, std::vector<std::string>> keys_of_commands() {
 }
 
 TEST(FormatsPage, TellsEveryKeyOfCommandsAndNoOther) {
-    std::ifstream page(SOURCE_ROOT "/docs/FORMATS.md");
+    std::ifstream page(test_support::source_root() + "/docs/FORMATS.md");
     auto rows = rows_below(page, "### Commands");
     for (const auto& [key, parts] : keys_of_commands()) {
         ASSERT_TRUE(rows.contains(key)) << key << " has no row in docs/FORMATS.md";

@@ -15,13 +15,13 @@
 namespace isochron::render {
 namespace {
 
-constexpr int kSize = 64;
+constexpr int kLitSize = 64;
 constexpr int kHalfLight = 188; ///< half the light of white, as sRGB
 
 class Lights : public GlTest {
   protected:
     Lights() {
-        view_.size = {kSize, kSize};
+        view_.size = {kLitSize, kLitSize};
         view_.clip_from_eye = glm::perspective(0.5f, 1.0f, 0.1f, 200.0f);
         placement_.room_from_index = glm::translate(glm::mat4(1.0f), {-8, -8, -60});
         placement_.extent = glm::vec3(16);
@@ -42,7 +42,7 @@ class Lights : public GlTest {
     View view_;
     Placement placement_;
     CellAppearance look_;
-    RenderTarget target_{gl_, {kSize, kSize}};
+    RenderTarget target_{gl_, {kLitSize, kLitSize}};
     CellPass pass_{gl_};
 };
 
@@ -57,7 +57,7 @@ TEST_P(Lights, BlendAsLightDoes) {
 
 TEST_P(Lights, OfSamplesAreAveraged) {
     ASSERT_GE(max_samples(gl_), 4);
-    RenderTarget target(gl_, {kSize, kSize}, 4);
+    RenderTarget target(gl_, {kLitSize, kLitSize}, 4);
     target.bind();
     target.clear({0, 0, 0, 1});
     // White cells whose upright edges fall where they may: of every step of a quarter there are

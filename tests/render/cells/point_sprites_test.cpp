@@ -16,10 +16,10 @@ namespace isochron::render {
 namespace {
 
 constexpr float kLargest = 255.0f;
-constexpr double kQuadRadius = 0.5 * double(FootprintShapes{}.quad_diameter);
+constexpr double kPointRadius = 0.5 * double(FootprintShapes{}.quad_diameter);
 
 /// A view of a whole volume, from outside, from within or past it; now and then parallel.
-Scene random_volume(std::mt19937& random) {
+Scene random_scene(std::mt19937& random) {
     auto uniform = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
@@ -50,8 +50,8 @@ TEST(PointSprites, ServeOnlyWhereNoFootprintCrossesAnEdgeOrIsTooLarge) {
     std::mt19937 random(test_seed());
     int served = 0, refused = 0;
     for (int round = 0; round < 2000; ++round) {
-        Scene scene = random_volume(random);
-        const double radius = round % 2 ? kQuadRadius : 2.0;
+        Scene scene = random_scene(random);
+        const double radius = round % 2 ? kPointRadius : 2.0;
         const bool rectangle = round % 2;
         if (!points_serve(scene.view, scene.placement, static_cast<float>(radius),
                           rectangle ? kReachOfRectangle : 1.0f, kLargest)) {
@@ -93,7 +93,7 @@ TEST(PointSprites, AreWholeFootprintsOnlyWhereTheseAreNearlySquares) {
     std::mt19937 random(test_seed());
     int square = 0, other = 0;
     for (int round = 0; round < 4000; ++round) {
-        Scene scene = random_volume(random);
+        Scene scene = random_scene(random);
         if (round % 4) { // cubes, mostly
             glm::mat4& room = scene.placement.room_from_index;
             for (int axis = 1; axis < 3; ++axis)
@@ -102,7 +102,7 @@ TEST(PointSprites, AreWholeFootprintsOnlyWhereTheseAreNearlySquares) {
                                   (double(scene.view.size.x) * scene.view.clip_from_eye[0][0]);
             scene.view.size.y = std::max(1, int(std::lround(scene.view.size.y / aspect)));
         }
-        const auto radius = float(kQuadRadius);
+        const auto radius = float(kPointRadius);
         if (!points_serve(scene.view, scene.placement, radius, kReachOfRectangle, kLargest))
             continue;
         double most = 0; // pixels between a half side of the square and the ellipse's half axes
@@ -110,7 +110,7 @@ TEST(PointSprites, AreWholeFootprintsOnlyWhereTheseAreNearlySquares) {
             glm::dvec3 at(0.5);
             for (int axis = 0; axis < 3; ++axis)
                 at[axis] += int(random() % unsigned(scene.placement.extent[axis]));
-            const Ellipse ellipse = paper_ellipse(scene.pixel_from_index(), at, kQuadRadius);
+            const Ellipse ellipse = paper_ellipse(scene.pixel_from_index(), at, kPointRadius);
             const glm::dvec2 a = ellipse.major, b = ellipse.minor;
             const double half = std::sqrt(std::max(a.x * a.x + b.x * b.x, a.y * a.y + b.y * b.y));
             most = std::max({most, glm::length(a) - half, half - glm::length(b)});
@@ -145,7 +145,7 @@ TEST_P(PointPasses, ShowWhatQuadsShow) {
     int compared = 0;
     for (int round = 0; compared < 12; ++round) {
         ASSERT_LT(round, 1000);
-        const Scene scene = random_volume(random_);
+        const Scene scene = random_scene(random_);
         if (!points_serve(scene.view, scene.placement, 2.0f, kReachOfRectangle, kLargest))
             continue;
         ++compared;

@@ -15,7 +15,7 @@ namespace isochron::render {
 namespace {
 
 constexpr int kCells = 40;
-constexpr int kSize = 192;
+constexpr int kPictureSize = 192;
 
 /// The cells that the level set f = 0 crosses, with its normals.
 std::vector<index::CellPoint> shell(const std::function<float(const glm::vec3&)>& f) {
@@ -57,7 +57,7 @@ class Popping : public GlTest {
     /// The picture from an eye in index coordinates that looks at a point.
     Image picture(const CellBuffers& cells, const glm::vec3& eye, const glm::vec3& at) {
         View view;
-        view.size = {kSize, kSize};
+        view.size = {kPictureSize, kPictureSize};
         view.clip_from_eye = glm::perspective(1.0f, 1.0f, 0.05f, 500.0f);
         view.eye_from_room = glm::lookAt(eye, at, glm::vec3(0.1f, 0.9f, 0.3f));
         Placement placement;
@@ -98,7 +98,7 @@ class Popping : public GlTest {
         return changes;
     }
 
-    RenderTarget target_{gl_, {kSize, kSize}};
+    RenderTarget target_{gl_, {kPictureSize, kPictureSize}};
     CellPass pass_{gl_};
 };
 

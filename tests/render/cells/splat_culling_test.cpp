@@ -7,7 +7,7 @@
 namespace isochron::render {
 namespace {
 
-constexpr float kRadius = 0.5f * FootprintShapes{}.gaussian_diameter;
+constexpr float kSplatRadius = 0.5f * FootprintShapes{}.gaussian_diameter;
 constexpr float kFalloff = -5.9f; ///< about that of the standard splats
 
 class SeenSplatsPictures : public HiddenCellsTest {
@@ -120,8 +120,8 @@ TEST(SeenSplats, OfAClosedShellAreLittleMoreThanItsNearHalf) {
     const Shell shell;
     SeenSplats seen;
     index::on_every_simd_target([&] {
-        const auto found = seen.find(shell.volume.view, shell.volume.placement, kRadius, kFalloff,
-                                     shell.slots.places, shell.order);
+        const auto found = seen.find(shell.volume.view, shell.volume.placement, kSplatRadius,
+                                     kFalloff, shell.slots.places, shell.order);
         const double share = double(found.size()) / double(shell.order.size());
         EXPECT_GT(share, 0.4);
         EXPECT_LT(share, 0.75);
@@ -134,7 +134,7 @@ TEST(SeenSplats, AreNotBesideOrBehindTheView) {
     shell.volume.placement.room_from_index = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 3)) *
                                              shell.volume.placement.room_from_index;
     SeenSplats seen;
-    const auto found = seen.find(shell.volume.view, shell.volume.placement, kRadius, kFalloff,
+    const auto found = seen.find(shell.volume.view, shell.volume.placement, kSplatRadius, kFalloff,
                                  shell.slots.places, shell.order);
     EXPECT_GT(found.size(), shell.order.size() / 100);
     EXPECT_LT(found.size(), shell.order.size() / 4);
@@ -143,7 +143,7 @@ TEST(SeenSplats, AreNotBesideOrBehindTheView) {
 TEST(SeenSplats, ComeInTheOrderOfAll) {
     const Shell shell;
     SeenSplats seen;
-    const auto found = seen.find(shell.volume.view, shell.volume.placement, kRadius, kFalloff,
+    const auto found = seen.find(shell.volume.view, shell.volume.placement, kSplatRadius, kFalloff,
                                  shell.slots.places, shell.order);
     std::vector<std::uint32_t> rest = shell.order;
     std::erase_if(rest, [&](std::uint32_t slot) {
@@ -155,8 +155,8 @@ TEST(SeenSplats, ComeInTheOrderOfAll) {
 TEST(SeenSplats, OfNoneAreNone) {
     const Shell shell;
     SeenSplats seen;
-    EXPECT_TRUE(
-        seen.find(shell.volume.view, shell.volume.placement, kRadius, kFalloff, {}, {}).empty());
+    EXPECT_TRUE(seen.find(shell.volume.view, shell.volume.placement, kSplatRadius, kFalloff, {}, {})
+                    .empty());
 }
 
 } // namespace

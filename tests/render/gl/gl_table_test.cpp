@@ -1,5 +1,6 @@
 // The table of entry points, its owners of objects, and shaders that must compile.
 #include "render/gl/shader.h"
+#include "stereo/multiplex.h"
 #include "tests/support/gl_test.h"
 
 #include <cstring>
@@ -60,7 +61,7 @@ TEST_P(Shaders, EveryFileCompilesAndLinksAloneOrWithOneOfTheOtherStage) {
                 other.name.ends_with(".frag") == file.name.ends_with(".frag"))
                 continue;
             try {
-                link_program(gl_, {file, other});
+                link_program(gl_, {file, other}, stereo::Multiplex::shader_prelude());
                 linked = true;
             } catch (const Error& error) {
                 complaints += std::string(error.what()) + '\n';

@@ -1,5 +1,6 @@
 // The shader files that are part of the library.
 #include "render/gl/shader.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace {
 TEST(ShaderFiles, EveryFileInTheFolderIsEmbeddedAsItIs) {
     std::size_t files = 0;
     for (const auto& entry :
-         std::filesystem::directory_iterator(std::string(SOURCE_ROOT) + "/render/shaders")) {
+         std::filesystem::directory_iterator(test_support::source_root() + "/render/shaders")) {
         ++files;
         std::ifstream file(entry.path(), std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(file), {}};

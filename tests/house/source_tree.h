@@ -9,6 +9,7 @@ namespace isochron::house {
 
 inline constexpr const char* kFloors[]{"index", "interaction", "render", "stereo", "app"};
 
+/// The tree that these tests are part of.
 std::filesystem::path checkout();
 
 struct Include {

@@ -220,7 +220,8 @@ void run_verify(const std::filesystem::path&) {}
 
 void frame_quality_example(FrameQuality& quality, FrameLog& log, const ExplorerState& state,
                            bool changed, render::Footprint best, FrameReport& report,
-                           std::span<const render::View> views, Milliseconds processor_time) {
+                           std::span<const render::View> views, const DrawLoad& of_cell,
+                           Milliseconds processor_time) {
 #include "app/frame/frame_quality.example"
 }
 

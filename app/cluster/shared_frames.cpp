@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace isochron::app {
 
@@ -12,14 +13,19 @@ void SharedFrames::tell(const MessageBytes& bytes) {
     cluster_.tell(std::as_bytes(std::span(bytes)));
 }
 
-void SharedFrames::begin(const interaction::InputState& input,
-                         const interaction::Commands& commands, Waiting waiting,
-                         const interaction::InputState& latched) {
-    std::vector<CellProgress> progress(size());
+Latch SharedFrames::begin(const interaction::InputState& input,
+                          const interaction::Commands& commands, Waiting waiting,
+                          const Latch& latch, const stereo::Installation& installation) {
+    if (!leads())
+        return latch;
+    auto newest = latch ? latch() : interaction::InputState{input.time, {}};
+    std::vector<CellProgress> progress(cluster_.size());
     std::ranges::transform(answers_, progress.begin(), &FrameAnswer::cells);
-    const FrameOrder order{input, commands, waiting, agreement_.decide(progress), latched};
+    const FrameOrder order{input, commands, waiting, agreement_.decide(progress),
+                           viewers_heads(newest, installation)};
     tell(encoded(order));
     cells_.obey(order.cells);
+    return [newest = std::move(newest)] { return newest; };
 }
 
 std::optional<FrameOrder> SharedFrames::next() {
@@ -29,6 +35,26 @@ std::optional<FrameOrder> SharedFrames::next() {
     return order;
 }
 
+void SharedFrames::end() {
+    if (leads())
+        tell(encoded_end());
+}
+
+index::SurfacesQuery SharedFrames::ask(index::SurfacesQuery wanted, Waiting waiting) {
+    return waiting == Waiting::never ? cells_.ask(wanted) : wanted;
+}
+
+CellsInFrame SharedFrames::cells(const index::Extractor& extractor,
+                                 const index::ExtractionPtr& shown, Waiting waiting) {
+    if (waiting == Waiting::for_cells)
+        return {extractor.newest(), nullptr};
+    cells_.look_at(extractor);
+    CellsInFrame cells{std::nullopt, cells_.to_stage()};
+    if (cells_.to_show() != shown)
+        cells.show = cells_.to_show();
+    return cells;
+}
+
 FrameChoice SharedFrames::agree(const FrameChoice& mine) {
     if (!leads())
         return decode_choice(cluster_.hear());
@@ -36,9 +62,11 @@ FrameChoice SharedFrames::agree(const FrameChoice& mine) {
     return mine;
 }
 
-void SharedFrames::swap_barrier(FrameAnswer mine) {
-    mine.cells = cells_.progress();
-    const MessageBytes bytes = encoded(mine);
+void SharedFrames::swap_barrier(const std::function<FrameAnswer()>& mine) {
+    FrameAnswer told = mine();
+    told.cells = cells_.progress();
+    told.samples = std::exchange(samples_, {});
+    const MessageBytes bytes = encoded(told);
     answers_.clear();
     for (const auto& answer : cluster_.gather(std::as_bytes(std::span(bytes))))
         answers_.push_back(decode_answer(answer));
@@ -48,7 +76,7 @@ bool SharedFrames::close_wanted() const {
     return std::ranges::any_of(answers_, &FrameAnswer::close);
 }
 
-std::string SharedFrames::failure() const {
+std::string SharedFrames::failure(const index::Extractor&) const {
     for (unsigned each = 0; each < answers_.size(); ++each)
         if (!answers_[each].failure.empty())
             return each == 0
@@ -57,7 +85,11 @@ std::string SharedFrames::failure() const {
     return {};
 }
 
-DrawLoad SharedFrames::view() const {
+bool SharedFrames::has_no_answer(const index::Extractor& extractor) const {
+    return !failure(extractor).empty();
+}
+
+DrawLoad SharedFrames::largest(const DrawLoad&) const {
     DrawLoad most;
     for (const FrameAnswer& answer : answers_) {
         most.cells = std::max(most.cells, answer.view.cells);
@@ -73,27 +105,31 @@ std::uint64_t SharedFrames::surface_limit() const {
     return least;
 }
 
-std::vector<DrawSample> SharedFrames::samples() {
+void SharedFrames::take_note_of(const DrawSample& sample) {
+    auto known =
+        std::ranges::find(sampled_, sample.frame, [](const Sampled& s) { return s.slowest.frame; });
+    if (known == sampled_.end())
+        known = sampled_.insert(known, {sample, 0});
+    ++known->told;
+    DrawSample& slowest = known->slowest;
+    const DrawLoad load{std::max(slowest.load.cells, sample.load.cells),
+                        std::max(slowest.load.pixels, sample.load.pixels)};
+    if (sample.cost() > slowest.cost())
+        slowest = sample;
+    slowest.load = load;
+}
+
+std::vector<DrawSample> SharedFrames::samples(std::vector<DrawSample> mine) {
     constexpr std::size_t kWaiting = 64; // frames; later a frame was not drawn by all
+    samples_ = std::move(mine);
     for (const FrameAnswer& answer : answers_)
-        for (const DrawSample& sample : answer.samples) {
-            auto known = std::ranges::find(sampled_, sample.frame,
-                                           [](const Sampled& s) { return s.slowest.frame; });
-            if (known == sampled_.end())
-                known = sampled_.insert(known, {sample, 0});
-            ++known->told;
-            DrawSample& slowest = known->slowest;
-            const DrawLoad load{std::max(slowest.load.cells, sample.load.cells),
-                                std::max(slowest.load.pixels, sample.load.pixels)};
-            if (sample.cost() > slowest.cost())
-                slowest = sample;
-            slowest.load = load;
-        }
+        for (const DrawSample& sample : answer.samples)
+            take_note_of(sample);
     std::vector<DrawSample> complete;
     std::erase_if(sampled_, [&](const Sampled& sampled) {
-        if (sampled.told == size())
+        if (sampled.told == cluster_.size())
             complete.push_back(sampled.slowest);
-        return sampled.told == size();
+        return sampled.told == cluster_.size();
     });
     while (sampled_.size() > kWaiting)
         sampled_.pop_front();

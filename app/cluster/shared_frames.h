@@ -4,7 +4,7 @@
 // footprint, answer how far they are, and show the frame when everybody has answered.
 #pragma once
 
-#include "app/cluster/cluster_messages.h"
+#include "app/cluster/frame_sharing.h"
 #include "stereo/cluster.h"
 
 #include <deque>
@@ -14,40 +14,39 @@
 
 namespace isochron::app {
 
-class SharedFrames {
+class SharedFrames final : public FrameSharing {
   public:
     /// @param cluster outlives this
     explicit SharedFrames(stereo::Cluster& cluster) : cluster_(cluster) {}
 
-    bool leads() const { return cluster_.rank() == 0; }
-    unsigned rank() const { return cluster_.rank(); }
-    unsigned size() const { return cluster_.size(); }
-
+    bool leads() const override { return cluster_.rank() == 0; }
     /// Rank 0 begins a frame, or ends them; the others take part in it, until there are no more.
-    void begin(const interaction::InputState& input, const interaction::Commands& commands,
-               Waiting waiting, const interaction::InputState& latched);
-    void end() { tell(encoded_end()); }
-    std::optional<FrameOrder> next();
+    /// @return on rank 0 the heads that all are told: all walls are seen from the same
+    Latch begin(const interaction::InputState& input, const interaction::Commands& commands,
+                Waiting waiting, const Latch& latch,
+                const stereo::Installation& installation) override;
+    std::optional<FrameOrder> next() override;
+    void end() override;
 
+    /// A live frame asks for what all ask for, and shows what all show; on its way to the GPU is
+    /// what all will show next.
+    index::SurfacesQuery ask(index::SurfacesQuery wanted, Waiting waiting) override;
+    CellsInFrame cells(const index::Extractor& extractor, const index::ExtractionPtr& shown,
+                       Waiting waiting) override;
+    void staged() override { cells_.staged(); }
+    /// With the name of the process; alike in all.
+    std::string failure(const index::Extractor& extractor) const override;
+    bool has_no_answer(const index::Extractor& extractor) const override;
+
+    std::vector<DrawSample> samples(std::vector<DrawSample> mine) override;
+    DrawLoad largest(const DrawLoad& mine) const override;
+    std::uint64_t surface_limit() const override;
     /// What rank 0 chose.
-    /// @param mine counts on rank 0 only
-    FrameChoice agree(const FrameChoice& mine);
+    FrameChoice agree(const FrameChoice& mine) override;
 
-    /// Returns when all have drawn the frame.
-    void swap_barrier(FrameAnswer mine);
-
-    /// Somebody wants to close a window.
-    bool close_wanted() const;
-    /// Why one of them has no cells, with its name; empty when all have them.
-    std::string failure() const;
-    /// Of the process that draws most.
-    DrawLoad view() const;
-    /// Cells that all can draw as exact surfaces.
-    std::uint64_t surface_limit() const;
-    /// Frames of which all have told the times now, each as the slowest took it; in their order.
-    std::vector<DrawSample> samples();
-
-    SharedCells& cells() { return cells_; }
+    /// @param mine cells and samples are filled in here
+    void swap_barrier(const std::function<FrameAnswer()>& mine) override;
+    bool close_wanted() const override;
 
   private:
     /// A frame of which not all have told their times.
@@ -57,11 +56,13 @@ class SharedFrames {
     };
 
     void tell(const MessageBytes& bytes);
+    void take_note_of(const DrawSample& sample);
 
     stereo::Cluster& cluster_;
     CellAgreement agreement_;
     SharedCells cells_;
     std::vector<FrameAnswer> answers_; ///< to the last frame, by rank
+    std::vector<DrawSample> samples_;  ///< of this process, that the others have not been told of
     std::deque<Sampled> sampled_;
 };
 

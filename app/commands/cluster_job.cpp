@@ -1,6 +1,7 @@
 // A command run by all processes of a cluster's job.
 #include "app/commands/cluster_job.h"
 
+#include "app/cluster/shared_frames.h"
 #include "app/commands/subcommands.h"
 #include "app/config/display_config_text.h"
 #include "app/version.h"
@@ -79,12 +80,12 @@ void ClusterJob::require_same(const Facts& facts) {
 
 void ClusterJob::share_frames(Session& session) {
     if (size() > 1)
-        session.join(frames_);
+        session.share_frames(std::make_unique<SharedFrames>(cluster_));
 }
 
 void ClusterJob::follow(Session& session, const FrameDone& done) {
-    for (std::size_t number = 0; auto order = frames_.next(); ++number) {
-        session.windows().poll_events();
+    for (std::size_t number = 0; auto order = session.frames().next(); ++number) {
+        session.outputs().windows().poll_events();
         session.frame(
             order->input, order->commands, order->waiting,
             order->latched.devices.empty() ? Latch{} : [&order] { return order->latched; });
@@ -95,11 +96,6 @@ void ClusterJob::follow(Session& session, const FrameDone& done) {
                           {},
                           std::move(order->latched)});
     }
-}
-
-void ClusterJob::end_frames() {
-    if (leads())
-        frames_.end();
 }
 
 void ClusterJob::finish() {

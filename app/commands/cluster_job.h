@@ -10,7 +10,6 @@
 // A process that was started without mpirun is a job of one, for which none of this does anything.
 #pragma once
 
-#include "app/cluster/shared_frames.h"
 #include "app/session/replay.h"
 #include "app/session/session.h"
 #include "stereo/cluster.h"
@@ -27,7 +26,7 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 
 class ClusterJob {
   public:
-    explicit ClusterJob(stereo::Cluster& cluster) : cluster_(cluster), frames_(cluster) {}
+    explicit ClusterJob(stereo::Cluster& cluster) : cluster_(cluster) {}
 
     bool leads() const { return cluster_.rank() == 0; }
     int rank() const { return static_cast<int>(cluster_.rank()); }
@@ -41,12 +40,11 @@ class ClusterJob {
     void require_same(const Facts& facts);
     void set_limits(const stereo::ClusterLimits& limits) { cluster_.set_limits(limits); }
 
-    /// Shares the session's frames among the processes. With one process there is nothing to share.
+    /// Shares the session's frames among the processes; the job outlives the session. With one
+    /// process there is nothing to share.
     void share_frames(Session& session);
     /// Takes part in the frames of rank 0 until it ends them.
     void follow(Session& session, const FrameDone& done = {});
-    /// Ends the frames, on rank 0.
-    void end_frames();
 
     /// Returns when all have come so far: then they may leave.
     void finish();
@@ -59,7 +57,6 @@ class ClusterJob {
 
   private:
     stereo::Cluster& cluster_;
-    SharedFrames frames_;
     bool over_ = false;
 };
 

@@ -5,10 +5,7 @@
 #include "app/config/check_config.h"
 #include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
-#include "app/frame/pacer.h"
-#include "app/session/headset_loop.h"
-#include "app/session/pattern_show.h"
-#include "app/session/session.h"
+#include "app/session/live_loop.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
@@ -22,8 +19,6 @@
 
 namespace isochron::app {
 namespace {
-
-using interaction::Seconds;
 
 struct ExploreOptions {
     std::optional<std::string> data;
@@ -86,9 +81,9 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
     header.program = kProgram;
     header.configuration = config.text;
     header.data = std::filesystem::absolute(path).string();
-    const glm::ivec2 window = session.windows()[0].framebuffer_size();
+    const glm::ivec2 window = session.outputs().windows()[0].framebuffer_size();
     // An emulated installation is as large as configured.
-    if (!session.windows().room() && session.windows().number(0) == 0)
+    if (!session.outputs().windows().room() && session.outputs().windows().number(0) == 0)
         header.window = {window.x, window.y};
     header.data_hash = fmt::format("{:016x}", file.content_hash());
     header.start = session.state().as_commands();
@@ -110,17 +105,6 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
         interaction::read_recording(*options.record); // only a recording may be replaced by one
     if (options.report)
         index::NewFile{*options.report};
-}
-
-interaction::InputState poll_devices(interaction::CompositeInput& trackers,
-                                     interaction::DesktopEmulation& emulation,
-                                     const RoomCamera& camera, const ExploreOptions& options,
-                                     Seconds now) {
-    // What is tracked goes before what mouse and keyboard emulate.
-    interaction::InputState input = interaction::merged(trackers.poll(now), emulation.poll(now));
-    if (options.emulate)
-        input.devices.push_back({.name = kRoomCamera, .pose = camera.pose(), .valuators = {}});
-    return input;
 }
 
 /// @param headset that the first window mirrors: it paces the frames, not that window's display
@@ -156,6 +140,18 @@ void warn(const Config& config) {
         fmt::print(stderr, "isochron: warning: {}\n", warning);
 }
 
+LiveOptions live_options(const ExploreOptions& options) {
+    LiveOptions live{.emulated = options.emulate, .length = std::nullopt};
+    if (options.seconds)
+        live.length = interaction::Seconds(*options.seconds);
+    return live;
+}
+
+void print_status(const LiveLoop& live) {
+    for (const std::string& line : live.status())
+        fmt::print(stderr, "{}\n", line);
+}
+
 /// Devices and windows as in a session, the pattern in the place of data.
 void show_test_pattern(const ExploreOptions& options, const ClusterJob& job) {
     if (options.record || options.report)
@@ -169,26 +165,9 @@ void show_test_pattern(const ExploreOptions& options, const ClusterJob& job) {
     PatternShow show(config, open(options, config, job, nullptr));
     if (options.stereo)
         show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
-    interaction::DesktopEmulation emulation(emulation_for(config));
-    RoomCamera camera(config.installation);
-    Pacer pacer(config.frame_rate_limit);
-    const auto clock = [start = std::chrono::steady_clock::now()] {
-        return Seconds(std::chrono::steady_clock::now() - start);
-    };
-    for (bool running = true; running && !show.windows().should_close();) {
-        const auto events = show.windows().poll_events();
-        emulation.feed(options.emulate ? camera.feed(events) : events);
-        const Seconds now = clock();
-        const interaction::InputState input =
-            poll_devices(trackers, emulation, camera, options, now);
-        const interaction::Commands commands = show.commands_from(input);
-        show.obey(commands);
-        show.frame(input, [&] { return trackers.latch(clock()); });
-        running = !commands.quit && !(options.seconds && now.count() >= *options.seconds);
-        pacer.wait();
-    }
-    for (const std::string& line : trackers.status())
-        fmt::print(stderr, "{}\n", line);
+    LiveLoop live(config, std::move(trackers), live_options(options));
+    live.run(show);
+    print_status(live);
 }
 
 /// Says what a configuration holds. @return whether that was all that was asked for
@@ -235,74 +214,31 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         stereo::Windows windows = open(options, config, job, headset.get());
         opened.emplace(config, file, std::move(windows), index::Extract(), std::move(headset));
         opened->set_state(start_from(opened->state(), options, file->info().steps()));
-        opened->set_screenshots(options.screenshots);
+        opened->outputs().set_screenshots(options.screenshots);
         if (config.cluster.swap_group && job.size() > 1)
-            stereo::join_swap_group(opened->windows());
+            stereo::join_swap_group(opened->outputs().windows());
     });
     Session& session = *opened;
     job.require_same(start_fact(session));
     job.share_frames(session);
-    HeadsetLoop in_headset(session.headset());
-    const stereo::Windows& windows = session.windows();
-    // The writer lives on the thread that writes: a slow disk delays the recording, not the
-    // picture.
-    BackgroundWork recording;
-    std::shared_ptr<interaction::RecordingWriter> recorder;
-    if (options.record && job.leads()) {
-        recorder = std::make_shared<interaction::RecordingWriter>(
-            *options.record, header_of(session, config, *file, *options.data));
-        session.set_recording(true);
-    }
-
-    interaction::DesktopEmulation emulation(emulation_for(config));
-    RoomCamera camera(config.installation);
-    Pacer pacer(config.frame_rate_limit);
-    const auto clock = [start = std::chrono::steady_clock::now()] {
-        return Seconds(std::chrono::steady_clock::now() - start);
-    };
-    session.set_clock(clock);
-    if (!job.leads())
+    LiveLoop live(config, std::move(trackers), live_options(options), session.outputs().headset());
+    session.set_clock(live.clock());
+    if (job.leads()) {
+        if (options.record) {
+            live.record(*options.record, header_of(session, config, *file, *options.data));
+            session.set_recording(true);
+        }
+        live.run(session);
+    } else {
         job.follow(session);
-    for (bool running = job.leads(); running && !session.should_close();) {
-        const auto events = session.panel_events(windows.poll_events());
-        if (config.devices.empty() && !session.headset()) // a tracked wand points by itself
-            emulation.set_panel(session.state().room_panel, session.room_panel_size());
-        emulation.feed(options.emulate ? camera.feed(events) : events);
-        const bool paced = in_headset.begin_frame(clock());
-        const Seconds now = clock();
-        const interaction::InputState input =
-            in_headset.with_devices(poll_devices(trackers, emulation, camera, options, now), now);
-        interaction::Commands commands = session.commands_from(input);
-        const interaction::Commands from_panel = session.take_panel_commands();
-        interaction::merge(commands, from_panel);
-        in_headset.feel(commands.haptics);
-        const FrameReport& drawn =
-            session.frame(input, commands, Waiting::never, [&] { return trackers.latch(clock()); });
-        if (recorder)
-            recording.post([recorder, frame = interaction::RecordedFrame{
-                                          input, commands, from_panel, name_of(drawn.footprint),
-                                          session.latched()}] {
-                recorder->append(frame);
-                return std::string();
-            });
-        session.show_messages(recording.messages());
-        running = !commands.quit && !in_headset.ended() &&
-                  !(options.seconds && now.count() >= *options.seconds);
-        if (!paced)
-            pacer.wait();
     }
-    in_headset.leave();
-    job.end_frames();
-    recording.finish();
-    if (recorder)
-        recorder->finish();
-    session.pictures().finish();
-    for (const std::string& line : trackers.status())
-        fmt::print(stderr, "{}\n", line);
-    for (const std::string& line : in_headset.status())
-        fmt::print(stderr, "{}\n", line);
+    session.frames().end();
+    live.finish();
+    session.outputs().pictures().finish();
+    print_status(live);
     if (options.report)
-        session.log().write(job.own_file(*options.report), windows.drawing().description());
+        session.log().write(job.own_file(*options.report),
+                            session.outputs().windows().drawing().description());
     job.finish();
 }
 

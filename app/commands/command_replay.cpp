@@ -73,15 +73,13 @@ std::shared_ptr<const index::IndexFile> open_data(const Options& options,
 }
 
 /// Writes the pictures of one frame under names that start with `stem`, and notes which.
-/// @tparam Show a session, or a show of the test pattern
-template <class Show>
-void write_pictures(Show& session, const Options& options, const PictureNames& names,
+void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
                     const std::string& stem, std::vector<fs::path>& written) {
     const fs::path folder = *options.out;
     const auto write = [&](render::Image image, const std::string& suffix) {
-        session.pictures().wait_for_room();
+        outputs.pictures().wait_for_room();
         written.push_back(folder / fmt::format("{}{}.{}", stem, suffix, options.format));
-        session.write_image(std::move(image), written.back());
+        outputs.write_image(std::move(image), written.back());
     };
     const auto write_eyes = [&](const stereo::Display& display, const PictureNames::Window& named) {
         for (std::size_t i = 0; i < named.viewports.size(); ++i)
@@ -89,10 +87,10 @@ void write_pictures(Show& session, const Options& options, const PictureNames& n
                 write(display.read_eye(eye, i),
                       fmt::format("{}_{}", named.viewports[i], name_of(eye)));
     };
-    if (session.room())
-        return write(session.kept_pictures().of_room(), "");
-    session.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
-        const std::size_t number = session.windows().number(i);
+    if (outputs.room())
+        return write(outputs.kept_pictures().of_room(), "");
+    outputs.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
+        const std::size_t number = outputs.windows().number(i);
         if (number >= names.windows.size()) // the operator's window is no wall
             return;
         const PictureNames::Window& named = names.windows[number];
@@ -156,15 +154,14 @@ stereo::Windows open(const Options& options, const Config& config,
 }
 
 /// Of one frame, where the options ask for them.
-template <class Show>
-void write_pictures(Show& show, const Options& options, const PictureNames& names,
+void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
                     std::size_t number, const interaction::RecordedFrame& frame,
                     std::vector<fs::path>& written) {
     if (options.every > 0 && number % options.every == 0)
-        write_pictures(show, options, names, fmt::format("frame_{:05}", number), written);
+        write_pictures(outputs, options, names, fmt::format("frame_{:05}", number), written);
     if (options.stamps)
         for (const std::string& stamp : frame.commands.stamps)
-            write_pictures(show, options, names,
+            write_pictures(outputs, options, names,
                            fmt::format("stamp_{:05}_{}", number, file_name(stamp)), written);
 }
 
@@ -187,9 +184,9 @@ void replay_test_pattern(const Options& options, const ClusterJob& job) {
         if (options.stereo)
             show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
         show.frame(frame.input, [&frame] { return frame.latched; });
-        write_pictures(show, options, names, number, frame, written);
+        write_pictures(show.outputs(), options, names, number, frame, written);
     }
-    show.pictures().finish();
+    show.outputs().pictures().finish();
     for (const fs::path& path : written)
         fmt::print("wrote {}\n", path.string());
 }
@@ -239,7 +236,7 @@ std::vector<std::string> show(Session& session, const Prepared& all, bool live, 
                                   bar.show("replaying", static_cast<double>(number + 1) / frames);
                               });
     }
-    job.end_frames();
+    session.frames().end();
     return different;
 }
 
@@ -265,19 +262,20 @@ void replay(const Options& options, ClusterJob& job) {
 
     std::vector<fs::path> written;
     const auto done = [&](std::size_t number, const interaction::RecordedFrame& frame) {
-        write_pictures(session, options, all.names, number, frame, written);
+        write_pictures(session.outputs(), options, all.names, number, frame, written);
     };
     const std::vector<std::string> different = show(session, all, options.live, job, done);
-    session.pictures().finish();
+    session.outputs().pictures().finish();
     for (const fs::path& path : written)
         fmt::print("wrote {}\n", path.string());
     if (options.report)
         session.log().write(job.own_file(*options.report),
-                            session.windows().drawing().description());
+                            session.outputs().windows().drawing().description());
     job.finish();
     if (!job.leads())
         return;
-    fmt::print("{}\n{}", session.windows().drawing().description(), session.log().table());
+    fmt::print("{}\n{}", session.outputs().windows().drawing().description(),
+               session.log().table());
     if (options.from_devices && report_differences(different, all.recording.frames.size()) != 0)
         throw interaction::Error(options.recording +
                                  ": the devices no longer lead to its commands");

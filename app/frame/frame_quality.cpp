@@ -52,8 +52,7 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
         input.settled = std::min(*settled_, best);
     if (how == Choosing::by_pace)
         input.settled = input.settled.value_or(best);
-    const DrawLoad each = charged_.value_or(view());
-    input.load = {static_cast<double>(report.cells) * each.cells, each.pixels};
+    input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
     QualityController& controller = still ? still_ : steady_;
     const QualityChoice choice = controller.choose(input);
     report.footprint = choice.footprint;
@@ -66,17 +65,13 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
 }
 
 void FrameQuality::begin(std::uint64_t frame) {
-    views_ = pixels_ = 0;
     meter_.begin(frame);
 }
 
-void FrameQuality::viewed(const render::View& view) {
-    ++views_;
-    pixels_ += static_cast<double>(view.size.x) * static_cast<double>(view.size.y);
-}
-
-void FrameQuality::end(const FrameReport& report, Milliseconds processor) {
-    meter_.end(report.footprint, {static_cast<double>(report.cells) * views_, pixels_}, processor);
+void FrameQuality::end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor) {
+    view_ = of_cell;
+    meter_.end(report.footprint, {static_cast<double>(report.cells) * view_.cells, view_.pixels},
+               processor);
 }
 
 unsigned FrameQuality::missed(interaction::Seconds between) const {

@@ -1,13 +1,11 @@
 // The quality of a session's frames: budgets, measurement and choice brought together.
 //
 //     quality.learn(quality.collect(log));                  // every frame
+//     quality.charge(quality.view());
 //     if (quality.choose(state, changed, Choosing::by_measurement, best, report) || changed) {
 //         quality.begin(log.next());
-//         for (const render::View& view : views) {
-//             draw(view, report.footprint);
-//             quality.viewed(view);
-//         }
-//         quality.end(report, processor_time);
+//         draw(views, report.footprint);
+//         quality.end(report, of_cell, processor_time);
 //     }
 #pragma once
 
@@ -16,7 +14,6 @@
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "app/frame/quality_controller.h"
-#include "render/gl/view.h"
 
 #include <optional>
 #include <span>
@@ -45,9 +42,10 @@ class FrameQuality {
     void learn(std::span<const DrawSample> samples);
 
     /// What drawing one cell in every view of the last frame comes to.
-    DrawLoad view() const { return {views_, pixels_}; }
-    /// Other processes draw with the same footprint: from now on this is their slowest one's.
-    void charge(const DrawLoad& view) { charged_ = view; }
+    const DrawLoad& view() const { return view_; }
+    /// What the next choice counts on for that: all processes draw with the same footprint, so
+    /// it is that of the one that draws most.
+    void charge(const DrawLoad& of_cell) { charged_ = of_cell; }
 
     /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
     /// and with its cells.
@@ -58,9 +56,9 @@ class FrameQuality {
 
     /// Between these two, the frame is drawn.
     void begin(std::uint64_t frame);
-    void viewed(const render::View& view);
+    /// @param of_cell what one cell in every view came to
     /// @param processor time of giving the commands, with the upload
-    void end(const FrameReport& report, Milliseconds processor);
+    void end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor);
 
     /// Refreshes of the display that passed without a new frame in the time between two frames.
     unsigned missed(interaction::Seconds between) const;
@@ -71,8 +69,8 @@ class FrameQuality {
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
     DrawMeter meter_;
-    double views_ = 0, pixels_ = 0; ///< of the frame drawn last
-    std::optional<DrawLoad> charged_;
+    DrawLoad view_; ///< of one cell in the frame drawn last
+    DrawLoad charged_;
 };
 
 } // namespace isochron::app

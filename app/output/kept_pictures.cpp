@@ -19,7 +19,7 @@ void KeptPictures::each(const TakePicture& take) const {
             continue;
         }
         stereo::Display picture(gl, windows.drawing(), windows[i], shown[i].window(), options(i));
-        draw(picture, i);
+        draw(picture);
         take(i, picture);
     }
 }
@@ -27,8 +27,7 @@ void KeptPictures::each(const TakePicture& take) const {
 render::Image KeptPictures::of_room() const {
     std::deque<stereo::Display> walls;
     for (std::size_t i = 0; i < shown.size(); ++i)
-        draw(walls.emplace_back(gl, windows.drawing(), windows[i], shown[i].window(), options(i)),
-             i);
+        draw(walls.emplace_back(gl, windows.drawing(), windows[i], shown[i].window(), options(i)));
     return room->picture(walls, picture_options(gl, config, room->size()).samples);
 }
 

@@ -1,10 +1,9 @@
 // Pictures to keep, drawn apart from those on the displays: nobody waits for them, so they have
 // more samples.
 //
-//     const KeptPictures kept{gl, windows, config, displays, room,
-//                             [&](stereo::Display& display, std::size_t window) {
-//                                 display.draw(viewers, modes[window], scene);
-//                             }};
+//     const KeptPictures kept{gl, windows, config, displays, room, [&](auto& display) {
+//         display.draw(viewers, mode, scene);
+//     }};
 //     kept.each([&](std::size_t window, const stereo::Display& display) {
 //         write(display.read_window());
 //     });
@@ -35,7 +34,7 @@ struct KeptPictures {
     std::deque<stereo::Display>& shown; ///< by window; they serve if they have as many samples
     std::optional<RoomView>& room;      ///< of an emulated installation
     /// Draws a window once more as it was drawn last.
-    std::function<void(stereo::Display& display, std::size_t window)> draw;
+    std::function<void(stereo::Display& display)> draw;
 
     void each(const TakePicture& take) const;
     /// The room, with its walls. There must be one.

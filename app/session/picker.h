@@ -1,8 +1,8 @@
 // Picking with the wand: the surface where it points, and the data at its tip.
 #pragma once
 
+#include "app/frame/background_work.h"
 #include "app/frame/explorer_state.h"
-#include "app/session/background_work.h"
 #include "index/extraction/extraction.h"
 #include "index/file/index_file.h"
 #include "interaction/tracked_input.h"

@@ -71,7 +71,7 @@ void replay_live(Session& session, const interaction::Recording& recording,
     session.set_clock(clock);
     interaction::ReplayInput devices(recording);
     while (!devices.finished() && !session.should_close()) {
-        session.windows().poll_events();
+        session.outputs().windows().poll_events();
         const interaction::Seconds now = clock();
         Commands commands;
         std::size_t next = devices.frames_played();

@@ -1,6 +1,7 @@
 // One session: the data, the worker, the eyes, and the story of one frame.
 #include "app/session/session.h"
 
+#include "app/session/start_state.h"
 #include "interaction/navigator.h"
 
 #include <chrono>
@@ -25,64 +26,30 @@ class StopWatch {
     Clock::time_point last_ = Clock::now();
 };
 
-std::vector<interaction::Isosurface> first_surfaces(const Config& config,
-                                                    const index::IndexStats& stats) {
-    std::vector<interaction::Isosurface> surfaces;
-    for (const ConfiguredSurface& surface : config.surfaces)
-        surfaces.push_back({surface.isovalue.value_or(quantile(stats, surface.quantile)),
-                            surface.color, surface.opacity});
-    if (surfaces.empty())
-        surfaces.push_back({quantile(stats, kFirstQuantile), config.surface_color, 1.0f});
-    return surfaces;
-}
-
-ExplorerState start_state(const Config& config, const index::IndexFile& file) {
-    ExplorerState state;
-    state.room_from_physical = place(file.info(), config.placement);
-    state.quality = config.quality;
-    state.grid = config.grid;
-    state.eye_separation = config.installation.viewers.front().eye_separation;
-    state.isosurfaces = first_surfaces(config, file.stats());
-    state.coloring = config.coloring;
-    state.bounding_box = config.bounding_box;
-    const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
-    state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};
-    state.stereo = config.installation.windows.front().stereo;
-    return state;
-}
-
 } // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                  stereo::Windows windows, index::Extract extract,
                  std::unique_ptr<stereo::Headset> headset)
-    : config_(std::move(config)), file_(std::move(file)), windows_(std::move(windows)),
-      gl_(windows_.drawing().loader()), state_(start_state(config_, *file_)), home_(state_),
-      gate_(config_.stillness), comfort_(config_.comfort),
+    : config_(std::move(config)), file_(std::move(file)),
+      outputs_(config_, std::move(windows), std::move(headset)),
+      state_(start_state(config_, *file_)), home_(state_), gate_(config_.stillness),
+      comfort_(config_.comfort),
       extractor_(extract ? std::move(extract)
                          : index::extract_from(file_, std::nullopt,
-                                               render::CellBuffers::wanted_shading(gl_))),
-      scene_(gl_, file_->info(), config_),
-      displays_(headset ? std::deque<stereo::Display>() : make_displays(gl_, windows_, config_)),
-      headset_(std::move(headset)), panel_(gl_), room_panel_(gl_, config_.panel), picker_(file_),
-      stereo_modes_(live_stereo_modes(windows_)),
+                                               render::CellBuffers::wanted_shading(outputs_.gl()))),
+      scene_(outputs_.gl(), file_->info(), config_), panel_(outputs_.gl(), outputs_.windows()),
+      room_panel_(outputs_.gl(), config_.panel), picker_(file_),
       // A headset has its own rate, which the configuration tells.
-      quality_(gl_, config_, headset_ ? std::nullopt : windows_.first().refresh_rate()) {
-    if (headset_) {
-        headset_display_.emplace(gl_, windows_.drawing(), windows_[0], config_.openxr.mirror,
-                                 display_options(gl_, config_));
-        headset_->attach(windows_.drawing(), gl_);
-    }
-    if (windows_.room())
-        room_.emplace(gl_, *windows_.room(), config_.installation);
-    picture_options(gl_, config_, {1, 1}); // wrong ones are told now, not when the first is taken
-    if (windows_.console())
-        console_.emplace(gl_, windows_.drawing(), *windows_.console());
+      quality_(outputs_.gl(), config_,
+               outputs_.headset() ? std::nullopt : outputs_.windows().first().refresh_rate()) {}
+
+bool Session::should_close() const {
+    return outputs_.windows().should_close() || frames_->close_wanted();
 }
 
-Session::~Session() {
-    if (headset_)
-        headset_->detach();
+std::string Session::failure() const {
+    return frames_->failure(extractor_);
 }
 
 interaction::ControlContext Session::control_context() const {
@@ -109,7 +76,7 @@ interaction::ControlContext Session::control_context() const {
     context.panel_distance = room_panel_.distance();
     context.grid = state_.grid;
     context.views = &state_.views;
-    context.stereo_modes = &stereo_modes_;
+    context.stereo_modes = &outputs_.stereo_modes();
     return context;
 }
 
@@ -124,9 +91,7 @@ Commands Session::commands_from(const interaction::InputState& input) {
 }
 
 void Session::request_cells(Waiting waiting) {
-    index::Request request{state_.surfaces(), std::nullopt};
-    if (shared_ && waiting == Waiting::never)
-        request.query = shared_->cells().ask(request.query);
+    index::Request request{frames_->ask(state_.surfaces(), waiting), std::nullopt};
     const auto steps = static_cast<std::uint32_t>(file_->info().steps());
     if (state_.playback.playing && steps > 1)
         request.next_step =
@@ -141,16 +106,16 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
         extractor_.wait();
         report.wait = watch.lap();
     }
-    const index::ExtractionPtr newest = extractor_.newest();
+    const CellsInFrame cells = frames_->cells(extractor_, scene_.shown(), waiting);
     const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
     const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
-    if (shared_ && waiting == Waiting::never)
-        show_shared_cells();
-    else
-        scene_.upload(newest, volume);
+    if (cells.show)
+        scene_.upload(*cells.show, volume);
     // A replay shows what was asked for, however many upload budgets that takes.
-    while (waiting == Waiting::for_cells && newest && scene_.shown() != newest)
-        scene_.upload(newest);
+    while (waiting == Waiting::for_cells && *cells.show && scene_.shown() != *cells.show)
+        scene_.upload(*cells.show);
+    if (cells.stage && scene_.stage(cells.stage))
+        frames_->staged();
     if (!scene_.has_volume()) // the picture has not come to rest
         report.pace = interaction::Pace::moving;
     report.upload = watch.lap();
@@ -163,13 +128,6 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
         report.search = shown->search_time();
         report.gather = shown->gather_time;
     }
-}
-
-std::vector<glm::ivec2> Session::window_sizes() const {
-    std::vector<glm::ivec2> sizes;
-    for (std::size_t i = 0; i < windows_.count(); ++i)
-        sizes.push_back(windows_[i].framebuffer_size());
-    return sizes;
 }
 
 /// Nothing as long as the cells that are drawn are not colored by what they are to be: their
@@ -185,22 +143,22 @@ std::optional<ColorScale> Session::shown_scale() const {
 Session::Picture Session::picture(const interaction::InputState& input,
                                   const FrameReport& report) const {
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
-    return {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
-            .eyes = headset_ ? headset_->eyes() : std::vector<stereo::HeadsetEye>(),
-            .wand = wand ? wand->pose : std::nullopt,
-            .panel = room_panel_.shown(state_.room_panel),
+    return {.audience = {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
+                         .eyes = outputs_.headset_eyes(),
+                         .wand = wand ? wand->pose : std::nullopt,
+                         .panel = room_panel_.shown(state_.room_panel),
+                         .stereo = state_.stereo},
             .mark = state_.mark,
             .guides = {state_.grid, interaction::teleport_target(input)},
             .veil = {static_cast<float>(report.comfort.fade),
                      static_cast<float>(report.comfort.vignette)},
             .room_from_physical = state_.room_from_physical,
-            .stereo = state_.stereo,
             .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
             .cells = scene_.shown(),
             .isosurfaces = state_.isosurfaces,
             .scale = shown_scale(),
             .bounding_box = state_.bounding_box,
-            .windows = window_sizes()};
+            .windows = outputs_.window_sizes()};
 }
 
 /// The devices that the views are made of, asked for as late as can be.
@@ -214,6 +172,22 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
     return seen;
 }
 
+/// The slowest process counts: all draw with one footprint.
+void Session::learn_costs() {
+    quality_.learn(frames_->samples(quality_.collect(log_)));
+    quality_.charge(frames_->largest(quality_.view()));
+}
+
+/// The leader's choice counts. @return whether it wants this frame measured
+bool Session::agree(bool measure, FrameReport& report) {
+    const FrameChoice choice =
+        frames_->agree({report.footprint, report.reason, report.final, measure});
+    report.footprint = choice.footprint;
+    report.reason = choice.reason;
+    report.final = choice.final;
+    return choice.measure;
+}
+
 void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report) {
     learn_costs();
     const bool live = waiting == Waiting::never;
@@ -221,80 +195,60 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool changed = now != drawn_;
     render::Footprint best = scene_.best_footprint();
-    if (shared_ && report.cells > shared_->surface_limit())
+    if (report.cells > frames_->surface_limit())
         best = render::Footprint::gaussian;
-    bool measure = quality_.choose(
-        state_, changed, live ? Choosing::by_measurement : Choosing::by_pace, best, report);
-    if (shared_)
-        measure = take_shared_choice(measure, report);
+    const Choosing how = live ? Choosing::by_measurement : Choosing::by_pace;
+    const bool measure = agree(quality_.choose(state_, changed, how, best, report), report);
     now.footprint = report.footprint;
     // While a headset wants no picture, there is nothing to draw and nothing to learn from it.
-    const bool wanted = !headset_ || !now.eyes.empty();
-    report.redrawn = wanted && (now != drawn_ || measure);
-}
-
-/// How a window shows a picture.
-stereo::StereoMode Session::mode_in(const stereo::Window& window, const Picture& now) const {
-    const stereo::StereoMode mode = mode_of(window, config_.installation, now.stereo);
-    return room_ ? RoomView::shown(mode) : mode;
+    report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure);
 }
 
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
                         FrameReport& report) {
-    const auto panel = [&](glm::ivec2 size) { draw_panel_overlay(size, report); };
-    panel_drawn_ = false;
+    const Outputs::Overlay panel = frames_->leads()
+                                       ? [&](glm::ivec2 size) { draw_panel_overlay(size, report); }
+                                       : Outputs::Overlay();
+    drawn_ = now;
     StopWatch watch;
     if (report.redrawn) {
         quality_.begin(log_.next());
         scene_.set_guides(now.guides);
-        scene_.set_panel(now.panel);
-        scene_.set_near_fade(config_.comfort, now.viewers);
+        scene_.set_panel(now.audience.panel);
+        scene_.set_near_fade(config_.comfort, now.audience.viewers);
         scene_.set_veil(now.veil);
-        scene_.look(state_, now.viewers.front().head, now.scale);
+        scene_.look(state_, now.audience.viewers.front().head, now.scale);
+        const auto scene = [this](const ScenePlace&, std::span<const render::View> views) {
+            draw_views(views);
+        };
+        const DrawLoad of_cell = outputs_.draw(now.audience, scene, panel);
+        quality_.end(report, of_cell, report.upload + watch.lap());
+    } else {
+        outputs_.draw_again(now.audience, panel);
     }
-    for (std::size_t i = 0; i < displays_.size(); ++i) {
-        // The panel lies over one window.
-        const bool first = i == 0 && (!shared_ || shared_->leads());
-        const auto overlay = first && !room_ ? panel : stereo::Display::Overlay();
-        if (!report.redrawn) {
-            displays_[i].draw_overlay_again(overlay);
-            continue;
-        }
-        displays_[i].draw(
-            now.viewers, mode_in(displays_[i].window(), now),
-            [&](std::span<const render::View> views) { draw_for(views, now); }, overlay);
-    }
-    if (headset_)
-        draw_headset(now, report.redrawn, panel);
-    if (report.redrawn)
-        quality_.end(report, report.upload + watch.lap());
-    drawn_ = now;
-    if (room_) {
-        room_->set_panel(now.panel);
-        room_->draw(displays_, now.viewers, now.wand, input, panel);
-    }
+    outputs_.draw_room(input, panel);
 }
 
-void Session::draw_for(std::span<const render::View> views, const Picture& now) {
-    for (const render::View& view : views)
-        quality_.viewed(view);
-    scene_.draw(views, now.room_from_physical, now.footprint, now.wand);
+void Session::draw_views(std::span<const render::View> views) {
+    scene_.draw(views, drawn_->room_from_physical, drawn_->footprint, drawn_->audience.wand);
 }
 
-void Session::draw_headset(const Picture& now, bool redrawn,
-                           const stereo::Display::Overlay& overlay) {
-    if (redrawn)
-        headset_display_->draw(now.eyes,
-                               [&](std::span<const render::View> views) { draw_for(views, now); });
-    headset_display_->submit(*headset_, now.eyes, !redrawn);
-    headset_display_->mirror(overlay);
+/// What others are told before a frame is shown.
+FrameAnswer Session::answer() const {
+    outputs_.gl().Finish(); // what is drawn yet would be shown later
+    FrameAnswer answer;
+    answer.close = outputs_.windows().should_close();
+    answer.failure = extractor_.failure().value_or("");
+    answer.view = quality_.view();
+    answer.surface_limit = scene_.surface_limit();
+    return answer;
 }
 
 bool Session::captures(const FrameReport& report) {
     return captures_.take({.time = report.time,
                            .asked = report.asked,
                            .shown = report.shown,
-                           .failed = has_no_answer(),
+                           .failed = frames_->has_no_answer(extractor_),
                            .final = report.final});
 }
 
@@ -306,12 +260,7 @@ void Session::show_messages(std::vector<std::string> messages) {
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
                                   Waiting waiting, const Latch& latch) {
     StopWatch whole, since_input;
-    Latch heads = latch;
-    if (shared_ && shared_->leads()) { // all walls are seen from the same heads
-        const auto newest = latch ? latch() : interaction::InputState{input.time, {}};
-        shared_->begin(input, commands, waiting, viewers_heads(newest, config_.installation));
-        heads = [newest] { return newest; };
-    }
+    const Latch heads = frames_->begin(input, commands, waiting, latch, config_.installation);
     FrameReport report;
     report.time = input.time;
     report.tracking = tracking_of(input);
@@ -334,26 +283,17 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
 
     StopWatch stages;
     draw_eyes(now, input, report);
-    if (console_)
-        interaction::merge(panel_commands_,
-                           console_->draw(panel_model(PanelPlace::whole, report), report.time));
+    interaction::merge(panel_commands_, panel_.draw_alone(panel_models(report), report.time));
     report.draw = stages.lap();
-    if (shared_)
-        wait_for_others();
+    frames_->swap_barrier([this] { return answer(); });
     report.barrier = stages.lap();
-    for (stereo::Display& display : displays_)
-        display.present();
-    if (room_)
-        room_->present();
-    if (console_)
-        console_->present();
-    if (headset_)
-        headset_display_->present();
+    outputs_.present();
+    panel_.present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     if (captures(report))
-        take_screenshots();
-    show_messages(pictures_.messages());
+        outputs_.take_screenshots();
+    show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
     report.total = whole.lap();
     log_.add(report);

@@ -17,11 +17,7 @@ interaction::Commands Session::take_panel_commands() {
 
 std::vector<interaction::WindowEvent>
 Session::panel_events(std::span<const interaction::WindowEvent> events) {
-    if (!console_)
-        return panel_.feed(events, state_.panel);
-    std::vector<interaction::WindowEvent> all = console_->take_events();
-    all.insert(all.end(), events.begin(), events.end());
-    return all;
+    return panel_.feed(events, state_.panel);
 }
 
 PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) const {
@@ -40,18 +36,17 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .message = message_,
             .controls = documentation_,
             .place = place,
-            .quad_buffered = windows_[0].has_stereo_buffers()};
+            .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
+}
+
+OperatorPanel::Model Session::panel_models(const FrameReport& report) const {
+    return [this, &report](PanelPlace place) { return panel_model(place, report); };
 }
 
 void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
-    if (!state_.panel || !windows_.first().has_window() || console_)
-        return;
-    // The right buffer of a quad-buffered window shows what was laid out for the left one.
-    if (!std::exchange(panel_drawn_, true))
-        interaction::merge(
-            panel_commands_,
-            panel_.lay_out(size, panel_model(PanelPlace::over, report), report.time));
-    panel_.draw(size);
+    if (state_.panel)
+        interaction::merge(panel_commands_,
+                           panel_.draw_over(size, panel_models(report), report.time));
 }
 
 } // namespace isochron::app

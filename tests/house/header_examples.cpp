@@ -8,8 +8,10 @@
 #include "app/frame/frame_quality.h"
 #include "app/frame/quality_controller.h"
 #include "app/output/kept_pictures.h"
+#include "app/output/outputs.h"
 #include "app/panel/panel_in_room.h"
 #include "app/scene/scene.h"
+#include "app/session/live_loop.h"
 #include "app/session/session.h"
 #include "index/build/level_choice.h"
 #include "index/extraction/cell_ray.h"
@@ -241,6 +243,17 @@ void kept_pictures_example(const render::Gl& gl, const stereo::Windows& windows,
                            std::span<const stereo::StereoMode> modes,
                            const stereo::DrawViews& scene) {
 #include "app/output/kept_pictures.example"
+}
+
+void outputs_example(const Config& config, stereo::Windows windows, const Audience& audience,
+                     const Outputs::Scene& scene, const Outputs::Overlay& panel,
+                     const interaction::InputState& input) {
+#include "app/output/outputs.example"
+}
+
+void live_loop_example(const Config& config, interaction::CompositeInput trackers, bool emulate,
+                       Session& session, const interaction::RecordingHeader& header) {
+#include "app/session/live_loop.example"
 }
 
 void panel_in_room_example(PanelInRoom& panel, Scene& scene, const interaction::InputState& input,

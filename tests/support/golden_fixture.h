@@ -108,7 +108,7 @@ class GoldenPictures : public testing::TestWithParam<stereo::ContextKind> {
         return settle(session, commands, *head_at_rest(0).devices.front().pose);
     }
     PinholeEye before_window(const Session& session, Eye eye, glm::ivec2 picture) const {
-        return {session.display().window().viewports.front().screen,
+        return {session.outputs().display().window().viewports.front().screen,
                 *head_at_rest(0).devices.front().pose, eye, session.state().eye_separation,
                 picture};
     }

@@ -89,12 +89,12 @@ TEST_P(LateLatchTest, AReplayDrawsWhatWasLatched) {
             });
             recording.frames.push_back({input, {}, {}, "", session.latched()});
         }
-        drawn = session.display().read_eye(Eye::left);
+        drawn = session.outputs().display().read_eye(Eye::left);
     }
     const auto replayed = [&] {
         Session session(small_config(), file_, *context_);
         replay_fixed_step(session, recording, {}, [](std::size_t, const auto&) {});
-        return session.display().read_eye(Eye::left).rgba;
+        return session.outputs().display().read_eye(Eye::left).rgba;
     };
     EXPECT_EQ(replayed(), drawn.rgba);
     recording.frames.back().latched = {};

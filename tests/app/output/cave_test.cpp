@@ -125,18 +125,18 @@ TEST_P(CaveTest, ASessionDrawsOnEveryWallWhatAWindowOfItsOwnWouldShow) {
     // The other sessions below take the thread over, so that this one's pictures are read first.
     Session session(cave, file, open(cave));
     session.frame(input, {}, Waiting::for_cells);
-    ASSERT_EQ(session.displays(), 4u);
+    ASSERT_EQ(session.outputs().displays(), 4u);
     std::vector<std::array<Image, 2>> walls;
-    for (std::size_t i = 0; i < session.displays(); ++i)
-        walls.push_back(
-            {session.display(i).read_eye(Eye::left), session.display(i).read_eye(Eye::right)});
-    for (std::size_t i = 0; i < session.displays(); ++i) {
+    for (std::size_t i = 0; i < session.outputs().displays(); ++i)
+        walls.push_back({session.outputs().display(i).read_eye(Eye::left),
+                         session.outputs().display(i).read_eye(Eye::right)});
+    for (std::size_t i = 0; i < session.outputs().displays(); ++i) {
         Config alone = cave;
         alone.installation.windows = {cave.installation.windows[i]};
         Session one(alone, file, open(alone));
         one.frame(input, {}, Waiting::for_cells);
-        EXPECT_EQ(walls[i][0].rgba, one.display().read_eye(Eye::left).rgba);
-        EXPECT_EQ(walls[i][1].rgba, one.display().read_eye(Eye::right).rgba);
+        EXPECT_EQ(walls[i][0].rgba, one.outputs().display().read_eye(Eye::left).rgba);
+        EXPECT_EQ(walls[i][1].rgba, one.outputs().display().read_eye(Eye::right).rgba);
     }
     EXPECT_NE(walls[0][0].rgba, walls[0][1].rgba) << "the front wall's eyes";
     EXPECT_NE(walls[0][0].rgba, walls[3][0].rgba) << "front wall and floor";
@@ -153,7 +153,7 @@ TEST_P(CaveTest, EveryViewerSeesFromTheirOwnHead) {
     cave.windows[1].viewports.front().viewer = 1;
     Session session(config, file, stereo::open_windows(GetParam(), cave, {}));
     const auto picture = [&](std::size_t window) {
-        return session.display(window).read_eye(Eye::left).rgba;
+        return session.outputs().display(window).read_eye(Eye::left).rgba;
     };
     interaction::InputState input = head_at_rest(0);
     session.frame(input, {}, Waiting::for_cells);
@@ -169,7 +169,8 @@ TEST_P(CaveTest, EveryViewerSeesFromTheirOwnHead) {
     Session twins(config, file, stereo::open_windows(GetParam(), cave, {}));
     input.devices[1].pose = input.devices[0].pose;
     twins.frame(input, {}, Waiting::for_cells);
-    EXPECT_EQ(twins.display(0).read_eye(Eye::left).rgba, twins.display(1).read_eye(Eye::left).rgba);
+    EXPECT_EQ(twins.outputs().display(0).read_eye(Eye::left).rgba,
+              twins.outputs().display(1).read_eye(Eye::left).rgba);
 }
 
 /// Pixel of a room's point in the picture of a camera, from the top left.
@@ -239,14 +240,15 @@ TEST_P(CaveTest, AnEmulatedSessionShowsTheRoomAndOneEyeOfEveryWall) {
                     stereo::open_room(GetParam(), cave.installation, {.size = {320, 200}}));
     interaction::InputState input = head_at_rest(0);
     session.frame(input, {}, Waiting::for_cells);
-    ASSERT_NE(session.room(), nullptr);
-    const Image room = session.room()->read();
+    ASSERT_NE(session.outputs().room(), nullptr);
+    const Image room = session.outputs().room()->read();
     EXPECT_EQ(room.width, 320);
-    EXPECT_EQ(session.display(0).mode(), StereoMode::left) << "half the work";
+    EXPECT_EQ(session.outputs().display(0).mode(), StereoMode::left) << "half the work";
     input.devices[0].pose->position.x += 0.5f;
     input.time = interaction::Seconds(0.1);
     session.frame(input, {}, Waiting::for_cells);
-    EXPECT_NE(session.room()->read().rgba, room.rgba) << "the head and its frusta have moved";
+    EXPECT_NE(session.outputs().room()->read().rgba, room.rgba)
+        << "the head and its frusta have moved";
 }
 
 TEST_P(CaveTest, FramesOfWallsAreSeenAllAlongThem) {
@@ -256,7 +258,7 @@ TEST_P(CaveTest, FramesOfWallsAreSeenAllAlongThem) {
     Session session(cave, build_sphere(folder.path()),
                     stereo::open_room(GetParam(), cave.installation, {.size = kRoom}));
     session.frame(head_at_rest(0), {}, Waiting::for_cells);
-    const Image room = session.room()->read();
+    const Image room = session.outputs().room()->read();
     const Pose camera = RoomCamera(cave.installation).pose();
     int seen = 0, missing = 0;
     for (const stereo::Window& window : cave.installation.windows) {

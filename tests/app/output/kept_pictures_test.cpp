@@ -44,11 +44,11 @@ class KeptPicturesTest : public SessionTest {
         const auto large = context(8);
         Session session(config_with(1, 1, 8), file_, *large);
         settle(session);
-        return session.display().read_window();
+        return session.outputs().display().read_window();
     }
     static Image kept(Session& session) {
         Image image;
-        session.kept_pictures().each(
+        session.outputs().kept_pictures().each(
             [&](std::size_t, const stereo::Display& display) { image = display.read_window(); });
         return image;
     }
@@ -91,11 +91,11 @@ TEST_P(KeptPicturesTest, HaveSmoothOutlinesAndLeaveTheDisplayAsItIs) {
     const auto small = context();
     Session session(config_with(1, 0), file_, *small);
     settle(session);
-    const Image shown = session.display().read_window();
+    const Image shown = session.outputs().display().read_window();
     const Image picture = kept(session);
-    EXPECT_EQ(session.display().read_window().rgba, shown.rgba);
+    EXPECT_EQ(session.outputs().display().read_window().rgba, shown.rgba);
     EXPECT_FALSE(session.frame(head_at_rest(1), {}, Waiting::for_cells).redrawn);
-    EXPECT_EQ(session.display().read_window().rgba, shown.rgba);
+    EXPECT_EQ(session.outputs().display().read_window().rgba, shown.rgba);
     EXPECT_EQ(kept(session).rgba, picture.rgba);
 
     const double rough = along_outline(shown, shown, truth);
@@ -106,7 +106,7 @@ TEST_P(KeptPicturesTest, OfOneSampleAreWhatTheDisplayShows) {
     const auto small = context();
     Session session(config_with(1, 1), file_, *small);
     settle(session);
-    EXPECT_EQ(kept(session).rgba, session.display().read_window().rgba);
+    EXPECT_EQ(kept(session).rgba, session.outputs().display().read_window().rgba);
 }
 
 TEST_P(KeptPicturesTest, NeverHaveFewerSamplesThanTheDisplayUnlessToldSo) {
@@ -114,7 +114,7 @@ TEST_P(KeptPicturesTest, NeverHaveFewerSamplesThanTheDisplayUnlessToldSo) {
     Session session(config_with(4, 0), file_, *small);
     settle(session);
     const Image picture = kept(session);
-    EXPECT_EQ(picture.rgba, session.display().read_window().rgba);
+    EXPECT_EQ(picture.rgba, session.outputs().display().read_window().rgba);
     Session rough(config_with(1, 4), file_, *small);
     settle(rough);
     EXPECT_EQ(kept(rough).rgba, picture.rgba);
@@ -123,14 +123,14 @@ TEST_P(KeptPicturesTest, NeverHaveFewerSamplesThanTheDisplayUnlessToldSo) {
 TEST_P(KeptPicturesTest, AreWhatACaptureWrites) {
     const auto small = context();
     Session session(config_with(1, 4), file_, *small);
-    session.set_screenshots(folder_.path());
+    session.outputs().set_screenshots(folder_.path());
     settle(session);
     Commands capture;
     capture.screenshot = true;
     session.frame(head_at_rest(2), capture, Waiting::for_cells);
-    session.pictures().finish();
+    session.outputs().pictures().finish();
     EXPECT_EQ(stereo::read_image(folder_.path() / "isochron_0001.png").rgba, kept(session).rgba);
-    EXPECT_NE(kept(session).rgba, session.display().read_window().rgba);
+    EXPECT_NE(kept(session).rgba, session.outputs().display().read_window().rgba);
 }
 
 TEST_P(KeptPicturesTest, OfMoreSamplesThanThereAreAreRefusedAtTheStart) {
@@ -154,14 +154,14 @@ TEST_P(KeptPicturesTest, OfAnEmulatedRoomAndItsWallsAreSmoothToo) {
         PatternShow show(config,
                          stereo::open_room(GetParam(), config.installation, {.size = kSize}));
         show.frame(head_at_rest(0));
-        const Image room = show.room()->read();
-        const Image picture = show.kept_pictures().of_room();
-        EXPECT_EQ(show.room()->read().rgba, room.rgba);
+        const Image room = show.outputs().room()->read();
+        const Image picture = show.outputs().kept_pictures().of_room();
+        EXPECT_EQ(show.outputs().room()->read().rgba, room.rgba);
         EXPECT_EQ(picture.rgba == room.rgba, samples == 1);
         std::size_t walls = 0;
-        show.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
+        show.outputs().kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
             EXPECT_EQ(i, walls++);
-            EXPECT_EQ(display.read_window().rgba == show.display(i).read_window().rgba,
+            EXPECT_EQ(display.read_window().rgba == show.outputs().display(i).read_window().rgba,
                       samples == 1);
         });
         EXPECT_EQ(walls, 4u);

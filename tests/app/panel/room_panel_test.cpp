@@ -52,8 +52,8 @@ TEST_P(RoomPanelTest, EachEyeSeesItsPartsWhereTheGeometryPutsThem) {
     const glm::vec2 size = PanelInRoom::kPixels;
     std::array<double, 2> middle{};
     for (const stereo::Eye eye : {stereo::Eye::left, stereo::Eye::right}) {
-        const Image image = session.display().read_eye(eye);
-        const PinholeEye pinhole(session.display().window().viewports.front().screen,
+        const Image image = session.outputs().display().read_eye(eye);
+        const PinholeEye pinhole(session.outputs().display().window().viewports.front().screen,
                                  *head_at_rest(0).devices.front().pose, eye,
                                  session.state().eye_separation, {image.width, image.height});
         const auto at = [&](glm::vec2 pixels) {
@@ -96,8 +96,8 @@ TEST_P(RoomPanelTest, IsHiddenByWhatIsNearerAndHidesWhatIsFarther) {
                                                             : interaction::QualityMode::quality;
             settle(session, commands, std::nullopt);
             EXPECT_EQ(session.log().frames().back().footprint, footprint);
-            const Image image = session.display().read_eye(stereo::Eye::left);
-            const PinholeEye eye(session.display().window().viewports.front().screen,
+            const Image image = session.outputs().display().read_eye(stereo::Eye::left);
+            const PinholeEye eye(session.outputs().display().window().viewports.front().screen,
                                  *head_at_rest(0).devices.front().pose, stereo::Eye::left,
                                  session.state().eye_separation, {image.width, image.height});
             const auto pixel = eye.pixel_of(panel + before * glm::normalize(eyes - panel));
@@ -138,7 +138,7 @@ class WandSession {
 };
 
 Image window_of(const Session& session) {
-    return session.display().read_window();
+    return session.outputs().display().read_window();
 }
 
 TEST_P(RoomPanelTest, AWandsRayMovesTheIsovalueAndAReplayFromDevicesRepeatsItAndItsPictures) {
@@ -297,8 +297,8 @@ TEST_P(PickTest, MarksThePointOfTheSurfaceThatTheRayMeets) {
     EXPECT_FALSE(frames[2].commands.mark) << "still held";
 
     // The cross and its read-out.
-    const Image image = session_->display().read_eye(stereo::Eye::left);
-    const PinholeEye eye(session_->display().window().viewports.front().screen,
+    const Image image = session_->outputs().display().read_eye(stereo::Eye::left);
+    const PinholeEye eye(session_->outputs().display().window().viewports.front().screen,
                          *head_at_rest(0).devices.front().pose, stereo::Eye::left,
                          session_->state().eye_separation, {image.width, image.height});
     const auto at = eye.pixel_of(interaction::transform(placement, mark->position));
@@ -317,10 +317,10 @@ TEST_P(PickTest, MarksThePointOfTheSurfaceThatTheRayMeets) {
     commands.room_panel =
         interaction::RoomPanel{true, interaction::facing(glm::mix(eyes, place, 0.5f), eyes)};
     session_->frame(this->input(), commands, Waiting::for_cells);
-    EXPECT_TRUE(pink_pixels(session_->display().read_eye(stereo::Eye::left)).empty());
+    EXPECT_TRUE(pink_pixels(session_->outputs().display().read_eye(stereo::Eye::left)).empty());
     commands.room_panel->shown = false;
     session_->frame(this->input(), commands, Waiting::for_cells);
-    EXPECT_FALSE(pink_pixels(session_->display().read_eye(stereo::Eye::left)).empty());
+    EXPECT_FALSE(pink_pixels(session_->outputs().display().read_eye(stereo::Eye::left)).empty());
 
     wand.frame(pointing(0, {-100, 200, 0}));
     wand.frame(pointing(bit(WandButton::pick), {-100, 200, 0}));

@@ -130,11 +130,12 @@ TEST_P(TestPatterns, EveryModeShowsEachEyeItsLetterAndNothingOfTheOthers) {
         SCOPED_TRACE(name_of(mode));
         show.set_stereo(mode);
         show.frame(head_at({0.0f, 1.5f, 0.0f}));
-        const Image window = show.display().read_window();
+        const Image window = show.outputs().display().read_window();
         for (const Eye eye : eyes_of(mode)) {
             const bool right_buffer =
                 upright(mode) == StereoMode::quadbuffer && place_of(eye, mode) == Eye::right;
-            const Image buffer = right_buffer ? show.display().read_right_buffer() : window;
+            const Image buffer =
+                right_buffer ? show.outputs().display().read_right_buffer() : window;
             expect_letter(shown_to(place_of(eye, mode), buffer, mode), eye);
             ++checked;
         }
@@ -165,7 +166,7 @@ TEST_P(TestPatterns, TheCrossHasTheDisparityOfItsDepthForAMovingHead) {
                                                    kSize);
             const auto expected = pinhole.pixel_of(glm::dvec3(cross_of(wall)));
             ASSERT_TRUE(expected);
-            at[eye] = cross_in(show.display().read_eye(eye), expected->y + 30);
+            at[eye] = cross_in(show.outputs().display().read_eye(eye), expected->y + 30);
             EXPECT_NEAR(at[eye].x, expected->x, 1.0);
         }
         EXPECT_NEAR(at[Eye::left].x - at[Eye::right].x, apart / 1.5 * kSize.x, 1.0);
@@ -183,7 +184,7 @@ TEST_P(TestPatterns, EveryWallOfACaveHasItsNameItsLettersAndItsCross) {
     PatternShow show(config, stereo::open_windows(GetParam(), config.installation, {}));
     interaction::InputState input = head_at({0.1f, 1.65f, 0.2f});
     show.frame(input);
-    for (std::size_t i = 0; i < show.displays(); ++i) {
+    for (std::size_t i = 0; i < show.outputs().displays(); ++i) {
         const stereo::Window& window = config.installation.windows[i];
         SCOPED_TRACE(window.name);
         const PatternWall wall = pattern_wall(window, 0, config.installation.viewers.front(),
@@ -194,7 +195,7 @@ TEST_P(TestPatterns, EveryWallOfACaveHasItsNameItsLettersAndItsCross) {
                                                    *input.devices.front().pose, eye, 0.063, kSize);
             const auto expected = pinhole.pixel_of(glm::dvec3(cross_of(wall)));
             ASSERT_TRUE(expected);
-            const Image picture = show.display(i).read_eye(eye);
+            const Image picture = show.outputs().display(i).read_eye(eye);
             const std::uint8_t* pixel =
                 picture.at(static_cast<int>(expected->x), static_cast<int>(expected->y));
             EXPECT_GT(pixel[0], 180);

@@ -74,11 +74,11 @@ TEST_P(BoxBeforeCells, BlendsWithEveryFootprint) {
         if (footprint == Footprint::quad)
             commands.quality = interaction::QualityMode::fast;
         ASSERT_EQ(settle(session, commands), footprint);
-        const Image with = session.display().read_eye(Eye::center);
+        const Image with = session.outputs().display().read_eye(Eye::center);
         Commands bare;
         bare.bounding_box = false;
         ASSERT_EQ(settle(session, bare), footprint);
-        const Image without = session.display().read_eye(Eye::center);
+        const Image without = session.outputs().display().read_eye(Eye::center);
 
         const PinholeEye pinhole = before_window(session, Eye::center, kPicture);
         const auto edges = near_edges(pinhole, glm::dvec3(head.position), kPlacement);

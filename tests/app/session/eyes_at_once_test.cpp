@@ -124,9 +124,10 @@ class EyesAtOnce : public GoldenPictures {
             EXPECT_EQ(settle(session, commands), footprint);
             const std::string name =
                 std::string(render::name_of(footprint)) + "_" + std::string(name_of(mode));
-            windows.emplace_back(name, session.display().read_window());
+            windows.emplace_back(name, session.outputs().display().read_window());
             if (upright(mode) == StereoMode::quadbuffer)
-                windows.emplace_back(name + "_right", session.display().read_right_buffer());
+                windows.emplace_back(name + "_right",
+                                     session.outputs().display().read_right_buffer());
         }
         return windows;
     }

@@ -53,7 +53,7 @@ class GoldenModes : public GoldenPictures {
     }
     /// What a window shows, by geometry and by the eyes' golden pictures.
     void expect_window(const Session& session, StereoMode mode, const std::string& name) const {
-        const Image window = session.display().read_window();
+        const Image window = session.outputs().display().read_window();
         // The eyes by the place in which they are shown.
         const Eye first = place_of(Eye::left, mode), second = place_of(Eye::right, mode);
         const glm::ivec2 half_width(kPicture.x / 2, kPicture.y);
@@ -69,8 +69,8 @@ class GoldenModes : public GoldenPictures {
         }
         case StereoMode::quadbuffer:
             EXPECT_TRUE(images_match(window, golden(first), kTolerance, name));
-            EXPECT_TRUE(images_match(session.display().read_right_buffer(), golden(second),
-                                     kTolerance, name + "_right"));
+            EXPECT_TRUE(images_match(session.outputs().display().read_right_buffer(),
+                                     golden(second), kTolerance, name + "_right"));
             break;
         case StereoMode::side_by_side:
             expect_view(session, part_of(window, {0, 0}, half_width), first);
@@ -117,10 +117,11 @@ TEST_P(GoldenModes, EveryStereoMode) {
         SCOPED_TRACE(name);
         commands.stereo = name_of(mode);
         ASSERT_EQ(settle(session, commands), Footprint::surface);
-        ASSERT_EQ(session.display().mode(), mode);
+        ASSERT_EQ(session.outputs().display().mode(), mode);
         expect_window(session, mode, name);
         if (has_picture(mode)) {
-            EXPECT_TRUE(matches_golden(session.display().read_window(), name, kTolerance));
+            EXPECT_TRUE(
+                matches_golden(session.outputs().display().read_window(), name, kTolerance));
         }
     }
 }

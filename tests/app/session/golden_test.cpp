@@ -32,11 +32,11 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
         ASSERT_EQ(settle(session, commands), one.footprint);
         std::map<Eye, Image> pictures;
         for (const Eye eye : {Eye::left, Eye::right})
-            pictures[eye] = session.display().read_eye(eye);
+            pictures[eye] = session.outputs().display().read_eye(eye);
         Commands mono;
         mono.stereo = "mono";
         ASSERT_EQ(settle(session, mono), one.footprint);
-        pictures[Eye::center] = session.display().read_eye(Eye::center);
+        pictures[Eye::center] = session.outputs().display().read_eye(Eye::center);
         std::map<Eye, double> expected_x, actual_x;
         for (const auto& [eye, picture] : pictures) {
             const std::string name = std::string(one.name) + "_" + std::string(name_of(eye));
@@ -77,7 +77,7 @@ TEST_P(GoldenPictures, TwoSurfacesThatLetLightThroughToEitherEye) {
     for (const Eye eye : {Eye::left, Eye::right}) {
         const std::string name = "two_surfaces_" + std::string(name_of(eye));
         SCOPED_TRACE(name);
-        const Image picture = session.display().read_eye(eye);
+        const Image picture = session.outputs().display().read_eye(eye);
         EXPECT_TRUE(matches_golden(picture, name, kTolerance));
         const PinholeEye pinhole = before_window(session, eye, kPicture);
         const auto part = [&](bool (*belongs)(const std::uint8_t*)) {
@@ -102,7 +102,7 @@ TEST_P(GoldenPictures, AxesWithNumbersToEitherEye) {
     for (const Eye eye : {Eye::left, Eye::right}) {
         const std::string name = "axes_" + std::string(name_of(eye));
         SCOPED_TRACE(name);
-        const Image picture = session.display().read_eye(eye);
+        const Image picture = session.outputs().display().read_eye(eye);
         EXPECT_TRUE(matches_golden(picture, name, kTolerance));
         EXPECT_EQ(expect_box(picture, before_window(session, eye, kLarger), placement),
                   12 * kPerEdge);
@@ -126,13 +126,13 @@ TEST_P(GoldenPictures, EveryWallOfACaveToEitherEye) {
     const interaction::Similarity placement = place_at({0.05, 1.15, -0.5}, 0.065);
     Session session(config, file_, stereo::open_windows(GetParam(), config.installation, {}));
     ASSERT_EQ(settle(session, showing(placement), head), Footprint::surface);
-    ASSERT_EQ(session.displays(), 4u);
-    for (std::size_t wall = 0; wall < session.displays(); ++wall)
+    ASSERT_EQ(session.outputs().displays(), 4u);
+    for (std::size_t wall = 0; wall < session.outputs().displays(); ++wall)
         for (const Eye eye : {Eye::left, Eye::right}) {
             const stereo::Window& window = config.installation.windows[wall];
             const std::string name = "cave_" + window.name + "_" + std::string(name_of(eye));
             SCOPED_TRACE(name);
-            const Image picture = session.display(wall).read_eye(eye);
+            const Image picture = session.outputs().display(wall).read_eye(eye);
             EXPECT_TRUE(matches_golden(picture, name, kTolerance));
             const PinholeEye pinhole(window.viewports.front().screen, head, eye,
                                      session.state().eye_separation, kWall);

@@ -46,7 +46,7 @@ class HeadsetSession : public testing::Test {
         config_.openxr.options.far_plane = config_.installation.far_plane;
     }
     ~HeadsetSession() override {
-        session_->headset()->leave();
+        session_->outputs().headset()->leave();
         session_.reset();
         EXPECT_EQ(stereo::codes(), std::vector<std::string>());
     }
@@ -57,7 +57,7 @@ class HeadsetSession : public testing::Test {
     }
     const FrameReport& frame(const Commands& commands) {
         now_ += interaction::Seconds(0.0111);
-        stereo::Headset& client = *session_->headset();
+        stereo::Headset& client = *session_->outputs().headset();
         client.update(now_);
         client.begin_frame(now_);
         return session_->frame(client.poll(now_), commands, Waiting::for_cells);
@@ -90,7 +90,7 @@ TEST_F(HeadsetSession, EachCantedEyeIsShownTheSphereWhereItStands) {
         SCOPED_TRACE(name);
         const played::SubmittedView& view = views[eye == Eye::right];
         EXPECT_TRUE(matches_golden(view.picture, name, kTolerance));
-        EXPECT_EQ(view.picture.rgba, session_->headset_display()->read_eye(eye).rgba);
+        EXPECT_EQ(view.picture.rgba, session_->outputs().headset_display()->read_eye(eye).rgba);
         const PinholeEye pinhole = oracle_of(view);
         expect_sphere(warm_part(view.picture), expected_part(pinhole, kPlacement, kOuterRadius),
                       0.0);
@@ -128,7 +128,7 @@ TEST_F(HeadsetSession, AStillPictureIsShownAgainWithoutBeingDrawnAgain) {
     headset().head.position.x += 0.2f;
     EXPECT_TRUE(frame({}).redrawn);
     EXPECT_EQ(headset().frames.back().views.at(0).picture.rgba,
-              session_->headset_display()->read_eye(Eye::left).rgba);
+              session_->outputs().headset_display()->read_eye(Eye::left).rgba);
     EXPECT_NE(headset().frames.back().views.at(0).picture.rgba, before.rgba);
 }
 
@@ -149,7 +149,7 @@ TEST_F(HeadsetSession, TheMirrorCutsTheLeftEyeToTheWindow) {
     config_.openxr.mirror = stereo::Mirror::left;
     start();
     settle(showing(kPlacement));
-    const Image window = session_->headset_display()->read_window();
+    const Image window = session_->outputs().headset_display()->read_window();
     ASSERT_EQ(window.width, 128);
     ASSERT_EQ(window.height, 96);
     EXPECT_TRUE(matches_golden(window, "headset_mirror", kTolerance));

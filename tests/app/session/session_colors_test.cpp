@@ -77,7 +77,7 @@ class SessionColors : public SessionTest {
                                  Waiting waiting = Waiting::for_cells) {
         const auto frame = static_cast<double>(session.log().frames().size());
         session.frame(head_at_rest(frame / 60), commands, waiting);
-        return session.display().read_eye(stereo::Eye::left);
+        return session.outputs().display().read_eye(stereo::Eye::left);
     }
 
     static constexpr std::size_t kSteps = 6;

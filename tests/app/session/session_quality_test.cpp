@@ -57,7 +57,7 @@ class SessionQuality : public SessionTest {
         ++frame_;
     }
     bool captured(Session& session) const {
-        session.pictures().finish();
+        session.outputs().pictures().finish();
         return std::filesystem::exists(folder_.path() / "isochron_0001.png");
     }
     int frame_ = 0;
@@ -199,7 +199,7 @@ TEST_P(SessionQuality, WhatIsConfiguredForASettledPictureIsTaken) {
 
 TEST_P(SessionQuality, ACaptureInMotionIsTakenOnceThePictureIsSettled) {
     Session session(config_with(kPlenty), file_, *context_);
-    session.set_screenshots(folder_.path());
+    session.outputs().set_screenshots(folder_.path());
     start(session);
     Commands capture;
     capture.screenshot = true;
@@ -208,7 +208,7 @@ TEST_P(SessionQuality, ACaptureInMotionIsTakenOnceThePictureIsSettled) {
     rest(session, 120);
     ASSERT_TRUE(captured(session));
     // The settled picture, which nothing has changed since.
-    session.kept_pictures().each([&](std::size_t, const stereo::Display& display) {
+    session.outputs().kept_pictures().each([&](std::size_t, const stereo::Display& display) {
         EXPECT_EQ(stereo::read_image(folder_.path() / "isochron_0001.png").rgba,
                   display.read_window().rgba);
     });
@@ -217,7 +217,7 @@ TEST_P(SessionQuality, ACaptureInMotionIsTakenOnceThePictureIsSettled) {
 
 TEST_P(SessionQuality, ACaptureOfWhatDoesNotFitIsTakenAtWhatDoes) {
     Session session(config_with(kNothing), file_, *context_);
-    session.set_screenshots(folder_.path());
+    session.outputs().set_screenshots(folder_.path());
     start(session);
     Commands capture;
     capture.screenshot = true;
@@ -227,7 +227,7 @@ TEST_P(SessionQuality, ACaptureOfWhatDoesNotFitIsTakenAtWhatDoes) {
 
 TEST_P(SessionQuality, InFastModeACaptureIsTakenAtOnceAndFast) {
     Session session(config_with(kPlenty), file_, *context_);
-    session.set_screenshots(folder_.path());
+    session.outputs().set_screenshots(folder_.path());
     start(session);
     Commands capture;
     capture.screenshot = true;
@@ -238,7 +238,7 @@ TEST_P(SessionQuality, InFastModeACaptureIsTakenAtOnceAndFast) {
 
 TEST_P(SessionQuality, TimeThatPlaysIsDrawnInQuadsAndACaptureOfItComesAllTheSame) {
     Session session(config_with(kPlenty), file_, *context_);
-    session.set_screenshots(folder_.path());
+    session.outputs().set_screenshots(folder_.path());
     start(session);
     Commands play;
     play.screenshot = true;
@@ -265,7 +265,7 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
         return real(query, stop);
     };
     Session session(config_with(kPlenty), file_, *context_, extract);
-    session.set_screenshots(folder_.path());
+    session.outputs().set_screenshots(folder_.path());
     start(session);
     Commands to_step_1;
     to_step_1.step = 1;

@@ -39,7 +39,7 @@ TEST_P(SessionTest, ShowsTheCellsThatWereAskedFor) {
     ASSERT_TRUE(report.shown.has_value());
     EXPECT_EQ(*report.shown, (index::SurfacesQuery{3, {8.0}}));
     EXPECT_GT(report.cells, 500u);
-    EXPECT_GT(drawn_pixels(session.display().read_window()), 1000u);
+    EXPECT_GT(drawn_pixels(session.outputs().display().read_window()), 1000u);
 }
 
 TEST_P(SessionTest, FramesGoOnWhileAnExtractionHangs) {
@@ -161,9 +161,9 @@ TEST_P(SessionTest, SettlesIntoSplatsAndMovesInQuads) {
 TEST_P(SessionTest, OnlyAChangeIsDrawnAgain) {
     Session session(small_config(), file_, *context_);
     EXPECT_TRUE(session.frame(head_at_rest(0), {}, Waiting::for_cells).redrawn);
-    const auto picture = session.display().read_window().rgba;
+    const auto picture = session.outputs().display().read_window().rgba;
     EXPECT_FALSE(session.frame(head_at_rest(0.01), {}, Waiting::for_cells).redrawn);
-    EXPECT_EQ(session.display().read_window().rgba, picture);
+    EXPECT_EQ(session.outputs().display().read_window().rgba, picture);
     interaction::InputState nod = head_at_rest(0.02);
     nod.devices[0].pose->position.y += 0.001f;
     EXPECT_TRUE(session.frame(nod, {}, Waiting::for_cells).redrawn);
@@ -174,30 +174,30 @@ TEST_P(SessionTest, OnlyAChangeIsDrawnAgain) {
 
 TEST_P(SessionTest, ACaptureWaitsForQuality) {
     Session session(small_config(), file_, *context_);
-    session.set_screenshots(folder_.path());
+    session.outputs().set_screenshots(folder_.path());
     Commands capture;
     capture.screenshot = true;
     capture.isovalue = 6.0;
     session.frame(head_at_rest(0), capture, Waiting::for_cells);
-    session.pictures().finish();
+    session.outputs().pictures().finish();
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "isochron_0001.png"));
     for (int frame = 1; frame < 30; ++frame)
         session.frame(head_at_rest(frame / 60.0), {}, Waiting::for_cells);
-    session.pictures().finish();
+    session.outputs().pictures().finish();
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "isochron_0001.png"));
 }
 
 TEST_P(SessionTest, TheTwoEyesDifferAndWithoutSeparationTheyDoNot) {
     Session session(small_config(), file_, *context_);
     session.frame(head_at_rest(0), {}, Waiting::for_cells);
-    const auto left = session.display().read_eye(stereo::Eye::left);
-    const auto right = session.display().read_eye(stereo::Eye::right);
+    const auto left = session.outputs().display().read_eye(stereo::Eye::left);
+    const auto right = session.outputs().display().read_eye(stereo::Eye::right);
     EXPECT_NE(left.rgba, right.rgba);
     Commands together;
     together.eye_separation = 0.0f;
     session.frame(head_at_rest(0.01), together, Waiting::for_cells);
-    EXPECT_EQ(session.display().read_eye(stereo::Eye::left).rgba,
-              session.display().read_eye(stereo::Eye::right).rgba);
+    EXPECT_EQ(session.outputs().display().read_eye(stereo::Eye::left).rgba,
+              session.outputs().display().read_eye(stereo::Eye::right).rgba);
 }
 
 /// A minute's worth of somebody playing and turning, made from devices through the controls.
@@ -239,7 +239,7 @@ TEST_P(SessionTest, AReplayGivesTheSamePicturesAndTheSameCells) {
         const auto different = replay_fixed_step(
             session, recording, {.from_devices = true, .stereo = {}, .quality = {}},
             [&](std::size_t, const interaction::RecordedFrame&) {
-                pictures[run].push_back(session.display().read_window().rgba);
+                pictures[run].push_back(session.outputs().display().read_window().rgba);
                 cells[run].push_back(session.log().frames().back().cells);
             });
         EXPECT_THAT(different, testing::IsEmpty());

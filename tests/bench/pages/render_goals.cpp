@@ -9,12 +9,13 @@ namespace isochron::bench {
 
 namespace {
 
-using Figure = std::function<std::optional<double>(const RenderRow&)>;
+using RenderFigure = std::function<std::optional<double>(const RenderRow&)>;
 
 constexpr unsigned kThreads = 2; // that all goals speak of
 
 /// The figure for rows of one footprint (empty: any), series (empty: any) and one-eyed picture.
-Figure of(const std::string& footprint, const std::string& data, int size, const Figure& figure) {
+RenderFigure of(const std::string& footprint, const std::string& data, int size,
+                const RenderFigure& figure) {
     return [=](const RenderRow& row) -> std::optional<double> {
         if ((!footprint.empty() && row.footprint != footprint) ||
             (!data.empty() && row.data != data) || row.size != size || row.eyes != 1 ||
@@ -50,7 +51,7 @@ std::optional<double> sent_ids(const RenderRow& row) {
 }
 
 /// Against splats of the same picture.
-Figure over_splats(const std::vector<RenderRow>& rows) {
+RenderFigure over_splats(const std::vector<RenderRow>& rows) {
     return [&rows](const RenderRow& row) -> std::optional<double> {
         const auto splats = std::find_if(rows.begin(), rows.end(), [&](const RenderRow& other) {
             return other.footprint == "gaussian" && other.data == row.data &&

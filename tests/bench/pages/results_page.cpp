@@ -19,16 +19,16 @@ namespace isochron::bench {
 
 namespace {
 
-std::string number(double value) {
+std::string page_number(double value) {
     return value >= 100 ? app::grouped(static_cast<std::uint64_t>(value + 0.5))
                         : fmt::format("{:.3g}", value);
 }
 
-std::string number(const std::optional<double>& value) {
-    return value ? number(*value) : "-";
+std::string page_number(const std::optional<double>& value) {
+    return value ? page_number(*value) : "-";
 }
 
-constexpr std::string_view kReading =
+constexpr std::string_view kHowToRead =
     "## How to read it\n\n"
     "- *raw* is steps x cells x 24 bytes, as in the paper. `% of raw` counts everything that the "
     "structure stores and not the volume; `% with volume` adds it, since the paper's 24 bytes "
@@ -94,7 +94,7 @@ std::string published_table(const Results& results, std::span<const PublishedThi
                 results.details[static_cast<std::size_t>(row - results.rows.data())];
             text += fmt::format("| | | | {} here | {:.1f} | {:.2g} | {} | {} | {:.2f} |\n", type,
                                 row->percent_of_raw, detail.percent_at_isovalue,
-                                number(row->search_ids_us), number(incremental),
+                                page_number(row->search_ids_us), page_number(incremental),
                                 row->search_ids_us / incremental);
         }
     }
@@ -123,9 +123,9 @@ std::string structure_line(const Row& row, const ErrorDetail& detail) {
         "| {}{} | {} | {:.3g} | {:.3g} | {:.2g} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
         row.structure, setting, app::grouped(row.bytes), row.percent_of_raw,
         row.percent_with_volume, detail.percent_at_isovalue, row.false_negatives,
-        number(row.search_runs_us), number(row.search_ids_us), number(row.search_full_us),
-        number(row.incremental_us), number(row.incremental_full_us), number(row.sweep_ms),
-        number(row.build_mcs_per_s));
+        page_number(row.search_runs_us), page_number(row.search_ids_us), page_number(row.search_full_us),
+        page_number(row.incremental_us), page_number(row.incremental_full_us), page_number(row.sweep_ms),
+        page_number(row.build_mcs_per_s));
 }
 
 /// The median over the rows of a series: each of them was measured beside what it is compared with.
@@ -133,7 +133,7 @@ std::string compared(std::span<const Row> rows, double Row::*figure) {
     std::vector<double> all;
     for (const Row& row : rows)
         all.push_back(row.*figure);
-    return number(median(std::move(all)));
+    return page_number(median(std::move(all)));
 }
 
 std::string series_table(std::span<const Row> rows, std::span<const ErrorDetail> details) {
@@ -142,8 +142,8 @@ std::string series_table(std::span<const Row> rows, std::span<const ErrorDetail>
         "### {}, {}, {} steps\n\nIsovalue {:.5g}: {} active cells on average, {} added or removed "
         "from step to step; errors over {} queries with {} active cells.\n\nscan {} us, T-BON {} "
         "us, flying edges {} us, with normals {} us, memcpy of the ids {} us.\n\n",
-        first.data, first.type, first.steps, first.isovalue, number(first.active),
-        number(first.delta_ids), app::grouped(details.front().queries),
+        first.data, first.type, first.steps, first.isovalue, page_number(first.active),
+        page_number(first.delta_ids), app::grouped(details.front().queries),
         app::grouped(details.front().active), compared(rows, &Row::scan_us),
         compared(rows, &Row::tbon_us), compared(rows, &Row::flying_edges_us),
         compared(rows, &Row::flying_edges_normals_us), compared(rows, &Row::memcpy_us));
@@ -170,7 +170,7 @@ std::string results_page(const Results& results, const ResultPaths& paths) {
                                    "Measured on {} with commit {}, {}, on {}, {} threads.\n\n",
                                    paths.index, command, header.date, header.commit,
                                    header.compiler, header.processor, header.threads);
-    text += kReading;
+    text += kHowToRead;
     text += "## Goals\n\nThe worst figure of all rows that a goal speaks of decides.\n\n" +
             goals_table(results) + "\n";
     text += kComparable;

@@ -55,12 +55,12 @@ void each_field(AnyDetail& detail, Field&& field) requires
 
 namespace {
 
-std::string number(double value) {
+std::string cell_text(double value) {
     return value >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
-std::string number(const std::optional<double>& value) {
-    return value ? number(*value) : "-";
+std::string cell_text(const std::optional<double>& value) {
+    return value ? cell_text(*value) : "-";
 }
 
 std::string line_of(const Row& row, const ErrorDetail& detail) {
@@ -69,10 +69,10 @@ std::string line_of(const Row& row, const ErrorDetail& detail) {
                        "{:>8} {:>8} {:>8} {:>7}\n",
                        row.structure, setting, app::human_bytes(static_cast<double>(row.bytes)),
                        row.percent_of_raw, row.percent_with_volume, detail.percent_at_isovalue,
-                       row.false_negatives, number(row.search_runs_us), number(row.search_ids_us),
-                       number(row.search_full_us), number(row.incremental_us),
-                       number(row.incremental_full_us), number(row.sweep_ms),
-                       number(row.build_mcs_per_s));
+                       row.false_negatives, cell_text(row.search_runs_us), cell_text(row.search_ids_us),
+                       cell_text(row.search_full_us), cell_text(row.incremental_us),
+                       cell_text(row.incremental_full_us), cell_text(row.sweep_ms),
+                       cell_text(row.build_mcs_per_s));
 }
 
 } // namespace
@@ -122,9 +122,9 @@ std::string table_of(const Results& results) {
                 "over {} queries\n"
                 "{:<20} {:<12} {:>11} {:>7} {:>7} {:>7} {:>5} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} "
                 "{:>7}\n",
-                row.data, row.type, row.steps, row.isovalue, row.active, number(row.delta_ids),
-                number(row.scan_us), number(row.tbon_us), number(row.flying_edges_us),
-                number(row.flying_edges_normals_us), number(row.memcpy_us),
+                row.data, row.type, row.steps, row.isovalue, row.active, cell_text(row.delta_ids),
+                cell_text(row.scan_us), cell_text(row.tbon_us), cell_text(row.flying_edges_us),
+                cell_text(row.flying_edges_normals_us), cell_text(row.memcpy_us),
                 results.details[i].queries, "structure", "", "bytes", "% raw", "% +vol", "% FP",
                 "FN", "runs us", "ids us", "full us", "incr us", "whole us", "sweep ms", "Mcs/s");
         text += line_of(row, results.details[i]);

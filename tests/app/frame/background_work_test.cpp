@@ -1,5 +1,5 @@
 // Background work: in order, all of it, and never in the caller's way.
-#include "app/session/background_work.h"
+#include "app/frame/background_work.h"
 
 #include "index/error.h"
 

@@ -1,5 +1,5 @@
 // Work that may wait for a disk, on a thread of its own.
-#include "app/session/background_work.h"
+#include "app/frame/background_work.h"
 
 #include "index/error.h"
 

@@ -1,0 +1,162 @@
+// Drawing, presenting and keeping of pictures in windows, in an emulated room, or in a headset.
+#include "app/output/outputs.h"
+
+#include "app/output/picture_names.h"
+#include "stereo/image_file.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace isochron::app {
+
+Outputs::Outputs(const Config& config, stereo::Windows windows,
+                 std::unique_ptr<stereo::Headset> headset)
+    : config_(config), windows_(std::move(windows)), gl_(windows_.drawing().loader()),
+      displays_(headset ? std::deque<stereo::Display>() : make_displays(gl_, windows_, config_)),
+      headset_(std::move(headset)), stereo_modes_(live_stereo_modes(windows_)) {
+    if (headset_) {
+        headset_display_.emplace(gl_, windows_.drawing(), windows_[0], config_.openxr.mirror,
+                                 display_options(gl_, config_));
+        headset_->attach(windows_.drawing(), gl_);
+    }
+    if (windows_.room())
+        room_.emplace(gl_, *windows_.room(), config_.installation);
+    picture_options(gl_, config_, {1, 1}); // wrong ones are told now, not when the first is taken
+}
+
+Outputs::~Outputs() {
+    if (headset_)
+        headset_->detach();
+}
+
+std::vector<glm::ivec2> Outputs::window_sizes() const {
+    std::vector<glm::ivec2> sizes;
+    for (std::size_t i = 0; i < windows_.count(); ++i)
+        sizes.push_back(windows_[i].framebuffer_size());
+    return sizes;
+}
+
+std::vector<stereo::HeadsetEye> Outputs::headset_eyes() const {
+    return headset_ ? headset_->eyes() : std::vector<stereo::HeadsetEye>();
+}
+
+/// How a window shows what is drawn.
+stereo::StereoMode Outputs::mode_in(const stereo::Window& window) const {
+    const stereo::StereoMode mode = mode_of(window, config_.installation, drawn_.audience.stereo);
+    return room_ ? RoomView::shown(mode) : mode;
+}
+
+/// One picture carries it: the room's, or else the first window's.
+Outputs::Overlay Outputs::overlay_of(std::size_t window, const Overlay& overlay) const {
+    return window == 0 && !room_ ? overlay : Overlay();
+}
+
+void Outputs::draw_window(stereo::Display& display, const Scene& scene,
+                          const Overlay& overlay) const {
+    ScenePlace place{&display.window(), 0, mode_in(display.window())};
+    display.draw(
+        drawn_.audience.viewers, place.mode,
+        [&](std::span<const render::View> views) {
+            scene(place, views);
+            ++place.viewport;
+        },
+        overlay);
+}
+
+DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& overlay) {
+    drawn_ = {audience, std::move(scene)};
+    DrawLoad of_cell;
+    const Scene counted = [&](const ScenePlace& place, std::span<const render::View> views) {
+        for (const render::View& view : views) {
+            of_cell.cells += 1;
+            of_cell.pixels += static_cast<double>(view.size.x) * static_cast<double>(view.size.y);
+        }
+        drawn_.scene(place, views);
+    };
+    for (std::size_t i = 0; i < displays_.size(); ++i)
+        draw_window(displays_[i], counted, overlay_of(i, overlay));
+    if (headset_) {
+        headset_display_->draw(audience.eyes, [&](std::span<const render::View> views) {
+            counted(ScenePlace{}, views);
+        });
+        show_in_headset(false, overlay);
+    }
+    return of_cell;
+}
+
+void Outputs::draw_again(const Audience& audience, const Overlay& overlay) {
+    drawn_.audience = audience;
+    for (std::size_t i = 0; i < displays_.size(); ++i)
+        displays_[i].draw_overlay_again(overlay_of(i, overlay));
+    if (headset_)
+        show_in_headset(true, overlay);
+}
+
+void Outputs::show_in_headset(bool again, const Overlay& overlay) {
+    headset_display_->submit(*headset_, drawn_.audience.eyes, again);
+    headset_display_->mirror(overlay);
+}
+
+void Outputs::draw_room(const interaction::InputState& input, const Overlay& overlay) {
+    if (!room_)
+        return;
+    const Audience& audience = drawn_.audience;
+    room_->set_panel(audience.panel);
+    room_->draw(displays_, audience.viewers, audience.wand, input, overlay);
+}
+
+void Outputs::present() {
+    for (stereo::Display& display : displays_)
+        display.present();
+    if (room_)
+        room_->present();
+    if (headset_)
+        headset_display_->present();
+}
+
+KeptPictures Outputs::kept_pictures() {
+    return {gl_,     windows_,
+            config_, displays_,
+            room_,   [this](stereo::Display& display) { draw_window(display, drawn_.scene, {}); }};
+}
+
+/// What the window beside the headset shows.
+render::Image Outputs::headset_picture() {
+    const std::vector<stereo::HeadsetEye>& eyes = drawn_.audience.eyes;
+    const stereo::DisplayOptions options =
+        picture_options(gl_, config_, windows_[0].framebuffer_size());
+    if (eyes.empty() || options.samples == display_options(gl_, config_).samples) {
+        headset_display_->mirror({});
+        return headset_display_->read_window();
+    }
+    stereo::HeadsetDisplay picture(gl_, windows_.drawing(), windows_[0], config_.openxr.mirror,
+                                   options);
+    picture.draw(eyes,
+                 [&](std::span<const render::View> views) { drawn_.scene(ScenePlace{}, views); });
+    picture.mirror({});
+    return picture.read_window();
+}
+
+void Outputs::take_screenshots() {
+    const std::string stem = fmt::format("isochron_{:04}", ++screenshots_taken_);
+    if (room_)
+        return write_image(kept_pictures().of_room(), screenshot_folder_ / (stem + ".png"));
+    if (headset_)
+        return write_image(headset_picture(), screenshot_folder_ / (stem + ".png"));
+    const PictureNames names = picture_names(config_.installation);
+    kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
+        write_image(display.read_window(),
+                    screenshot_folder_ /
+                        fmt::format("{}{}.png", stem, names.windows[windows_.number(i)].suffix));
+    });
+}
+
+void Outputs::write_image(render::Image image, const std::filesystem::path& path) {
+    pictures_.post([image = std::move(image), path] {
+        stereo::write_image(image, path);
+        return "saved " + path.string();
+    });
+}
+
+} // namespace isochron::app

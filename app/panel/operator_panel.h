@@ -1,0 +1,46 @@
+// The operator's panel: over the first window, or alone in a window of its own.
+#pragma once
+
+#include "app/panel/operator_window.h"
+#include "app/panel/panel_layer.h"
+#include "stereo/windows.h"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::app {
+
+class OperatorPanel {
+  public:
+    /// What the panel shows in such a place; asked for only where it is laid out.
+    using Model = std::function<PanelModel(PanelPlace)>;
+
+    /// @param gl outlives the panel, as do the windows' contexts
+    OperatorPanel(const render::Gl& gl, const stereo::Windows& windows);
+
+    /// Passes window events to the panel. @param shown it lies over the first window
+    /// @return those that it has no use for
+    std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,
+                                               bool shown);
+
+    /// Draws the panel over the first window's picture, which is bound; lays it out once a frame.
+    /// Nothing where the panel has a window of its own, or the picture has none.
+    /// @param picture its size, pixels @param time of the session
+    /// @return what the operator did
+    interaction::Commands draw_over(glm::ivec2 picture, const Model& model,
+                                    interaction::Seconds time);
+    /// Draws it in its own window, where it has one. @return what the operator did
+    interaction::Commands draw_alone(const Model& model, interaction::Seconds time);
+    /// Shows its own window, where it has one, and ends the frame.
+    void present();
+
+  private:
+    stereo::GlContext& first_; ///< window
+    PanelLayer over_;
+    bool laid_out_ = false; ///< in this frame, over one buffer of its window
+    std::optional<Console> console_;
+};
+
+} // namespace isochron::app

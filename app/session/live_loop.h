@@ -1,0 +1,81 @@
+// The live loop: what devices state becomes frames, at the pace of what shows them, until the user
+// leaves.
+//
+//     LiveLoop live(config, std::move(trackers), {}, session.outputs().headset());
+//     live.record("walk.jsonl", header);
+//     live.run(session);
+//     live.finish();
+#pragma once
+
+#include "app/config/config.h"
+#include "app/frame/background_work.h"
+#include "app/frame/late_latch.h"
+#include "app/output/room_camera.h"
+#include "app/session/headset_loop.h"
+#include "app/session/pattern_show.h"
+#include "app/session/session.h"
+#include "interaction/composite_input.h"
+#include "interaction/desktop_emulation.h"
+#include "interaction/recording/recording.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+struct LiveOptions {
+    bool emulated = false; ///< the room is shown from outside: mouse and keys move its camera, too
+    std::optional<interaction::Seconds> length; ///< the loop ends after this long; empty: never
+};
+
+/// Session time starts with it, at 0.
+class LiveLoop {
+  public:
+    /// @param config outlives the loop
+    /// @param trackers go before what mouse and keyboard emulate
+    /// @param headset attached, outlives the loop; or null
+    LiveLoop(const Config& config, interaction::CompositeInput trackers, const LiveOptions& options,
+             stereo::Headset* headset = nullptr);
+
+    /// Session time as it goes on.
+    std::function<interaction::Seconds()> clock() const;
+
+    /// Records the frames to come, in the background: a slow disk delays the recording, not the
+    /// picture. @throws interaction::Error when the file cannot be created
+    void record(const std::filesystem::path& path, const interaction::RecordingHeader& header);
+
+    /// Until the user closes a window, leaves by a device or ends the headset's program, or the
+    /// time is over; a headset is left then.
+    void run(Session& session);
+    void run(PatternShow& show);
+
+    /// Completes the recording, if there is one.
+    /// @throws index::Error, interaction::Error when it cannot be written
+    void finish();
+    /// What trackers and headset say of themselves: a line each.
+    std::vector<std::string> status() const;
+
+  private:
+    interaction::InputState poll(std::span<const interaction::WindowEvent> events);
+    bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
+    void record(interaction::RecordedFrame frame);
+
+    const Config& config_;
+    const LiveOptions options_;
+    interaction::CompositeInput trackers_;
+    interaction::DesktopEmulation emulation_;
+    RoomCamera camera_;
+    HeadsetLoop headset_;
+    bool paced_ = false; ///< by the headset, in this frame
+    BackgroundWork recording_;
+    /// Lives on the thread that writes.
+    std::shared_ptr<interaction::RecordingWriter> recorder_;
+    const std::function<interaction::Seconds()> clock_; ///< last: its time starts when all is ready
+};
+
+} // namespace isochron::app

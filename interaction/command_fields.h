@@ -4,7 +4,8 @@
 // numbers, the comparison of replays, ExplorerState::apply and the random recordings of the tests
 // follow from that line; docs/FORMATS.md is held against it.
 //
-//     each_field([](const Field& field, auto& into, const auto& later) { ... }, commands, others);
+//     each_field([](const Field& field, auto& into, const auto& later) { use(field, into, later); },
+//                commands, others);
 #pragma once
 
 #include "interaction/commands.h"

@@ -120,9 +120,11 @@ struct Commands {
     bool quit = false;
     std::vector<std::string> stamps;  ///< named moments of a recording
     std::vector<HapticPulse> haptics; ///< to be played now, by whatever backend has the devices
-    bool empty() const;
     bool operator==(const Commands&) const = default;
+    bool empty() const { return *this == Commands{}; }
 };
+
+// Both go by the list of fields, and are defined beside it, in command_fields.cpp.
 
 /// Fields set in `later` win; stamps and haptics are appended.
 void merge(Commands& into, const Commands& later);

@@ -1,7 +1,10 @@
 // The processes that show one room together: each waits for the others, but not for ever.
 //
 //     Cluster cluster(*team, {});
-//     if (cluster.rank() == 0) cluster.tell(order); else order = cluster.hear();
+//     if (cluster.rank() == 0)
+//         cluster.tell(order);
+//     else
+//         order = cluster.hear();
 //     const auto answers = cluster.gather(mine);           // also a barrier
 #pragma once
 

@@ -3,9 +3,10 @@
 //     headset->update(now);                            // events, and a lost one comes back
 //     const auto frame = headset->begin_frame(now);    // blocks: the headset paces the program
 //     const auto input = headset->poll(now);
-//     const auto eyes = headset->eyes();               // as late as can be
-//     ... draw each eye ...
-//     if (frame) headset->end_frame(pictures);
+//     for (const HeadsetEye& eye : headset->eyes())    // as late as can be
+//         draw(view_of(eye, near_plane, far_plane));
+//     if (frame)
+//         headset->end_frame(&pictures, false);
 #pragma once
 
 #include "interaction/tracked_input.h"

@@ -1,7 +1,7 @@
 // Off-axis views through screens, and checks of a screen's geometry.
 //
-//     const render::View view = view_of(screen, head, Eye::left, 0.063f, 0.05f, 50.0f, {960,
-//     1080});
+//     const render::View view =
+//         view_of(screen, head, Eye::left, 0.063f, 0.05f, 50.0f, {960, 1080});
 #pragma once
 
 #include "interaction/pose.h"

@@ -1,9 +1,9 @@
 // A command run by all processes of a cluster's job: it starts, and fails, in all of them.
 //
 //     run_in_cluster([&](ClusterJob& job) {
-//         job.together([&] { ...open files and windows... });
+//         job.together([&] { open_files_and_windows(); });
 //         job.require_same({{"data", hash}});
-//         ...frames...
+//         show_frames();
 //         job.finish();
 //     });
 //

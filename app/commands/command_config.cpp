@@ -1,4 +1,4 @@
-// `isochron config`: configurations from other programs' files.
+// `isochron config`: configurations from other programs' files, and what a configuration may hold.
 #include "app/commands/file_patterns.h"
 #include "app/commands/subcommands.h"
 #include "app/config/check_config.h"
@@ -48,7 +48,7 @@ void import(ImportOptions options) {
 
 void add_config(Command& program) {
     Command config =
-        program.subcommand("config", "Make configurations from other programs' files.");
+        program.subcommand("config", "Make configurations, and tell what they may hold.");
     config.require_subcommand();
     auto options = std::make_shared<ImportOptions>();
     Command command = config.subcommand(
@@ -67,6 +67,10 @@ void add_config(Command& program) {
         .values(3);
     command.footer("Exit status: 0 done, 1 bad input, 2 bad usage.");
     command.on_run([options] { import(*options); });
+    Command schema = config.subcommand(
+        "schema",
+        "Print the JSON schema of configurations, by which editors check and complete them.");
+    schema.on_run([] { fmt::print("{}", config_schema()); });
 }
 
 } // namespace isochron::app

@@ -44,12 +44,6 @@ void read_quality(TomlReader& reader, Config& config) {
     config.stillness.settle = interaction::Seconds(settle_ms / 1e3);
 }
 
-void check_color(TomlReader& reader, std::string_view key, const glm::vec3& color) {
-    for (int channel = 0; channel < 3; ++channel)
-        if (color[channel] < 0 || color[channel] > 1)
-            reader.fail(key, fmt::format("expected sRGB from 0 to 1, got {}", color[channel]));
-}
-
 void read_surface(TomlReader& reader, std::vector<ConfiguredSurface>& surfaces) {
     const auto& palette = render::surface_palette();
     ConfiguredSurface& surface = surfaces.emplace_back(
@@ -62,8 +56,7 @@ void read_surface(TomlReader& reader, std::vector<ConfiguredSurface>& surfaces) 
     if (reader.has("isovalue"))
         surface.isovalue = isovalue;
     reader.number("quantile", 0.0, 1.0, surface.quantile);
-    reader.vector("color", surface.color);
-    check_color(reader, "color", surface.color);
+    reader.color("color", surface.color);
     reader.number("opacity", 0.0, 1.0, surface.opacity);
 }
 
@@ -114,10 +107,8 @@ void read_rendering(TomlReader& reader, Config& config) {
     reader.integer("upload_kilobytes_per_frame", 16, 1 << 20, config.upload_kilobytes_per_frame);
     reader.number("near", 1e-3, 10.0, config.installation.near_plane);
     reader.number("far", 1.0, 1e5, config.installation.far_plane);
-    reader.vector("background", config.background);
-    reader.vector("surface_color", config.surface_color);
-    check_color(reader, "background", config.background);
-    check_color(reader, "surface_color", config.surface_color);
+    reader.color("background", config.background);
+    reader.color("surface_color", config.surface_color);
     reader.integer("samples", 0, 64, config.samples);
     reader.integer("picture_samples", 0, 64, config.picture_samples);
     reader.word("blending", {"auto", "linear", "display"}, [&](const std::string& word) {
@@ -209,6 +200,14 @@ Config parse_config(const std::string& text, const std::string& name) {
             fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
     }
     return config;
+}
+
+std::string config_schema() {
+    TableSchema schema;
+    TomlReader reader(schema);
+    Config defaults;
+    read_root(reader, defaults);
+    return schema.text();
 }
 
 Config read_config(const std::filesystem::path& path) {

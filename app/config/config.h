@@ -79,6 +79,11 @@ Config parse_config(const std::string& text, const std::string& name);
 /// @throws ConfigError as above, or when the file cannot be read
 Config read_config(const std::filesystem::path& path);
 
+/// What a configuration may hold, as editors and other programs check it (JSON Schema, draft 7): the
+/// readers above tell it, so that it says what they accept. Shipped as
+/// configs/isochron.schema.json.
+std::string config_schema();
+
 /// The emulation's options with the field of view of the first window's first screen.
 interaction::EmulationOptions emulation_for(const Config& config);
 

@@ -50,7 +50,7 @@ int read_viewport(TomlReader& reader, const std::vector<std::string>& viewers,
             viewport.position[axis] + viewport.size[axis] > 1.0001f)
             reader.fail("size",
                         "the viewport leaves its window (position and size are fractions, 0 to 1)");
-    reader.word("viewer", viewers, [&](const std::string& word) {
+    reader.given_word("viewer", viewers, [&](const std::string& word) {
         viewport.viewer = std::ranges::find(viewers, word) - viewers.begin();
     });
     int line = reader.line();

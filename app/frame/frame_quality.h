@@ -2,8 +2,11 @@
 //
 //     quality.learn(quality.collect(log));                  // every frame
 //     quality.charge(quality.view());
-//     const bool redraw = quality.choose(state, changed, how, best, report) || changed;
-//     if (redraw) { quality.begin(log.next()); ... quality.end(report, of_cell, time); }
+//     if (quality.choose(state, changed, Choosing::by_measurement, best, report) || changed) {
+//         quality.begin(log.next());
+//         draw(views, report.footprint);
+//         quality.end(report, of_cell, processor_time);
+//     }
 #pragma once
 
 #include "app/config/config.h"

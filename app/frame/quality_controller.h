@@ -3,7 +3,7 @@
 //     QualityController controller(Milliseconds(11.1));
 //     for (const DrawSample& sample : meter.finished())
 //         controller.measured(sample.footprint, sample.load, sample.cost());
-//     const QualityChoice choice = controller.choose({.pace = gate.pace(), ...});   // every frame
+//     const QualityChoice choice = controller.choose({.pace = gate.pace()});   // every frame
 #pragma once
 
 #include "app/frame/draw_cost.h"

@@ -1,10 +1,11 @@
 // The panel that stands in the room: laid out once a frame, operated by the wand's ray, seen by
 // every eye.
 //
-//     const auto wand = panel.outcome(input, state.room_panel);  // before the frame: commands, and
-//                                                                // what is left for the world
-//     panel.update(input, state.room_panel, eyes);               // in the frame, before its
-//     commands panel.lay_out(model, input.time); scene.set_panel(panel.shown(state.room_panel));
+//     const auto wand = panel.outcome(input, state.room_panel);   // before the frame
+//     const auto commands = commands_of(wand.rest, wand.commands);
+//     panel.update(input, state.room_panel);                      // in the frame, before commands
+//     panel.lay_out(model, input.time);
+//     scene.set_panel(panel.shown(state.room_panel));
 #pragma once
 
 #include "app/config/panel_config.h"

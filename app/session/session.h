@@ -1,7 +1,7 @@
 // One session: the data, the worker, the eyes, and the story of one frame.
 //
 //     app::Session session(config, file, *context);
-//     while (!session.finished()) {
+//     while (!session.should_close()) {
 //         const auto input = emulation.poll(clock.now());
 //         session.frame(input, session.commands_from(input), app::Waiting::never);
 //     }

@@ -2,7 +2,8 @@
 //
 //     index::Extractor extractor(index::extract_from(file));
 //     extractor.request({.query = {step, {isovalue}}, .next_step = step + 1});
-//     if (auto newest = extractor.newest()) show(newest);      // every frame, never blocks
+//     if (const auto newest = extractor.newest())              // every frame, never blocks
+//         show(newest);
 #pragma once
 
 #include "index/extraction/extraction.h"

@@ -1,18 +1,18 @@
 // Header and section table of the .isochron file: where everything lies, and whether it is intact.
 //
-// Version 2, little-endian, offsets from the start of the file:
-//     0     header, 4096 bytes: FileHeader, then zeros
-//     4096  sections, those up to `units` at multiples of 4096, the others of 64, the gaps zero:
-//           volume     stored values, step after step, each step padded with zeros to 64 bytes;
-//                      empty when the file refers to its sources
-//           bricks     extremes of the bricks (bricks.h), step after step, padded likewise
-//           units      cells and deltas of every chunk in every epoch (cell_unit.h), each part
-//                      padded to 64 bytes
-//           tree       the THI tree's block (thi_tree.h)
-//           directory  a UnitEntry for each epoch and chunk, chunks faster
-//           checksums  XXH3, 64 bits: of every step of the volume, of every step of the bricks, of
-//                      cells and deltas of every unit, all without their padding
-//           metadata   JSON (metadata.h)
+// Version 2, little-endian, offsets from the start of the file. The header has 4096 bytes:
+// FileHeader, then zeros. The sections follow from 4096 on, those up to `units` at multiples of
+// 4096, the others of 64, the gaps zero:
+// - volume: stored values, step after step, each step padded with zeros to 64 bytes; empty when the
+//   file refers to its sources
+// - bricks: extremes of the bricks (bricks.h), step after step, padded likewise
+// - units: cells and deltas of every chunk in every epoch (cell_unit.h), each part padded to 64
+//   bytes
+// - tree: the THI tree's block (thi_tree.h)
+// - directory: a UnitEntry for each epoch and chunk, chunks faster
+// - checksums: XXH3, 64 bits: of every step of the volume, of every step of the bricks, of cells
+//   and deltas of every unit, all without their padding
+// - metadata: JSON (metadata.h)
 // A section that the plan does without is empty.
 #pragma once
 

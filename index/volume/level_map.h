@@ -1,8 +1,9 @@
 // Ranks of stored values among at most 256 levels: what bricks and cells are indexed by.
 //
-//     const auto levels = index::LevelMap::of_type(ValueType::u8);     // 256 levels: lossless
-//     levels.ranks(values.step<std::uint8_t>(t), ranks);               // a byte for each vertex
-//     if (auto cut = levels.cut(values.scaling, isovalue)) ...         // what to search for
+//     const auto levels = index::LevelMap::of_type(ValueType::u8);        // 256 levels: lossless
+//     levels.ranks(std::as_bytes(values.step<std::uint8_t>(t)), ranks);   // a byte for each vertex
+//     if (const auto cut = levels.cut(values.scaling, isovalue))          // what to search for
+//         search(*cut);
 #pragma once
 
 #include "index/volume/value_type.h"

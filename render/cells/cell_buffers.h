@@ -1,7 +1,8 @@
 // The cells on the GPU: the set that is drawn, and the changes that lead to the next one.
 //
 //     cells.upload(extractor.newest(), 4 << 20);   // every frame
-//     if (cells.shown()) pass.draw(view, placement, cells, footprint, appearance);
+//     if (cells.shown())
+//         pass.draw(view, placement, cells, footprint, appearance);
 #pragma once
 
 #include "index/extraction/extraction.h"

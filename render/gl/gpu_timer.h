@@ -1,7 +1,7 @@
 // Measures how long the GPU works on a part of each frame, and never waits for it.
 //
 //     timer.begin(frame, Clock::now());
-//     ... draw ...
+//     draw();
 //     timer.end();
 //     while (const auto span = timer.take(Clock::now()))   // of earlier frames
 //         note(span->tag, span->time);

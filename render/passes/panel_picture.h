@@ -1,9 +1,9 @@
 // The picture of a panel: drawn now and then, seen from anywhere.
 //
 //     PanelPicture picture(gl, {800, 1000});
-//     picture.begin();  // clear and bound
-//     ... triangles, blended as `BlendFuncSeparate(SRC_ALPHA, .., ONE, ..)` does ...
-//     picture.end();    // its smaller copies are made
+//     picture.begin();   // clear and bound
+//     draw_triangles();  // blended as `BlendFuncSeparate(SRC_ALPHA, .., ONE, ..)` does
+//     picture.end();     // its smaller copies are made
 #pragma once
 
 #include "render/gl/gl_objects.h"

@@ -1,5 +1,5 @@
 // The house stays as it was drawn: no floor looks upwards, every file says what it is for.
-#include "tests/support/paths.h"
+#include "tests/house/source_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 
+namespace isochron::house {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,82 +27,62 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
 /// Every violation as `file:line includes what`.
 std::vector<std::string> upward_includes(const fs::path& root) {
     std::vector<std::string> found;
-    const std::regex include(R"(^\s*#\s*include\s*["<]([a-z]+)/)");
-    for (const auto& [floor, allowed] : kMayInclude) {
-        for (const auto& entry : fs::recursive_directory_iterator(root / floor)) {
-            const std::string extension = entry.path().extension();
-            if (extension != ".h" && extension != ".cpp")
-                continue;
-            std::ifstream file(entry.path());
-            std::string line;
-            for (int number = 1; std::getline(file, line); ++number) {
-                std::smatch match;
-                if (std::regex_search(line, match, include) && kMayInclude.contains(match[1]) &&
-                    !allowed.contains(match[1]))
-                    found.push_back(entry.path().string() + ":" + std::to_string(number) +
-                                    " includes " + match[1].str());
+    for (const auto& [floor, allowed] : kMayInclude)
+        for (const std::string& file : sources(root, floor))
+            for (const Include& include : includes_of(root / file)) {
+                const std::string other = include.path.substr(0, include.path.find('/'));
+                if (other == "tests" || (kMayInclude.contains(other) && !allowed.contains(other)))
+                    found.push_back(file + ":" + std::to_string(include.line) + " includes " +
+                                    include.path);
             }
-        }
-    }
     return found;
 }
 
 TEST(House, NoFloorLooksUpwards) {
-    EXPECT_EQ(upward_includes(isochron::test_support::source_root()), std::vector<std::string>{});
+    EXPECT_EQ(upward_includes(checkout()), std::vector<std::string>{});
 }
 
 TEST(House, AnUpwardIncludeIsFound) {
-    const fs::path root = fs::path(testing::TempDir()) / "house";
-    for (const auto& [floor, allowed] : kMayInclude)
-        fs::create_directories(root / floor);
-    std::ofstream(root / "index" / "bad.cpp") << "#include \"render/gl/gl.h\"\n";
-    EXPECT_EQ(upward_includes(root).size(), 1u);
-    fs::remove_all(root);
+    const PlantedTree tree("upwards");
+    tree.plant("index/bad.cpp", "#include \"render/gl/gl.h\"\n");
+    EXPECT_EQ(upward_includes(tree.root()),
+              std::vector<std::string>{"index/bad.cpp:1 includes render/gl/gl.h"});
 }
 
 TEST(House, EverySourceStartsWithItsOwnHeader) {
-    for (const auto& [floor, allowed] : kMayInclude)
-        for (const auto& entry :
-             fs::recursive_directory_iterator(fs::path(isochron::test_support::source_root()) / floor)) {
-            fs::path header = entry.path();
-            header.replace_extension(".h");
-            if (entry.path().extension() != ".cpp" || !fs::exists(header))
+    for (const char* floor : kFloors)
+        for (const std::string& source : sources(checkout(), floor)) {
+            const fs::path header = fs::path(source).replace_extension(".h");
+            if (header == source || !fs::exists(checkout() / header))
                 continue;
-            std::ifstream file(entry.path());
+            std::ifstream file(checkout() / source);
             std::string line;
             while (std::getline(file, line) && !line.starts_with("#include")) {
             }
-            const std::string own = fs::relative(header, isochron::test_support::source_root()).string();
-            EXPECT_EQ(line, "#include \"" + own + "\"") << "so that the header stands on its own";
+            EXPECT_EQ(line, "#include \"" + header.string() + "\"")
+                << "so that the header stands on its own";
         }
 }
 
 TEST(House, NoFileHoldsTwoIdeas) {
     constexpr int kMost = 400;
     for (const char* folder : {"index", "interaction", "render", "stereo", "app", "tests"})
-        for (const auto& entry :
-             fs::recursive_directory_iterator(fs::path(isochron::test_support::source_root()) / folder)) {
-            const std::string extension = entry.path().extension();
-            if (extension != ".h" && extension != ".cpp")
-                continue;
-            std::ifstream file(entry.path());
+        for (const std::string& source : sources(checkout(), folder)) {
+            std::ifstream file(checkout() / source);
             const auto lines = std::count(std::istreambuf_iterator<char>(file), {}, '\n');
-            EXPECT_LE(lines, kMost) << entry.path();
+            EXPECT_LE(lines, kMost) << source;
         }
 }
 
 TEST(House, EveryFileSaysFirstWhatItIsFor) {
-    for (const auto& [floor, allowed] : kMayInclude)
-        for (const auto& entry :
-             fs::recursive_directory_iterator(fs::path(isochron::test_support::source_root()) / floor)) {
-            const std::string extension = entry.path().extension();
-            if (extension != ".h" && extension != ".cpp")
-                continue;
-            std::ifstream file(entry.path());
+    for (const char* floor : kFloors)
+        for (const std::string& source : sources(checkout(), floor)) {
+            std::ifstream file(checkout() / source);
             std::string line;
             std::getline(file, line);
-            EXPECT_TRUE(line.starts_with("// ")) << entry.path();
+            EXPECT_TRUE(line.starts_with("// ")) << source;
         }
 }
 
 } // namespace
+} // namespace isochron::house

@@ -175,6 +175,24 @@ TEST_F(CommandLine, ColorCarriesASecondArrayThatInfoShowsAndVerifyChecks) {
     expect_failure(isochron({"verify", "c.isochron"}), 1, "s1.vtk has changed");
 }
 
+TEST_F(CommandLine, FlagsInTheirOldSpellingDoTheSame) {
+    write_two_arrays(folder, 2);
+    const std::vector<std::string> now{
+        "build", "s?.vtk",       "--array", "speed", "--color",   "heat", "--color-component",
+        "0",     "--color-unit", "K",       "-o",    "c.isochron"};
+    ASSERT_EQ(isochron(now).status, 0);
+    const std::string whole = folder.read("c.isochron");
+    for (const std::string flag : {"--color", "--color-component", "--color-unit"}) {
+        std::vector<std::string> old = now;
+        std::ranges::replace(old, flag, "--colour" + flag.substr(7));
+        ASSERT_NE(old, now);
+        std::filesystem::remove(folder.path() / "c.isochron");
+        const ChildResult result = isochron(old);
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(folder.read("c.isochron"), whole) << flag;
+    }
+}
+
 TEST_F(CommandLine, ColorsAreAppendedWithTheRest) {
     write_two_arrays(folder, 4);
     const auto build = [&](const std::string& files, const std::vector<std::string>& more) {

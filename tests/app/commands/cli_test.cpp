@@ -187,5 +187,13 @@ TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsAFailure) {
     EXPECT_THAT(result.err, HasSubstr("the output cannot be written"));
 }
 
+TEST_F(CommandLine, ConfigSchemaPrintsTheShippedSchema) {
+    const ChildResult result = isochron({"config", "schema"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    std::ifstream shipped(test_support::source_root() + "/configs/isochron.schema.json",
+                          std::ios::binary);
+    EXPECT_EQ(result.out, std::string(std::istreambuf_iterator<char>(shipped), {}));
+}
+
 } // namespace
 } // namespace isochron::app

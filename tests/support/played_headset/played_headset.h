@@ -2,9 +2,9 @@
 //
 //     PlayedHeadset& headset = played_headset();
 //     headset.head = {{0.2f, 1.7f, 0.1f}, {1, 0, 0, 0}};
-//     ... the program runs, through the real OpenXR loader ...
+//     run_the_program();   // through the real OpenXR loader
 //     EXPECT_THAT(headset.violations, IsEmpty());
-//     EXPECT_EQ(headset.frames.back().views[0].picture, ...);
+//     EXPECT_TRUE(images_match(headset.frames.back().views[0].picture, expected, {}, "left"));
 #pragma once
 
 #include "interaction/pose.h"

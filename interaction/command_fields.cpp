@@ -1,6 +1,4 @@
-// Emptiness, merging and comparison of commands.
-#include "interaction/commands.h"
-
+// Merging and comparison of commands, by the list of their fields.
 #include "interaction/command_fields.h"
 
 namespace isochron::interaction {
@@ -21,10 +19,6 @@ void combine(std::vector<T>& into, const std::vector<T>& later) {
 }
 
 } // namespace
-
-bool Commands::empty() const {
-    return *this == Commands{};
-}
 
 void merge(Commands& into, const Commands& later) {
     // A list that comes later has its isovalues itself.

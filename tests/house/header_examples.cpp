@@ -1,0 +1,298 @@
+// Compiles the example of every header, so that none of them rots. Each stands in a function whose
+// parameters are what the example takes for granted; none of them is ever called.
+//
+// A new example needs a few lines here; house_tests says which one is missing.
+#include "app/commands/cluster_job.h"
+#include "app/commands/command_line.h"
+#include "app/frame/draw_meter.h"
+#include "app/frame/frame_quality.h"
+#include "app/frame/quality_controller.h"
+#include "app/output/kept_pictures.h"
+#include "app/output/outputs.h"
+#include "app/panel/panel_in_room.h"
+#include "app/scene/scene.h"
+#include "app/session/live_loop.h"
+#include "app/session/session.h"
+#include "index/build/level_choice.h"
+#include "index/extraction/cell_ray.h"
+#include "index/extraction/extractor.h"
+#include "index/file/index_file.h"
+#include "index/formats/series_writer.h"
+#include "index/scan/bricks.h"
+#include "index/thi/thi_tree.h"
+#include "index/volume/level_map.h"
+#include "index/volume/order_key.h"
+#include "interaction/command_fields.h"
+#include "interaction/desktop_emulation.h"
+#include "interaction/enum_names.h"
+#include "interaction/motion_gate.h"
+#include "interaction/panel_pointer.h"
+#include "interaction/trackers/pose_filter.h"
+#include "render/cells/cell_buffers.h"
+#include "render/cells/cell_pass.h"
+#include "render/gl/gl.h"
+#include "render/gl/gpu_timer.h"
+#include "render/gl/render_target.h"
+#include "render/passes/panel_picture.h"
+#include "render/passes/text_pass.h"
+#include "stereo/cluster.h"
+#include "stereo/context/gl_context.h"
+#include "stereo/display.h"
+#include "stereo/headset.h"
+#include "stereo/screen.h"
+#include "stereo/windows.h"
+#include "tests/support/image_compare.h"
+#include "tests/support/played_headset/played_headset.h"
+
+#include <gmock/gmock.h>
+
+// The examples' own names for what they do with their results.
+namespace {
+
+template <class... Any>
+void use(const Any&...) {}
+template <class... Any>
+void show(const Any&...) {}
+template <class... Any>
+void search(const Any&...) {}
+template <class... Any>
+void draw(const Any&...) {}
+template <class... Any>
+void write(const Any&...) {}
+template <class... Any>
+void mark(const Any&...) {}
+template <class... Any>
+void navigate(const Any&...) {}
+template <class... Any>
+void note(const Any&...) {}
+void draw_triangles() {}
+void open_files_and_windows() {}
+void show_frames() {}
+void run_the_program() {}
+
+} // namespace
+
+namespace isochron::index {
+namespace {
+
+void level_choice_example(ValueType type, std::size_t step, std::span<const std::byte> stored,
+                          const LevelChooser& other) {
+#include "index/build/level_choice.example"
+}
+
+void cell_ray_example(const ExtractionPtr& shown, const Grid& grid, glm::dvec3 wand,
+                      glm::dvec3 ahead) {
+#include "index/extraction/cell_ray.example"
+}
+
+void extractor_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,
+                       double isovalue) {
+#include "index/extraction/extractor.example"
+}
+
+void series_writer_example(const std::filesystem::path& dir, const SeriesInfo& info,
+                           std::size_t steps, const std::vector<float>& (*values_of)(std::size_t),
+                           double (*time_of)(std::size_t)) {
+#include "index/formats/series_writer.example"
+}
+
+void bricks_example(const StepValues& values, const LevelMap& levels, std::uint32_t step,
+                    double isovalue, std::vector<CellId>& ids) {
+#include "index/scan/bricks.example"
+}
+
+void thi_tree_example(const StepValues& values, const KeyMap& keys, std::uint32_t step,
+                      double isovalue) {
+#include "index/thi/thi_tree.example"
+}
+
+void level_map_example(const StepValues& values, std::size_t t, double isovalue,
+                       std::span<std::uint8_t> ranks) {
+#include "index/volume/level_map.example"
+}
+
+} // namespace
+} // namespace isochron::index
+
+namespace isochron::interaction {
+namespace {
+
+void command_fields_example(Commands& commands, const Commands& others) {
+#include "interaction/command_fields.example"
+}
+
+} // namespace
+
+enum class Hand : std::uint8_t { left, right };
+#include "interaction/enum_names.example"
+
+namespace {
+
+void panel_pointer_example(PanelPointer& pointer, const InputState& input,
+                           const TouchedPanel& panel) {
+#include "interaction/panel_pointer.example"
+}
+
+void pose_filter_example(Seconds now, const Pose& pose) {
+#include "interaction/trackers/pose_filter.example"
+}
+
+} // namespace
+} // namespace isochron::interaction
+
+namespace isochron::render {
+namespace {
+
+void cell_buffers_example(CellBuffers& cells, const index::Extractor& extractor, CellPass& pass,
+                          const View& view, const Placement& placement, Footprint footprint,
+                          const CellAppearance& appearance) {
+#include "render/cells/cell_buffers.example"
+}
+
+void gl_example(const stereo::GlContext& context) {
+#include "render/gl/gl.example"
+}
+
+void gpu_timer_example(GpuTimer& timer, std::uint64_t frame) {
+    using Clock = GpuTimer::Clock;
+#include "render/gl/gpu_timer.example"
+}
+
+void render_target_example(const Gl& gl, const View& view) {
+    struct {
+        void draw(const View&) {}
+    } pass;
+#include "render/gl/render_target.example"
+}
+
+void panel_picture_example(const Gl& gl) {
+#include "render/passes/panel_picture.example"
+}
+
+void text_pass_example(const Gl& gl, const GlyphAtlas& atlas, const View& view,
+                       const glm::mat4& room_from_index) {
+#include "render/passes/text_pass.example"
+}
+
+} // namespace
+} // namespace isochron::render
+
+namespace isochron::stereo {
+namespace {
+
+void cluster_example(index::Team* team, std::vector<std::byte> order,
+                     std::span<const std::byte> mine) {
+#include "stereo/cluster.example"
+}
+
+void display_example(const render::Gl& gl, const std::unique_ptr<GlContext>& context,
+                     const Installation& installation, const interaction::Pose& head,
+                     const Display::Overlay& draw_panel) {
+    struct {
+        void draw(std::span<const render::View>) {}
+    } pass;
+#include "stereo/display.example"
+}
+
+void headset_example(const std::unique_ptr<Headset>& headset, interaction::Seconds now,
+                     float near_plane, float far_plane, const HeadsetPictures& pictures) {
+#include "stereo/headset.example"
+}
+
+void screen_example(const Screen& screen, const interaction::Pose& head) {
+#include "stereo/screen.example"
+}
+
+void windows_example(const Installation& installation) {
+#include "stereo/windows.example"
+}
+
+} // namespace
+} // namespace isochron::stereo
+
+namespace isochron::app {
+namespace {
+
+void cluster_job_example(const std::string& hash) {
+#include "app/commands/cluster_job.example"
+}
+
+void run_verify(const std::filesystem::path&) {}
+#include "app/commands/command_line.example"
+
+void frame_quality_example(FrameQuality& quality, FrameLog& log, const ExplorerState& state,
+                           bool changed, render::Footprint best, FrameReport& report,
+                           std::span<const render::View> views, const DrawLoad& of_cell,
+                           Milliseconds processor_time) {
+#include "app/frame/frame_quality.example"
+}
+
+void table_schema_example(void (*read_placement)(TomlReader&, PlacementOptions&),
+                          PlacementOptions& placement) {
+#include "app/config/table_schema.example"
+}
+
+void quality_controller_example(DrawMeter& meter, const interaction::MotionGate& gate) {
+#include "app/frame/quality_controller.example"
+}
+
+void kept_pictures_example(const render::Gl& gl, const stereo::Windows& windows,
+                           const Config& config, std::deque<stereo::Display>& displays,
+                           std::optional<RoomView>& room,
+                           std::span<const stereo::Viewpoint> viewers, stereo::StereoMode mode,
+                           std::span<const stereo::StereoMode> modes,
+                           const stereo::DrawViews& scene) {
+#include "app/output/kept_pictures.example"
+}
+
+void outputs_example(const Config& config, stereo::Windows windows, const Audience& audience,
+                     const Outputs::Scene& scene, const Outputs::Overlay& panel,
+                     const interaction::InputState& input) {
+#include "app/output/outputs.example"
+}
+
+void live_loop_example(const Config& config, interaction::CompositeInput trackers, bool emulate,
+                       Session& session, const interaction::RecordingHeader& header) {
+#include "app/session/live_loop.example"
+}
+
+void panel_in_room_example(PanelInRoom& panel, Scene& scene, const interaction::InputState& input,
+                           const ExplorerState& state, const PanelModel& model,
+                           interaction::Commands (*commands_of)(const interaction::InputState&,
+                                                                const interaction::Commands&)) {
+#include "app/panel/panel_in_room.example"
+}
+
+struct SteadySeconds {
+    interaction::Seconds now() const { return {}; }
+};
+void session_example(const Config& config, const std::shared_ptr<const index::IndexFile>& file,
+                     const std::unique_ptr<stereo::GlContext>& context,
+                     interaction::DesktopEmulation& emulation, const SteadySeconds& clock) {
+#include "app/session/session.example"
+}
+
+} // namespace
+} // namespace isochron::app
+
+namespace isochron::test_support {
+namespace {
+
+void image_compare_example(const render::Image& picture, const render::Image& expected) {
+#include "tests/support/image_compare.example"
+}
+
+} // namespace
+} // namespace isochron::test_support
+
+namespace isochron::played {
+namespace {
+
+void played_headset_example(const render::Image& expected) {
+    using test_support::images_match;
+    using testing::IsEmpty;
+#include "tests/support/played_headset/played_headset.example"
+}
+
+} // namespace
+} // namespace isochron::played

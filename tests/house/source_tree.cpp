@@ -1,0 +1,60 @@
+// The source tree as its tests see it.
+#include "tests/house/source_tree.h"
+
+#include "tests/support/paths.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+
+namespace isochron::house {
+
+namespace fs = std::filesystem;
+
+fs::path checkout() {
+    return test_support::source_root();
+}
+
+std::vector<std::string> sources(const fs::path& root, const std::string& folder) {
+    std::vector<std::string> found;
+    if (!fs::exists(root / folder))
+        return found;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+        const std::string extension = entry.path().extension();
+        if (extension == ".h" || extension == ".cpp")
+            found.push_back(fs::relative(entry.path(), root).generic_string());
+    }
+    std::ranges::sort(found);
+    return found;
+}
+
+std::vector<Include> includes_of(const fs::path& file) {
+    static const std::regex kInclude(R"(^\s*#\s*include\s*["<]([a-z]+/[^">]+)[">])");
+    std::vector<Include> found;
+    std::ifstream text(file);
+    std::string line;
+    std::smatch match;
+    for (int number = 1; std::getline(text, line); ++number)
+        if (std::regex_search(line, match, kInclude))
+            found.push_back({number, match[1].str()});
+    return found;
+}
+
+PlantedTree::PlantedTree(const std::string& name) : root_(fs::path(testing::TempDir()) / name) {
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+}
+
+PlantedTree::~PlantedTree() {
+    std::error_code ignored;
+    fs::remove_all(root_, ignored);
+}
+
+void PlantedTree::plant(const std::string& path, const std::string& text) const {
+    fs::create_directories((root_ / path).parent_path());
+    std::ofstream(root_ / path) << text;
+}
+
+} // namespace isochron::house

@@ -1,0 +1,43 @@
+// The source tree as its tests see it: files, places in the order of the house, includes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace isochron::house {
+
+inline constexpr const char* kFloors[]{"index", "interaction", "render", "stereo", "app"};
+
+/// The tree that these tests are part of.
+std::filesystem::path checkout();
+
+struct Include {
+    int line;         ///< from 1
+    std::string path; ///< as it is written: `render/gl/gl.h`
+};
+
+/// Headers and sources (.h, .cpp) below a folder of the tree, as paths from `root`, sorted. None
+/// where there is no such folder.
+std::vector<std::string> sources(const std::filesystem::path& root, const std::string& folder);
+
+/// What a file includes by name from a folder of the tree, in its order.
+std::vector<Include> includes_of(const std::filesystem::path& file);
+
+/// A folder for a planted violation, empty at first and removed at the end.
+class PlantedTree {
+  public:
+    explicit PlantedTree(const std::string& name);
+    ~PlantedTree();
+    PlantedTree(const PlantedTree&) = delete;
+    PlantedTree& operator=(const PlantedTree&) = delete;
+
+    /// Writes a file; its folders are made.
+    void plant(const std::string& path, const std::string& text) const;
+    const std::filesystem::path& root() const { return root_; }
+
+  private:
+    std::filesystem::path root_;
+};
+
+} // namespace isochron::house

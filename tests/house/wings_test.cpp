@@ -1,0 +1,171 @@
+// The wings of each floor stand in an order, and each includes only what stands behind it.
+#include "tests/house/source_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace isochron::house {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A wing is a folder of its floor, or a file at its root by its name without extension; `.` is
+/// every other file at the root. Wings of one step do not include each other.
+using Steps = std::vector<std::vector<std::string>>;
+
+/// From the front to the back: a wing may include those of the steps that come after its own.
+const std::map<std::string, Steps> kOrder{
+    {"app",
+     {{"main"},
+      {"commands"},
+      {"session"},
+      {"panel", "output"},
+      {"scene", "cluster"},
+      {"frame"},
+      {"config", "generate"},
+      {"text", "version"}}},
+    {"index",
+     {{"extraction", "build"},
+      {"file"},
+      {"thi", "cells", "scan", "formats"},
+      {"volume", "system"},
+      {"error", "progress"}}},
+    {"interaction", {{"trackers", "recording"}, {"."}}},
+    {"render", {{"cells", "passes"}, {"gl"}}},
+    {"stereo", {{"openxr"}, {"."}, {"context", "image_module"}}},
+};
+
+/// Wings that stand apart, and the only places that may include them. Tests may include all.
+const std::map<std::string, std::set<std::string>> kApart{
+    {"app/generate", {"app/commands"}},
+    // The module is loaded when a picture is read or written; nobody else knows it.
+    {"stereo/image_module", {"stereo/image_file"}},
+};
+
+constexpr int kNowhere = -1;
+
+/// The wing of a file within its floor, and its step.
+struct Place {
+    std::string floor, wing, stem; ///< `app`, `session`, `app/session/session`
+    int step = kNowhere;
+};
+
+int step_of(const Steps& steps, const std::string& wing) {
+    for (int step = 0; step < static_cast<int>(steps.size()); ++step)
+        for (const std::string& one : steps[step])
+            if (one == wing)
+                return step;
+    return kNowhere;
+}
+
+Place place_of(const std::string& file) {
+    const fs::path path(file);
+    Place place{.floor = path.begin()->string(), .wing = {}, .stem = {}};
+    const auto floor = kOrder.find(place.floor);
+    if (floor == kOrder.end())
+        return place;
+    place.stem = (path.parent_path() / path.stem()).generic_string();
+    const bool at_root = path.parent_path() == place.floor;
+    place.wing = at_root ? path.stem().string() : std::next(path.begin())->string();
+    place.step = step_of(floor->second, place.wing);
+    if (at_root && place.step == kNowhere) {
+        place.wing = ".";
+        place.step = step_of(floor->second, place.wing);
+    }
+    return place;
+}
+
+bool may_include(const Place& from, const Place& to) {
+    if (from.floor == to.floor && from.wing == to.wing)
+        return true;
+    if (const auto apart = kApart.find(to.floor + "/" + to.wing); apart != kApart.end())
+        return apart->second.contains(from.stem) ||
+               apart->second.contains(from.floor + "/" + from.wing);
+    return from.floor != to.floor || from.step < to.step;
+}
+
+/// Every violation as `file:line includes what`, and every file that stands in no wing.
+std::vector<std::string> includes_against_the_order(const fs::path& root) {
+    std::vector<std::string> found;
+    for (const char* floor : kFloors)
+        for (const std::string& file : sources(root, floor)) {
+            const Place from = place_of(file);
+            if (from.step == kNowhere)
+                found.push_back(file + " stands in no wing of the order");
+            for (const Include& include : includes_of(root / file)) {
+                const Place to = place_of(include.path);
+                if (to.step != kNowhere && !may_include(from, to))
+                    found.push_back(file + ":" + std::to_string(include.line) + " includes " +
+                                    include.path);
+            }
+        }
+    return found;
+}
+
+using Found = std::vector<std::string>;
+
+TEST(Wings, EachIncludesOnlyWhatStandsBehindIt) {
+    EXPECT_EQ(includes_against_the_order(checkout()), Found{});
+}
+
+TEST(Wings, AllOfTheOrderAreThere) {
+    for (const auto& [floor, steps] : kOrder)
+        for (const auto& step : steps)
+            for (const std::string& wing : step) {
+                const fs::path place = checkout() / floor / wing;
+                EXPECT_TRUE(fs::is_directory(place) || fs::exists(place.string() + ".h") ||
+                            fs::exists(place.string() + ".cpp"))
+                    << place;
+            }
+}
+
+TEST(Wings, AnIncludeOfWhatStandsInFrontIsFound) {
+    const PlantedTree tree("in_front");
+    tree.plant("app/config/bad.h", "#pragma once\n#include \"app/frame/frame_log.h\"\n");
+    tree.plant("index/system/bad.cpp", "#include \"index/file/index_file.h\"\n");
+    tree.plant("stereo/context/bad.h", "#include \"stereo/screen.h\"\n");
+    tree.plant("app/text.cpp", "#include \"app/text.h\"\n#include \"app/panel/panel.h\"\n");
+    EXPECT_EQ(includes_against_the_order(tree.root()),
+              (Found{"index/system/bad.cpp:1 includes index/file/index_file.h",
+                     "stereo/context/bad.h:1 includes stereo/screen.h",
+                     "app/config/bad.h:2 includes app/frame/frame_log.h",
+                     "app/text.cpp:2 includes app/panel/panel.h"}));
+}
+
+TEST(Wings, AnIncludeOfANeighborIsFound) {
+    const PlantedTree tree("neighbors");
+    tree.plant("render/cells/bad.cpp", "#include \"render/passes/line_pass.h\"\n");
+    tree.plant("index/scan/good.cpp", "#include \"index/scan/bricks.h\"\n"
+                                      "#include \"index/volume/grid.h\"\n");
+    EXPECT_EQ(includes_against_the_order(tree.root()),
+              Found{"render/cells/bad.cpp:1 includes render/passes/line_pass.h"});
+}
+
+TEST(Wings, AnIncludeOfWhatStandsApartIsFound) {
+    const PlantedTree tree("apart");
+    tree.plant("app/session/bad.cpp", "#include \"app/generate/demo_series.h\"\n");
+    tree.plant("app/commands/good.cpp", "#include \"app/generate/demo_series.h\"\n");
+    tree.plant("app/output/bad.cpp", "#include \"stereo/image_module/image_module.h\"\n");
+    tree.plant("stereo/image_file.cpp", "#include \"stereo/image_module/image_module.h\"\n");
+    tree.plant("stereo/screen.cpp", "#include \"stereo/image_module/image_module.h\"\n");
+    EXPECT_EQ(includes_against_the_order(tree.root()),
+              (Found{"stereo/screen.cpp:1 includes stereo/image_module/image_module.h",
+                     "app/output/bad.cpp:1 includes stereo/image_module/image_module.h",
+                     "app/session/bad.cpp:1 includes app/generate/demo_series.h"}));
+}
+
+TEST(Wings, AFileInNoWingIsFound) {
+    const PlantedTree tree("no_wing");
+    tree.plant("render/loose.h", "#pragma once\n");
+    tree.plant("app/attic/box.h", "#pragma once\n");
+    EXPECT_EQ(includes_against_the_order(tree.root()),
+              (Found{"render/loose.h stands in no wing of the order",
+                     "app/attic/box.h stands in no wing of the order"}));
+}
+
+} // namespace
+} // namespace isochron::house

@@ -23,8 +23,10 @@ constexpr float kEyeStep = 0.001f;       ///< [m]
 constexpr Seconds kRepeatDelay{0.4};     ///< a held key repeats after this
 constexpr Seconds kRepeatInterval{0.05}; ///< and then this often
 
+} // namespace
+
 /// Presses of one button, counted from its level and the clock.
-struct Repeat {
+struct KeyRepeat {
     bool was_down = false;
     Seconds next{0};
 
@@ -50,12 +52,10 @@ Coloring after(const Coloring& coloring, bool has_second_array) {
     return {skipped ? ColorBy::first_crossing : next, coloring.map, std::nullopt};
 }
 
-} // namespace
-
 struct Controls::State {
     std::uint64_t last_keys = 0, last_pad = 0, last_wand = 0;
     std::optional<Seconds> last_time;
-    Repeat isovalue_up, isovalue_down, step_forward, step_back, eyes_apart, eyes_together;
+    KeyRepeat isovalue_up, isovalue_down, step_forward, step_back, eyes_apart, eyes_together;
     Navigator navigator;
     Playback playback;
     int stamps = 0;

@@ -18,9 +18,11 @@ constexpr glm::vec2 kHand{0.2f, -0.25f}; ///< [m] the wand, right of and below t
 constexpr float kAimDistance = 1.5f;     ///< [m] from the head, where cursor and wand ray meet
 constexpr int kMostTaps = 16;            ///< remembered while frames are slow
 
+} // namespace
+
 /// A key's state as polls show it. Every press is shown as one rising edge, even where several fall
 /// between two polls.
-struct Switch {
+struct KeySwitch {
     int held = 0; ///< keys bound to it that are down
     int taps = 0; ///< presses not shown yet
     bool shown = false;
@@ -42,7 +44,7 @@ struct Switch {
     }
 };
 
-struct Gamepad {
+struct EmulatedGamepad {
     bool present = false;
     std::uint32_t buttons = 0, tapped = 0;
     std::vector<float> valuators;
@@ -60,8 +62,6 @@ struct Gamepad {
     }
 };
 
-} // namespace
-
 struct DesktopEmulation::State {
     EmulationOptions options;
     float yaw = 0, pitch = 0; ///< [rad] left and up positive
@@ -69,7 +69,7 @@ struct DesktopEmulation::State {
     std::optional<Seconds> last_poll;
 
     std::set<Key> down;
-    std::array<Switch, static_cast<std::size_t>(Action::count)> switches;
+    std::array<KeySwitch, static_cast<std::size_t>(Action::count)> switches;
     std::optional<MouseMoveEvent> cursor;
     std::uint64_t mouse_down = 0, mouse_tapped = 0;
     std::array<float, kMouseValuators> mouse{};
@@ -77,7 +77,7 @@ struct DesktopEmulation::State {
     PanelSize panel_size;
     bool presses_panel = false; ///< with the left button, since it went down there
     bool tapped_panel = false;
-    Gamepad gamepad;
+    EmulatedGamepad gamepad;
 
     explicit State(const EmulationOptions& chosen) : options(chosen) { stand_at_start(); }
 
@@ -96,7 +96,7 @@ struct DesktopEmulation::State {
         for (const KeyLine& line : key_lines())
             for (const KeyBinding& binding : line.bindings)
                 if (binding.key == event.key) {
-                    Switch& to = switches[static_cast<std::size_t>(binding.action)];
+                    KeySwitch& to = switches[static_cast<std::size_t>(binding.action)];
                     event.down ? to.press() : to.release();
                 }
     }
@@ -130,7 +130,7 @@ struct DesktopEmulation::State {
         if (event.focused)
             return;
         down.clear();
-        for (Switch& each : switches)
+        for (KeySwitch& each : switches)
             each.held = 0;
         mouse_down = 0;
         presses_panel = false;

@@ -178,11 +178,11 @@ void view_section(const PanelModel& model, Commands& commands) {
     int mode = static_cast<int>(model.asked.quality);
     ImGui::SetNextItemWidth(110.0f);
     constexpr auto& kModes = interaction::kNames<interaction::QualityMode>;
-    const auto name = [](void*, int i, const char** text) {
+    const auto mode_name = [](void*, int i, const char** text) {
         *text = kModes[static_cast<std::size_t>(i)].data();
         return true;
     };
-    if (ImGui::Combo("quality", &mode, name, nullptr, static_cast<int>(kModes.size())))
+    if (ImGui::Combo("quality", &mode, mode_name, nullptr, static_cast<int>(kModes.size())))
         commands.quality = static_cast<interaction::QualityMode>(mode);
     const bool settled = model.frame.pace == interaction::Pace::settled;
     // The footprint follows from what is drawn, and in the room the panel is a part of that.

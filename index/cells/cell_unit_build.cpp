@@ -18,11 +18,13 @@ using Extremes = ChunkRanks::Extremes;
 /// bytes as to store them twice, and every search at every step of its span has to go through it.
 constexpr std::size_t kFewest = 512;
 
+} // namespace
+
 /// The head and the references of a unit that is being built.
 class UnitUnderWay {
   public:
-    UnitUnderWay(std::uint32_t magic, std::uint32_t tables, std::uint32_t steps, std::uint32_t cells,
-              bool lossless, std::vector<std::byte>& out)
+    UnitUnderWay(std::uint32_t magic, std::uint32_t tables, std::uint32_t steps,
+                 std::uint32_t cells, bool lossless, std::vector<std::byte>& out)
         : head_{magic, tables, steps, cells, lossless, 0, 0}, refs_(tables), out_(out) {
         out_.clear();
         out_.resize(sizeof head_ + tables * sizeof(TableRef));
@@ -54,8 +56,6 @@ class UnitUnderWay {
     std::vector<TableRef> refs_;
     std::vector<std::byte>& out_;
 };
-
-} // namespace
 
 /// The cells of one unit, from the leaves of the time tree up.
 struct CellUnitBuilder::Cells {
@@ -106,7 +106,8 @@ void CellUnitBuilder::build_cells(const ChunkRanks& ranks, std::uint32_t first, 
                                   std::vector<std::byte>& out) {
     assert(first < ranks.steps());
     const std::uint32_t steps = ranks.steps() - first;
-    UnitUnderWay unit(CellUnit::kMagic, TimeNode::count(steps), steps, ranks.cells(), lossless, out);
+    UnitUnderWay unit(CellUnit::kMagic, TimeNode::count(steps), steps, ranks.cells(), lossless,
+                      out);
     const std::size_t words = (ranks.cells() + 63) / 64;
     bits_.resize(std::bit_width(steps) + 1);
     for (auto& of_depth : bits_)

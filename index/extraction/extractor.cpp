@@ -22,6 +22,8 @@ bool same(const SurfacesQuery& a, const SurfacesQuery& b) {
     return a.step == b.step && same_but_for_step(a, b);
 }
 
+} // namespace
+
 /// The newest few extractions, of answers and of prefetches.
 class RecentExtractions {
   public:
@@ -46,8 +48,6 @@ class RecentExtractions {
     static constexpr std::size_t kKept = 3; ///< shown, prefetched, and one for stepping back
     std::deque<ExtractionPtr> kept_;
 };
-
-} // namespace
 
 struct Extractor::State {
     struct Job {

@@ -1,9 +1,7 @@
 // `isochron-bench index`: measures the search structures against their rivals.
 #include "app/commands/cancel.h"
 #include "app/commands/progress_bar.h"
-#include "app/commands/subcommands.h"
 #include "index/error.h"
-#include "index/system/new_file.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/data_sets.h"
@@ -17,8 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 namespace isochron::bench {

@@ -1,6 +1,5 @@
 // `isochron-bench` as a user runs it.
-#include "tests/support/child_process.h"
-#include "tests/support/paths.h"
+#include "tests/bench/tests/bench_commands.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -13,17 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class BenchCommand : public testing::Test {
-  protected:
-    ChildResult bench(const std::vector<std::string>& arguments, const ChildOptions& how = {}) {
-        return run_child(test_support::binary_root() + "/isochron-bench", arguments, folder.path(),
-                         how);
-    }
-    ChildResult isochron(const std::vector<std::string>& arguments, const ChildOptions& how = {}) {
-        return run_child(test_support::binary_root() + "/isochron", arguments, folder.path(), how);
-    }
-    TestFolder folder;
-};
+class BenchCommand : public BenchCommands {};
 
 /// What must hold of every row.
 void expect_sound(const nlohmann::json& row) {

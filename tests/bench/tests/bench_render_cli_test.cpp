@@ -1,6 +1,5 @@
 // `isochron-bench render` as a user runs it.
-#include "tests/support/child_process.h"
-#include "tests/support/paths.h"
+#include "tests/bench/tests/bench_commands.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -14,17 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class BenchRenderCommand : public testing::Test {
-  protected:
-    ChildResult bench(const std::vector<std::string>& arguments, const ChildOptions& how = {}) {
-        return run_child(test_support::binary_root() + "/isochron-bench", arguments, folder.path(),
-                         how);
-    }
-    ChildResult isochron(const std::vector<std::string>& arguments, const ChildOptions& how = {}) {
-        return run_child(test_support::binary_root() + "/isochron", arguments, folder.path(), how);
-    }
-    TestFolder folder;
-};
+class BenchRenderCommand : public BenchCommands {};
 
 TEST_F(BenchRenderCommand, MeasuresEveryRowOfATinySeries) {
     const ChildResult result = bench({"render", "--quick", "--work", ".", "--json", "a.json"});

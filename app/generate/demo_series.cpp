@@ -79,13 +79,13 @@ bool generate_files(const Series& series, const fs::path& dir, const index::Prog
     const Destination destination{dir, series.kName, recipe_of(series)};
     if (destination.complete())
         return false;
-    const auto writer = index::write_pvd(dir, destination.name, describe(series));
+    index::SeriesWriter writer(dir, destination.name, describe(series));
     make_steps(
         series,
-        [&](std::span<const std::byte> values, double time) { writer->append(values, time); },
+        [&](std::span<const std::byte> values, double time) { writer.append(values, time); },
         progress);
     destination.write_note();
-    writer->finish();
+    writer.finish();
     return true;
 }
 

@@ -87,109 +87,87 @@ std::string compressed(std::span<const std::byte> values) {
     return out + sizes + body;
 }
 
-class PvdWriter final : public SeriesWriter {
-  public:
-    PvdWriter(fs::path dir, std::string name, SeriesInfo info)
-        : dir_(std::move(dir)), name_(std::move(name)), info_(std::move(info)) {}
-
-    ~PvdWriter() override {
-        std::error_code ignored;
-        for (const Step& step : steps_)
-            fs::remove(temporary(step.file), ignored);
-        fs::remove(temporary(name_ + ".pvd"), ignored);
-    }
-
-    void append(std::span<const std::byte> values, double time) override {
-        if (values.size() != info_.step_bytes())
-            throw Error(fmt::format("{}: step {} has {} bytes, expected {}", name_, steps_.size(),
-                                    values.size(), info_.step_bytes()));
-        if (!std::isfinite(time) || (!steps_.empty() && time <= steps_.back().time))
-            throw Error(fmt::format("{}: step {} is at time {}, expected a greater one than before",
-                                    name_, steps_.size(), time));
-        steps_.push_back({fmt::format("{}_{:04}.vti", name_, steps_.size()), time});
-        write_whole(temporary(steps_.back().file), vti(values, time));
-    }
-
-    void finish() override {
-        std::string pvd = "<?xml version=\"1.0\"?>\n"
-                          "<VTKFile type=\"Collection\" version=\"1.0\" "
-                          "byte_order=\"LittleEndian\">\n  <Collection>\n";
-        for (const Step& step : steps_)
-            pvd += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
-                               step.time, escaped(step.file));
-        pvd += "  </Collection>\n</VTKFile>\n";
-        write_whole(temporary(name_ + ".pvd"), pvd);
-        for (const Step& step : steps_)
-            publish(step.file);
-        publish(name_ + ".pvd");
-    }
-
-  private:
-    struct Step {
-        std::string file;
-        double time;
-    };
-
-    // One name per file until all are there: open NewFiles would be as many open descriptors.
-    fs::path temporary(const std::string& file) const { return dir_ / (file + ".tmp"); }
-
-    void publish(const std::string& file) const {
-        std::error_code failure;
-        fs::rename(temporary(file), dir_ / file, failure);
-        if (failure)
-            throw Error(fmt::format("{}: cannot be written: {}", (dir_ / file).string(),
-                                    failure.message()));
-    }
-
-    std::string vti(std::span<const std::byte> values, double time) const {
-        const Grid& grid = info_.grid;
-        const auto c = grid.cells();
-        const std::string extent = fmt::format("0 {} 0 {} 0 {}", c[0], c[1], c[2]);
-        const glm::dmat3& d = grid.direction;
-        return fmt::format(
-                   "<?xml version=\"1.0\"?>\n"
-                   "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                   "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-                   "  <ImageData WholeExtent=\"{0}\" Origin=\"{1} {2} {3}\" "
-                   "Spacing=\"{4} {5} {6}\" Direction=\"{7} {8} {9} {10} {11} {12} {13} {14} "
-                   "{15}\">\n",
-                   extent, grid.origin.x, grid.origin.y, grid.origin.z, grid.spacing.x,
-                   grid.spacing.y, grid.spacing.z, d[0][0], d[1][0], d[2][0], d[0][1], d[1][1],
-                   d[2][1], d[0][2], d[1][2], d[2][2]) +
-               fmt::format("    <FieldData>\n"
-                           "      <DataArray type=\"Float64\" Name=\"TimeValue\" "
-                           "NumberOfTuples=\"1\" format=\"ascii\">{0}</DataArray>\n"
-                           "    </FieldData>\n"
-                           "    <Piece Extent=\"{1}\">\n"
-                           "      <PointData Scalars=\"{2}\">\n"
-                           "        <DataArray type=\"{3}\" Name=\"{2}\" format=\"appended\" "
-                           "offset=\"0\"/>\n"
-                           "      </PointData>\n"
-                           "    </Piece>\n"
-                           "  </ImageData>\n"
-                           "  <AppendedData encoding=\"raw\">\n_",
-                           time, extent, escaped(info_.array), vtk_name_of(info_.type)) +
-               compressed(values) + "\n  </AppendedData>\n</VTKFile>\n";
-    }
-
-    fs::path dir_;
-    std::string name_;
-    SeriesInfo info_;
-    std::vector<Step> steps_;
-};
-
 } // namespace
 
-std::unique_ptr<SeriesWriter> write_pvd(const fs::path& dir, const std::string& name,
-                                        const SeriesInfo& info) {
-    if (info.scaling != Scaling{})
+SeriesWriter::SeriesWriter(fs::path dir, std::string name, SeriesInfo info)
+    : dir_(std::move(dir)), name_(std::move(name)), info_(std::move(info)) {
+    if (info_.scaling != Scaling{})
         throw Error(fmt::format("{}: a .vti carries no scaling, slope {} and intercept {} given",
-                                name, info.scaling.slope, info.scaling.intercept));
+                                name_, info_.scaling.slope, info_.scaling.intercept));
     std::error_code failure;
-    fs::create_directories(dir, failure);
+    fs::create_directories(dir_, failure);
     if (failure)
-        throw Error(fmt::format("{}: cannot be created: {}", dir.string(), failure.message()));
-    return std::make_unique<PvdWriter>(dir, name, info);
+        throw Error(fmt::format("{}: cannot be created: {}", dir_.string(), failure.message()));
+}
+
+SeriesWriter::~SeriesWriter() {
+    std::error_code ignored;
+    for (const Step& step : steps_)
+        fs::remove(temporary(step.file), ignored);
+    fs::remove(temporary(name_ + ".pvd"), ignored);
+}
+
+void SeriesWriter::append(std::span<const std::byte> values, double time) {
+    if (values.size() != info_.step_bytes())
+        throw Error(fmt::format("{}: step {} has {} bytes, expected {}", name_, steps_.size(),
+                                values.size(), info_.step_bytes()));
+    if (!std::isfinite(time) || (!steps_.empty() && time <= steps_.back().time))
+        throw Error(fmt::format("{}: step {} is at time {}, expected a greater one than before",
+                                name_, steps_.size(), time));
+    steps_.push_back({fmt::format("{}_{:04}.vti", name_, steps_.size()), time});
+    write_whole(temporary(steps_.back().file), vti(values, time));
+}
+
+void SeriesWriter::finish() {
+    std::string pvd = "<?xml version=\"1.0\"?>\n"
+                      "<VTKFile type=\"Collection\" version=\"1.0\" "
+                      "byte_order=\"LittleEndian\">\n  <Collection>\n";
+    for (const Step& step : steps_)
+        pvd += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n",
+                           step.time, escaped(step.file));
+    pvd += "  </Collection>\n</VTKFile>\n";
+    write_whole(temporary(name_ + ".pvd"), pvd);
+    for (const Step& step : steps_)
+        publish(step.file);
+    publish(name_ + ".pvd");
+}
+
+void SeriesWriter::publish(const std::string& file) const {
+    std::error_code failure;
+    fs::rename(temporary(file), dir_ / file, failure);
+    if (failure)
+        throw Error(
+            fmt::format("{}: cannot be written: {}", (dir_ / file).string(), failure.message()));
+}
+
+std::string SeriesWriter::vti(std::span<const std::byte> values, double time) const {
+    const Grid& grid = info_.grid;
+    const auto c = grid.cells();
+    const std::string extent = fmt::format("0 {} 0 {} 0 {}", c[0], c[1], c[2]);
+    const glm::dmat3& d = grid.direction;
+    return fmt::format("<?xml version=\"1.0\"?>\n"
+                       "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+                       "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+                       "  <ImageData WholeExtent=\"{0}\" Origin=\"{1} {2} {3}\" "
+                       "Spacing=\"{4} {5} {6}\" Direction=\"{7} {8} {9} {10} {11} {12} {13} {14} "
+                       "{15}\">\n",
+                       extent, grid.origin.x, grid.origin.y, grid.origin.z, grid.spacing.x,
+                       grid.spacing.y, grid.spacing.z, d[0][0], d[1][0], d[2][0], d[0][1], d[1][1],
+                       d[2][1], d[0][2], d[1][2], d[2][2]) +
+           fmt::format("    <FieldData>\n"
+                       "      <DataArray type=\"Float64\" Name=\"TimeValue\" "
+                       "NumberOfTuples=\"1\" format=\"ascii\">{0}</DataArray>\n"
+                       "    </FieldData>\n"
+                       "    <Piece Extent=\"{1}\">\n"
+                       "      <PointData Scalars=\"{2}\">\n"
+                       "        <DataArray type=\"{3}\" Name=\"{2}\" format=\"appended\" "
+                       "offset=\"0\"/>\n"
+                       "      </PointData>\n"
+                       "    </Piece>\n"
+                       "  </ImageData>\n"
+                       "  <AppendedData encoding=\"raw\">\n_",
+                       time, extent, escaped(info_.array), vtk_name_of(info_.type)) +
+           compressed(values) + "\n  </AppendedData>\n</VTKFile>\n";
 }
 
 } // namespace isochron::index

@@ -1,41 +1,60 @@
 // Writes a series as ParaView reads it: one .vti per step and a .pvd with the times.
 //
-//     auto writer = index::write_pvd(dir, "sphere", info);
+//     index::SeriesWriter writer(dir, "sphere", info);
 //     for (std::size_t step = 0; step < steps; ++step)
-//         writer->append(std::as_bytes(std::span(values_of(step))), time_of(step));
-//     writer->finish();      // only now do the files appear under their names
+//         writer.append(std::as_bytes(std::span(values_of(step))), time_of(step));
+//     writer.finish();      // only now do the files appear under their names
 #pragma once
 
 #include "index/volume/volume_series.h"
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace isochron::index {
 
-/// Writes steps in their order. Destroyed before `finish`, it removes what it has written.
+/// Writes `dir/name_0000.vti`, ... (appended raw, zlib) and `dir/name.pvd`, in the order of the
+/// steps. The same values give the same bytes. Destroyed before `finish`, it removes what it has
+/// written.
 class SeriesWriter {
   public:
-    virtual ~SeriesWriter() = default;
+    /// Creates `dir`. @param info its grid, type and array name; times, units and sources are not
+    /// used.
+    /// @throws Error when the folder cannot be made, or `info.scaling` is set: a .vti carries none
+    SeriesWriter(std::filesystem::path dir, std::string name, SeriesInfo info);
+    ~SeriesWriter();
+    SeriesWriter(const SeriesWriter&) = delete;
+    SeriesWriter& operator=(const SeriesWriter&) = delete;
 
     /// @param values stored values of one step, [z][y][x], x fastest, native byte order,
     ///               exactly `info.step_bytes()` long
     /// @param time physical time, greater than that of the step before
     /// @throws Error when the file cannot be written, or size or time are not as above
-    virtual void append(std::span<const std::byte> values, double time) = 0;
+    void append(std::span<const std::byte> values, double time);
 
     /// Gives every file its final name, the .pvd last. @throws Error when a file cannot be written
-    virtual void finish() = 0;
-};
+    void finish();
 
-/// Writes `dir/name_0000.vti`, ... (appended raw, zlib) and `dir/name.pvd`, creating `dir`. Takes
-/// grid, type and array name from `info`; its times, units and sources are not used. The same
-/// values give the same bytes.
-/// @throws Error when the folder cannot be made, or `info.scaling` is set: a .vti carries none
-std::unique_ptr<SeriesWriter> write_pvd(const std::filesystem::path& dir, const std::string& name,
-                                        const SeriesInfo& info);
+  private:
+    struct Step {
+        std::string file;
+        double time;
+    };
+
+    // One name per file until all are there: open NewFiles would be as many open descriptors.
+    std::filesystem::path temporary(const std::string& file) const {
+        return dir_ / (file + ".tmp");
+    }
+    void publish(const std::string& file) const;
+    std::string vti(std::span<const std::byte> values, double time) const;
+
+    std::filesystem::path dir_;
+    std::string name_;
+    SeriesInfo info_;
+    std::vector<Step> steps_;
+};
 
 } // namespace isochron::index

@@ -85,11 +85,11 @@ TEST(Series, RefusesWhatIsNoKnownFile) {
 class WrittenSeries : public testing::Test {
   protected:
     std::filesystem::path write(const std::string& name, std::vector<double> times) {
-        auto writer = write_pvd(folder_.path(), name, info_);
+        SeriesWriter writer(folder_.path(), name, info_);
         for (std::size_t step = 0; step < times.size(); ++step)
-            writer->append(bytes_of(ramp<float>(info_.grid.vertex_count(), float(100 * step))),
-                           times[step]);
-        writer->finish();
+            writer.append(bytes_of(ramp<float>(info_.grid.vertex_count(), float(100 * step))),
+                          times[step]);
+        writer.finish();
         return folder_.path() / (name + ".pvd");
     }
 
@@ -118,9 +118,9 @@ TEST_F(WrittenSeries, ComesBackHoweverWellItCompresses) {
     info_.type = ValueType::u8;
     info_.grid.vertices = {100, 100, 100};
     const std::vector<std::uint8_t> values(info_.grid.vertex_count(), 7);
-    auto writer = write_pvd(folder_.path(), "flat", info_);
-    writer->append(bytes_of(values), 0.0);
-    writer->finish();
+    SeriesWriter writer(folder_.path(), "flat", info_);
+    writer.append(bytes_of(values), 0.0);
+    writer.finish();
     const auto series = open_series({folder_.path() / "flat.pvd"});
     EXPECT_EQ(values_of<std::uint8_t>(*series, 0), values);
 }

@@ -105,7 +105,7 @@ glm::dvec2 centroid(const Image& image, int channel) {
     return sum / weight;
 }
 
-constexpr glm::ivec2 kSize{800, 600};
+constexpr glm::ivec2 kWindowSize{800, 600};
 constexpr float kSeparation = 0.064f;
 /// In front of the middle of the default screen: 1.6 m wide, 0.9 m high, 1.0 m ahead.
 const Pose kViewerHead{{0.0f, 1.55f, 0.0f}, {1.0f, 0.0f, 0.0f, 0.0f}};
@@ -144,7 +144,7 @@ class DisplayTest : public testing::TestWithParam<ContextKind> {
         return (centroid(left, 0).x - centroid(right, right_channel).x) / left.width;
     }
 
-    ResizableContext context_{GetParam(), kSize};
+    ResizableContext context_{GetParam(), kWindowSize};
     render::Gl gl_{context_.loader()};
     Dot dot_{gl_};
 };
@@ -162,7 +162,8 @@ TEST_P(DisplayTest, DisparityHasTheSignAndSizeOfSimilarTriangles) {
             const glm::vec3 point(0.05f, 1.6f, -distance);
             const double meters = kSeparation * (1.0 - distance) / distance;
             const double fraction = crossed_disparity(display, mode, point, kSeparation);
-            const double pixels = mode == StereoMode::side_by_side ? kSize.x / 2 : kSize.x;
+            const double pixels =
+                mode == StereoMode::side_by_side ? kWindowSize.x / 2 : kWindowSize.x;
             EXPECT_NEAR(fraction * pixels, meters / 1.6 * pixels, 0.5)
                 << name_of(mode) << ", point at " << distance << " m";
             if (distance < 0.9f) {
@@ -224,10 +225,11 @@ TEST_P(DisplayTest, EachEyeLandsWhereTheModeSays) {
         draw_each_eye(gl_, display, kViewerHead, kSeparation, mode,
                       [&](const render::View&, Eye eye) { fill(gl_, eye); });
         const Image window = display.read_window();
-        EXPECT_EQ(window.width, kSize.x);
-        EXPECT_EQ(window.height, kSize.y);
-        return {rgb(window, 0, 0), rgb(window, kSize.x - 1, 0), rgb(window, 0, kSize.y - 1),
-                rgb(window, kSize.x - 1, kSize.y - 1)};
+        EXPECT_EQ(window.width, kWindowSize.x);
+        EXPECT_EQ(window.height, kWindowSize.y);
+        return {rgb(window, 0, 0), rgb(window, kWindowSize.x - 1, 0),
+                rgb(window, 0, kWindowSize.y - 1),
+                rgb(window, kWindowSize.x - 1, kWindowSize.y - 1)};
     };
     using testing::ElementsAre;
     EXPECT_THAT(corners(StereoMode::mono), ElementsAre(kCenter, kCenter, kCenter, kCenter));
@@ -281,7 +283,7 @@ TEST_P(DisplayTest, DrawsEachEyeOfEachViewportOnceAndTheOverlayOnceOverAll) {
             },
             [&](glm::ivec2 size) {
                 ++overlays;
-                EXPECT_EQ(size, kSize);
+                EXPECT_EQ(size, kWindowSize);
                 gl_.Enable(GL_SCISSOR_TEST);
                 gl_.Scissor(0, size.y - 10, 10, 10);
                 gl_.ClearColor(0, 0, 1, 1);
@@ -294,8 +296,8 @@ TEST_P(DisplayTest, DrawsEachEyeOfEachViewportOnceAndTheOverlayOnceOverAll) {
         const Image picture = display.read_window();
         EXPECT_EQ(rgb(picture, 9, 9), (Rgb{0, 0, 255}));
         EXPECT_NE(rgb(picture, 10, 10), (Rgb{0, 0, 255}));
-        EXPECT_EQ(rgb(picture, kSize.x - 1, 0), (Rgb{0, 0, 0})) << "no viewport is there";
-        EXPECT_NE(rgb(picture, kSize.x - 1, kSize.y - 1), (Rgb{0, 0, 0}));
+        EXPECT_EQ(rgb(picture, kWindowSize.x - 1, 0), (Rgb{0, 0, 0})) << "no viewport is there";
+        EXPECT_NE(rgb(picture, kWindowSize.x - 1, kWindowSize.y - 1), (Rgb{0, 0, 0}));
     }
 }
 
@@ -331,7 +333,8 @@ TEST_P(DisplayTest, FollowsTheSizeOfTheWindowAndDrawsNothingWhenMinimized) {
                       });
         return display.read_window();
     };
-    for (const glm::ivec2 size : {kSize, glm::ivec2(333, 97), glm::ivec2(2, 1), kSize}) {
+    for (const glm::ivec2 size :
+         {kWindowSize, glm::ivec2(333, 97), glm::ivec2(2, 1), kWindowSize}) {
         context_.size = size;
         const Image window = draw();
         EXPECT_EQ(glm::ivec2(window.width, window.height), size);
@@ -358,7 +361,7 @@ TEST_P(DisplayTest, TheBackgroundIsSeenWhereNothingIsDrawn) {
                   [](const auto&, Eye) {});
     const Image window = display.read_window();
     EXPECT_EQ(rgb(window, 0, 0), (Rgb{51, 102, 153}));
-    EXPECT_EQ(rgb(window, kSize.x - 1, kSize.y - 1), (Rgb{51, 102, 153}));
+    EXPECT_EQ(rgb(window, kWindowSize.x - 1, kWindowSize.y - 1), (Rgb{51, 102, 153}));
     EXPECT_EQ(gl_.GetError(), GLenum{GL_NO_ERROR});
 }
 

@@ -16,6 +16,8 @@
 namespace isochron::stereo {
 namespace {
 
+using Rgb = std::array<int, 3>;
+
 using std::chrono::steady_clock;
 
 Installation two_windows() {
@@ -61,7 +63,6 @@ TEST(Windows, EachShowsItsOwnPictureThatOneContextDrew) {
         for (Display& display : displays)
             display.present();
     };
-    using Rgb = std::array<int, 3>;
     for (const int green : {0, 1}) { // a second picture replaces the first in both
         const auto shows = [&](int x, int y, Rgb color) {
             return eventually([&] {

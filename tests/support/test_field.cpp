@@ -80,6 +80,18 @@ TestField::Function scaled(const TestField::Function& function, double factor, d
     };
 }
 
+std::vector<double> ties(const StepValues& values, std::size_t most) {
+    std::vector<double> distinct = sorted_values(values);
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    std::vector<double> isovalues{-1e300, 0, 1e300};
+    const std::size_t stride = distinct.size() / most + 1;
+    for (std::size_t i = 0; i < distinct.size(); i += stride)
+        if (std::isfinite(distinct[i]))
+            isovalues.insert(isovalues.end(), {std::nextafter(distinct[i], -kInfinity), distinct[i],
+                                               std::nextafter(distinct[i], kInfinity)});
+    return isovalues;
+}
+
 double scaled_value(const StepValues& values, std::size_t step, std::size_t vertex) {
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         return values.scaling(static_cast<double>(values.step<T>(step)[vertex]));

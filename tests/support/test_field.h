@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -16,6 +17,11 @@ namespace isochron::index {
 inline constexpr std::array kAllTypes{ValueType::i8,  ValueType::u8,  ValueType::i16,
                                       ValueType::u16, ValueType::i32, ValueType::f32,
                                       ValueType::f64};
+inline constexpr std::array kScalings{Scaling{}, Scaling{-1, 0}, Scaling{0.1, 1e6},
+                                      Scaling{-1e-9, 1.0}, Scaling{1e30, -7}};
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A series that owns its values.
 class TestField {
@@ -69,6 +75,10 @@ std::vector<double> sorted_values(const StepValues& values);
 
 /// The quantiles k / (n + 1), k = 1 to n.
 std::vector<double> quantiles(const std::vector<double>& sorted, int n);
+
+/// Isovalues that tie: some of the values, at most about `most`, their neighbors, and what lies beyond
+/// both ends.
+std::vector<double> ties(const StepValues& values, std::size_t most = SIZE_MAX - 1);
 
 /// Scaled value of a vertex.
 double scaled_value(const StepValues& values, std::size_t step, std::size_t vertex);

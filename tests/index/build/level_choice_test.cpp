@@ -14,9 +14,6 @@
 namespace isochron::index {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
 std::span<const std::byte> bytes(const std::vector<float>& values) {
     return std::as_bytes(std::span(values));
 }
@@ -65,7 +62,7 @@ TEST(LevelChoice, ASeriesOfFewValuesIsLosslessForEveryType) {
 
 TEST(LevelChoice, Exactly256ValuesAreFewAnd257AreMany) {
     for (const int distinct : {256, 257}) {
-        std::vector<float> values{kNaN, -0.0f, 0.0f};
+        std::vector<float> values{float(kNaN), -0.0f, 0.0f};
         for (int i = 0; i < 5000; ++i)
             values.push_back(float(i % distinct) * 0.25f);
         LevelChooser one(ValueType::f32), first(ValueType::f32), second(ValueType::f32);
@@ -129,9 +126,9 @@ TEST(LevelChoice, ABackgroundAndOutliersTakeFewLevels) {
         if (chance < 0.85f) {
             value = -9999;
         } else if (chance < 0.86f) {
-            value = chance < 0.855f ? kInfinity : 1e30f;
+            value = chance < 0.855f ? float(kInfinity) : 1e30f;
         } else if (chance < 0.87f) {
-            value = kNaN;
+            value = float(kNaN);
         } else {
             value = 20 + uniform(random);
             inner.push_back(value);
@@ -161,7 +158,7 @@ TEST(LevelChoice, ALongTailIsDividedByItsRange) {
 
 TEST(LevelChoice, NothingButNanIsOneLevel) {
     LevelChooser chooser(ValueType::f32);
-    chooser.add(0, bytes(std::vector<float>(100, kNaN)));
+    chooser.add(0, bytes(std::vector<float>(100, float(kNaN))));
     EXPECT_EQ(chooser.choose().levels(), 1u);
     EXPECT_EQ(LevelChooser(ValueType::f64).choose().levels(), 1u);
 }

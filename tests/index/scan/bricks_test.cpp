@@ -16,9 +16,6 @@
 namespace isochron::index {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// Ordinals of all values of a series that are numbers, ascending.
 std::vector<std::uint64_t> distinct_ordinals(const StepValues& values) {
     std::set<std::uint64_t> all;

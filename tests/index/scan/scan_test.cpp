@@ -14,9 +14,6 @@
 namespace isochron::index {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// Both functions against brute force, at every step and isovalue, in every kind of code.
 void expect_exact(const StepValues& values, const std::vector<double>& isovalues) {
     std::vector<CellId> all(values.grid.cell_count());
@@ -36,22 +33,6 @@ void expect_exact(const StepValues& values, const std::vector<double>& isovalues
         }
     }
 }
-
-/// All values, their neighbors, and what lies beyond both ends.
-std::vector<double> ties(const StepValues& values) {
-    std::vector<double> isovalues{-1e300, 0, 1e300};
-    double last = kNaN;
-    for (const double value : sorted_values(values)) {
-        if (value == last || !std::isfinite(value))
-            continue;
-        isovalues.insert(isovalues.end(), {std::nextafter(value, -kInfinity), value,
-                                           std::nextafter(value, kInfinity)});
-        last = value;
-    }
-    return isovalues;
-}
-
-const std::array kScalings{Scaling{}, Scaling{-1, 0}, Scaling{0.1, 1e6}, Scaling{-1e-9, 1.0}};
 
 TEST(Scan, FindsTheActiveCellsOfEveryTypeAndScalingAtTies) {
     std::mt19937 random(test_seed());

@@ -32,9 +32,6 @@ std::vector<T> samples(std::mt19937& random) {
     return all;
 }
 
-const std::array kScalings{Scaling{}, Scaling{-1, 0}, Scaling{0.1, 1e6}, Scaling{-1e-9, 1.0},
-                           Scaling{1e30, -7}};
-
 TEST(Ordinal, IsInTheOrderOfTheValuesAndLeadsBackToThem) {
     std::mt19937 random(test_seed());
     for (const ValueType type : kAllTypes)

@@ -94,23 +94,23 @@ TEST_P(SeenSplatsPictures, OfAWallBeforeTheEyeShowWhatIsBehind) {
     const FootprintShapes shapes{.gaussian_sigma = 1.2f}; // which lets nothing through
     CellPass seen(gl_, shapes), all(gl_, shapes);
     all.draw_hidden_cells();
-    constexpr int kCells = 40;
+    constexpr int kAcross = 40;
     Volume volume;
     volume.view.size = {240, 200};
     volume.view.clip_from_eye = glm::perspective(0.9f, 1.2f, 0.01f, 100.0f);
-    volume.placement.extent = glm::vec3(kCells);
+    volume.placement.extent = glm::vec3(kAcross);
     volume.placement.room_from_index =
-        glm::translate(glm::mat4(1.0f), glm::vec3(-0.5f * kCells, -0.5f * kCells, -kCells - 2.1f));
-    for (const int z : {kCells - 10, kCells - 1}) // the wall is 2.6 voxels off
-        for (int y = 0; y < kCells; ++y)
-            for (int x = 0; x < kCells; ++x)
+        glm::translate(glm::mat4(1.0f), glm::vec3(-0.5f * kAcross, -0.5f * kAcross, -kAcross - 2.1f));
+    for (const int z : {kAcross - 10, kAcross - 1}) // the wall is 2.6 voxels off
+        for (int y = 0; y < kAcross; ++y)
+            for (int x = 0; x < kAcross; ++x)
                 volume.cells.push_back({x, y, z});
     const CellBuffers cells = shown(volume);
     EXPECT_LE(
         largest_difference(draw(seen, volume, cells, look()), draw(all, volume, cells, look())),
         kUnseen);
     const Image both = draw(all, volume, cells, look());
-    std::erase_if(volume.cells, [](const glm::ivec3& cell) { return cell.z < kCells - 1; });
+    std::erase_if(volume.cells, [](const glm::ivec3& cell) { return cell.z < kAcross - 1; });
     EXPECT_GT(largest_difference(draw(all, volume, shown(volume), look()), both), 10);
 }
 

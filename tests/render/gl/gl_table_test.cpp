@@ -54,20 +54,20 @@ TEST_P(Shaders, EveryFileCompilesAndLinksAloneOrWithOneOfTheOtherStage) {
             EXPECT_NO_THROW(link_program(gl_, {file})) << file.name;
             continue;
         }
-        bool linked = false;
+        bool links = false;
         std::string complaints;
         for (const ShaderSource& other : shader_files()) {
-            if (linked || other.name.ends_with(".glsl") || other.name.ends_with(".comp") ||
+            if (links || other.name.ends_with(".glsl") || other.name.ends_with(".comp") ||
                 other.name.ends_with(".frag") == file.name.ends_with(".frag"))
                 continue;
             try {
                 link_program(gl_, {file, other}, stereo::Multiplex::shader_prelude());
-                linked = true;
+                links = true;
             } catch (const Error& error) {
                 complaints += std::string(error.what()) + '\n';
             }
         }
-        EXPECT_TRUE(linked) << file.name << ":\n" << complaints;
+        EXPECT_TRUE(links) << file.name << ":\n" << complaints;
     }
 }
 

@@ -25,7 +25,7 @@ using HalfBytes = hn::Rebind<std::uint8_t, Shorts>;
 
 /// The bits of the 64 cells from `i` on whose extremes are the same.
 HWY_INLINE std::uint64_t same(const Extremes& a, const Extremes& b, std::size_t i) {
-    constexpr Bytes d;
+    const Bytes d;
     std::uint64_t word = 0;
     for (std::size_t at = 0; at < kWordBits; at += hn::Lanes(d)) {
         const auto equal = [&](std::span<const std::uint8_t> x, std::span<const std::uint8_t> y) {
@@ -41,7 +41,7 @@ HWY_INLINE std::uint64_t same(const Extremes& a, const Extremes& b, std::size_t 
 
 /// The bits of the 64 cells from `i` on that are active at some isovalue.
 HWY_INLINE std::uint64_t active(const Extremes& extremes, std::size_t i) {
-    constexpr Bytes d;
+    const Bytes d;
     std::uint64_t word = 0;
     for (std::size_t at = 0; at < kWordBits; at += hn::Lanes(d)) {
         std::uint64_t bits = 0;
@@ -84,9 +84,9 @@ class Writer {
 
     HWY_INLINE void add(M chosen, V row, V column, V id) {
         const V key = hn::Or(hn::ShiftLeft<8>(row), column);
-        hn::CompressStore(key, chosen, d_, keys_ + count_);
-        count_ += static_cast<std::uint32_t>(hn::CompressStore(id, chosen, d_, ids_ + count_));
-        const V none = hn::Set(d_, 0xff);
+        hn::CompressStore(key, chosen, kD, keys_ + count_);
+        count_ += static_cast<std::uint32_t>(hn::CompressStore(id, chosen, kD, ids_ + count_));
+        const V none = hn::Set(kD, 0xff);
         first_column_ = hn::Min(first_column_, hn::IfThenElse(chosen, column, none));
         first_row_ = hn::Min(first_row_, hn::IfThenElse(chosen, row, none));
         last_row_ = hn::Max(last_row_, hn::IfThenElseZero(chosen, row));
@@ -96,8 +96,8 @@ class Writer {
         list.count = count_;
         std::array<std::uint16_t, kWordBits> lanes;
         const auto fold = [&](V v, std::uint8_t& into, auto&& choose) {
-            hn::StoreU(v, d_, lanes.data());
-            for (std::size_t i = 0; i < hn::Lanes(d_); ++i)
+            hn::StoreU(v, kD, lanes.data());
+            for (std::size_t i = 0; i < hn::Lanes(kD); ++i)
                 into = choose(into, static_cast<std::uint8_t>(lanes[i]));
         };
         const auto lower = [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); };
@@ -109,18 +109,18 @@ class Writer {
     }
 
   private:
-    static constexpr Shorts d_{};
+    static constexpr Shorts kD{};
     std::uint16_t *keys_, *ids_;
     std::uint32_t count_;
-    V first_column_ = hn::Set(d_, 0xff), first_row_ = hn::Set(d_, 0xff), last_row_ = hn::Zero(d_),
-      span_ = hn::Zero(d_);
+    V first_column_ = hn::Set(kD, 0xff), first_row_ = hn::Set(kD, 0xff), last_row_ = hn::Zero(kD),
+      span_ = hn::Zero(kD);
 };
 
 /// Calls `f(i, mask)` for every vector of cells of which some are chosen.
 template <class F>
 HWY_INLINE void for_each_chosen(const std::uint64_t* chosen, std::size_t first_word,
                                 std::size_t end_word, F&& f) {
-    constexpr Shorts d;
+    const Shorts d;
     for (std::size_t word = first_word; word < end_word; ++word)
         for (std::size_t at = 0; chosen[word] >> at; at += hn::Lanes(d)) {
             const std::uint64_t bits = chosen[word] >> at;
@@ -137,7 +137,7 @@ HWY_INLINE hn::Vec<Shorts> load(std::span<const std::uint8_t> ranks, std::size_t
 
 void select_cells(const Extremes& extremes, const std::uint64_t* chosen, std::size_t words,
                   bool lossless, CellEntries& out) {
-    constexpr Shorts d;
+    const Shorts d;
     const auto one_less = hn::Set(d, static_cast<std::uint16_t>(lossless));
     std::size_t first = 0;
     for (CellEntries::List& list : out.lists) {
@@ -156,7 +156,7 @@ void select_cells(const Extremes& extremes, const std::uint64_t* chosen, std::si
 
 void select_differences(const Extremes& from, const Extremes& to, const std::uint64_t* chosen,
                         std::size_t words, CellEntries& out) {
-    constexpr Shorts d;
+    const Shorts d;
     const auto one = hn::Set(d, 1);
     Writer below(out.lists[0]), above(out.lists[1]);
     for_each_chosen(chosen, 0, words, [&](std::size_t i, hn::Mask<Shorts> mask) HWY_ATTR {

@@ -17,8 +17,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Most runs are shorter than a block: it is written whole and without a branch, and the next run
 /// overwrites what was too much.
 HWY_INLINE void copy_block(const std::uint16_t* ids, CellId first, CellId* out) {
-    constexpr hn::CappedTag<CellId, IdRun::kSlack> d;
-    constexpr hn::Rebind<std::uint16_t, decltype(d)> d16;
+    const hn::CappedTag<CellId, IdRun::kSlack> d;
+    const hn::Rebind<std::uint16_t, decltype(d)> d16;
     const auto base = hn::Set(d, first);
     for (std::size_t i = 0; i < IdRun::kSlack; i += hn::Lanes(d))
         hn::StoreU(hn::Add(hn::PromoteTo(d, hn::LoadU(d16, ids + i)), base), d, out + i);

@@ -114,6 +114,7 @@ class HiddenCellsTest : public GlTest {
         target.bind();
         target.clear({0, 0, 0, 0});
         pass.draw(volume.view, volume.placement, cells, footprint, look);
+        target.resolve();
         return target.read();
     }
     CellAppearance three_colors() {

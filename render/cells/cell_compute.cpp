@@ -69,8 +69,8 @@ CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType
       places_(link_program(gl, {shader_file("cell_places.comp")})),
       styles_(link_program(gl, {shader_file("cell_styles.comp")})),
       normals_(link_program(gl, {shader_file("cell_normals.comp")}, sampler_of(held))),
-      corners_(link_program(gl, {shader_file("cell_corners.comp")}, sampler_of(held))),
-      volume_(gl) {}
+      corners_(link_program(gl, {shader_file("cell_corners.comp")}, sampler_of(held))), volume_(gl),
+      work_(gl) {}
 
 void CellCompute::use_volume(const index::Extraction& set, const BrickPool& bricks) const {
     const auto& n = grid_.vertices;
@@ -100,13 +100,17 @@ void CellCompute::bind(GLuint binding, const DeviceArray& array, std::size_t fir
 }
 
 template <class Prepare>
-void CellCompute::run(const Program& program, std::size_t count, Prepare&& prepare) const {
+void CellCompute::run(const Program& program, std::size_t count, Work work,
+                      Prepare&& prepare) const {
+    static_assert(sizeof(Work) == 32 + 4 * index::kMostSurfaces && index::kMostSurfaces % 4 == 0);
     gl_->UseProgram(program.name());
     std::size_t begin = 0;
     do { // once for nothing, too: drivers compile what runs
         const std::size_t end = std::min(begin + kAtOnce, count);
-        gl_->ProgramUniform2ui(program.name(), 0, static_cast<GLuint>(begin),
-                               static_cast<GLuint>(end));
+        work.begin = static_cast<std::uint32_t>(begin);
+        work.end = static_cast<std::uint32_t>(end);
+        gl_->NamedBufferData(work_.name(), sizeof(work), &work, GL_STREAM_DRAW);
+        gl_->BindBufferBase(GL_UNIFORM_BUFFER, 1, work_.name());
         prepare(begin, end);
         const std::size_t groups = std::max((end - begin + kGroup - 1) / kGroup, std::size_t{1});
         gl_->DispatchCompute(static_cast<GLuint>(groups), 1, 1);
@@ -120,39 +124,34 @@ void CellCompute::run(const Program& program, std::size_t count, Prepare&& prepa
 void CellCompute::enter_pages(const BrickPool& bricks) const {
     bind(0, bricks.pages());
     bind(1, bricks.page_message());
-    run(pages_, bricks.page_changes(), [](std::size_t, std::size_t) {});
+    run(pages_, bricks.page_changes(), {}, [](std::size_t, std::size_t) {});
 }
 
 void CellCompute::place_cells(const SlotPlan& plan, const index::Extraction& set,
                               const DeviceArray& message, const DeviceArray& points) const {
     const auto cells = grid_.cells();
-    std::array<GLuint, index::kMostSurfaces> ends{};
-    GLuint end = 0;
-    for (std::size_t i = 0; i < ends.size(); ++i)
-        ends[i] = end +=
-            i < set.surfaces.size() ? static_cast<GLuint>(set.surfaces[i].ids.size()) : 0;
-    const GLuint program = places_.name();
-    gl_->ProgramUniform1i(program, 2, plan.whole());
-    gl_->ProgramUniform2ui(program, 3, cells[0], cells[1]);
-    gl_->ProgramUniform1uiv(program, 4, static_cast<GLsizei>(ends.size()), ends.data());
+    Work work{.whole = plan.whole(), .cells = {cells[0], cells[1]}};
+    std::uint32_t end = 0;
+    for (std::size_t i = 0; i < work.surface_ends.size(); ++i)
+        work.surface_ends[i] = end +=
+            i < set.surfaces.size() ? std::uint32_t(set.surfaces[i].ids.size()) : 0;
     bind(0, points);
     bind(1, message);
-    run(places_, plan.ids(), [](std::size_t, std::size_t) {});
+    run(places_, plan.ids(), work, [](std::size_t, std::size_t) {});
 }
 
 void CellCompute::set_styles(const index::Extraction& set, const DeviceArray& styles,
                              const DeviceArray& points) const {
-    gl_->ProgramUniform1i(styles_.name(), 2, !set.colors.empty());
     bind(0, points);
     bind(1, styles);
-    run(styles_, set.cells(), [](std::size_t, std::size_t) {});
+    run(styles_, set.cells(), {.colored = !set.colors.empty()}, [](std::size_t, std::size_t) {});
 }
 
 void CellCompute::fill_normals(const index::Extraction& set, const BrickPool& bricks,
                                const DeviceArray& points) const {
     use_volume(set, bricks);
     bind(0, points);
-    run(normals_, set.cells(), [](std::size_t, std::size_t) {});
+    run(normals_, set.cells(), {}, [](std::size_t, std::size_t) {});
 }
 
 void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& bricks,
@@ -160,7 +159,7 @@ void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& br
                                const DeviceArray& gradients) const {
     use_volume(set, bricks);
     bind(0, points);
-    run(corners_, set.cells(), [&](std::size_t begin, std::size_t end) {
+    run(corners_, set.cells(), {}, [&](std::size_t begin, std::size_t end) {
         const std::size_t cells = std::max(end - begin, std::size_t{1}); // no range is empty
         bind(1, values, begin, cells);
         bind(2, gradients, begin, cells);

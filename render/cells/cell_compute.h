@@ -5,7 +5,9 @@
 #include "render/cells/brick_pool.h"
 #include "render/cells/slot_plan.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace isochron::render {
 
@@ -42,15 +44,23 @@ class CellCompute {
     void use_volume(const index::Extraction& set, const BrickPool& bricks) const;
     void bind(GLuint binding, const DeviceArray& array) const;
     void bind(GLuint binding, const DeviceArray& array, std::size_t first, std::size_t count) const;
+    /// The uniform block of work.glsl, in std140 layout.
+    struct Work {
+        std::uint32_t begin = 0, end = 0;
+        std::uint32_t whole = 0, colored = 0;
+        std::array<std::uint32_t, 2> cells{};
+        std::array<std::uint32_t, 2> padding{};
+        std::array<std::uint32_t, index::kMostSurfaces> surface_ends{};
+    };
     /// Runs a program for `count` things, so many at once that `prepare(begin, end)` can bind what
-    /// belongs to them.
+    /// belongs to them. @param work of which the range is filled in here
     template <class Prepare>
-    void run(const Program& program, std::size_t count, Prepare&& prepare) const;
+    void run(const Program& program, std::size_t count, Work work, Prepare&& prepare) const;
 
     const Gl* gl_;
     index::Grid grid_;
     Program pages_, places_, styles_, normals_, corners_;
-    Buffer volume_;
+    Buffer volume_, work_;
 };
 
 } // namespace isochron::render

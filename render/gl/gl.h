@@ -169,8 +169,6 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i)                                                       \
     ENTRY(PFNGLPROGRAMUNIFORM1UIPROC, ProgramUniform1ui)                                                     \
     ENTRY(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f)                                                       \
-    ENTRY(PFNGLPROGRAMUNIFORM1UIVPROC, ProgramUniform1uiv)                                                   \
-    ENTRY(PFNGLPROGRAMUNIFORM2UIPROC, ProgramUniform2ui)                                                     \
     ENTRY(PFNGLPROGRAMUNIFORM2FPROC, ProgramUniform2f)                                                       \
     ENTRY(PFNGLPROGRAMUNIFORM2IPROC, ProgramUniform2i)                                                       \
     ENTRY(PFNGLPROGRAMUNIFORM3FPROC, ProgramUniform3f)                                                       \

@@ -5,8 +5,6 @@
 
 layout(std430, binding = 1) readonly buffer Styles { uint styles[]; }; // two to a word
 
-layout(location = 2) uniform bool colored;
-
 void main() {
     uint slot = my_work();
     if (slot >= work.y)

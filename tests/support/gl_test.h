@@ -33,6 +33,9 @@ class GlTest : public testing::TestWithParam<stereo::ContextKind> {
     }
     void TearDown() override { EXPECT_EQ(gl_.GetError(), GLenum{GL_NO_ERROR}); }
 
+    /// A frame takes the time that the GPU needs for what was asked of it.
+    void let_a_frame_pass() { gl_.Finish(); }
+
     std::unique_ptr<stereo::GlContext> context_;
     Gl gl_;
     const unsigned seed_ = test_seed();

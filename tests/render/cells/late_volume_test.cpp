@@ -88,6 +88,7 @@ TEST_P(LateVolume, AnyRunOfSetsWithAndWithoutTheVolumeShowsEachWhole) {
         const auto before = buffers.shown();
         const bool complete = random_() % 8 ? buffers.upload(set, 16 + random_() % 6000, volume)
                                             : buffers.stage(set, 16 + random_() % 6000);
+        let_a_frame_pass();
         if (!buffers.shown())
             continue;
         EXPECT_TRUE(!had || buffers.shown() != before || buffers.has_volume());

@@ -35,6 +35,8 @@ int largest_difference(const Image& a, const Image& b) {
 
 /// Less than half a step of eight bits lies behind: with rounding, one.
 constexpr int kUnseen = 1;
+/// Each sample is rounded, and their mean once more.
+constexpr int kUnseenResolved = 2;
 
 TEST_P(SeenSplatsPictures, AreThoseOfAllSplatsToWithinRounding) {
     for (int round = 0; round < 200; ++round) {
@@ -43,7 +45,7 @@ TEST_P(SeenSplatsPictures, AreThoseOfAllSplatsToWithinRounding) {
         const int samples = round % 4 == 0 ? 4 : 1;
         ASSERT_LE(largest_difference(draw(seen_, volume, cells, look(), samples),
                                      draw(all_, volume, cells, look(), samples)),
-                  kUnseen)
+                  samples == 1 ? kUnseen : kUnseenResolved)
             << "round " << round;
     }
 }
@@ -99,8 +101,8 @@ TEST_P(SeenSplatsPictures, OfAWallBeforeTheEyeShowWhatIsBehind) {
     volume.view.size = {240, 200};
     volume.view.clip_from_eye = glm::perspective(0.9f, 1.2f, 0.01f, 100.0f);
     volume.placement.extent = glm::vec3(kAcross);
-    volume.placement.room_from_index =
-        glm::translate(glm::mat4(1.0f), glm::vec3(-0.5f * kAcross, -0.5f * kAcross, -kAcross - 2.1f));
+    volume.placement.room_from_index = glm::translate(
+        glm::mat4(1.0f), glm::vec3(-0.5f * kAcross, -0.5f * kAcross, -kAcross - 2.1f));
     for (const int z : {kAcross - 10, kAcross - 1}) // the wall is 2.6 voxels off
         for (int y = 0; y < kAcross; ++y)
             for (int x = 0; x < kAcross; ++x)

@@ -55,8 +55,10 @@ TEST_P(Staging, BytesArriveWhateverTheirPortions) {
             sent += part;
             if (random_() % 3 == 0)
                 ring.end_frame();
-            if (part == 0)
+            if (part == 0) {
                 ring.end_frame();
+                let_a_frame_pass();
+            }
         }
         ASSERT_EQ(arrived(bytes.size()), bytes);
     }
@@ -75,6 +77,7 @@ TEST_P(Staging, AFullRingGivesNoRoomUntilTheGpuHasTakenWhatIsThere) {
     EXPECT_EQ(sent, 64u);
     EXPECT_EQ(ring.send(bytes, 1000, target_.name(), 0), 0u);
     behind = false;
+    let_a_frame_pass();
     EXPECT_GT(ring.send(bytes, 1000, target_.name(), 0), 0u);
     EXPECT_EQ(longest_wait, 0u) << "somebody waited";
 }

@@ -237,8 +237,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     session.outputs().pictures().finish();
     print_status(live);
     if (options.report)
-        session.log().write(job.own_file(*options.report),
-                            session.outputs().windows().drawing().description());
+        session.log().write(job.own_file(*options.report), session.drawing());
     job.finish();
 }
 

@@ -269,13 +269,11 @@ void replay(const Options& options, ClusterJob& job) {
     for (const fs::path& path : written)
         fmt::print("wrote {}\n", path.string());
     if (options.report)
-        session.log().write(job.own_file(*options.report),
-                            session.outputs().windows().drawing().description());
+        session.log().write(job.own_file(*options.report), session.drawing());
     job.finish();
     if (!job.leads())
         return;
-    fmt::print("{}\n{}", session.outputs().windows().drawing().description(),
-               session.log().table());
+    fmt::print("{}\n{}", session.drawing(), session.log().table());
     if (options.from_devices && report_differences(different, all.recording.frames.size()) != 0)
         throw interaction::Error(options.recording +
                                  ": the devices no longer lead to its commands");

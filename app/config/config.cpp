@@ -116,6 +116,11 @@ void read_rendering(TomlReader& reader, Config& config) {
                           : word == "linear" ? Blending::linear
                                              : Blending::display;
     });
+    reader.word("drawn_by", {"auto", "gpu", "processor"}, [&](const std::string& word) {
+        config.drawn_by = word == "auto"  ? render::DrawnBy::automatic
+                          : word == "gpu" ? render::DrawnBy::gpu
+                                          : render::DrawnBy::processor;
+    });
     reader.flag("bounding_box", config.bounding_box);
     reader.flag("wand_ray", config.wand_ray);
 }

@@ -65,6 +65,7 @@ struct Config {
     interaction::Coloring coloring;
     render::CellAppearance appearance; ///< light and material
     Blending blending = Blending::automatic;
+    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< whose ways cells are drawn in
     int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
     int picture_samples = 0;  ///< likewise of pictures that are written; 0: 4, or more on displays
     bool bounding_box = true; ///< with ticks and numbers

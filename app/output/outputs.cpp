@@ -12,7 +12,7 @@ namespace isochron::app {
 
 Outputs::Outputs(const Config& config, stereo::Windows windows,
                  std::unique_ptr<stereo::Headset> headset)
-    : config_(config), windows_(std::move(windows)), gl_(windows_.drawing().loader()),
+    : config_(config), windows_(std::move(windows)), gl_(windows_.drawing().loader(), config_.drawn_by),
       displays_(headset ? std::deque<stereo::Display>() : make_displays(gl_, windows_, config_)),
       headset_(std::move(headset)), stereo_modes_(live_stereo_modes(windows_)) {
     if (headset_) {

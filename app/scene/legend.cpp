@@ -29,8 +29,8 @@ class Layout {
         text_.fill({}, height_ * at, height_ * (at + size), color, quads_);
     }
     void write(const std::string& line, glm::vec2 at) {
-        text_.set({.text = line, .anchor = {0.0f, 0.5f}, .offset = at, .color = kLegendInk}, height_,
-                  quads_);
+        text_.set({.text = line, .anchor = {0.0f, 0.5f}, .offset = at, .color = kLegendInk},
+                  height_, quads_);
         right_ = std::max(right_, at.x + render::text_width(text_.atlas(), line));
         top_ = std::max(top_, at.y + 0.5f);
     }

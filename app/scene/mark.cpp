@@ -49,7 +49,8 @@ std::vector<render::ScreenQuad> mark_quads(const interaction::MarkedPoint& point
             text.fill(in_room, -reach, reach, rim > 0 ? kMarkPaper : kColor, quads);
         }
     text.fill(in_room, height * glm::vec2(kAside - kMargin, kAside - kMargin),
-              height * glm::vec2(kAside + width + kMargin, kAside + top + kMargin), kMarkPaper, quads);
+              height * glm::vec2(kAside + width + kMargin, kAside + top + kMargin), kMarkPaper,
+              quads);
     for (std::size_t i = 0; i < lines.size(); ++i)
         text.set({.text = lines[i],
                   .at = in_room,

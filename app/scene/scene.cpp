@@ -6,6 +6,7 @@
 #include "app/scene/mark.h"
 #include "interaction/navigation.h"
 #include "render/gl/driver.h"
+#include "render/gl/shader.h"
 
 #include <glm/matrix.hpp>
 
@@ -39,6 +40,16 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
 
 void Scene::upload(const index::ExtractionPtr& newest, render::SendVolume volume) {
     cells_.upload(newest, upload_bytes_, volume);
+}
+
+std::vector<std::string> Scene::given_up() const {
+    std::vector<std::string> lines;
+    if (!cell_pass_.draws_two_views_at_once() &&
+        render::has_extension(gl_, render::kTwoEyesExtension))
+        lines.emplace_back("draws do not reach two viewports, so eyes are drawn one by one");
+    if (!cells_.has_fences())
+        lines.emplace_back("fences are never passed, so uploads may wait for the GPU");
+    return lines;
 }
 
 render::Footprint Scene::best_footprint() const {

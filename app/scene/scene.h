@@ -43,6 +43,9 @@ class Scene {
     render::Footprint best_footprint() const;
     std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
 
+    /// What the driver promises but was found not to do, a line each.
+    std::vector<std::string> given_up() const;
+
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
     void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }
     void set_veil(const render::Veil& veil) { veil_ = veil; }

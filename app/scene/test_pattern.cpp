@@ -208,7 +208,8 @@ glm::vec2 letter_place(Eye eye) {
     return {eye == Eye::left ? 0.25f : eye == Eye::right ? 0.75f : 0.5f, 0.6f};
 }
 
-TestPattern::TestPattern(const render::Gl& gl) : lines_(gl), text_(gl, room_font(kPatternFontPixels)) {}
+TestPattern::TestPattern(const render::Gl& gl)
+    : lines_(gl), text_(gl, room_font(kPatternFontPixels)) {}
 
 void TestPattern::draw(std::span<const render::View> views, std::span<const Eye> eyes,
                        const PatternWall& wall, const interaction::InputState& input) {

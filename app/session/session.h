@@ -89,6 +89,8 @@ class Session {
     Outputs& outputs() { return outputs_; }
     const Outputs& outputs() const { return outputs_; }
     const FrameLog& log() const { return log_; }
+    /// The context and its driver, and what that was found not to do, for reports; one line.
+    std::string drawing() const;
 
   private:
     /// Everything that the eyes' pictures depend on.

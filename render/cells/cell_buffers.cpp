@@ -2,6 +2,7 @@
 #include "render/cells/cell_buffers.h"
 
 #include "render/gl/driver.h"
+#include "render/gl/driver_trials.h"
 
 #include <fmt/format.h>
 
@@ -30,7 +31,8 @@ std::size_t rounded_to_units(std::size_t bytes) {
 } // namespace
 
 CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t staging_bytes)
-    : gl_(&gl), grid_(grid), ring_(gl, rounded_to_units(staging_bytes)),
+    : gl_(&gl), grid_(grid),
+      ring_(gl, rounded_to_units(staging_bytes), passes_fences(gl) ? Fences::pass : Fences::never),
       points_(gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole),
       message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       styles_(gl, "colored cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
@@ -38,7 +40,7 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
-    return draws_in_software(gl) ? index::Shading::cells : index::Shading::none;
+    return takes_processor_ways(gl) ? index::Shading::cells : index::Shading::none;
 }
 
 CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points) {

@@ -41,6 +41,9 @@ class CellBuffers {
     /// What sets for this driver are best asked for with.
     static index::Shading wanted_shading(const Gl& gl);
 
+    /// False where fences are given up, as the driver never passes one.
+    bool has_fences() const { return ring_.fences() == Fences::pass; }
+
     /// Cells that come with their normals, and never change: no set is shown.
     static CellBuffers of_points(const Gl& gl, std::span<const index::CellPoint> points);
 

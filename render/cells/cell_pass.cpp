@@ -3,6 +3,7 @@
 
 #include "render/cells/point_sprites.h"
 #include "render/gl/driver.h"
+#include "render/gl/driver_trials.h"
 #include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/srgb.h"
@@ -229,9 +230,8 @@ CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragme
 }
 
 CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
-    : gl_(&gl), shapes_(shapes),
-      two_views_at_once_(has_extension(gl, "GL_ARB_shader_viewport_layer_array")),
-      seen_only_(draws_in_software(gl)), largest_point_(largest_point(gl)),
+    : gl_(&gl), shapes_(shapes), two_views_at_once_(draws_to_two_viewports(gl)),
+      seen_only_(takes_processor_ways(gl)), largest_point_(largest_point(gl)),
       quad_programs_(footprint_programs("cell_quad.frag", {})),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", "#define ROUND\n")),
       surface_(gl, two_views_at_once_), quads_(gl), orders_(gl), seen_slots_(gl),

@@ -1,8 +1,9 @@
-// What is known of the GL driver in use.
+// What the driver says of itself.
 #include "render/gl/driver.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string_view>
 
 namespace isochron::render {
@@ -15,6 +16,16 @@ bool draws_in_software(const Gl& gl) {
     return std::ranges::any_of(kSoftware, [&](std::string_view name) {
         return renderer.find(name) != std::string_view::npos;
     });
+}
+
+bool takes_processor_ways(const Gl& gl) {
+    if (gl.drawn_by != DrawnBy::automatic)
+        return gl.drawn_by == DrawnBy::processor;
+    const char* text = std::getenv("ISOCHRON_DRAWN_BY");
+    const std::string_view wanted = text ? text : "";
+    if (wanted == "gpu" || wanted == "processor")
+        return wanted == "processor";
+    return draws_in_software(gl);
 }
 
 int max_samples(const Gl& gl) {

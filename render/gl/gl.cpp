@@ -18,7 +18,7 @@ void load_entry(const GlLoader& load, const char* name, Function& entry) {
 
 } // namespace
 
-Gl::Gl(const GlLoader& load) {
+Gl::Gl(const GlLoader& load, DrawnBy by) : drawn_by(by) {
 #define ISOCHRON_GL_LOAD(type, name) load_entry(load, "gl" #name, name);
     ISOCHRON_GL_ENTRY_POINTS(ISOCHRON_GL_LOAD)
 #undef ISOCHRON_GL_LOAD

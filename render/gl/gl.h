@@ -5,6 +5,8 @@
 //     gl.Clear(GL_COLOR_BUFFER_BIT);
 #pragma once
 
+#include "render/gl/drawn_by.h"
+
 #include <functional>
 #include <stdexcept>
 
@@ -205,11 +207,14 @@ using GlLoader = std::function<void*(const char*)>;
 /// Objects made with a table keep a pointer to it, so it outlives them.
 struct Gl {
     /// Loads every entry point. @throws Error naming the first one that is missing
-    explicit Gl(const GlLoader& load);
+    explicit Gl(const GlLoader& load, DrawnBy drawn_by = DrawnBy::automatic);
 
 #define ISOCHRON_GL_MEMBER(type, name) type name = nullptr;
     ISOCHRON_GL_ENTRY_POINTS(ISOCHRON_GL_MEMBER)
 #undef ISOCHRON_GL_MEMBER
+
+    /// Whose ways passes take, see `takes_processor_ways`.
+    DrawnBy drawn_by;
 };
 
 } // namespace isochron::render

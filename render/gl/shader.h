@@ -23,6 +23,9 @@ const std::vector<ShaderSource>& shader_files();
 /// The file of that name. @throws Error when there is none
 ShaderSource shader_file(std::string_view name);
 
+/// What the program needs that draws two views in one pass.
+inline constexpr std::string_view kTwoEyesExtension = "GL_ARB_shader_viewport_layer_array";
+
 /// Prelude of programs that draw two views in one pass, see frame.glsl.
 inline constexpr std::string_view kTwoEyes =
     "#extension GL_ARB_shader_viewport_layer_array : require\n"

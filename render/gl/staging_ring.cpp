@@ -8,8 +8,14 @@
 
 namespace isochron::render {
 
-StagingRing::StagingRing(const Gl& gl, std::size_t bytes) : gl_(&gl), buffer_(gl), size_(bytes) {
+StagingRing::StagingRing(const Gl& gl, std::size_t bytes, Fences fences)
+    : gl_(&gl), buffer_(gl), size_(bytes) {
     assert(bytes > 0 && bytes % kUnit == 0);
+    if (fences == Fences::never) {
+        own_.resize(bytes);
+        mapped_ = own_.data();
+        return;
+    }
     constexpr GLbitfield kAccess = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     const auto size = static_cast<GLsizeiptr>(bytes);
     gl.NamedBufferStorage(buffer_.name(), size, nullptr, kAccess);
@@ -19,9 +25,9 @@ StagingRing::StagingRing(const Gl& gl, std::size_t bytes) : gl_(&gl), buffer_(gl
 }
 
 StagingRing::StagingRing(StagingRing&& other) noexcept
-    : gl_(other.gl_), buffer_(std::move(other.buffer_)), size_(other.size_), mapped_(other.mapped_),
-      written_(other.written_), fenced_(other.fenced_), landed_(other.landed_),
-      flights_(std::exchange(other.flights_, {})) {}
+    : gl_(other.gl_), buffer_(std::move(other.buffer_)), size_(other.size_),
+      own_(std::move(other.own_)), mapped_(other.mapped_), written_(other.written_),
+      fenced_(other.fenced_), landed_(other.landed_), flights_(std::exchange(other.flights_, {})) {}
 
 StagingRing::~StagingRing() {
     for (const Flight& flight : flights_)
@@ -67,9 +73,16 @@ std::size_t StagingRing::send(std::span<const std::byte> bytes, std::size_t most
 }
 
 void StagingRing::copy(std::size_t bytes, GLuint buffer, std::size_t offset) {
-    gl_->CopyNamedBufferSubData(buffer_.name(), buffer, static_cast<GLintptr>(written_ % size_),
-                                static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+    const std::size_t at = written_ % size_;
     written_ += (bytes + kUnit - 1) / kUnit * kUnit;
+    if (fences() == Fences::never) {
+        gl_->NamedBufferSubData(buffer, static_cast<GLintptr>(offset),
+                                static_cast<GLsizeiptr>(bytes), mapped_ + at);
+        landed_ = fenced_ = written_;
+        return;
+    }
+    gl_->CopyNamedBufferSubData(buffer_.name(), buffer, static_cast<GLintptr>(at),
+                                static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
 }
 
 void StagingRing::end_frame() {

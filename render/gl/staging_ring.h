@@ -7,18 +7,25 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <vector>
 
 namespace isochron::render {
 
+/// Whether the driver passes fences, see `passes_fences`.
+enum class Fences : bool { never, pass };
+
 /// Bytes are written into the ring, copied from there by the GPU to where they belong, and their
-/// room is used again once a fence says that the GPU has copied them.
+/// room is used again once a fence says that the GPU has copied them. Without fences the GL takes
+/// the bytes at once, which may keep the caller waiting.
 class StagingRing {
   public:
     /// @param bytes of room, a multiple of kUnit
-    StagingRing(const Gl& gl, std::size_t bytes);
+    StagingRing(const Gl& gl, std::size_t bytes, Fences fences = Fences::pass);
     ~StagingRing();
     StagingRing(StagingRing&& other) noexcept;
     StagingRing& operator=(StagingRing&&) = delete;
+
+    Fences fences() const { return own_.empty() ? Fences::pass : Fences::never; }
 
     /// What is claimed is rounded up to this.
     static constexpr std::size_t kUnit = 16;
@@ -47,6 +54,7 @@ class StagingRing {
     const Gl* gl_;
     Buffer buffer_;
     std::size_t size_;
+    std::vector<std::byte> own_; ///< in place of mapped memory, without fences
     std::byte* mapped_;
     /// Bytes ever written, covered by fences, and free again; positions are modulo `size_`.
     std::uint64_t written_ = 0, fenced_ = 0, landed_ = 0;

@@ -38,6 +38,7 @@ quantile = 0.5
 samples = 2
 picture_samples = 8
 blending = "display"
+drawn_by = "gpu"
 [lighting]
 key_direction = [0, 1, 0]
 reflectance = 0.1
@@ -57,6 +58,7 @@ range = [0.1, 0.3]
     EXPECT_EQ(config.samples, 2);
     EXPECT_EQ(config.picture_samples, 8);
     EXPECT_EQ(config.blending, Blending::display);
+    EXPECT_EQ(config.drawn_by, render::DrawnBy::gpu);
     EXPECT_EQ(config.appearance.key_direction, glm::vec3(0, 1, 0));
     EXPECT_FLOAT_EQ(config.appearance.reflectance, 0.1f);
     EXPECT_EQ(config.coloring.by, interaction::ColorBy::value);

@@ -1,0 +1,8 @@
+#version 450 core
+// Fills the viewport, or two of them at once, to see whether the driver can.
+void main() {
+#ifdef TWO_EYES
+    gl_ViewportIndex = gl_InstanceID;
+#endif
+    gl_Position = vec4(4.0 * float(gl_VertexID & 1) - 1.0, 4.0 * float(gl_VertexID >> 1) - 1.0, 0.0, 1.0);
+}

@@ -2,6 +2,7 @@
 #include "app/output/outputs.h"
 
 #include "app/output/picture_names.h"
+#include "render/gl/driver.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,8 @@ namespace isochron::app {
 
 Outputs::Outputs(const Config& config, stereo::Windows windows,
                  std::unique_ptr<stereo::Headset> headset)
-    : config_(config), windows_(std::move(windows)), gl_(windows_.drawing().loader(), config_.drawn_by),
+    : config_(config), windows_(std::move(windows)),
+      gl_(windows_.drawing().loader(), config_.drawn_by), in_flight_(gl_),
       displays_(headset ? std::deque<stereo::Display>() : make_displays(gl_, windows_, config_)),
       headset_(std::move(headset)), stereo_modes_(live_stereo_modes(windows_)) {
     if (headset_) {
@@ -107,6 +109,8 @@ void Outputs::draw_room(const interaction::InputState& input, const Overlay& ove
 }
 
 void Outputs::present() {
+    render::expect_context(gl_);
+    in_flight_.end_frame();
     for (stereo::Display& display : displays_)
         display.present();
     if (room_)

@@ -14,6 +14,7 @@
 #include "app/output/displays.h"
 #include "app/output/kept_pictures.h"
 #include "app/output/room_view.h"
+#include "render/gl/frames_in_flight.h"
 #include "stereo/headset_display.h"
 #include "stereo/windows.h"
 
@@ -124,6 +125,7 @@ class Outputs {
     const Config& config_;
     stereo::Windows windows_;
     render::Gl gl_;
+    render::FramesInFlight in_flight_;
     std::deque<stereo::Display> displays_; ///< by window
     std::optional<RoomView> room_;
     std::unique_ptr<stereo::Headset> headset_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 namespace isochron::render {
@@ -26,6 +27,19 @@ bool takes_processor_ways(const Gl& gl) {
     if (wanted == "gpu" || wanted == "processor")
         return wanted == "processor";
     return draws_in_software(gl);
+}
+
+void expect_context(const Gl& gl) {
+    const auto lost = [&](const char* why) {
+        return Error(std::string("the GL context is lost: ") + why +
+                     "; what was recorded is kept, start again to go on");
+    };
+    switch (gl.GetGraphicsResetStatus()) {
+    case GL_NO_ERROR: return;
+    case GL_GUILTY_CONTEXT_RESET: throw lost("the GPU was reset because of what this program drew");
+    case GL_INNOCENT_CONTEXT_RESET: throw lost("another program made the GPU reset");
+    default: throw lost("the GPU was reset");
+    }
 }
 
 int max_samples(const Gl& gl) {

@@ -13,6 +13,10 @@ bool draws_in_software(const Gl& gl);
 /// ISOCHRON_DRAWN_BY (`gpu` or `processor`, for tests), or else as the driver draws.
 bool takes_processor_ways(const Gl& gl);
 
+/// Asked once a frame. @throws Error when the context is lost, as after a reset of the GPU, where
+/// the driver tells
+void expect_context(const Gl& gl);
+
 /// The most samples for each pixel that targets can have, at least 1.
 int max_samples(const Gl& gl);
 

@@ -60,6 +60,7 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLGETSTRINGPROC, GetString)                                                                     \
     ENTRY(PFNGLGETSTRINGIPROC, GetStringi)                                                                   \
     ENTRY(PFNGLGETERRORPROC, GetError)                                                                       \
+    ENTRY(PFNGLGETGRAPHICSRESETSTATUSPROC, GetGraphicsResetStatus)                                           \
     ENTRY(PFNGLFINISHPROC, Finish)                                                                           \
     ENTRY(PFNGLFLUSHPROC, Flush)                                                                             \
     /* Buffers */                                                                                            \

@@ -125,15 +125,22 @@ class EglContext final : public OffscreenContext {
     explicit EglContext(const ContextOptions& options)
         : OffscreenContext(options.size), egl_(EglDisplay::shared()) {
         egl_->bind_api(EGL_OPENGL_API);
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                     4,
-                                     EGL_CONTEXT_MINOR_VERSION,
-                                     5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     EGL_NONE};
-        context_ =
-            egl_->create_context(egl_->handle(), EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+        // Not every driver tells of a reset of the GPU.
+        for (const EGLint told : {EGL_LOSE_CONTEXT_ON_RESET, EGL_NO_RESET_NOTIFICATION}) {
+            const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                         4,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         5,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                         EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                         told,
+                                         EGL_NONE};
+            context_ =
+                egl_->create_context(egl_->handle(), EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+            if (context_ != EGL_NO_CONTEXT)
+                break;
+        }
         if (context_ == EGL_NO_CONTEXT)
             throw render::Error(fmt::format(
                 "EGL does not provide OpenGL 4.5 core (EGL error {:#x})", egl_->error()));

@@ -112,6 +112,8 @@ class GlfwContext final : public GlContext {
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        // Asked for where it is known: otherwise nobody would tell of a reset of the GPU.
+        glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
         glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
         // Pictures are composed in textures; the window itself needs color only.
         glfwWindowHint(GLFW_DEPTH_BITS, 0);

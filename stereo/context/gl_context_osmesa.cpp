@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace isochron::stereo {
@@ -29,6 +32,28 @@ struct OsMesa {
     }
 };
 
+/// OSMesa draws by the processor, and crashes where the environment asks for another of Mesa's
+/// drivers (22.3 with GALLIUM_DRIVER=zink).
+class WithoutDriverOfChoice {
+  public:
+    WithoutDriverOfChoice() {
+        if (const char* driver = std::getenv(kVariable)) {
+            driver_ = driver;
+            unsetenv(kVariable);
+        }
+    }
+    ~WithoutDriverOfChoice() {
+        if (driver_)
+            setenv(kVariable, driver_->c_str(), 1);
+    }
+    WithoutDriverOfChoice(const WithoutDriverOfChoice&) = delete;
+    WithoutDriverOfChoice& operator=(const WithoutDriverOfChoice&) = delete;
+
+  private:
+    static constexpr const char* kVariable = "GALLIUM_DRIVER";
+    std::optional<std::string> driver_;
+};
+
 class OsMesaContext final : public OffscreenContext {
   public:
     explicit OsMesaContext(const ContextOptions& options) : OffscreenContext(options.size) {
@@ -41,7 +66,10 @@ class OsMesaContext final : public OffscreenContext {
                                   OSMESA_CONTEXT_MINOR_VERSION,
                                   5,
                                   0};
-        context_ = osmesa_.create_context(attributes, nullptr);
+        {
+            const WithoutDriverOfChoice processor;
+            context_ = osmesa_.create_context(attributes, nullptr);
+        }
         if (!context_)
             throw render::Error("libOSMesa does not provide OpenGL 4.5 core");
         try {

@@ -1,5 +1,6 @@
 // Both eyes' cells in one draw where the driver can, in two where it cannot, and the same pictures.
 #include "render/gl/driver_trials.h"
+#include "tests/support/context_in_between.h"
 #include "tests/support/golden_fixture.h"
 
 #include <array>
@@ -50,45 +51,23 @@ void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count, GLsizei insta
     driver.arrays(mode, first, count, instances);
 }
 
-/// Remembers the driver's function and gives ours instead.
-template <class Function>
-void* before(void* found, Function& actual, Function ours) {
-    actual = reinterpret_cast<Function>(found);
-    return reinterpret_cast<void*>(ours);
-}
-
 /// A context whose draws are counted and that can be one of a lesser driver.
-class WatchedContext final : public stereo::GlContext {
+class WatchedContext final : public stereo::ContextInBetween {
   public:
     WatchedContext(stereo::ContextKind kind, bool chooses_viewports, bool is_gpu = true)
-        : context_(stereo::make_context(kind, {.size = kPicture})) {
+        : ContextInBetween(kind, kPicture, [](std::string_view wanted, void* found) {
+              if (wanted == "glGetString")
+                  return stereo::before(found, driver.string, &name_of_renderer);
+              if (wanted == "glGetStringi")
+                  return stereo::before(found, driver.strings, &extensions);
+              if (wanted == "glDrawElementsInstancedBaseVertex")
+                  return stereo::before(found, driver.elements, &draw_elements);
+              if (wanted == "glDrawArraysInstanced")
+                  return stereo::before(found, driver.arrays, &draw_arrays);
+              return found;
+          }) {
         driver = {.chooses_viewports = chooses_viewports, .is_gpu = is_gpu, .draws = {}};
     }
-    void make_current() override { context_->make_current(); }
-    render::GlLoader loader() const override {
-        return [load = context_->loader()](const char* name) {
-            const std::string_view wanted(name);
-            void* found = load(name);
-            if (wanted == "glGetString")
-                return before(found, driver.string, &name_of_renderer);
-            if (wanted == "glGetStringi")
-                return before(found, driver.strings, &extensions);
-            if (wanted == "glDrawElementsInstancedBaseVertex")
-                return before(found, driver.elements, &draw_elements);
-            if (wanted == "glDrawArraysInstanced")
-                return before(found, driver.arrays, &draw_arrays);
-            return found;
-        };
-    }
-    glm::ivec2 framebuffer_size() const override { return context_->framebuffer_size(); }
-    bool has_window() const override { return false; }
-    void present() override {}
-    bool should_close() const override { return false; }
-    std::vector<interaction::WindowEvent> poll_events() override { return {}; }
-    std::string description() const override { return context_->description(); }
-
-  private:
-    std::unique_ptr<stereo::GlContext> context_;
 };
 
 /// The instances of the draws of all cells, quad by quad or point by point.

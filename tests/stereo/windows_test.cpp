@@ -3,6 +3,7 @@
 
 #include "stereo/display.h"
 #include "tests/stereo/each_eye.h"
+#include "tests/support/eventually.h"
 #include "tests/support/virtual_display.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +19,6 @@ namespace {
 
 using Rgb = std::array<int, 3>;
 
-using std::chrono::steady_clock;
 
 Installation two_windows() {
     Installation installation;
@@ -31,14 +31,6 @@ Installation two_windows() {
     installation.windows[1].position = {500, 300};
     installation.windows[1].border = false;
     return installation;
-}
-
-bool eventually(const std::function<bool()>& holds) {
-    const auto deadline = steady_clock::now() + std::chrono::minutes(5);
-    while (!holds())
-        if (steady_clock::now() > deadline)
-            return false;
-    return true;
 }
 
 TEST(Windows, EachShowsItsOwnPictureThatOneContextDrew) {
@@ -65,7 +57,7 @@ TEST(Windows, EachShowsItsOwnPictureThatOneContextDrew) {
     };
     for (const int green : {0, 1}) { // a second picture replaces the first in both
         const auto shows = [&](int x, int y, Rgb color) {
-            return eventually([&] {
+            return test_support::eventually([&] {
                 windows.poll_events();
                 draw(green);
                 return screen.pixel(x, y) == color;
@@ -78,7 +70,7 @@ TEST(Windows, EachShowsItsOwnPictureThatOneContextDrew) {
     }
     EXPECT_EQ(gl.GetError(), GLenum{GL_NO_ERROR});
     screen.close_window("lab: right wall");
-    EXPECT_TRUE(eventually([&] {
+    EXPECT_TRUE(test_support::eventually([&] {
         windows.poll_events();
         return windows.should_close();
     }));

@@ -1,5 +1,6 @@
 // The whole program in a window: a user presses keys, leaves, and the recording tells and replays
 // it.
+#include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
 #include "app/config/shipped_configs.h"
@@ -129,8 +130,11 @@ TEST_F(ExploreTest, FromTheConsoleAnOperatorSteersWithThePanelAndKeys) {
     // The test's limit ends a hang.
     while (folder_.read("walk.jsonl.part").find("\"panel\":{\"isovalue\"") == std::string::npos)
         screen_.xdotool({"click", "1", "sleep", "0.2"});
-    const auto title = screen_.pixel(1150, 110);
-    EXPECT_GT(title[2], title[0] + 40) << "the panel fills the window";
+    // What is drawn need not be on the screen at once.
+    EXPECT_TRUE(test_support::eventually([&] {
+        const auto title = screen_.pixel(1150, 110);
+        return title[2] > title[0] + 40;
+    })) << "the panel fills the window";
     screen_.xdotool({"search", "--name", "console", "windowfocus", "key", "Escape"});
     ASSERT_EQ(program->exit_status(), 0);
     const auto recording = interaction::read_recording(file("walk.jsonl"));

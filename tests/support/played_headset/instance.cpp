@@ -24,10 +24,10 @@ std::vector<std::string> offered_extensions() {
     return names;
 }
 
-template <std::size_t N>
-void copy_text(char (&into)[N], const std::string& text) {
-    std::strncpy(into, text.c_str(), N - 1);
-    into[N - 1] = 0;
+template <std::size_t kSize>
+void copy_text(char (&into)[kSize], const std::string& text) {
+    std::strncpy(into, text.c_str(), kSize - 1);
+    into[kSize - 1] = 0;
 }
 
 XrResult XRAPI_CALL enumerate_extensions(const char*, std::uint32_t capacity, std::uint32_t* count,

@@ -112,15 +112,15 @@ XrResult XRAPI_CALL poll_event(XrInstance instance, XrEventDataBuffer* out) {
     case name: text = #name; break;
 
 XrResult XRAPI_CALL result_to_string(XrInstance, XrResult value, char* out) {
-    const char* text = "?";
-    switch (value) { XR_LIST_ENUM_XrResult(PLAYED_CASE) default : break; }
+    const char* text = nullptr;
+    switch (value) { XR_LIST_ENUM_XrResult(PLAYED_CASE) default : text = "?"; }
     std::strncpy(out, text, XR_MAX_RESULT_STRING_SIZE);
     return XR_SUCCESS;
 }
 
 XrResult XRAPI_CALL structure_to_string(XrInstance, XrStructureType value, char* out) {
-    const char* text = "?";
-    switch (value) { XR_LIST_ENUM_XrStructureType(PLAYED_CASE) default : break; }
+    const char* text = nullptr;
+    switch (value) { XR_LIST_ENUM_XrStructureType(PLAYED_CASE) default : text = "?"; }
     std::strncpy(out, text, XR_MAX_STRUCTURE_NAME_SIZE);
     return XR_SUCCESS;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace isochron::app {
 
@@ -17,7 +18,7 @@ std::string human_bytes(double bytes) {
 }
 
 std::string human_time(std::chrono::duration<double> time) {
-    const auto seconds = static_cast<std::uint64_t>(time.count() + 0.5);
+    const auto seconds = std::llround(time.count());
     if (seconds >= 3600)
         return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
     return fmt::format("{}:{:02}", seconds / 60, seconds % 60);

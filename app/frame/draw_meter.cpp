@@ -2,7 +2,6 @@
 #include "app/frame/draw_meter.h"
 
 #include <cassert>
-#include <utility>
 
 namespace isochron::app {
 
@@ -13,11 +12,11 @@ void DrawMeter::begin(std::uint64_t frame) {
 
 void DrawMeter::end(render::Footprint footprint, const DrawLoad& load, Milliseconds processor) {
     timer_.end();
-    DrawSample sample{frame_, footprint, load, processor, std::nullopt};
+    const DrawSample sample{frame_, footprint, load, processor, std::nullopt};
     if (timed_)
-        under_way_.push_back(std::move(sample));
+        under_way_.push_back(sample);
     else if (!timer_.works())
-        finished_.push_back(std::move(sample));
+        finished_.push_back(sample);
 }
 
 std::vector<DrawSample> DrawMeter::finished() {

@@ -31,7 +31,7 @@ interaction::Commands Console::draw(const PanelModel& model, interaction::Second
     picture_.resize(drawable(window_.framebuffer_size()));
     picture_.clear({0, 0, 0, 1});
     picture_.bind();
-    const interaction::Commands commands = layer_.lay_out(picture_.size(), model, time);
+    interaction::Commands commands = layer_.lay_out(picture_.size(), model, time);
     layer_.draw(picture_.size());
     return commands;
 }

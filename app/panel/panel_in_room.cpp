@@ -16,7 +16,7 @@ using interaction::Seconds;
 /// with 25 pixels for each degree.
 constexpr float kScale = 2.5f;
 constexpr double kScroll = 12.0; ///< [notch/s] of the wheel, with the stick pushed all the way
-constexpr interaction::HapticPulse kTick{"wand", 0.01, 0.25f}, kClick{"wand", 0.02, 0.6f};
+const interaction::HapticPulse kTick{"wand", 0.01, 0.25f}, kClick{"wand", 0.02, 0.6f};
 
 } // namespace
 

@@ -194,7 +194,7 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     const Seconds elapsed = time - std::exchange(laid_out_, time);
     io.DeltaTime = static_cast<float>(std::clamp(elapsed.count(), kShortest, kLongest));
     ImGui::NewFrame();
-    const Commands commands = draw_panel(model, area_);
+    Commands commands = draw_panel(model, area_);
     ImGui::Render();
     return commands;
 }

@@ -34,8 +34,8 @@ Ticks nice_ticks(double low, double high, int most) {
         const double first = std::ceil(low / ticks.step - inside);
         const double last = std::floor(high / ticks.step + inside);
         if (last - first + 1 <= std::max(most, 2)) {
-            for (double k = first; k <= last; ++k)
-                ticks.values.push_back(k * ticks.step);
+            for (int k = 0; k <= last - first; ++k)
+                ticks.values.push_back((first + k) * ticks.step);
             return ticks;
         }
         ticks.step = nice_above(ticks.step * 1.5);

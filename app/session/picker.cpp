@@ -14,7 +14,7 @@ namespace {
 
 using namespace interaction;
 
-constexpr HapticPulse kFound{"wand", 0.04, 0.8f};
+const HapticPulse kFound{"wand", 0.04, 0.8f};
 
 glm::dvec3 in_data(const ExplorerState& state, const glm::dvec4& in_room) {
     return glm::dvec3(glm::inverse(matrix(state.room_from_physical)) * in_room);

@@ -76,7 +76,7 @@ struct Extractor::State {
 
     void work(const std::stop_token& stop);
     Outcome run(const Job& job);
-    void finish(const Job& job, Outcome outcome);
+    void finish(const Job& job, const Outcome& outcome);
 
     const Extract extract;
     mutable std::mutex mutex; ///< of all below; held for a few assignments only
@@ -114,8 +114,7 @@ void Extractor::State::work(const std::stop_token& stop) {
         running = Job{query, prefetch, {}};
         const Job job = *running;
         lock.unlock();
-        Outcome outcome = run(job);
-        finish(job, std::move(outcome));
+        finish(job, run(job));
         lock.lock();
     }
 }
@@ -133,7 +132,7 @@ Extractor::State::Outcome Extractor::State::run(const Job& job) {
     }
 }
 
-void Extractor::State::finish(const Job& job, Outcome outcome) {
+void Extractor::State::finish(const Job& job, const Outcome& outcome) {
     ExtractionPtr dropped, replaced = outcome.extraction; // freed after the lock
     {
         const std::scoped_lock lock(mutex);

@@ -9,8 +9,8 @@
 namespace isochron::index {
 namespace {
 
-template <std::size_t N>
-bool is_one_of(const std::array<std::string_view, N>& words, std::string_view word) {
+template <std::size_t kCount>
+bool is_one_of(const std::array<std::string_view, kCount>& words, std::string_view word) {
     return std::ranges::find(words, word) != words.end();
 }
 

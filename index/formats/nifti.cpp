@@ -217,7 +217,7 @@ fs::path image_beside(const fs::path& header) {
     std::string name = header.string();
     const std::size_t dot = name.rfind(".hdr");
     for (const char* extension : {".img", ".img.gz"}) {
-        const fs::path image = name.substr(0, dot) + extension;
+        fs::path image = name.substr(0, dot) + extension;
         if (fs::exists(image))
             return image;
     }

@@ -196,7 +196,7 @@ void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, cons
             } else if (chosen.component == ChosenScalar::kMagnitude) {
                 for (std::size_t i = 0; i < count; ++i)
                     to[i] = static_cast<T>(value(i));
-            } else if constexpr (std::is_same_v<S, T>) {
+            } else if constexpr (std::is_same_v<S, T>) { // NOLINT: discarded branches are alike
                 if (chosen.array.components == 1)
                     std::memcpy(to, from, count * sizeof(T));
                 else

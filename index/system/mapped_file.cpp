@@ -39,11 +39,14 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     bool regular = false;
     if (::fstat(file, &status) != 0) {
         error = errno;
-    } else if ((regular = S_ISREG(status.st_mode)) && status.st_size > 0) {
-        address = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_SHARED,
-                         file, 0);
-        if (address == MAP_FAILED)
-            error = errno;
+    } else {
+        regular = S_ISREG(status.st_mode);
+        if (regular && status.st_size > 0) {
+            address = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ,
+                             MAP_SHARED, file, 0);
+            if (address == MAP_FAILED)
+                error = errno;
+        }
     }
     ::close(file);
     if (error)

@@ -141,7 +141,7 @@ bool read_things(std::string_view line, std::size_t blocks, std::vector<Thing>& 
         return false;
     std::vector<Thing> things;
     std::vector<Block> thing(blocks);
-    for (double i = 0; i < *count; ++i) {
+    for (auto left = static_cast<std::size_t>(*count); left > 0; --left) {
         for (Block& block : thing) {
             auto taken = take_block(line);
             if (!taken)

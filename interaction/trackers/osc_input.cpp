@@ -19,7 +19,7 @@ namespace isochron::interaction {
 namespace {
 
 constexpr std::size_t kMostMessages = 512; ///< datagrams per poll or latch; each may be one button
-constexpr int kDeepest = 4;        ///< of bundles in bundles
+constexpr int kDeepest = 4;                ///< of bundles in bundles
 constexpr std::string_view kBundle("#bundle\0", 8);
 constexpr double kFraction = 4294967296.0; ///< of a second in a time tag
 
@@ -60,15 +60,15 @@ std::optional<double> number(char type, const void* argument) {
 
 using Message = std::unique_ptr<std::remove_pointer_t<lo_message>, decltype(&lo_message_free)>;
 
-/// All arguments, if there are `N` and each is a number.
-template <std::size_t N>
-std::optional<std::array<double, N>> numbers(lo_message message) {
+/// All arguments, if there are `kCount` and each is a number.
+template <std::size_t kCount>
+std::optional<std::array<double, kCount>> numbers(lo_message message) {
     const char* types = lo_message_get_types(message);
-    if (lo_message_get_argc(message) != int{N} || !types)
+    if (lo_message_get_argc(message) != int{kCount} || !types)
         return std::nullopt;
     lo_arg** arguments = lo_message_get_argv(message);
-    std::array<double, N> values;
-    for (std::size_t i = 0; i < N; ++i) {
+    std::array<double, kCount> values;
+    for (std::size_t i = 0; i < kCount; ++i) {
         const auto value = number(types[i], arguments[i]);
         if (!value)
             return std::nullopt;

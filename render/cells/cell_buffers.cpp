@@ -69,7 +69,8 @@ void CellBuffers::prepare(index::ValueType held) {
     compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_);
 }
 
-bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget, SendVolume volume) {
+bool CellBuffers::upload(const index::ExtractionPtr& newest, std::size_t byte_budget,
+                         SendVolume volume) {
     const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
     std::size_t sent = 0;
     bool changed = false;
@@ -81,7 +82,7 @@ bool CellBuffers::upload(index::ExtractionPtr newest, std::size_t byte_budget, S
     return changed;
 }
 
-bool CellBuffers::stage(index::ExtractionPtr set, std::size_t byte_budget) {
+bool CellBuffers::stage(const index::ExtractionPtr& set, std::size_t byte_budget) {
     const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
     std::size_t sent = 0;
     const bool complete = take_up(set, SendVolume::with_cells, most, sent)

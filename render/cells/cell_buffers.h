@@ -60,12 +60,12 @@ class CellBuffers {
     /// for while no newer set is there.
     /// @return true when another set is shown than before
     /// @throws Error when the set is larger than the driver's buffers can be
-    bool upload(index::ExtractionPtr newest, std::size_t byte_budget,
+    bool upload(const index::ExtractionPtr& newest, std::size_t byte_budget,
                 SendVolume volume = SendVolume::with_cells);
 
     /// The same for one set, without showing it: the next `upload` of it does.
     /// @return true when everything of it is on the GPU
-    bool stage(index::ExtractionPtr set, std::size_t byte_budget);
+    bool stage(const index::ExtractionPtr& set, std::size_t byte_budget);
 
     /// The set that is drawn, null before the first is complete.
     const index::ExtractionPtr& shown() const { return shown_; }

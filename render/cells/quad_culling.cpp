@@ -78,7 +78,7 @@ template <class Each>
 HWY_INLINE bool all_of_row(float* row, int first, int last, Each&& each) {
     const Row d;
     for (int at = first; at <= last; at += static_cast<int>(hn::Lanes(d)))
-        if (!each(row + at, hn::FirstN(d, static_cast<std::size_t>(last - at + 1))))
+        if (!each(row + at, hn::FirstN(d, static_cast<std::size_t>(last - at) + 1)))
             return false;
     return true;
 }

@@ -20,7 +20,7 @@ constexpr float kHeaviest = 1 << 14;  // a spacing a hundred times the smallest:
 constexpr double kFarthest = 1 << 20; // [cells]; from farther off only the direction counts
 /// References are the middles of quarter cells, in eighths of a cell: never half way between the
 /// middles of two cells, so that of these the one that the eye is in stays the nearer.
-constexpr int kPart = 2, kCell = 8, kMiddle = 4;
+constexpr int kPart = 2, kCell = 8, kMiddle = 4, kPartsOfCell = kCell / kPart;
 constexpr double kSnapsPerRadian = 512; // of a reference beyond the grid
 
 /// Fixed point, relative to the smallest of them. A weight of at least one keeps cells apart that
@@ -41,8 +41,8 @@ double beyond(double eye, int cells) {
 /// @param snap in parts of a cell, used beyond the grid
 int reference_along(double eye, int cells, std::int64_t snap) {
     const double inside = std::clamp(eye, 0.0, std::nextafter(cells, 0.0));
-    const auto part = static_cast<std::int64_t>(inside * (kCell / kPart));
-    const auto past = static_cast<std::int64_t>(std::abs(beyond(eye, cells)) * (kCell / kPart));
+    const auto part = static_cast<std::int64_t>(inside * kPartsOfCell);
+    const auto past = static_cast<std::int64_t>(std::abs(beyond(eye, cells)) * kPartsOfCell);
     const std::int64_t snapped = past / snap * snap;
     if (eye < 0.0)
         return static_cast<int>(-kPart * (snapped + 1) + kPart / 2);
@@ -180,7 +180,7 @@ TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells,
             at[axis] = excess[axis] < 0.0 ? excess[axis] : cells[axis] + excess[axis];
     }
     const auto coarse =
-        static_cast<std::uint64_t>(glm::length(excess) * (kCell / kPart) / kSnapsPerRadian);
+        static_cast<std::uint64_t>(glm::length(excess) * kPartsOfCell / kSnapsPerRadian);
     const auto snap = static_cast<std::int64_t>(std::bit_floor(std::max<std::uint64_t>(coarse, 1)));
     for (int axis = 0; axis < 3; ++axis)
         key.reference[axis] = reference_along(at[axis], cells[axis], snap);

@@ -71,8 +71,8 @@ const char* OpenXrActions::user(Hand hand) const {
 void OpenXrActions::make_action(const OpenXrInstance&, HandAction which) {
     const ActionRow& row = *std::ranges::find(kRows, which, &ActionRow::action);
     XrActionCreateInfo info{XR_TYPE_ACTION_CREATE_INFO};
-    std::strcpy(info.actionName, row.name);
-    std::strcpy(info.localizedActionName, row.words);
+    std::strcpy(info.actionName, row.name);           // NOLINT: a name of kRows fits
+    std::strcpy(info.localizedActionName, row.words); // NOLINT: a name of kRows fits
     info.actionType = row.type;
     info.countSubactionPaths = static_cast<std::uint32_t>(users_.size());
     info.subactionPaths = users_.data();

@@ -49,7 +49,7 @@ class Walk {
 
     std::string circle() {
         for (const auto& [unit, next] : arrows_)
-            if (const std::string found = circle_from(unit); !found.empty())
+            if (std::string found = circle_from(unit); !found.empty())
                 return found;
         return {};
     }
@@ -67,7 +67,7 @@ class Walk {
             return {};
         path_.push_back(unit);
         for (const Unit& other : next->second)
-            if (const std::string found = circle_from(other); !found.empty())
+            if (std::string found = circle_from(other); !found.empty())
                 return found;
         path_.pop_back();
         return {};

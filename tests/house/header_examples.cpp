@@ -240,7 +240,6 @@ void kept_pictures_example(const render::Gl& gl, const stereo::Windows& windows,
                            const Config& config, std::deque<stereo::Display>& displays,
                            std::optional<RoomView>& room,
                            std::span<const stereo::Viewpoint> viewers, stereo::StereoMode mode,
-                           std::span<const stereo::StereoMode> modes,
                            const stereo::DrawViews& scene) {
 #include "app/output/kept_pictures.example"
 }
@@ -251,8 +250,8 @@ void outputs_example(const Config& config, stereo::Windows windows, const Audien
 #include "app/output/outputs.example"
 }
 
-void live_loop_example(const Config& config, interaction::CompositeInput trackers, bool emulate,
-                       Session& session, const interaction::RecordingHeader& header) {
+void live_loop_example(const Config& config, interaction::CompositeInput trackers, Session& session,
+                       const interaction::RecordingHeader& header) {
 #include "app/session/live_loop.example"
 }
 

@@ -32,7 +32,7 @@ class Desk {
     }
     Commands frame(std::vector<DeviceState> devices, double elapsed = 1.0 / 60) {
         now_ += elapsed;
-        const Commands commands = controls_.update({Seconds(now_), std::move(devices)}, context);
+        Commands commands = controls_.update({Seconds(now_), std::move(devices)}, context);
         if (commands.isovalue)
             context.isovalue = *commands.isovalue;
         if (commands.step)

@@ -301,9 +301,9 @@ TEST(MotionGate, CannotStickWhateverCameBefore) {
         Commands stop;
         stop.playback = PlaybackState{};
         const double rate = uniform(random, 10, 240);
-        for (double still = 0; still <= 1.0; still += 1 / rate) {
-            gate.update({Seconds(now + still), {head_at(kStanding)}},
-                        still == 0 ? stop : Commands{}, QualityMode::automatic);
+        for (int frame = 0; frame <= rate; ++frame) {
+            gate.update({Seconds(now + frame / rate), {head_at(kStanding)}},
+                        frame == 0 ? stop : Commands{}, QualityMode::automatic);
         }
         EXPECT_EQ(gate.pace(), Pace::settled);
     }

@@ -17,7 +17,7 @@ using render::Image;
 fs::path written(const Image& image, const std::string& name) {
     const fs::path folder = fs::path(test_support::binary_root()) / "failed_images";
     fs::create_directories(folder);
-    const fs::path path = folder / (name + ".png");
+    fs::path path = folder / (name + ".png");
     stereo::write_image(image, path);
     return path;
 }

@@ -93,7 +93,7 @@ std::string error_of(F&& f) {
     try {
         f();
     } catch (const Error& error) {
-        const std::string message = error.what();
+        std::string message = error.what();
         EXPECT_EQ(message.find('\n'), std::string::npos) << "more than one line: " << message;
         return message;
     }

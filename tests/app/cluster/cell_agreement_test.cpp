@@ -20,7 +20,7 @@ struct Member {
     index::ExtractionPtr shown;
 };
 
-index::Extract extraction_that_fails_at(std::set<std::uint32_t> steps) {
+index::Extract extraction_that_fails_at(const std::set<std::uint32_t>& steps) {
     return [steps](const index::SurfacesQuery& query, const std::stop_token&) {
         if (steps.contains(query.step))
             throw std::runtime_error("no such step");
@@ -33,7 +33,7 @@ index::Extract extraction_that_fails_at(std::set<std::uint32_t> steps) {
 /// Members that go through frames in step, as a cluster's processes do.
 class Members {
   public:
-    explicit Members(std::vector<std::set<std::uint32_t>> failing) {
+    explicit Members(const std::vector<std::set<std::uint32_t>>& failing) {
         for (const auto& steps : failing) {
             members_.emplace_back();
             members_.back().extractor =

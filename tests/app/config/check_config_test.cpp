@@ -130,8 +130,8 @@ TEST(CheckConfig, TheDescriptionHoldsEveryPartAndItsMeasures) {
           "window floor: 1920 x 1200 pixels, fullscreen on the next monitor, quadbuffer",
           "node 0: the operator's window\nnode 1: front\nnode 2: left\n",
           "1200 x 1200 pixels at 360, 0; for guide",
-          "3.00 x 3.00 m, fixed in the room, corners square, faces the viewer, 1.70 m from the "
-          "viewer; pixels 2.50 x 2.50 mm",
+          ("3.00 x 3.00 m, fixed in the room, corners square, faces the viewer, 1.70 m from the "
+           "viewer; pixels 2.50 x 2.50 mm"),
           "devices: mouse and keyboard: head"})
         EXPECT_THAT(text, HasSubstr(part));
     const std::string mirrored =

@@ -60,22 +60,22 @@ TEST(FourierModes, AreDrawnFromTheShellAndSolenoidal) {
 
 TEST(FourierModes, HaveTheVorticityOfTheirVelocity) {
     const FourierModes flow(7);
-    constexpr std::size_t n = 20;
+    constexpr std::size_t kVertices = 20;
     for (const double time : {0.0, 31.0}) {
-        std::vector<float> magnitude(n * n * n);
-        flow.vorticity_magnitude(n, time, magnitude);
+        std::vector<float> magnitude(kVertices * kVertices * kVertices);
+        flow.vorticity_magnitude(kVertices, time, magnitude);
         for (const std::array<std::size_t, 3> vertex :
              {std::array<std::size_t, 3>{0, 0, 0}, {1, 2, 3}, {19, 0, 7}, {5, 18, 19}}) {
             Vector at{};
             for (std::size_t c = 0; c < 3; ++c)
-                at[c] = 2 * std::numbers::pi / n * static_cast<double>(vertex[c]);
+                at[c] = 2 * std::numbers::pi / kVertices * static_cast<double>(vertex[c]);
             const auto d = [&](std::size_t component, std::size_t axis) {
                 return derivative(flow, at, time, component, axis);
             };
             EXPECT_NEAR(d(0, 0) + d(1, 1) + d(2, 2), 0, 1e-5) << "divergence";
             const double curl = std::hypot(d(2, 1) - d(1, 2), d(0, 2) - d(2, 0), d(1, 0) - d(0, 1));
-            EXPECT_NEAR(magnitude[(vertex[2] * n + vertex[1]) * n + vertex[0]], curl,
-                        1e-4 * (1 + curl));
+            EXPECT_NEAR(magnitude[(vertex[2] * kVertices + vertex[1]) * kVertices + vertex[0]],
+                        curl, 1e-4 * (1 + curl));
         }
     }
 }
@@ -102,13 +102,13 @@ TEST(FourierModes, HaveTheEnstrophyOfTheirAmplitudes) {
     for (const auto& [k, wave] : waves)
         expected += 0.5 * (dot(wave[0], wave[0]) + dot(wave[1], wave[1]));
 
-    constexpr std::size_t n = 24; // resolves twice the highest wave number
-    std::vector<float> magnitude(n * n * n);
-    flow.vorticity_magnitude(n, kTime, magnitude);
+    constexpr std::size_t kVertices = 24; // resolves twice the highest wave number
+    std::vector<float> magnitude(kVertices * kVertices * kVertices);
+    flow.vorticity_magnitude(kVertices, kTime, magnitude);
     double sum = 0;
     for (const float value : magnitude)
         sum += double{value} * value;
-    EXPECT_NEAR(sum / (n * n * n), expected, 1e-5 * expected);
+    EXPECT_NEAR(sum / (kVertices * kVertices * kVertices), expected, 1e-5 * expected);
 }
 
 TEST(FourierModes, AreTheSameForEveryNumberOfThreadsAndSampledByAnyGrid) {

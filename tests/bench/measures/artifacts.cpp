@@ -137,7 +137,7 @@ ArtifactBench::ArtifactBench(const render::Gl& gl, std::shared_ptr<const index::
                              int size)
     : gl_(gl), file_(std::move(file)), size_(size), pass_(gl) {}
 
-render::Image ArtifactBench::draw(index::CellSetPtr set, render::Footprint footprint) {
+render::Image ArtifactBench::draw(const index::CellSetPtr& set, render::Footprint footprint) {
     const BenchCamera camera = bench_camera(file_->info(), size_, 1);
     const render::RenderTarget target(gl_, {size_, size_});
     const auto cells = render::CellBuffers::of_points(gl_, set->points);
@@ -171,7 +171,8 @@ std::vector<ArtifactRow> ArtifactBench::measure(const std::string& data,
         row.angle_p99 = angles.p99_degrees;
     }
     const auto steps = static_cast<std::uint32_t>(values.steps);
-    const double share = 1.0 / static_cast<double>((steps + every - 1) / every);
+    const std::uint32_t measured = (steps + every - 1) / every;
+    const double share = 1.0 / measured;
     for (std::uint32_t step = 0; step < steps; step += every) {
         progress(fmt::format("{} L {} MV {}", data, options.lattice, options.max_variation),
                  static_cast<double>(step) / steps);

@@ -65,7 +65,7 @@ class ArtifactBench {
     ArtifactBench(const render::Gl& gl, std::shared_ptr<const index::IndexFile> file, int size);
 
     ArtifactPictures draw(const ArtifactSets& sets, render::Footprint footprint);
-    render::Image draw(index::CellSetPtr set, render::Footprint footprint);
+    render::Image draw(const index::CellSetPtr& set, render::Footprint footprint);
 
     /// @param steps every so many of them are drawn
     std::vector<ArtifactRow> measure(const std::string& data, const index::ThiOptions& options,

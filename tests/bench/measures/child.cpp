@@ -112,7 +112,7 @@ class Child {
 
 std::string in_child(const std::function<std::string()>& work, const app::CancelOnSignal& signals) {
     Child child(work);
-    const std::string answer = child.read_all(signals);
+    std::string answer = child.read_all(signals);
     const int status = child.wait();
     signals.check();
     if (WIFSIGNALED(status))

@@ -10,8 +10,8 @@ namespace isochron::bench {
 ErrorCount count_errors(const index::StepValues& values, const Structure& structure,
                         std::span<const double> isovalues,
                         const std::function<void(double)>& progress) {
-    enum : std::uint8_t { kInactive, kActive, kFound };
-    std::vector<std::uint8_t> state(values.grid.cell_count(), kInactive);
+    enum class Cell : std::uint8_t { inactive, active, found };
+    std::vector<Cell> state(values.grid.cell_count(), Cell::inactive);
     ErrorCount count;
     Ids active, found;
     for (std::uint32_t step = 0; step < values.steps; ++step) {
@@ -23,18 +23,18 @@ ErrorCount count_errors(const index::StepValues& values, const Structure& struct
             index::scan(values, query, active);
             structure.ids(query, found);
             for (const index::CellId id : active)
-                state[id] = kActive;
+                state[id] = Cell::active;
             std::uint64_t hits = 0;
             for (const index::CellId id : found)
-                if (id < state.size() && state[id] == kActive) {
-                    state[id] = kFound;
+                if (id < state.size() && state[id] == Cell::active) {
+                    state[id] = Cell::found;
                     ++hits;
                 }
             count.active += active.size();
             count.false_positives += found.size() - hits;
             count.false_negatives += active.size() - hits;
             for (const index::CellId id : active)
-                state[id] = kInactive;
+                state[id] = Cell::inactive;
         }
     }
     return count;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,7 +21,7 @@ namespace isochron::bench {
 namespace {
 
 std::string page_number(double value) {
-    return value >= 100 ? app::grouped(static_cast<std::uint64_t>(value + 0.5))
+    return value >= 100 ? app::grouped(static_cast<std::uint64_t>(std::llround(value)))
                         : fmt::format("{:.3g}", value);
 }
 
@@ -123,8 +124,9 @@ std::string structure_line(const Row& row, const ErrorDetail& detail) {
         "| {}{} | {} | {:.3g} | {:.3g} | {:.2g} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
         row.structure, setting, app::grouped(row.bytes), row.percent_of_raw,
         row.percent_with_volume, detail.percent_at_isovalue, row.false_negatives,
-        page_number(row.search_runs_us), page_number(row.search_ids_us), page_number(row.search_full_us),
-        page_number(row.incremental_us), page_number(row.incremental_full_us), page_number(row.sweep_ms),
+        page_number(row.search_runs_us), page_number(row.search_ids_us),
+        page_number(row.search_full_us), page_number(row.incremental_us),
+        page_number(row.incremental_full_us), page_number(row.sweep_ms),
         page_number(row.build_mcs_per_s));
 }
 

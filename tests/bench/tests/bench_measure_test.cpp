@@ -21,7 +21,6 @@
 namespace isochron::bench {
 namespace {
 
-using index::CellId;
 using index::Query;
 using index::TestField;
 using index::ValueType;

@@ -186,7 +186,7 @@ TEST(RenderRows, GoThroughJsonUnchanged) {
 
 TEST(InChild, ReturnsTheAnswerOrItsError) {
     const app::CancelOnSignal signals;
-    const std::string large(1 << 20, 'x');
+    std::string large(1 << 20, 'x');
     EXPECT_EQ(in_child([&] { return large; }, signals), large);
     try {
         in_child([]() -> std::string { throw index::Error("no such volume"); }, signals);

@@ -58,7 +58,7 @@ Row row_of(const std::string& structure, const std::string& data, const std::str
     return row;
 }
 
-Results results_of(std::vector<Row> rows) {
+Results results_of(const std::vector<Row>& rows) {
     Results results{{"0123abcd", "some processor", "some compiler", "2026-01-01", 2}, rows, {}};
     results.details.resize(rows.size());
     return results;

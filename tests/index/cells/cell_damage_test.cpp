@@ -42,7 +42,7 @@ bool may_be_searched(const DeltaUnit& unit, std::uint32_t cells) {
 /// @return whether it was taken for sound
 template <class Unit>
 bool survives(const std::vector<std::byte>& bytes, std::uint32_t cells, std::mt19937& random) {
-    const std::vector<std::byte> copy(bytes);
+    const std::vector<std::byte> copy(bytes); // NOLINT: a block of its own
     const Unit unit(copy, 0);
     if (!may_be_searched(unit, cells)) {
         EXPECT_FALSE(unit.check(kSteps, cells));

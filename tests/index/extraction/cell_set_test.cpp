@@ -210,8 +210,8 @@ TEST(CellSet, ANormalNeedsFiniteNeighborsAndAGradient) {
         ramp.at<float>(0, (2 * 6 + 2) * 6 + 2) = bad; // vertex (2, 2, 2)
         const StepValues values = ramp.view();
         const CellSet set = all_cells(values, 0);
-        const auto normal = [&](int x, int y, int z) {
-            return set.points[std::size_t((z * 5 + y) * 5 + x)].normal;
+        const auto normal = [&](std::size_t x, std::size_t y, std::size_t z) {
+            return set.points[(z * 5 + y) * 5 + x].normal;
         };
         EXPECT_EQ(normal(2, 2, 2), 0u) << "a vertex of its own";
         EXPECT_EQ(normal(3, 2, 2), 0u) << "a neighbor along x";

@@ -20,7 +20,7 @@ std::vector<std::byte> sound_bytes(std::mt19937& random) {
 /// Opens and searches a copy in a block of its own, whose borders the address sanitizer guards.
 /// @return whether it was taken for a tree
 bool survives(const std::vector<std::byte>& bytes, std::mt19937& random) {
-    const std::vector<std::byte> copy(bytes);
+    const std::vector<std::byte> copy(bytes); // NOLINT: a block of its own
     try {
         const ThiTree tree(copy);
         ThiTree::Cursor cursor;

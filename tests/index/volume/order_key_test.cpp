@@ -19,7 +19,7 @@ std::vector<T> samples(std::mt19937& random) {
     std::vector<T> all{T{0}, T{1}, Limits::lowest(), Limits::max()};
     if constexpr (std::is_floating_point_v<T>)
         all.insert(all.end(), {T{-0.0}, Limits::infinity(), -Limits::infinity(), Limits::min(),
-                               -Limits::denorm_min(), Limits::denorm_min(), T{0.1}, T{-3.5}});
+                               -Limits::denorm_min(), Limits::denorm_min(), T(0.1), T{-3.5}});
     while (all.size() < 300) {
         T value;
         std::uint64_t bits = random() | std::uint64_t{random()} << 32;

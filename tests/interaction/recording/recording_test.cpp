@@ -255,7 +255,8 @@ TEST_F(RecordingFile, AbsurdSizesAreRefused) {
 TEST_F(RecordingFile, RandomDamageNeverDoesMoreThanComplain) {
     write_recording(path_, random_recording(11, 8));
     const std::string whole = content_of(path_);
-    const std::string pieces = "{}[]\",:0123456789eE+-.ntf\n\\u\0\xff";
+    using namespace std::string_literals; // one of them is the NUL
+    const std::string pieces = "{}[]\",:0123456789eE+-.ntf\n\\u\0\xff"s;
     int complaints = 0;
     for (unsigned seed = 0; seed < 3000; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);

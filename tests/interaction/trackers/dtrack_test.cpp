@@ -17,7 +17,6 @@ namespace isochron::interaction {
 namespace {
 
 using test_support::dtrack_datagram;
-using test_support::PlayedBody;
 using test_support::PlayedFlystick;
 using test_support::UdpSender;
 

@@ -43,7 +43,7 @@ Errors errors_of(const DeviceOptions& options, double rate, double noise, bool t
     double sampled = 0;
     for (int frame = 1; frame <= 600; ++frame) {
         const double now = frame / 60.0;
-        for (; sampled <= now; sampled += 1 / rate) {
+        while (sampled <= now) {
             Pose pose = looking_about(sampled);
             pose.position += glm::vec3(jitter(random), jitter(random), jitter(random));
             std::optional<Velocity> velocity;
@@ -54,6 +54,7 @@ Errors errors_of(const DeviceOptions& options, double rate, double noise, bool t
                     rotation_between(looking_about(sampled).orientation, next.orientation) / 1e-4};
             }
             device.add_pose(Seconds(sampled), pose, velocity);
+            sampled += 1 / rate;
         }
         const DeviceState state = device.poll(Seconds(now));
         if (frame < 30)

@@ -25,7 +25,7 @@ class Bricks : public GlTest {
         const std::size_t size = bricks.brick_bytes();
         for (std::size_t i = 0; i < bricks.ids.size(); ++i) {
             std::uint32_t slot = 0;
-            gl_.GetNamedBufferSubData(pool.pages().buffer(), GLintptr(4 * bricks.ids[i]), 4, &slot);
+            gl_.GetNamedBufferSubData(pool.pages().buffer(), GLintptr{4} * bricks.ids[i], 4, &slot);
             const auto held = bytes_of(pool.values().buffer(), slot * size, size);
             ASSERT_TRUE(std::ranges::equal(held, bricks.brick(i))) << "brick " << bricks.ids[i];
         }

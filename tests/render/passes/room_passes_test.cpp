@@ -99,7 +99,7 @@ TEST_P(RoomPasses, FacetsAreAsBrightAsTheyFaceTheEyeAndHideEachOther) {
                  ellipsoid({0, 0, 0}, glm::vec3(1), {1, 0.5f, 0}));
     const Rgb middle = rgb(50, 50), rim = rgb(36, 50);
     EXPECT_GT(middle[0], 240);
-    EXPECT_NEAR(middle[1], middle[0] / 2, 2);
+    EXPECT_NEAR(middle[1], middle[0] / 2.0, 2);
     EXPECT_LT(rim[0], middle[0] - 40);
     EXPECT_GT(rim[0], 60) << "nothing is black";
     solids_.draw(view_, glm::mat4(1.0f), solid_box({-1, -1, -6}, {1, 1, -5}, {0, 0, 1}));

@@ -24,10 +24,10 @@ std::vector<std::string> offered_extensions() {
     return names;
 }
 
-template <std::size_t N>
-void copy_text(char (&into)[N], const std::string& text) {
-    std::strncpy(into, text.c_str(), N - 1);
-    into[N - 1] = 0;
+template <std::size_t kSize>
+void copy_text(char (&into)[kSize], const std::string& text) {
+    std::strncpy(into, text.c_str(), kSize - 1);
+    into[kSize - 1] = 0;
 }
 
 XrResult XRAPI_CALL enumerate_extensions(const char*, std::uint32_t capacity, std::uint32_t* count,
@@ -112,15 +112,15 @@ XrResult XRAPI_CALL poll_event(XrInstance instance, XrEventDataBuffer* out) {
     case name: text = #name; break;
 
 XrResult XRAPI_CALL result_to_string(XrInstance, XrResult value, char* out) {
-    const char* text = "?";
-    switch (value) { XR_LIST_ENUM_XrResult(PLAYED_CASE) default : break; }
+    const char* text = nullptr;
+    switch (value) { XR_LIST_ENUM_XrResult(PLAYED_CASE) default : text = "?"; }
     std::strncpy(out, text, XR_MAX_RESULT_STRING_SIZE);
     return XR_SUCCESS;
 }
 
 XrResult XRAPI_CALL structure_to_string(XrInstance, XrStructureType value, char* out) {
-    const char* text = "?";
-    switch (value) { XR_LIST_ENUM_XrStructureType(PLAYED_CASE) default : break; }
+    const char* text = nullptr;
+    switch (value) { XR_LIST_ENUM_XrStructureType(PLAYED_CASE) default : text = "?"; }
     std::strncpy(out, text, XR_MAX_STRUCTURE_NAME_SIZE);
     return XR_SUCCESS;
 }

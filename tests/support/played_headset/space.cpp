@@ -34,7 +34,7 @@ XrResult add(const char* call, const XrPosef& pose, Space space, XrSpace* out) {
         return refuse(call, "pose_not_unit", XR_ERROR_POSE_INVALID, "of the space");
     space.offset = from_xr(pose);
     *out = new_handle<XrSpace>();
-    world().spaces.emplace(id_of(*out), std::move(space));
+    world().spaces.emplace(id_of(*out), space);
     return XR_SUCCESS;
 }
 

@@ -95,7 +95,8 @@ const void* in_chain(const void* first, XrStructureType type) {
 
 void push_state(XrSessionState state) {
     XrEventDataBuffer buffer{};
-    XrEventDataSessionStateChanged event{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED};
+    XrEventDataSessionStateChanged event{};
+    event.type = XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED;
     event.session = reinterpret_cast<XrSession>(world().session_handle);
     event.state = state;
     event.time = std::max<std::int64_t>(world().session->display_time, 1);
@@ -108,7 +109,8 @@ namespace {
 
 void push_recentered() {
     XrEventDataBuffer buffer{};
-    XrEventDataReferenceSpaceChangePending event{XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING};
+    XrEventDataReferenceSpaceChangePending event{};
+    event.type = XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING;
     event.session = reinterpret_cast<XrSession>(world().session_handle);
     event.referenceSpaceType =
         world().headset.has_stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;

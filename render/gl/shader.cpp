@@ -142,6 +142,7 @@ Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
         std::string log(std::max(log_length, 1), '\0');
         gl.GetProgramInfoLog(program.name(), log_length, nullptr, log.data());
         std::vector<std::string_view> names;
+        names.reserve(sources.size());
         for (const ShaderSource& source : sources)
             names.push_back(source.name);
         throw Error(

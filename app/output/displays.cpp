@@ -2,6 +2,7 @@
 #include "app/output/displays.h"
 
 #include "render/gl/driver.h"
+#include "render/gl/limits.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +41,7 @@ int picture_samples_of(const Config& config, const render::Gl& gl, glm::ivec2 wi
 } // namespace
 
 stereo::DisplayOptions display_options(const render::Gl& gl, const Config& config) {
+    render::expect_enough(gl);
     return {.near_plane = config.installation.near_plane,
             .far_plane = config.installation.far_plane,
             .background = config.background,

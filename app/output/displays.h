@@ -12,7 +12,8 @@
 namespace isochron::app {
 
 /// What displays of this configuration have alike.
-/// @throws render::Error when this GL has fewer samples than configured
+/// @throws render::Error when this GL has fewer samples than configured, or too little of anything
+/// that drawing needs (`render::expect_enough`)
 stereo::DisplayOptions display_options(const render::Gl& gl, const Config& config);
 
 /// The same for a picture to keep.

@@ -2,6 +2,7 @@
 #include "app/panel/panel_layer.h"
 
 #include "app/scene/font.h"
+#include "render/gl/limits.h"
 #include "render/gl/shader.h"
 
 #include <imgui.h>
@@ -151,6 +152,7 @@ void PanelLayer::make_font_texture() {
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     fonts.GetTexDataAsRGBA32(&pixels, &width, &height);
+    render::expect_texture(render::Limits(gl_), "panel's font", {width, height});
     gl_.TextureStorage2D(font_.name(), 1, GL_RGBA8, width, height);
     gl_.TextureSubImage2D(font_.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     gl_.TextureParameteri(font_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);

@@ -1,6 +1,7 @@
 // Programs, uniforms and dispatches of the compute passes.
 #include "render/cells/cell_compute.h"
 
+#include "render/gl/limits.h"
 #include "render/gl/shader.h"
 
 #include <glm/common.hpp>
@@ -15,10 +16,7 @@
 namespace isochron::render {
 namespace {
 
-constexpr std::size_t kGroup = 64; ///< invocations: local_size_x of the shaders
-/// Of one dispatch: within the limits that every GL 4.5 driver has, of 2^16 - 1 groups and, at the
-/// 64 bytes that a cell's gradients take, of 128 MiB for a storage block.
-constexpr std::size_t kAtOnce = 1 << 20;
+constexpr std::size_t kMostBytes = 64; ///< of a cell in a part of a buffer: its gradients
 
 /// The uniform block of volume_bricks.glsl, in std140 layout.
 struct VolumeBlock {
@@ -65,7 +63,8 @@ float gradient_scale(float range) {
 } // namespace
 
 CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType held)
-    : gl_(&gl), grid_(grid), pages_(link_program(gl, {shader_file("brick_pages.comp")})),
+    : gl_(&gl), grid_(grid), at_once_(work_at_once(Limits(gl), kMostBytes)),
+      pages_(link_program(gl, {shader_file("brick_pages.comp")})),
       places_(link_program(gl, {shader_file("cell_places.comp")})),
       styles_(link_program(gl, {shader_file("cell_styles.comp")})),
       normals_(link_program(gl, {shader_file("cell_normals.comp")}, sampler_of(held))),
@@ -106,13 +105,14 @@ void CellCompute::run(const Program& program, std::size_t count, Work work,
     gl_->UseProgram(program.name());
     std::size_t begin = 0;
     do { // once for nothing, too: drivers compile what runs
-        const std::size_t end = std::min(begin + kAtOnce, count);
+        const std::size_t end = std::min(begin + at_once_, count);
         work.begin = static_cast<std::uint32_t>(begin);
         work.end = static_cast<std::uint32_t>(end);
         gl_->NamedBufferData(work_.name(), sizeof(work), &work, GL_STREAM_DRAW);
         gl_->BindBufferBase(GL_UNIFORM_BUFFER, 1, work_.name());
         prepare(begin, end);
-        const std::size_t groups = std::max((end - begin + kGroup - 1) / kGroup, std::size_t{1});
+        const std::size_t groups =
+            std::max((end - begin + kWorkGroup - 1) / kWorkGroup, std::size_t{1});
         gl_->DispatchCompute(static_cast<GLuint>(groups), 1, 1);
         begin = end;
     } while (begin < count);

@@ -15,7 +15,7 @@ namespace isochron::render {
 class CellCompute {
   public:
     /// @param held type of the values in bricks
-    /// @throws Error when a shader does not compile
+    /// @throws Error when a shader does not compile, or the driver can do too little at once
     CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType held);
 
     /// Enters the pages of the new set into the pool's table.
@@ -59,6 +59,7 @@ class CellCompute {
 
     const Gl* gl_;
     index::Grid grid_;
+    std::size_t at_once_; ///< things that one dispatch does
     Program pages_, places_, styles_, normals_, corners_;
     Buffer volume_, work_;
 };

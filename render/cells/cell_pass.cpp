@@ -4,6 +4,7 @@
 #include "render/cells/point_sprites.h"
 #include "render/gl/driver.h"
 #include "render/gl/driver_trials.h"
+#include "render/gl/limits.h"
 #include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/srgb.h"
@@ -54,13 +55,8 @@ struct Frame {
     glm::vec2 padding{0.0f};
 };
 static_assert(sizeof(Frame) == 2 * (3 * 64 + 10 * 16) + (index::kMostSurfaces + 7) * 16);
+static_assert(sizeof(Frame) <= kUniformBlockBytes);
 constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
-
-float largest_point(const Gl& gl) {
-    std::array<GLfloat, 2> range{};
-    gl.GetFloatv(GL_POINT_SIZE_RANGE, range.data());
-    return range[1];
-}
 
 /// The depth cue runs from the near to the far end of the volume's bounding sphere.
 glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, float strength) {
@@ -231,7 +227,7 @@ CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragme
 
 CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
     : gl_(&gl), shapes_(shapes), two_views_at_once_(draws_to_two_viewports(gl)),
-      seen_only_(takes_processor_ways(gl)), largest_point_(largest_point(gl)),
+      seen_only_(takes_processor_ways(gl)), largest_point_(Limits(gl).largest_point),
       quad_programs_(footprint_programs("cell_quad.frag", {})),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", "#define ROUND\n")),
       surface_(gl, two_views_at_once_), quads_(gl), orders_(gl), seen_slots_(gl),

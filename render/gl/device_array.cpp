@@ -1,6 +1,8 @@
 // Growth of GPU memory.
 #include "render/gl/device_array.h"
 
+#include "render/gl/limits.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,14 +14,10 @@ DeviceArray::DeviceArray(const Gl& gl, const char* what, GLenum format, std::siz
                          std::size_t texels, Storage storage)
     : gl_(&gl), what_(what), format_(format), texel_bytes_(texel_bytes), texels_(texels),
       buffer_(gl), texture_(gl, GL_TEXTURE_BUFFER) {
-    GLint most_texels = 0;
-    gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
-    limit_ = static_cast<std::size_t>(most_texels) / texels_;
-    if (storage == Storage::whole) {
-        GLint64 most_bytes = 0;
-        gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most_bytes);
-        limit_ = std::min(limit_, static_cast<std::size_t>(most_bytes) / element_bytes());
-    }
+    const Limits limits(gl);
+    limit_ = limits.buffer_texels / texels_;
+    if (storage == Storage::whole)
+        limit_ = std::min(limit_, limits.storage_block_bytes / element_bytes());
     reserve(1, Contents::dropped); // never without memory behind the texture
 }
 

@@ -55,6 +55,7 @@ using GlLoader = std::function<void*(const char*)>;
     ENTRY(PFNGLCLEARPROC, Clear)                                                                             \
     ENTRY(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                 \
     ENTRY(PFNGLGETINTEGER64VPROC, GetInteger64v)                                                             \
+    ENTRY(PFNGLGETINTEGERI_VPROC, GetIntegeri_v)                                                             \
     ENTRY(PFNGLGETFLOATVPROC, GetFloatv)                                                                     \
     ENTRY(PFNGLGETBOOLEANVPROC, GetBooleanv)                                                                 \
     ENTRY(PFNGLGETSTRINGPROC, GetString)                                                                     \

@@ -2,6 +2,7 @@
 #include "render/gl/render_target.h"
 
 #include "render/gl/driver.h"
+#include "render/gl/limits.h"
 #include "render/gl/srgb.h"
 
 #include <fmt/format.h>
@@ -30,11 +31,7 @@ void RenderTarget::resize(glm::ivec2 size) {
 }
 
 void RenderTarget::allocate() {
-    GLint limit = 0;
-    gl_->GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-    if (size_.x < 1 || size_.y < 1 || size_.x > limit || size_.y > limit)
-        throw Error(fmt::format("render target: {}x{} pixels, each side must be 1 to {}", size_.x,
-                                size_.y, limit));
+    expect_target(Limits(*gl_), "render target", size_);
     gl_->TextureStorage2D(color_.name(), 1, GL_SRGB8_ALPHA8, size_.x, size_.y);
     gl_->TextureParameteri(color_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_->TextureParameteri(color_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

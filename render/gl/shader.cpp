@@ -35,18 +35,32 @@ const Stage& stage_of(std::string_view name) {
     throw Error(fmt::format("{}: unknown kind of shader, expected .vert, .frag or .comp", name));
 }
 
+/// What #line calls a file, since GLSL names files by numbers.
+std::size_t number_of(std::string_view name) {
+    const auto named = [&](const ShaderSource& file) { return file.name == name; };
+    return static_cast<std::size_t>(std::ranges::find_if(shader_files(), named) -
+                                    shader_files().begin());
+}
+
+std::string line_of(int line, const ShaderSource& source) {
+    return fmt::format("#line {} {}\n", line, number_of(source.name));
+}
+
 /// The text with every included file in place of its #include line; lines are counted as in the
-/// file itself, so that the driver's messages name the right one.
-std::string with_includes(std::string_view text) {
+/// files themselves, so that the driver's messages name the right ones.
+/// @param included gets the names of those files
+std::string with_includes(const ShaderSource& source, std::vector<std::string_view>& included) {
     constexpr std::string_view kInclude = "#include \"";
     std::string result;
+    std::string_view text = source.text;
     for (int line = 1; !text.empty(); ++line) {
         const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
         const std::string_view current = text.substr(0, end);
         if (current.starts_with(kInclude)) {
             const std::string_view name = current.substr(kInclude.size());
-            const ShaderSource included = shader_file(name.substr(0, name.find('"')));
-            result += fmt::format("#line 1\n{}#line {}\n", with_includes(included.text), line + 1);
+            const ShaderSource& file = shader_file(name.substr(0, name.find('"')));
+            included.push_back(file.name);
+            result += line_of(1, file) + with_includes(file, included) + line_of(line + 1, source);
         } else {
             result += current;
         }
@@ -57,18 +71,27 @@ std::string with_includes(std::string_view text) {
 
 /// `#version` stays the first line.
 std::string complete_text(const ShaderSource& source, std::string_view prelude,
-                          std::string_view definition) {
-    const std::string text = with_includes(source.text);
+                          std::string_view definition, std::vector<std::string_view>& included) {
+    const std::string text = with_includes(source, included);
     const std::size_t version_end = text.find('\n') + 1;
-    return fmt::format("{}#define {}\n#define MOST_SURFACES {}\n{}#line 2\n{}",
+    return fmt::format("{}#define {}\n#define MOST_SURFACES {}\n{}{}{}",
                        text.substr(0, version_end), definition, index::kMostSurfaces, prelude,
-                       text.substr(version_end));
+                       line_of(2, source), text.substr(version_end));
+}
+
+/// What the numbers in the driver's messages mean.
+std::string numbers_of(const ShaderSource& source, const std::vector<std::string_view>& included) {
+    std::string text = fmt::format("{} is {}", number_of(source.name), source.name);
+    for (const std::string_view name : included)
+        text += fmt::format(", {} is {}", number_of(name), name);
+    return text;
 }
 
 Shader compile(const Gl& gl, const ShaderSource& source, std::string_view prelude) {
     const Stage& stage = stage_of(source.name);
     Shader shader(gl, stage.kind);
-    const std::string complete = complete_text(source, prelude, stage.definition);
+    std::vector<std::string_view> included;
+    const std::string complete = complete_text(source, prelude, stage.definition, included);
     const GLchar* text = complete.data();
     const auto length = static_cast<GLint>(complete.size());
     gl.ShaderSource(shader.name(), 1, &text, &length);
@@ -79,14 +102,15 @@ Shader compile(const Gl& gl, const ShaderSource& source, std::string_view prelud
         gl.GetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &log_length);
         std::string log(std::max(log_length, 1), '\0');
         gl.GetShaderInfoLog(shader.name(), log_length, nullptr, log.data());
-        throw Error(fmt::format("{}: shader does not compile: {}", source.name, log.c_str()));
+        throw Error(fmt::format("{}: shader does not compile, where {}: {}", source.name,
+                                numbers_of(source, included), log.c_str()));
     }
     return shader;
 }
 
 } // namespace
 
-ShaderSource shader_file(std::string_view name) {
+const ShaderSource& shader_file(std::string_view name) {
     for (const ShaderSource& file : shader_files())
         if (file.name == name)
             return file;
@@ -118,6 +142,7 @@ Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
         std::string log(std::max(log_length, 1), '\0');
         gl.GetProgramInfoLog(program.name(), log_length, nullptr, log.data());
         std::vector<std::string_view> names;
+        names.reserve(sources.size());
         for (const ShaderSource& source : sources)
             names.push_back(source.name);
         throw Error(

@@ -1,8 +1,9 @@
 // Programs from the shader files in render/shaders, whose text is part of the library.
 //
-// A line `#include "name.glsl"` is replaced by that file's text. VERTEX_STAGE, FRAGMENT_STAGE or
-// COMPUTE_STAGE is defined, so that stages can include the same declarations, and MOST_SURFACES,
-// how many isosurfaces are shown together at most.
+// A line `#include "name.glsl"` is replaced by that file's text; in the driver's messages a file is
+// its number among `shader_files()`. VERTEX_STAGE, FRAGMENT_STAGE or COMPUTE_STAGE is defined, so that
+// stages can include the same declarations, and MOST_SURFACES, how many isosurfaces are shown
+// together at most.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -21,7 +22,7 @@ struct ShaderSource {
 const std::vector<ShaderSource>& shader_files();
 
 /// The file of that name. @throws Error when there is none
-ShaderSource shader_file(std::string_view name);
+const ShaderSource& shader_file(std::string_view name);
 
 /// What the program needs that draws two views in one pass.
 inline constexpr std::string_view kTwoEyesExtension = "GL_ARB_shader_viewport_layer_array";

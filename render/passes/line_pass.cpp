@@ -28,7 +28,7 @@ BoxLines box_lines(const glm::vec3& extent, const glm::vec4& color, const glm::v
 
 LinePass::LinePass(const Gl& gl)
     : gl_(&gl), program_(link_program(gl, {shader_file("line.vert"), shader_file("line.frag")})),
-      quads_(gl), segments_(gl), frame_(gl), texture_(gl, GL_TEXTURE_BUFFER) {}
+      quads_(gl), segments_(gl, "lines", 3), frame_(gl) {}
 
 void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::span<const Line> lines,
                     float width) {
@@ -46,11 +46,9 @@ void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::spa
         segments.emplace_back(line.to, 1.0f);
         segments.push_back(line.color);
     }
-    gl_->NamedBufferData(segments_.name(), segments.size() * sizeof(glm::vec4), segments.data(),
-                         GL_STREAM_DRAW);
-    gl_->TextureBuffer(texture_.name(), GL_RGBA32F, segments_.name());
+    segments_.set(std::as_bytes(std::span(segments)));
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
-    gl_->BindTextureUnit(0, texture_.name());
+    gl_->BindTextureUnit(0, segments_.texture());
 
     set_viewport(*gl_, view);
     gl_->Enable(GL_DEPTH_TEST);

@@ -3,6 +3,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/gl/quad_indices.h"
+#include "render/gl/texel_buffer.h"
 #include "render/gl/view.h"
 
 #include <glm/mat4x4.hpp>
@@ -44,8 +45,8 @@ class LinePass {
     const Gl* gl_;
     Program program_;
     QuadIndices quads_;
-    Buffer segments_, frame_;
-    Texture texture_;
+    TexelBuffer segments_;
+    Buffer frame_;
 };
 
 } // namespace isochron::render

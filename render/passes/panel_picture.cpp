@@ -1,6 +1,8 @@
 // Allocation and filling of a panel's picture.
 #include "render/passes/panel_picture.h"
 
+#include "render/gl/limits.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +11,7 @@ namespace isochron::render {
 
 PanelPicture::PanelPicture(const Gl& gl, glm::ivec2 size)
     : gl_(&gl), size_(size), color_(gl, GL_TEXTURE_2D), framebuffer_(gl) {
+    expect_target(Limits(gl), "panel's picture", size);
     const auto levels = std::bit_width(static_cast<unsigned>(std::max(size.x, size.y)));
     gl.TextureStorage2D(color_.name(), static_cast<GLsizei>(levels), GL_SRGB8_ALPHA8, size.x,
                         size.y);

@@ -66,7 +66,7 @@ std::vector<Triangle> pyramid(const std::array<glm::vec3, 4>& base, glm::vec3 ti
 
 SolidPass::SolidPass(const Gl& gl)
     : program_(link_program(gl, {shader_file("solid.vert"), shader_file("solid.frag")})),
-      no_attributes_(gl), corners_(gl), texture_(gl, GL_TEXTURE_BUFFER) {}
+      no_attributes_(gl), corners_(gl, "triangles", 4) {}
 
 void SolidPass::draw(const View& view, const glm::mat4& room_from_model,
                      std::span<const Triangle> triangles) {
@@ -78,9 +78,7 @@ void SolidPass::draw(const View& view, const glm::mat4& room_from_model,
             data.emplace_back(corner, 1.0f);
         data.emplace_back(triangle.color, 1.0f);
     }
-    gl.NamedBufferData(corners_.name(), data.size() * sizeof(glm::vec4), data.data(),
-                       GL_STREAM_DRAW);
-    gl.TextureBuffer(texture_.name(), GL_RGBA32F, corners_.name());
+    corners_.set(std::as_bytes(std::span(data)));
     const GLuint program = program_.name();
     const auto matrix = [&](const char* name, const glm::mat4& value) {
         gl.ProgramUniformMatrix4fv(program, gl.GetUniformLocation(program, name), 1, GL_FALSE,
@@ -90,7 +88,7 @@ void SolidPass::draw(const View& view, const glm::mat4& room_from_model,
     matrix("clip_from_eye", view.clip_from_eye);
     set_viewport(gl, view);
     gl.UseProgram(program);
-    gl.BindTextureUnit(0, texture_.name());
+    gl.BindTextureUnit(0, corners_.texture());
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LESS);
     gl.DepthMask(GL_TRUE);

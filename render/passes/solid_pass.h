@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_objects.h"
+#include "render/gl/texel_buffer.h"
 #include "render/gl/view.h"
 
 #include <glm/mat4x4.hpp>
@@ -39,8 +40,7 @@ class SolidPass {
   private:
     Program program_;
     VertexArray no_attributes_;
-    Buffer corners_;
-    Texture texture_;
+    TexelBuffer corners_;
 };
 
 } // namespace isochron::render

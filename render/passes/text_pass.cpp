@@ -1,6 +1,7 @@
 // The data and GL state of a draw of text.
 #include "render/passes/text_pass.h"
 
+#include "render/gl/limits.h"
 #include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
@@ -14,9 +15,11 @@ namespace isochron::render {
 TextPass::TextPass(const Gl& gl, GlyphAtlas atlas)
     : gl_(&gl), atlas_(std::move(atlas)),
       program_(link_program(gl, {shader_file("text.vert"), shader_file("text.frag")})), quads_(gl),
-      buffer_(gl), frame_(gl), buffer_texture_(gl, GL_TEXTURE_BUFFER), glyphs_(gl, GL_TEXTURE_2D) {
+      placed_(gl, "characters", sizeof(ScreenQuad) / sizeof(glm::vec4)), frame_(gl),
+      glyphs_(gl, GL_TEXTURE_2D) {
     // Glyphs are made larger than they are shown, so that text of any size is smooth at any place.
     constexpr GLsizei kLevels = 4;
+    expect_texture(Limits(gl), "font", atlas_.size);
     gl.TextureStorage2D(glyphs_.name(), kLevels, GL_R8, atlas_.size.x, atlas_.size.y);
     gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -67,11 +70,9 @@ void TextPass::draw(const View& view, const glm::mat4& room_from_model,
         glm::vec4 size;
     } frame{view.clip_from_eye * view.eye_from_room * room_from_model,
             glm::vec4(view.size, 0.0f, 0.0f)};
-    gl_->NamedBufferData(buffer_.name(), static_cast<GLsizeiptr>(quads.size_bytes()), quads.data(),
-                         GL_STREAM_DRAW);
-    gl_->TextureBuffer(buffer_texture_.name(), GL_RGBA32F, buffer_.name());
+    placed_.set(std::as_bytes(quads));
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
-    gl_->BindTextureUnit(0, buffer_texture_.name());
+    gl_->BindTextureUnit(0, placed_.texture());
     gl_->BindTextureUnit(1, glyphs_.name());
 
     set_viewport(*gl_, view);

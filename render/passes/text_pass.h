@@ -8,6 +8,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/gl/quad_indices.h"
+#include "render/gl/texel_buffer.h"
 #include "render/gl/view.h"
 #include "render/passes/glyph_atlas.h"
 
@@ -70,8 +71,9 @@ class TextPass {
     GlyphAtlas atlas_;
     Program program_;
     QuadIndices quads_;
-    Buffer buffer_, frame_;
-    Texture buffer_texture_, glyphs_;
+    TexelBuffer placed_;
+    Buffer frame_;
+    Texture glyphs_;
 };
 
 /// A view whose room is the viewport itself: x and y in pixels from its lower left, z 0.

@@ -3,7 +3,9 @@
 #include "stereo/multiplex.h"
 #include "tests/support/gl_test.h"
 
+#include <algorithm>
 #include <cstring>
+#include <string>
 
 namespace isochron::render {
 namespace {
@@ -79,6 +81,22 @@ TEST_P(Shaders, ABrokenOneStopsWithItsNameAndLog) {
         const std::string message = error.what();
         EXPECT_TRUE(message.starts_with("broken.vert: ")) << message;
         EXPECT_NE(message.find("nonsense"), std::string::npos) << message;
+    }
+}
+
+TEST_P(Shaders, ABrokenOneSaysWhichNumbersItsFilesHave) {
+    const auto is_srgb = [](const ShaderSource& file) { return file.name == "srgb.glsl"; };
+    const auto number = std::ranges::find_if(shader_files(), is_srgb) - shader_files().begin();
+    try {
+        link_program(gl_, {{"broken.frag", "#version 450 core\n#include \"srgb.glsl\"\n"
+                                           "void main() { nonsense = 1; }\n"}});
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        const std::string own = std::to_string(shader_files().size());
+        EXPECT_NE(message.find(own + " is broken.frag"), std::string::npos) << message;
+        EXPECT_NE(message.find(std::to_string(number) + " is srgb.glsl"), std::string::npos)
+            << message;
     }
 }
 

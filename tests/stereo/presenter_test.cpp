@@ -45,7 +45,11 @@ render::Gl counting_gl() {
         *names = ++next;
     };
     gl.DeleteTextures = [](GLsizei, const GLuint*) {};
-    gl.GetIntegerv = [](GLenum, GLint* value) { *value = 16384; };
+    gl.GetIntegerv = [](GLenum name, GLint* value) {
+        value[0] = 16384;
+        if (name == GL_MAX_VIEWPORT_DIMS)
+            value[1] = value[0];
+    };
     gl.TextureStorage2D = [](GLuint, GLsizei, GLenum, GLsizei, GLsizei) {};
     gl.TextureParameteri = [](GLuint, GLenum, GLint) {};
     gl.CheckNamedFramebufferStatus = [](GLuint, GLenum) -> GLenum {

@@ -51,7 +51,8 @@ TEST(FramesAlone, NobodyIsAskedOrWaitedFor) {
     FramesAlone frames;
     EXPECT_TRUE(frames.leads());
     frames.swap_barrier([]() -> FrameAnswer { throw std::runtime_error("asked"); });
-    const std::vector<DrawSample> samples{{.frame = 3}, {.frame = 4}};
+    const std::vector<DrawSample> samples{{.frame = 3, .load = {}, .gpu = {}},
+                                          {.frame = 4, .load = {}, .gpu = {}}};
     EXPECT_EQ(frames.samples(samples), samples);
     EXPECT_EQ(frames.largest({2, 640}), (DrawLoad{2, 640}));
     const FrameChoice mine{render::Footprint::surface, QualityReason::moving, true, true};

@@ -35,6 +35,26 @@ std::string grouped(std::uint64_t number) {
     return text;
 }
 
+std::string one_line(std::string_view text) {
+    constexpr std::size_t kLongest = 2000, kEnd = 500;
+    if (text.size() > kLongest)
+        return one_line(text.substr(0, kLongest - kEnd)) + " ... " +
+               one_line(text.substr(text.size() - kEnd));
+    std::string line;
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '\n')
+            line += "\\n";
+        else if (c == '\t')
+            line += "\\t";
+        else if (code < 0x20 || code == 0x7f)
+            line += fmt::format("\\x{:02x}", code);
+        else
+            line += c;
+    }
+    return line;
+}
+
 std::string human_number(double number) {
     return fmt::format("{:.10g}", number);
 }

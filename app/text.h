@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace isochron::app {
 
@@ -21,6 +22,10 @@ std::string human_number(double number);
 
 /// `12.5 ms`, `0.0341`, `1.20e+07`: a number with its unit, short enough for a label.
 std::string with_unit(double value, const std::string& unit);
+
+/// Text as one line that a terminal shows as it is: line ends and other control characters as
+/// `\n`, `\x1b`, and of what is very long its beginning and its end.
+std::string one_line(std::string_view text);
 
 /// A unit set off from its number, or nothing.
 std::string with_space(const std::string& unit);

@@ -69,9 +69,19 @@ std::span<const KeyLine> key_lines() {
         {"M", "stamp this moment in the recording", {{letter('M'), stamp}}},
         {"Tab", "panel on, off", {{Key::tab, panel}}},
         {"Y", "panel in the room, before you: on, off", {{letter('Y'), room_panel}}},
-        {"Enter", "pick the surface where the wand points", {{Key::enter, pick}}},
-        {"Insert", "read the data at the wand's tip", {{Key::insert, probe}}},
-        {"Escape", "quit", {{Key::escape, quit}}},
+        {"Enter",
+         "pick the surface under the cursor, or where the wand points",
+         {{Key::enter, pick}}},
+        {"Insert", "read the data under the cursor, or at the wand's tip", {{Key::insert, probe}}},
+        {"Ctrl + Z, Ctrl + Shift + Z",
+         "undo, redo",
+         {{letter('Z'), undo, Chord::control}, {letter('Z'), redo, Chord::control_shift}}},
+        {"4 5 6",
+         "tool of mouse and wand: pick and grab, clip plane, ruler",
+         {{letter('4'), first_tools}, {letter('5'), clip_tool}, {letter('6'), ruler_tool}}},
+        {"7", "clip plane across the next axis", {{letter('7'), snap_clip}}},
+        {"Delete", "remove what the tool has made", {{Key::del, remove_made}}},
+        {"Escape", "leave the tool; else ask whether to quit (Enter: yes)", {{Key::escape, quit}}},
         {"Shift, Ctrl",
          "Shift: walk and fly three times as fast; see also above",
          {{Key::left_shift, shift},
@@ -83,7 +93,8 @@ std::span<const KeyLine> key_lines() {
 }
 
 std::span<const ControlLine> control_lines() {
-    static constexpr std::array<ControlLine, 25> kLines{{
+    static constexpr std::array<ControlLine, 27> kLines{{
+        {"Click", "pick the surface there, or what the tool does (4 5 6)"},
         {"Left drag", "orbit: turn the volume about its center"},
         {"Middle drag, or Shift + left", "move the volume"},
         {"Right drag", "look around"},
@@ -97,7 +108,9 @@ std::span<const ControlLine> control_lines() {
         {"Wand button 3 (hold)", "aim at the floor; letting go teleports there"},
         {"Wand buttons 4, 5", "recenter, next saved viewpoint"},
         {"Wand buttons 6, 7, 8", "room panel, pick the surface, read the data at the tip"},
-        {"Wand on the room's panel", "button 1 clicks and drags, the title moves it, 2 scrolls"},
+        {"Wand buttons 9, 10, 11", "next tool for button 1, undo, redo"},
+        {"Wand on the room's panel",
+         "button 1 clicks, drags; the title moves it, the stick scrolls"},
         {"Wand valuator 3", "fly where the wand points, or back"},
         {"Wand valuator 4", "turn by 30 degrees"},
         {"Both wands' button 1", "move, turn and scale the volume between two hands"},

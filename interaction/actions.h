@@ -61,6 +61,13 @@ enum class Action : std::uint8_t {
     room_panel,
     pick,
     probe,
+    undo,
+    redo,
+    first_tools,
+    clip_tool,
+    ruler_tool,
+    snap_clip,
+    remove_made,
     count
 };
 
@@ -82,7 +89,10 @@ enum class WandButton : std::uint8_t {
     next_view,
     room_panel,
     pick,
-    probe
+    probe,
+    next_tool,
+    undo,
+    redo
 };
 /// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rates of isovalue and scale,
 /// speed of flying where it points, and turning by steps, right positive.
@@ -123,9 +133,15 @@ constexpr std::uint64_t bit(Button button) {
     return std::uint64_t{1} << static_cast<unsigned>(button);
 }
 
+/// Whether Ctrl and Shift are held.
+enum class Chord : std::uint8_t { any, control, control_shift };
+
+/// Of a key's bindings, those hold whose modifiers are held most exactly: with Ctrl one for Ctrl
+/// where there is one.
 struct KeyBinding {
     Key key;
     Action action;
+    Chord chord = Chord::any;
 };
 
 /// One line of documentation together with the bindings that it documents.
@@ -149,7 +165,9 @@ constexpr std::uint64_t quiet_actions() {
            bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::screenshot) |
            bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) | bit(Action::save_view) |
            bit(Action::bounding_box) | bit(Action::next_surface) | bit(Action::room_panel) |
-           bit(Action::pick) | bit(Action::probe);
+           bit(Action::pick) | bit(Action::probe) | bit(Action::undo) | bit(Action::redo) |
+           bit(Action::first_tools) | bit(Action::clip_tool) | bit(Action::ruler_tool) |
+           bit(Action::snap_clip) | bit(Action::remove_made);
 }
 
 } // namespace isochron::interaction

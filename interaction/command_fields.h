@@ -27,6 +27,8 @@ struct Field {
     double low = -kAnyNumber, high = kAnyNumber; ///< of a number, or of each number of several
     std::size_t least = 0, most = kLongestText;  ///< items of a list, or bytes of a text
     const char* old_key = nullptr;               ///< what recordings of older versions say
+    bool undone = true;                          ///< changes of a setting can be taken back
+    bool dragged = false; ///< changes that follow one another closely are one, of a setting
 };
 
 template <class T, class Record>
@@ -80,25 +82,50 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"amplitude", 0, 1}, r.amplitude...);
 }
 
+template <class Visit, Of<Tools>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"wand"}, r.wand...);
+    visit(Field{"other"}, r.other...);
+    visit(Field{"mouse"}, r.mouse...);
+}
+
+template <class Visit, Of<ClipPlane>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"shown"}, r.shown...);
+    visit(Field{"point"}, r.point...);
+    visit(Field{"normal"}, r.normal...);
+}
+
+template <class Visit, Of<Ruler>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{.key = "places", .most = kMostRulerPlaces}, r.places...);
+}
+
 /// What a session keeps, and commands change: members of the same names in Commands and in the
 /// records of those who keep them.
 template <class Visit, class... Records>
 void each_setting(Visit&& visit, Records&... r) {
-    visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces}, r.isosurfaces...);
+    visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces, .dragged = true},
+          r.isosurfaces...);
     visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);
-    visit(Field{"coloring"}, r.coloring...);
+    visit(Field{.key = "coloring", .dragged = true}, r.coloring...);
     visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
-    visit(Field{"step"}, r.step...);
+    visit(Field{.key = "step", .dragged = true}, r.step...);
     visit(Field{"playback"}, r.playback...);
-    visit(Field{"room_from_physical"}, r.room_from_physical...);
+    visit(Field{.key = "room_from_physical", .dragged = true}, r.room_from_physical...);
     visit(Field{"quality"}, r.quality...);
-    visit(Field{"eye_separation", 0, kWidestEyes}, r.eye_separation...);
+    visit(Field{.key = "eye_separation", .low = 0, .high = kWidestEyes, .dragged = true},
+          r.eye_separation...);
     visit(Field{"stereo"}, r.stereo...);
-    visit(Field{"panel"}, r.panel...);
+    visit(Field{.key = "panel", .undone = false}, r.panel...);
     visit(Field{"grid"}, r.grid...);
     visit(Field{.key = "views", .most = kMostViews}, r.views...);
-    visit(Field{"room_panel"}, r.room_panel...);
+    visit(Field{.key = "room_panel", .undone = false}, r.room_panel...);
     visit(Field{"mark"}, r.mark...);
+    visit(Field{"tools"}, r.tools...);
+    visit(Field{.key = "clip", .dragged = true}, r.clip...);
+    visit(Field{"ruler"}, r.ruler...);
+    visit(Field{.key = "leaving", .undone = false}, r.leaving...);
 }
 
 /// The settings, the isovalue of the picked surface, and what happens once.
@@ -108,6 +135,8 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"isovalue"}, r.isovalue...);
     visit(Field{"screenshot"}, r.screenshot...);
     visit(Field{"quit"}, r.quit...);
+    visit(Field{"undo"}, r.undo...);
+    visit(Field{"redo"}, r.redo...);
     visit(Field{.key = "stamps", .most = kMostEvents}, r.stamps...);
     visit(Field{.key = "haptics", .most = kMostEvents}, r.haptics...);
 }

@@ -89,6 +89,33 @@ struct Mark {
     bool operator==(const Mark&) const = default;
 };
 
+/// What a hand's button does.
+enum class ToolKind : std::uint8_t { grab, pick, clip, ruler };
+template <>
+inline constexpr std::array<std::string_view, 4> kNames<ToolKind>{"grab", "pick", "clip", "ruler"};
+
+/// The tool that each hand holds.
+struct Tools {
+    ToolKind wand = ToolKind::grab, other = ToolKind::grab;
+    ToolKind mouse = ToolKind::pick;
+    bool operator==(const Tools&) const = default;
+};
+
+/// A plane that cuts the surfaces, in physical space.
+struct ClipPlane {
+    bool shown = false;
+    glm::dvec3 point{0.0};            ///< on it
+    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit; towards what is cut away
+    bool operator==(const ClipPlane&) const = default;
+};
+
+inline constexpr std::size_t kMostRulerPlaces = 2;
+/// Places between which a distance is measured, in physical space.
+struct Ruler {
+    std::vector<glm::dvec3> places; ///< at most kMostRulerPlaces
+    bool operator==(const Ruler&) const = default;
+};
+
 /// A buzz for a hand that holds a device which can.
 struct HapticPulse {
     std::string hand = "wand"; ///< name of the device
@@ -116,8 +143,14 @@ struct Commands {
     std::optional<Coloring> coloring;
     std::optional<RoomPanel> room_panel;
     std::optional<Mark> mark;
+    std::optional<Tools> tools;
+    std::optional<ClipPlane> clip;
+    std::optional<Ruler> ruler;
+    std::optional<bool> leaving; ///< the user is asked whether to leave
     bool screenshot = false;
     bool quit = false;
+    bool undo = false; ///< the settings of this frame take back those of the newest change
+    bool redo = false; ///< or bring back what was taken back last
     std::vector<std::string> stamps;  ///< named moments of a recording
     std::vector<HapticPulse> haptics; ///< to be played now, by whatever backend has the devices
     bool operator==(const Commands&) const = default;

@@ -44,6 +44,11 @@ InputState CompositeInput::poll(Seconds now) {
     return all;
 }
 
+void CompositeInput::begin() {
+    for (const auto& source : sources_)
+        source->begin();
+}
+
 InputState CompositeInput::latch(Seconds now) {
     InputState all{now, {}};
     for (const auto& source : sources_)

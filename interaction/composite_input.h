@@ -19,6 +19,7 @@ class CompositeInput final : public TrackedInput {
     void add(std::unique_ptr<TrackedInput> source) { sources_.push_back(std::move(source)); }
     InputState poll(Seconds now) override;
     InputState latch(Seconds now) override;
+    void begin() override;
     std::vector<std::string> status() const override;
 
   private:

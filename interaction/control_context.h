@@ -2,14 +2,46 @@
 #pragma once
 
 #include "interaction/commands.h"
+#include "interaction/pointed.h"
 
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace isochron::interaction {
+
+/// What tools have made.
+struct ToolState {
+    Mark mark;
+    ClipPlane clip;
+    Ruler ruler;
+};
+
+/// The box of the data in its physical space.
+struct DataFrame {
+    glm::dmat4 physical_from_box{1.0}; ///< from the unit cube
+    std::string unit;                  ///< of lengths; may be empty
+
+    glm::dvec3 at(const glm::dvec3& in_box) const {
+        return glm::dvec3(physical_from_box * glm::dvec4(in_box, 1.0));
+    }
+    glm::dvec3 in_box(const glm::dvec3& physical) const {
+        return glm::dvec3(glm::inverse(physical_from_box) * glm::dvec4(physical, 1.0));
+    }
+    double longest_side() const {
+        double longest = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            longest = std::max(longest, glm::length(glm::dvec3(physical_from_box[axis])));
+        return longest;
+    }
+};
 
 /// What commands are relative to; owned by the session, passed in every frame.
 struct ControlContext {
@@ -34,6 +66,13 @@ struct ControlContext {
     Coloring coloring;
     bool has_second_array = false;                          ///< something to color by
     std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
+    Tools tools;
+    ToolState state;
+    DataFrame data;
+    SurfaceFinder find_surface;     ///< among what is shown; may be empty
+    bool leaving = false;           ///< the user is being asked
+    const Commands* undo = nullptr; ///< what takes the newest change back; null: nothing to undo
+    const Commands* redo = nullptr;
 };
 
 } // namespace isochron::interaction

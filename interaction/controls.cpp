@@ -2,9 +2,11 @@
 #include "interaction/controls.h"
 
 #include "interaction/actions.h"
+#include "interaction/clip_tool.h"
 #include "interaction/navigator.h"
 #include "interaction/playback.h"
 #include "interaction/room_panel.h"
+#include "interaction/tool_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,22 +55,14 @@ Coloring after(const Coloring& coloring, bool has_second_array) {
 }
 
 struct Controls::State {
-    std::uint64_t last_keys = 0, last_pad = 0, last_wand = 0;
+    ButtonLevels before;
     std::optional<Seconds> last_time;
     KeyRepeat isovalue_up, isovalue_down, step_forward, step_back, eyes_apart, eyes_together;
     Navigator navigator;
     Playback playback;
+    ToolBox tools;
+    ToolBox::Outcome made; ///< by tools in the last frame
     int stamps = 0;
-
-    bool pressed(const Reading& now, Action action) const {
-        return now.key(action) && !(last_keys & bit(action));
-    }
-    bool pressed(const Reading& now, GamepadButton button) const {
-        return now.pad(button) && !(last_pad & bit(button));
-    }
-    bool pressed(const Reading& now, WandButton button) const {
-        return now.wand_button(button) && !(last_wand & bit(button));
-    }
 
     double isovalue(const Reading& now, const ControlContext& context, Seconds time,
                     double seconds) {
@@ -97,16 +91,16 @@ struct Controls::State {
         const std::vector<double>& times = context.times ? *context.times : kNone;
         const auto steps = static_cast<std::int64_t>(times.size());
         PlaybackState state = context.playback;
-        const bool toggle = pressed(now, Action::play) || pressed(now, GamepadButton::a);
+        const bool toggle = now.pressed(Action::play) || now.pressed(GamepadButton::a);
         if (toggle)
             state.playing = !state.playing;
-        if (pressed(now, Action::reverse) || pressed(now, GamepadButton::b))
+        if (now.pressed(Action::reverse) || now.pressed(GamepadButton::b))
             state.reverse = !state.reverse;
-        if (pressed(now, Action::loop))
+        if (now.pressed(Action::loop))
             state.loop = !state.loop;
-        if (pressed(now, Action::faster))
+        if (now.pressed(Action::faster))
             state.speed = std::min(state.speed * 2, kFastest);
-        if (pressed(now, Action::slower))
+        if (now.pressed(Action::slower))
             state.speed = std::max(state.speed / 2, kSlowest);
 
         std::int64_t step = context.step;
@@ -145,7 +139,7 @@ struct Controls::State {
     void switches(const Reading& now, const ControlContext& context, Seconds time,
                   Commands& commands) {
         const auto choose = [&](Action action, QualityMode mode) {
-            if (pressed(now, action) && context.quality != mode)
+            if (now.pressed(action) && context.quality != mode)
                 commands.quality = mode;
         };
         choose(Action::quality_auto, QualityMode::automatic);
@@ -159,32 +153,89 @@ struct Controls::State {
         if (eyes != 0 && separation != context.eye_separation)
             commands.eye_separation = separation;
 
-        if (pressed(now, Action::next_stereo) && context.stereo_modes &&
+        if (now.pressed(Action::next_stereo) && context.stereo_modes &&
             !context.stereo_modes->empty()) {
             const std::vector<std::string>& modes = *context.stereo_modes;
             const auto found = std::ranges::find(modes, context.stereo);
             const bool wraps = found == modes.end() || found + 1 == modes.end();
             commands.stereo = wraps ? modes.front() : *(found + 1);
         }
-        if (pressed(now, Action::bounding_box))
+        if (now.pressed(Action::bounding_box))
             commands.bounding_box = !context.bounding_box;
-        if (pressed(now, Action::next_surface) && context.isosurfaces > 1)
+        if (now.pressed(Action::next_surface) && context.isosurfaces > 1)
             commands.picked = (context.picked + 1) % context.isosurfaces;
-        if (pressed(now, Action::next_coloring))
+        if (now.pressed(Action::next_coloring))
             commands.coloring = after(context.coloring, context.has_second_array);
-        if (pressed(now, Action::panel))
+        if (now.pressed(Action::panel))
             commands.panel = !context.panel;
-        if (pressed(now, Action::room_panel) || pressed(now, WandButton::room_panel) ||
-            pressed(now, GamepadButton::back))
+        if (now.pressed(Action::room_panel) || now.pressed(WandButton::room_panel) ||
+            now.pressed(GamepadButton::back))
             commands.room_panel = called(context.room_panel, now.viewer(), context.panel_distance);
-        if (pressed(now, Action::grid))
+        if (now.pressed(Action::grid))
             commands.grid = !context.grid;
-        if (pressed(now, Action::save_view))
+        if (now.pressed(Action::save_view))
             save_view(context, commands);
-        if (pressed(now, Action::stamp))
+        if (now.pressed(Action::stamp))
             commands.stamps.push_back(fmt::format("stamp-{}", ++stamps));
-        commands.screenshot = pressed(now, Action::screenshot);
-        commands.quit = pressed(now, Action::quit);
+        commands.screenshot = now.pressed(Action::screenshot);
+    }
+
+    /// Escape leaves the tool that is no hand's first one, then asks. Who types the answer before
+    /// the next frame has it heard.
+    static void leave(const Reading& now, const ControlContext& context, Commands& commands) {
+        const bool asks = now.pressed(Action::quit) && context.tools == Tools{};
+        if (now.pressed(Action::pick) && context.leaving != asks)
+            commands.quit = true;
+        if (!now.pressed(Action::quit))
+            return;
+        if (context.leaving || asks)
+            commands.leaving = !context.leaving;
+        else
+            commands.tools = Tools{};
+    }
+
+    /// Keys choose for the mouse and the wand, a button for the wand alone.
+    static void choose_tools(const Reading& now, const ControlContext& context,
+                             Commands& commands) {
+        Tools tools = context.tools;
+        if (now.pressed(Action::first_tools))
+            tools = {};
+        for (const auto& [action, kind] : {std::pair(Action::clip_tool, ToolKind::clip),
+                                           std::pair(Action::ruler_tool, ToolKind::ruler)})
+            if (now.pressed(action))
+                tools.mouse = tools.wand = kind;
+        if (now.pressed(WandButton::next_tool))
+            tools.wand = static_cast<ToolKind>((static_cast<std::size_t>(tools.wand) + 1) %
+                                               kNames<ToolKind>.size());
+        if (tools != context.tools)
+            commands.tools = tools;
+        if (now.pressed(Action::snap_clip))
+            commands.clip = snapped_next(context.state.clip, context.data);
+        if (now.pressed(Action::remove_made))
+            remove_made(context, commands);
+    }
+
+    static void remove_made(const ControlContext& context, Commands& commands) {
+        switch (context.tools.mouse) {
+        case ToolKind::clip: commands.clip = ClipPlane{}; break;
+        case ToolKind::ruler: commands.ruler = Ruler{}; break;
+        default: commands.mark = Mark{};
+        }
+    }
+
+    /// Over all else that happens in the frame.
+    static void take_back(const Reading& now, const ControlContext& context, Commands& commands) {
+        const auto obey = [&](Action action, WandButton button, const Commands* change) {
+            if (change && (now.pressed(action) || now.pressed(button)))
+                merge(commands, *change);
+        };
+        obey(Action::undo, WandButton::undo, context.undo);
+        obey(Action::redo, WandButton::redo, context.redo);
+    }
+
+    ToolBox::Outcome with_tools(const Reading& now, const ControlContext& context,
+                                const Similarity& volume) {
+        return context.leaving ? ToolBox::Outcome() : tools.update(now, {context, volume});
     }
 };
 
@@ -193,13 +244,15 @@ Controls::~Controls() = default;
 
 Commands Controls::update(const InputState& input, const ControlContext& context) {
     State& s = *state_;
-    const Reading now(input);
+    const Reading now(input, s.before);
+    s.before = now.levels();
     const double elapsed = s.last_time ? std::max((input.time - *s.last_time).count(), 0.0) : 0.0;
     const double seconds = std::min(elapsed, kLongestFrame);
     s.last_time = input.time;
 
     Commands commands;
-    const Similarity volume = s.navigator.update(now, context, seconds);
+    const Similarity volume =
+        s.navigator.update(now, context, seconds, s.tools.takes_drag(now, context));
     if (volume != context.room_from_physical)
         commands.room_from_physical = volume;
     const double isovalue = s.isovalue(now, context, input.time, seconds);
@@ -207,11 +260,20 @@ Commands Controls::update(const InputState& input, const ControlContext& context
         commands.isovalue = isovalue;
     s.play(now, context, input.time, Seconds(std::min(elapsed, kLongestPlayback)), commands);
     s.switches(now, context, input.time, commands);
-
-    s.last_keys = Reading::buttons(now.keys);
-    s.last_pad = Reading::buttons(now.gamepad);
-    s.last_wand = Reading::buttons(now.wand);
+    s.leave(now, context, commands);
+    s.choose_tools(now, context, commands);
+    s.made = s.with_tools(now, context, volume);
+    merge(commands, s.made.commands);
+    s.take_back(now, context, commands);
     return commands;
+}
+
+const Commands& Controls::found() const {
+    return state_->made.found;
+}
+
+const std::vector<std::string>& Controls::notes() const {
+    return state_->made.notes;
 }
 
 std::vector<std::string> Controls::documentation() {

@@ -20,6 +20,11 @@ class Controls {
     /// One frame. Includes the step that playback has reached in physical time.
     Commands update(const InputState& input, const ControlContext& context);
 
+    /// What tools found in that frame among what is shown: devices alone do not explain it.
+    const Commands& found() const;
+    /// What tools had to say in that frame, for people.
+    const std::vector<std::string>& notes() const;
+
     /// One line per key, button and valuator, for `--help` and the panel.
     static std::vector<std::string> documentation();
 

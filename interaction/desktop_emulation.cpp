@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace isochron::interaction {
 namespace {
 
-constexpr double kLongestStep = 0.1;    ///< [s] a stall must not become a leap
+constexpr double kLongestStep = 0.1;     ///< [s] a stall must not become a leap
 constexpr float kSteepest = 1.5f;        ///< [rad] of looking up or down
 constexpr glm::vec2 kHand{0.2f, -0.25f}; ///< [m] the wand, right of and below the head
 constexpr float kAimDistance = 1.5f;     ///< [m] from the head, where cursor and wand ray meet
@@ -44,6 +45,18 @@ struct KeySwitch {
     }
 };
 
+/// What a key does while those modifiers are held.
+std::vector<Action> actions_of(Key key, Chord chord) {
+    std::vector<Action> plain, exact;
+    for (const KeyLine& line : key_lines())
+        for (const KeyBinding& binding : line.bindings)
+            if (binding.key == key && binding.chord == Chord::any)
+                plain.push_back(binding.action);
+            else if (binding.key == key && binding.chord == chord)
+                exact.push_back(binding.action);
+    return exact.empty() ? plain : exact;
+}
+
 struct EmulatedGamepad {
     bool present = false;
     std::uint32_t buttons = 0, tapped = 0;
@@ -69,10 +82,12 @@ struct DesktopEmulation::State {
     std::optional<Seconds> last_poll;
 
     std::set<Key> down;
+    std::map<Key, std::vector<Action>> held_as; ///< what a key meant when it went down
     std::array<KeySwitch, static_cast<std::size_t>(Action::count)> switches;
     std::optional<MouseMoveEvent> cursor;
     std::uint64_t mouse_down = 0, mouse_tapped = 0;
     std::array<float, kMouseValuators> mouse{};
+    EyeRay eye;
     RoomPanel panel;
     PanelSize panel_size;
     bool presses_panel = false; ///< with the left button, since it went down there
@@ -93,12 +108,19 @@ struct DesktopEmulation::State {
             event.down ? down.insert(event.key).second : down.erase(event.key) == 1;
         if (!changes) // the window system repeats held keys
             return;
-        for (const KeyLine& line : key_lines())
-            for (const KeyBinding& binding : line.bindings)
-                if (binding.key == event.key) {
-                    KeySwitch& to = switches[static_cast<std::size_t>(binding.action)];
-                    event.down ? to.press() : to.release();
-                }
+        std::vector<Action>& acts = held_as[event.key];
+        if (event.down)
+            acts = actions_of(event.key, chord());
+        for (const Action action : acts) {
+            KeySwitch& to = switches[static_cast<std::size_t>(action)];
+            event.down ? to.press() : to.release();
+        }
+    }
+    bool either(Key left, Key right) const { return down.contains(left) || down.contains(right); }
+    Chord chord() const {
+        if (!either(Key::left_control, Key::right_control))
+            return Chord::any;
+        return either(Key::left_shift, Key::right_shift) ? Chord::control_shift : Chord::control;
     }
     void act(const TextEvent&) {}
     void act(const MouseButtonEvent& event) {
@@ -171,10 +193,7 @@ struct DesktopEmulation::State {
     std::optional<PanelHit> on_panel() const {
         if (!panel.shown || !cursor)
             return std::nullopt;
-        const Pose from = head();
-        const glm::quat turn = glm::quatLookAt(cursor_ray(), glm::vec3(0.0f, 1.0f, 0.0f));
-        return hit_of({from.position, glm::normalize(from.orientation * turn)}, panel.pose,
-                      panel_size);
+        return hit_of(aim(), panel.pose, panel_size);
     }
     bool over_panel() const {
         const auto hit = on_panel();
@@ -195,13 +214,28 @@ struct DesktopEmulation::State {
         return glm::normalize(glm::vec3(aim, -1.0f));
     }
 
+    /// The eye's ray under the cursor, where the windows tell.
+    std::optional<Pose> pointer() const {
+        return eye && cursor ? eye(head(), *cursor) : std::nullopt;
+    }
+
+    Pose aim() const {
+        if (const auto ray = pointer())
+            return *ray;
+        const glm::quat turn = glm::quatLookAt(cursor_ray(), glm::vec3(0.0f, 1.0f, 0.0f));
+        return {position, glm::normalize(head().orientation * turn)};
+    }
+
     /// Rests at the right below the head; its ray meets the cursor's at `kAimDistance`, or on the
     /// panel.
     Pose wand(const Pose& head) const {
         const glm::vec3 rest(kHand, -options.wand_reach);
         const auto hit = on_panel();
         const bool on = hit && (presses_panel || hit->inside());
-        const glm::vec3 target = (on ? hit->distance : kAimDistance) * cursor_ray();
+        const Pose ray = aim();
+        const glm::vec3 ahead(0.0f, 0.0f, -(on ? hit->distance : kAimDistance));
+        const glm::vec3 target = glm::conjugate(head.orientation) *
+                                 (ray.position + ray.orientation * ahead - head.position);
         const glm::quat turn =
             glm::quatLookAt(glm::normalize(target - rest), glm::vec3(0.0f, 1.0f, 0.0f));
         return {head.position + head.orientation * rest, glm::normalize(head.orientation * turn)};
@@ -215,6 +249,23 @@ DesktopEmulation::~DesktopEmulation() = default;
 void DesktopEmulation::set_panel(const RoomPanel& panel, const PanelSize& size) {
     state_->panel = panel;
     state_->panel_size = size;
+}
+
+StandingPlace DesktopEmulation::standing() const {
+    return {state_->position, state_->yaw, state_->pitch};
+}
+
+void DesktopEmulation::stand(const StandingPlace& place) {
+    if (!std::isfinite(place.yaw) || !std::isfinite(place.pitch) ||
+        !is_finite(Pose{place.position, {1, 0, 0, 0}}))
+        return;
+    state_->position = place.position;
+    state_->yaw = place.yaw;
+    state_->pitch = std::clamp(place.pitch, -kSteepest, kSteepest);
+}
+
+void DesktopEmulation::set_eye(EyeRay eye) {
+    state_->eye = std::move(eye);
 }
 
 void DesktopEmulation::feed(std::span<const WindowEvent> events) {
@@ -256,6 +307,8 @@ InputState DesktopEmulation::poll(Seconds now) {
                              s.mouse_down | s.mouse_tapped,
                              {s.mouse.begin(), s.mouse.end()}});
     input.devices.push_back({"keys", std::nullopt, true, keys, {}});
+    if (const auto ray = s.pointer())
+        input.devices.push_back({"pointer", ray, true, 0, {}});
     if (s.gamepad.present)
         input.devices.push_back({"gamepad", std::nullopt, true,
                                  s.gamepad.buttons | s.gamepad.tapped, s.gamepad.valuators});

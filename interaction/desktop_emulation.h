@@ -5,7 +5,9 @@
 #include "interaction/tracked_input.h"
 #include "interaction/window_event.h"
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace isochron::interaction {
@@ -21,8 +23,19 @@ struct EmulationOptions {
     float vertical_fov = 0.9f; ///< [rad] of the window, to aim the wand's ray at the cursor
 };
 
-/// Devices of every poll: `head`, `wand`, `mouse`, `keys`, and `gamepad` while there is one; their
-/// buttons and valuators are those of actions.h. A key that is tapped between two polls is down in
+/// Where the emulated head is: exact, so that a session comes back as it was.
+struct StandingPlace {
+    glm::vec3 position{0.0f};
+    float yaw = 0, pitch = 0; ///< [rad] to the left and up
+    bool operator==(const StandingPlace&) const = default;
+};
+
+/// Where the eye's ray under the cursor leads, for a head: a pose that looks along -Z. Nothing where
+/// no picture of that head's is under the cursor.
+using EyeRay = std::function<std::optional<Pose>(const Pose& head, const MouseMoveEvent& cursor)>;
+
+/// Devices of every poll: `head`, `wand`, `mouse`, `keys`, `gamepad` while there is one, and
+/// `pointer`, the eye's ray under the cursor, while that is known; their buttons and valuators are those of actions.h. A key that is tapped between two polls is down in
 /// one of them, several taps one after the other, so that slow frames lose none. Without focus,
 /// nothing is down.
 class DesktopEmulation final : public TrackedInput {
@@ -37,6 +50,13 @@ class DesktopEmulation final : public TrackedInput {
     /// The panel that stands in the room, if any: where the cursor is over it, the wand points
     /// right there, and the left button is the wand's first.
     void set_panel(const RoomPanel& panel, const PanelSize& size);
+
+    StandingPlace standing() const;
+    /// A place that is not finite is none.
+    void stand(const StandingPlace& place);
+
+    /// What the windows show under the cursor. Without it the wand aims by the field of view.
+    void set_eye(EyeRay eye);
 
   private:
     struct State;

@@ -9,6 +9,11 @@
 
 namespace isochron::interaction {
 
+/// Which buttons were down in a frame: what tells in the next one which of them are pressed.
+struct ButtonLevels {
+    std::uint64_t keys = 0, gamepad = 0, wand = 0, other = 0, mouse = 0;
+};
+
 /// Points into the state that it reads, which must outlive it.
 struct Reading {
     const DeviceState* head;
@@ -17,10 +22,18 @@ struct Reading {
     const DeviceState* mouse;
     const DeviceState* keys;
     const DeviceState* gamepad;
+    const DeviceState* pointer; ///< the eye's ray under the cursor
+    ButtonLevels before;        ///< the frame before
 
-    explicit Reading(const InputState& input)
+    /// @param levels of the frame before, for those who ask what is pressed and released
+    explicit Reading(const InputState& input, const ButtonLevels& levels = {})
         : head(input.find("head")), wand(input.find("wand")), other(input.find("wand2")),
-          mouse(input.find("mouse")), keys(input.find("keys")), gamepad(input.find("gamepad")) {}
+          mouse(input.find("mouse")), keys(input.find("keys")), gamepad(input.find("gamepad")),
+          pointer(input.find("pointer")), before(levels) {}
+
+    ButtonLevels levels() const {
+        return {buttons(keys), buttons(gamepad), buttons(wand), buttons(other), buttons(mouse)};
+    }
 
     static std::uint64_t buttons(const DeviceState* device) { return device ? device->buttons : 0; }
     static double valuator(const DeviceState* device, std::size_t index) {
@@ -41,11 +54,23 @@ struct Reading {
     bool key(Action action) const { return (buttons(keys) & bit(action)) != 0; }
     bool pad(GamepadButton which) const { return (buttons(gamepad) & bit(which)) != 0; }
     bool wand_button(WandButton which) const { return (buttons(wand) & bit(which)) != 0; }
+    // A button is pressed in the frame in which it goes down.
+    bool pressed(Action action) const { return key(action) && !(before.keys & bit(action)); }
+    bool pressed(GamepadButton which) const { return pad(which) && !(before.gamepad & bit(which)); }
+    bool pressed(WandButton which) const {
+        return wand_button(which) && !(before.wand & bit(which));
+    }
+
     /// Where a hand is that is tracked; a pose that is only held moves nothing.
     static std::optional<Pose> hand(const DeviceState* device) {
         return device && device->pose && device->pose_valid && is_finite(*device->pose)
                    ? device->pose
                    : std::nullopt;
+    }
+    /// The ray that picks: the eye's under the cursor, or else the wand's.
+    std::optional<Pose> picking_ray() const {
+        const auto eye = hand(pointer);
+        return eye ? eye : hand(wand);
     }
     /// A head pose that is only held still tells where the viewer is.
     Pose viewer() const {

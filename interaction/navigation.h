@@ -22,6 +22,8 @@ Similarity moved(const Similarity& from, const glm::dvec3& offset);
 Similarity scaled(const Similarity& from, const glm::dvec3& center, double factor, double low,
                   double high);
 
+inline constexpr double kScaleRange = 1e3; ///< of the volume, either way of its scale at home
+
 /// Carried along rigidly by a hand that went from pose `before` to pose `after`.
 Similarity carried(const Similarity& from, const Pose& before, const Pose& after);
 

@@ -1,4 +1,4 @@
-// Hands, mouse, keys and gamepad move the volume.
+// Mouse, keys, stick and gamepad move the volume.
 #include "interaction/navigator.h"
 
 #include <utility>
@@ -23,11 +23,14 @@ bool can_see(const Reading& now) {
     return is_finite(now.viewer());
 }
 
-Similarity dragged(const Reading& now, const ControlContext& context, Similarity volume) {
+Similarity dragged(const Reading& now, const ControlContext& context, bool left_taken,
+                   Similarity volume) {
     const glm::dquat view = glm::normalize(glm::dquat(now.viewer().orientation));
     const glm::dvec3 right = view * glm::dvec3(1, 0, 0);
     const glm::dvec3 center = transform(volume, context.pivot);
-    glm::dvec2 orbit(now.drag(MouseBit::left, 0), now.drag(MouseBit::left, 1));
+    glm::dvec2 orbit(0.0);
+    if (!left_taken)
+        orbit = {now.drag(MouseBit::left, 0), now.drag(MouseBit::left, 1)};
     glm::dvec2 move(now.drag(MouseBit::middle, 0), now.drag(MouseBit::middle, 1));
     if (now.key(Action::shift)) {
         move += orbit;
@@ -73,8 +76,7 @@ Similarity resized(const Reading& now, const ControlContext& context, const Simi
         return volume;
     const double factor = std::pow(kNotch, notches) * std::pow(kGrowth, rate * seconds);
     return scaled(volume, transform(volume, context.pivot), factor,
-                  context.home.scale / Navigator::kScaleRange,
-                  context.home.scale * Navigator::kScaleRange);
+                  context.home.scale / kScaleRange, context.home.scale * kScaleRange);
 }
 
 /// Home as it lies ahead of a viewer who stands at the room's origin, carried to where the viewer
@@ -110,23 +112,15 @@ std::optional<glm::dvec3> teleport_target(const InputState& input) {
     return aims(now) ? aimed_at(now) : std::nullopt;
 }
 
-bool Navigator::pressed(const Reading& now, Action action, WandButton button,
-                        GamepadButton pad) const {
-    return (now.key(action) && !(last_keys_ & bit(action))) ||
-           (now.wand_button(button) && !(last_wand_ & bit(button))) ||
-           (now.pad(pad) && !(last_pad_ & bit(pad)));
-}
-
 /// A place that a button asks for.
 std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlContext& context) {
-    const bool reset = (now.key(Action::reset) && !(last_keys_ & bit(Action::reset))) ||
-                       (now.pad(GamepadButton::x) && !(last_pad_ & bit(GamepadButton::x)));
-    if (reset)
+    if (now.pressed(Action::reset) || now.pressed(GamepadButton::x))
         return context.home;
-    if (can_see(now) &&
-        pressed(now, Action::recenter, WandButton::recenter, GamepadButton::left_thumb))
+    if (can_see(now) && (now.pressed(Action::recenter) || now.pressed(WandButton::recenter) ||
+                         now.pressed(GamepadButton::left_thumb)))
         return recentered(context.home, now.viewer());
-    if (pressed(now, Action::next_view, WandButton::next_view, GamepadButton::right_thumb))
+    if (now.pressed(Action::next_view) || now.pressed(WandButton::next_view) ||
+        now.pressed(GamepadButton::right_thumb))
         return next_view(context);
     return std::nullopt;
 }
@@ -141,10 +135,8 @@ Similarity Navigator::stepped(const Reading& now, Similarity volume) {
         turn_armed_ = false;
         steps += std::copysign(1.0, deflection);
     }
-    const auto key = [&](Action action) {
-        return now.key(action) && !(last_keys_ & bit(action)) ? 1.0 : 0.0;
-    };
-    steps += key(Action::turn_right) - key(Action::turn_left);
+    steps += static_cast<double>(now.pressed(Action::turn_right)) -
+             static_cast<double>(now.pressed(Action::turn_left));
     // When the viewer turns to the right, the volume turns to the left.
     return steps == 0 || !can_see(now)
                ? volume
@@ -165,64 +157,19 @@ Similarity Navigator::teleported(const Reading& now, const Similarity& volume) {
     return moved(volume, glm::dvec3(eyes.x, 0, eyes.z) - *target);
 }
 
-Navigator::Hands Navigator::closed_hands(const Reading& now) {
-    const auto wand = Reading::hand(now.wand), other = Reading::hand(now.other);
-    const bool wand_closed = now.wand_button(WandButton::grab) || now.pad(GamepadButton::y);
-    const bool other_closed = (Reading::buttons(now.other) & bit(WandButton::grab)) != 0;
-    Hands hands;
-    if (wand_closed && wand)
-        hands.first = wand;
-    if (other_closed && other) {
-        if (hands.first)
-            hands.both = Span{hands.first->position, other->position};
-        else
-            hands.first = other;
-    }
-    return hands;
-}
-
-/// A lost hand, another number of hands, or anything else that moves the volume, only opens and
-/// closes the clutch.
-Similarity Navigator::held(const Hands& hands, const ControlContext& context,
-                           const Similarity& volume) {
-    if (!hands.first) {
-        grab_.reset();
-        return volume;
-    }
-    const bool goes_on = grab_ && grab_->span.has_value() == hands.both.has_value() &&
-                         volume == context.room_from_physical && grab_->result == volume;
-    if (!goes_on) {
-        grab_ = Grab{*hands.first, hands.both, hands.both, {1, 0, 0, 0}, volume, volume};
-    } else if (hands.both) {
-        // From frame to frame, so that hands may turn by more than half a circle.
-        grab_->turn = glm::normalize(rotation_onto(*grab_->newest, *hands.both) * grab_->turn);
-        grab_->newest = hands.both;
-        grab_->result =
-            stretched(grab_->held, *grab_->span, *hands.both, grab_->turn,
-                      context.home.scale / kScaleRange, context.home.scale * kScaleRange);
-    } else {
-        grab_->result = carried(grab_->held, grab_->hand, *hands.first);
-    }
-    return grab_->result;
-}
-
-Similarity Navigator::update(const Reading& now, const ControlContext& context, double seconds) {
+Similarity Navigator::update(const Reading& now, const ControlContext& context, double seconds,
+                             bool drag_taken) {
     Similarity volume = context.room_from_physical;
     if (const auto place = chosen(now, context)) {
-        grab_.reset();
         teleport_target_.reset();
         volume = *place;
     } else {
-        volume = dragged(now, context, volume);
+        volume = dragged(now, context, drag_taken, volume);
         volume = flown(now, volume, seconds);
         volume = stepped(now, volume);
         volume = teleported(now, volume);
         volume = resized(now, context, volume, seconds);
-        volume = held(closed_hands(now), context, volume);
     }
-    last_keys_ = Reading::buttons(now.keys);
-    last_pad_ = Reading::buttons(now.gamepad);
-    last_wand_ = Reading::buttons(now.wand);
     return is_valid(volume) ? volume : context.room_from_physical;
 }
 

@@ -1,8 +1,6 @@
 // Ownership of the wand's buttons and stick between panel and world.
 #include "interaction/panel_pointer.h"
 
-#include "interaction/device_reading.h"
-
 namespace isochron::interaction {
 namespace {
 
@@ -15,9 +13,9 @@ constexpr std::uint64_t kTakeable = ~bit(WandButton::room_panel);
 } // namespace
 
 void PanelPointer::update(const InputState& input, const TouchedPanel& touched) {
-    const Reading now(input);
-    const std::uint64_t buttons = Reading::buttons(now.wand), before = last_buttons_;
-    last_buttons_ = buttons;
+    const Reading now(input, before_);
+    before_ = now.levels();
+    const std::uint64_t buttons = Reading::buttons(now.wand), before = now.before.wand;
     taken_ &= buttons;
     carried_.reset();
     const auto hand = Reading::hand(now.wand);

@@ -5,6 +5,7 @@
 //     navigate(pointer.rest_of(input));             // the panel's share is taken out
 #pragma once
 
+#include "interaction/device_reading.h"
 #include "interaction/room_panel.h"
 #include "interaction/tracked_input.h"
 
@@ -46,7 +47,7 @@ class PanelPointer {
         float distance; ///< [m] along the ray
     };
 
-    std::uint64_t last_buttons_ = 0;
+    ButtonLevels before_;
     std::uint64_t taken_ = 0;     ///< buttons that went down on the panel and still are
     bool stick_in_world_ = false; ///< it was pushed before the ray came to the panel
     bool takes_stick_ = false;

@@ -53,6 +53,8 @@ class TrackedInput {
     /// of which nothing can be learned between polls are left out.
     /// @param now session time, not before that of the last poll
     virtual InputState latch(Seconds now) { return {now, {}}; }
+    /// Throws away what has come so far: a session begins with what comes from now on.
+    virtual void begin() {}
     /// What has been received and refused so far, a line per source; for people.
     virtual std::vector<std::string> status() const { return {}; }
 };

@@ -1,6 +1,7 @@
 // What a window tells about mouse, keyboard and gamepad, free of any windowing library.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <variant>
 #include <vector>
@@ -68,6 +69,7 @@ struct MouseButtonEvent {
 struct MouseMoveEvent {
     float x, y;
     int width, height;
+    std::size_t window = 0; ///< which one, counted as the installation's that are open here
 };
 struct ScrollEvent {
     float dx, dy;

@@ -177,6 +177,7 @@ std::vector<std::byte> Cluster::await(unsigned from) {
             continue;
         }
         watch.check();
+        check_();
         pause(passes);
     }
     Bytes words = std::move(inbox_[from].front());

@@ -13,10 +13,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace isochron::stereo {
@@ -55,6 +57,8 @@ class Cluster final : public index::Team {
     [[noreturn]] void abandon(int status) override;
 
     void set_limits(const ClusterLimits& limits);
+    /// Called again and again while this member waits for another; what it throws ends the wait.
+    void while_waiting(std::function<void()> check) { check_ = std::move(check); }
 
     /// From rank 0 to all others. Waits for nothing.
     void tell(std::span<const std::byte> message);
@@ -74,6 +78,7 @@ class Cluster final : public index::Team {
     ClusterLimits::Duration beat_interval() const;
 
     index::Team& team_;
+    std::function<void()> check_ = [] {};
     std::vector<std::string> hosts_;
     std::vector<std::deque<std::vector<std::byte>>> inbox_; ///< by rank
     std::vector<Clock::time_point> heard_;                  ///< by rank: the last sign of life

@@ -85,6 +85,9 @@ Display::Region Display::region_of(const Viewport& viewport, Eye place) const {
         corner.y = place == Eye::left ? size.y - half : 0;
         size.y = half;
     }
+    const int left = std::clamp(left_, 0, size.x - 1);
+    corner.x += left;
+    size.x -= left;
     // Both edges are rounded, so that neighboring viewports neither overlap nor gape.
     const glm::ivec2 low(glm::round(viewport.position * glm::vec2(size)));
     const glm::ivec2 high(glm::round((viewport.position + viewport.size) * glm::vec2(size)));
@@ -102,6 +105,24 @@ bool Display::fills_window() const {
     if (Multiplex::shows(mode_) || right_buffer_)
         area /= 2; // both eyes have the same region
     return area == composed_.size().x * composed_.size().y;
+}
+
+std::optional<interaction::Pose> Display::ray_at(std::span<const Viewpoint> viewers,
+                                                 glm::vec2 at) const {
+    const bool shared = Multiplex::shows(mode_) || right_buffer_.has_value();
+    for (const Viewport& viewport : window_.viewports)
+        for (const Eye place : eyes_of(mode_)) {
+            const Region region = region_of(viewport, place);
+            const glm::vec2 local = (at * glm::vec2(composed_.size()) - glm::vec2(region.corner)) /
+                                    glm::vec2(region.size);
+            if (!(local.x >= 0 && local.x <= 1 && local.y >= 0 && local.y <= 1))
+                continue;
+            const Viewpoint& viewer = viewers[viewport.viewer];
+            return ray_through(viewport.screen, viewer.head,
+                               shared ? Eye::center : place_of(place, mode_), viewer.eye_separation,
+                               region.size, local);
+        }
+    return std::nullopt;
 }
 
 void Display::compose(const Overlay& overlay) {

@@ -73,6 +73,17 @@ class Display {
     /// Shows the frame drawn last; without a window there is nothing to do.
     void present();
 
+    /// The ray from the eye that sees a place of the window as drawn last, from between the eyes
+    /// where both see it: a pose that looks along -Z. Nothing where no viewport is.
+    /// @param viewers where they are now
+    /// @param at fractions of the window from the lower left
+    std::optional<interaction::Pose> ray_at(std::span<const Viewpoint> viewers, glm::vec2 at) const;
+
+    /// Leaves so many pixels free at the left of each eye's part, for a panel. Takes hold with the
+    /// next frame that is drawn.
+    void leave_free(int left) { left_ = left; }
+    bool fills() const { return left_ == 0; } ///< nothing is left free
+
     const Window& window() const { return window_; }
     glm::ivec2 size() const { return composed_.size(); } ///< of the frame drawn last, pixels
     StereoMode mode() const { return mode_; }            ///< of the frame drawn last
@@ -95,6 +106,7 @@ class Display {
         glm::ivec2 corner, size;
     };
 
+    int left_ = 0; ///< pixels that stay free
     Region region_of(const Viewport& viewport, Eye place) const;
     void draw_viewport(std::size_t number, const Viewpoint& viewer, const Scene& scene);
     /// The eye's picture to show in the place of `place`.

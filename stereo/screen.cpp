@@ -52,6 +52,12 @@ Plane plane_in_room(const Screen& screen, const interaction::Pose& head, glm::iv
     return plane;
 }
 
+/// In front of the plane, at least as far as an eye may come.
+glm::dvec3 in_front(const Plane& plane, glm::dvec3 position) {
+    const double distance = glm::dot(position - plane.middle, plane.normal);
+    return distance < kNearestEye ? position + (kNearestEye - distance) * plane.normal : position;
+}
+
 bool finite(glm::vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -66,12 +72,8 @@ glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separat
 render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
                      float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels) {
     const Plane plane = plane_in_room(screen, head, pixels);
-    glm::dvec3 position(eye_position(head, eye, eye_separation));
-    double distance = glm::dot(position - plane.middle, plane.normal);
-    if (distance < kNearestEye) {
-        position += (kNearestEye - distance) * plane.normal;
-        distance = kNearestEye;
-    }
+    const glm::dvec3 position = in_front(plane, eye_position(head, eye, eye_separation));
+    const double distance = glm::dot(position - plane.middle, plane.normal);
     const glm::dvec3 to_middle = plane.middle - position;
     const double x = glm::dot(to_middle, plane.right), y = glm::dot(to_middle, plane.up);
     const double scale = near_plane / distance;
@@ -92,6 +94,18 @@ std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction
     const glm::dvec3 upwards = plane.half_height * plane.up;
     return {glm::vec3(plane.middle - across - upwards), glm::vec3(plane.middle - across + upwards),
             glm::vec3(plane.middle + across + upwards), glm::vec3(plane.middle + across - upwards)};
+}
+
+interaction::Pose ray_through(const Screen& screen, const interaction::Pose& head, Eye eye,
+                              float eye_separation, glm::ivec2 pixels, glm::vec2 at) {
+    const Plane plane = plane_in_room(screen, head, pixels);
+    const glm::dvec3 position = in_front(plane, eye_position(head, eye, eye_separation));
+    const glm::dvec3 place = plane.middle + (2.0 * at.x - 1.0) * plane.half_width * plane.right +
+                             (2.0 * at.y - 1.0) * plane.half_height * plane.up;
+    const glm::dvec3 back = glm::normalize(position - place);
+    const glm::dvec3 right = glm::normalize(glm::cross(plane.up, back));
+    const glm::dquat turn = glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back));
+    return {glm::vec3(position), glm::normalize(glm::quat(turn))};
 }
 
 glm::vec2 size_of(const Screen& screen) {

@@ -42,6 +42,12 @@ render::View view_of(const Screen& screen, const interaction::Pose& head, Eye ey
 std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction::Pose& head,
                                          glm::ivec2 pixels);
 
+/// The ray of an eye through a place of its picture: a pose that starts at the eye and looks along -Z.
+/// @param at fractions of the picture from the lower left
+/// @param pixels of the picture, as `view_of` takes them
+interaction::Pose ray_through(const Screen& screen, const interaction::Pose& head, Eye eye,
+                              float eye_separation, glm::ivec2 pixels, glm::vec2 at);
+
 /// Width and height [m].
 glm::vec2 size_of(const Screen& screen);
 

@@ -36,13 +36,24 @@ bool Windows::should_close() const {
                                [](const GlContext* each) { return each->should_close(); });
 }
 
+void Windows::keep_open() const {
+    for (GlContext* window : windows_)
+        window->keep_open();
+    for (GlContext* window : {room_, console_})
+        if (window)
+            window->keep_open();
+}
+
 std::vector<interaction::WindowEvent> Windows::poll_events() const {
     if (room_)
         return room_->poll_events();
     std::vector<interaction::WindowEvent> events;
-    for (GlContext* window : windows_)
-        for (const interaction::WindowEvent& event : window->poll_events())
+    for (std::size_t i = 0; i < windows_.size(); ++i)
+        for (const interaction::WindowEvent& event : windows_[i]->poll_events()) {
             events.push_back(event);
+            if (auto* move = std::get_if<interaction::MouseMoveEvent>(&events.back()))
+                move->window = i;
+        }
     return events;
 }
 

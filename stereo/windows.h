@@ -38,6 +38,7 @@ class Windows {
     GlContext& first() const { return room_ ? *room_ : *windows_.front(); }
 
     bool should_close() const; ///< any of them
+    void keep_open() const;    ///< none wants to close any longer
     /// Of all windows. Mouse positions are fractions of the window that the mouse is in.
     std::vector<interaction::WindowEvent> poll_events() const;
 

@@ -8,14 +8,14 @@ namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
-volatile std::sig_atomic_t received = 0; // a signal handler can reach nothing else
+volatile std::sig_atomic_t came = 0; // a signal handler can reach nothing else
 
 } // namespace
 
 CancelOnSignal::CancelOnSignal() {
-    received = 0;
+    came = 0;
     struct sigaction action {};
-    action.sa_handler = [](int signal) { received = signal; };
+    action.sa_handler = [](int signal) { came = signal; };
     action.sa_flags = SA_RESTART;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
         sigaction(kSignals[i], nullptr, &previous_[i]);
@@ -30,8 +30,12 @@ CancelOnSignal::~CancelOnSignal() {
 }
 
 void CancelOnSignal::check() const {
-    if (received != 0)
-        throw Canceled(received);
+    if (came != 0)
+        throw Canceled(came);
+}
+
+int CancelOnSignal::received() {
+    return came;
 }
 
 } // namespace isochron::app

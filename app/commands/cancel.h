@@ -24,6 +24,8 @@ class CancelOnSignal {
 
     /// @throws Canceled when a signal has come
     void check() const;
+    /// The signal that has come, or 0.
+    static int received();
 
   private:
     struct sigaction previous_[3];

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
@@ -18,8 +19,23 @@
 namespace isochron::app {
 namespace {
 
-/// The first line in which two texts differ, of each: long lines are cut.
-std::pair<std::string, std::string> first_difference(const std::string& a, const std::string& b) {
+using nlohmann::json;
+
+/// What two facts say where they first differ.
+struct FactDifference {
+    std::string field; ///< empty: of texts
+    std::string here, there;
+};
+
+/// Long ones are cut, behind what they have in common.
+std::string excerpt(const std::string& line, std::size_t common) {
+    constexpr std::size_t kLongest = 80, kBefore = 20;
+    const std::size_t from = line.size() <= kLongest || common <= kBefore ? 0 : common - kBefore;
+    return (from > 0 ? "..." : "") + line.substr(from, kLongest);
+}
+
+/// The first line in which two texts differ, of each.
+FactDifference difference_of_texts(const std::string& a, const std::string& b) {
     std::istringstream lines_a(a), lines_b(b);
     std::string line_a, line_b;
     bool more_a = true, more_b = true;
@@ -27,9 +43,26 @@ std::pair<std::string, std::string> first_difference(const std::string& a, const
         more_a = static_cast<bool>(std::getline(lines_a, line_a));
         more_b = static_cast<bool>(std::getline(lines_b, line_b));
     }
-    constexpr std::size_t kLongest = 80;
-    return {more_a ? line_a.substr(0, kLongest) : "its end",
-            more_b ? line_b.substr(0, kLongest) : "its end"};
+    const auto common =
+        static_cast<std::size_t>(std::ranges::mismatch(line_a, line_b).in1 - line_a.begin());
+    return {"", more_a ? excerpt(line_a, common) : "its end",
+            more_b ? excerpt(line_b, common) : "its end"};
+}
+
+/// Of two objects the first field that differs, with both values.
+FactDifference first_difference(const std::string& a, const std::string& b) {
+    const json here = json::parse(a, nullptr, false), there = json::parse(b, nullptr, false);
+    if (!here.is_object() || !there.is_object())
+        return difference_of_texts(a, b);
+    const json changes = json::diff(here, there);
+    if (changes.empty())
+        return difference_of_texts(a, b);
+    const std::string path = changes.front().at("path");
+    const json::json_pointer field(path);
+    const auto value = [&](const json& of) {
+        return of.contains(field) ? excerpt(of.at(field).dump(), 0) : std::string("nothing");
+    };
+    return {path.substr(1), value(here), value(there)};
 }
 
 } // namespace
@@ -69,10 +102,11 @@ void ClusterJob::require_same(const Facts& facts) {
             for (std::size_t i = 0; i < facts.size(); ++i) {
                 if (theirs.at(i) == facts[i])
                     continue;
-                const auto [here, there] = first_difference(facts[i].second, theirs.at(i).second);
-                throw std::runtime_error(fmt::format("{}: another {}: '{}', process 0 has '{}'",
-                                                     cluster_.name_of(rank), facts[i].first, there,
-                                                     here));
+                const FactDifference found = first_difference(facts[i].second, theirs.at(i).second);
+                throw std::runtime_error(fmt::format(
+                    "{}: another {}: {}'{}', process 0 has '{}'", cluster_.name_of(rank),
+                    facts[i].first, found.field.empty() ? "" : found.field + " is ", found.there,
+                    found.here));
             }
         }
     });

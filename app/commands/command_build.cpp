@@ -8,12 +8,16 @@
 #include "index/build/appended_series.h"
 #include "index/build/index_build.h"
 #include "index/error.h"
+#include "index/file/index_series.h"
 #include "index/system/team.h"
+#include "stereo/cluster.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <limits>
 #include <memory>
+#include <new>
 #include <sstream>
 
 namespace isochron::app {
@@ -29,9 +33,10 @@ struct BuildArguments {
     std::vector<std::uint32_t> dims;
     std::vector<double> spacing, origin;
     index::BuildOptions build;
-    std::string tiers;
+    std::string tiers, codec;
     std::optional<std::string> color, color_component, color_unit;
     bool quiet = false, append = false, refer = false;
+    double timeout = 30; ///< [s]
 };
 
 std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
@@ -85,6 +90,11 @@ index::Referral referral_to(const std::vector<fs::path>& files, const BuildArgum
     return referral;
 }
 
+/// An index is a series too: of an older file version it becomes one of this.
+bool is_one_index(const std::vector<fs::path>& files) {
+    return files.size() == 1 && index::is_index(files.front());
+}
+
 std::string summary(const fs::path& out, const index::IndexFile& file) {
     const index::SeriesInfo& info = file.info();
     const index::IndexStats& stats = file.stats();
@@ -99,11 +109,39 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
     return text;
 }
 
-void build_with(index::Team& team, const BuildArguments& arguments, const CancelOnSignal& signals) {
-    const bool reports = team.rank() == 0 && !arguments.quiet;
+/// What was asked for; an index that is appended to stays what it is in all that was not.
+BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held) {
+    index::BuildOptions& build = arguments.build;
+    if (arguments.tiers.empty() && held.plan().asked)
+        build.tiers = held.plan().tiers;
+    if (!build.with_tree && held.plan().tiers.has(index::Tier::tree)) {
+        build.with_tree = true;
+        build.tree = held.tree_options();
+    }
+    if (arguments.codec.empty())
+        build.codec = held.codec();
+    arguments.refer = arguments.refer || held.referral();
+    if (!arguments.color && held.color()) {
+        arguments.color = held.color()->chosen_array.value_or(held.color()->array);
+        arguments.color_component = held.color()->chosen_component;
+    }
+    return arguments;
+}
+
+void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSignal& signals) {
+    const bool reports = team.rank() == 0 && !asked.quiet;
+    BuildArguments arguments = asked;
+    std::shared_ptr<const index::IndexFile> held;
+    if (asked.append)
+        team.together([&] {
+            held = index::IndexFile::open(asked.out);
+            arguments = with_held(asked, *held);
+        });
     index::BuildOptions options = arguments.build;
     if (!arguments.tiers.empty())
         options.tiers = tiers_of(arguments.tiers);
+    if (!arguments.codec.empty())
+        options.codec = *index::codec_from_name(arguments.codec);
     options.color_array = arguments.color;
     options.color_component = arguments.color_component;
     std::unique_ptr<index::VolumeSeries> series, colors;
@@ -112,11 +150,21 @@ void build_with(index::Team& team, const BuildArguments& arguments, const Cancel
         refuse_input_as_output(files, arguments.out);
         if (arguments.refer)
             options.referral = referral_to(files, arguments);
-        series = index::open_series(files, read_options(arguments));
-        if (arguments.color)
-            colors = index::open_series(files, color_options(arguments));
-        if (arguments.append) {
-            const auto held = index::IndexFile::open(arguments.out);
+        if (is_one_index(files)) {
+            if (arguments.refer)
+                throw UsageError("--refer: an index has no files of values to refer to");
+            series = index::open_index_series(files.front(), read_options(arguments));
+            index::ReadOptions of_colors = color_options(arguments);
+            if (!of_colors.array)
+                of_colors.array = index::color_of_index(files.front());
+            if (of_colors.array)
+                colors = index::open_index_series(files.front(), of_colors);
+        } else {
+            series = index::open_series(files, read_options(arguments));
+            if (arguments.color)
+                colors = index::open_series(files, color_options(arguments));
+        }
+        if (held) {
             series = index::append_to(held, arguments.out.string(), std::move(series));
             colors = index::append_colors_to(held, arguments.out.string(), std::move(colors));
         }
@@ -128,7 +176,7 @@ void build_with(index::Team& team, const BuildArguments& arguments, const Cancel
         return;
     }
     const index::SeriesInfo& info = series->info();
-    {
+    try {
         ProgressBar bar(stderr,
                         static_cast<double>(info.step_bytes()) * static_cast<double>(info.steps()));
         index::build_index(
@@ -139,18 +187,43 @@ void build_with(index::Team& team, const BuildArguments& arguments, const Cancel
                     bar.show(phase, fraction);
             },
             team);
+    } catch (const std::bad_alloc&) {
+        throw index::Error(
+            fmt::format("{}: there is not enough memory to build it", arguments.out.string()));
     }
     if (reports)
         fmt::print("{}", summary(arguments.out, *index::IndexFile::open(arguments.out)));
 }
 
+/// In a job, `what` is the last word: not all members know of it, so none can be waited for.
+void end_job(stereo::Cluster& cluster, const std::string& what, int status) {
+    if (cluster.size() == 1)
+        return;
+    fmt::print(stderr, "isochron: {}\n", what);
+    cluster.abandon(status);
+}
+
 void run_build(const BuildArguments& arguments) {
     const CancelOnSignal signals;
     const auto team = index::join_team();
+    // A step may take as long as its disk does; only a process that shows no life is lost.
+    using Duration = stereo::ClusterLimits::Duration;
+    constexpr Duration kForEver(std::numeric_limits<double>::infinity());
+    stereo::Cluster cluster(*team, {.silence = Duration(arguments.timeout), .stall = kForEver});
+    cluster.while_waiting([&] { signals.check(); });
     try {
-        build_with(*team, arguments, signals);
+        build_with(cluster, arguments, signals);
+    } catch (const stereo::ProcessLost& lost) {
+        end_job(cluster, lost.what(), 1);
+        throw;
+    } catch (const Canceled& canceled) {
+        // mpirun ends all processes this way when one of them has died, too.
+        if (cluster.rank() > 0)
+            throw ReportedElsewhere();
+        end_job(cluster, "canceled, or another process of the job has ended", canceled.status);
+        throw;
     } catch (const std::exception&) {
-        if (team->rank() > 0)
+        if (cluster.rank() > 0)
             throw ReportedElsewhere();
         throw;
     }
@@ -163,6 +236,10 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
     command
         .option("--component", read.component,
                 "Component of a vector array: a number from 0, or magnitude")
+        .group("Reading");
+    command
+        .flag("--allow-surplus", read.allow_surplus,
+              "Read files in which data are left over after the values that the header says")
         .group("Reading");
     command
         .option("--spacing", arguments.spacing,
@@ -230,7 +307,9 @@ void add_build(Command& program) {
     command
         .option("files", arguments->files,
                 "One .pvd, or the steps' files or quoted patterns ('t*.vti') in any order: "
-                ".vti .vtk .mhd .mha .nhdr .nrrd .nii .nii.gz .nc, or raw")
+                ".vti .vtk .mhd .mha .nhdr .nrrd .nii .nii.gz .nc, or raw; or an index, also of "
+                "the file "
+                "version before this")
         .required()
         .type_name("FILES");
     command.option("-o,--out", arguments->out, "Index to write; replaced when complete")
@@ -246,9 +325,15 @@ void add_build(Command& program) {
         .type_name("LIST")
         .group(index_group);
     command
+        .option("--codec", arguments->codec,
+                "How values are packed, instead of what suits each chunk of them best")
+        .one_of({"none", "lz4", "zstd"})
+        .group(index_group);
+    command
         .flag("--append", arguments->append,
               "Add the steps that NAME.isochron does not hold yet, if any; FILES are all of "
-              "them, those that it holds first")
+              "them, those that it holds first. It stays as it was built in all that is not "
+              "asked for")
         .group(index_group);
     command
         .flag("--refer", arguments->refer,
@@ -258,6 +343,13 @@ void add_build(Command& program) {
         .option("--threads", arguments->build.threads,
                 "Threads to build with (default 0: as many as there are processors)")
         .between(0u, 1024u)
+        .group(index_group);
+    command
+        .option("--timeout", arguments->timeout,
+                "In an MPI job: seconds without a sign of life after which a process is lost, "
+                "and the job ends")
+        .between(0.1, 86400.0)
+        .shows_default()
         .group(index_group);
     const Option lattice =
         command

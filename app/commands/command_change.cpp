@@ -2,6 +2,7 @@
 // another.
 #include "app/commands/file_patterns.h"
 #include "app/commands/id_file.h"
+#include "app/commands/open_index.h"
 #include "app/commands/subcommands.h"
 #include "app/text.h"
 #include "index/error.h"
@@ -64,7 +65,9 @@ void run_change(const ChangeArguments& arguments) {
     for (const auto& out : {arguments.added, arguments.removed})
         if (!out.empty())
             refuse_input_as_output({arguments.file}, out);
-    const auto file = index::IndexFile::open(arguments.file);
+    if (!arguments.to_step && !arguments.to_isovalue)
+        throw UsageError("change from what to what: --to-step or --to-isovalue is missing");
+    const auto file = open_index(arguments.file);
     const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
     const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),
                                     arguments.to_isovalue.value_or(arguments.isovalue));
@@ -91,7 +94,7 @@ void run_change(const ChangeArguments& arguments) {
             {"to_isovalue", to.isovalue},      {"added", found.added.size()},
             {"removed", found.removed.size()}, {"searched_anew", whole},
             {"change_ms", middle->count()}};
-        fmt::print("{}\n", j.dump(2));
+        fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
     }
     fmt::print("isovalue {} at step {} to isovalue {} at step {}\n"

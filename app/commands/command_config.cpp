@@ -4,6 +4,7 @@
 #include "app/config/check_config.h"
 #include "app/config/display_config_text.h"
 #include "app/config/pvx_file.h"
+#include "app/config/toml_reader.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -23,25 +24,43 @@ struct ImportOptions {
     std::vector<float> origin;
 };
 
+/// What was imported must pass the check that it will meet. Its lines are not those of the file
+/// that it comes from, so messages leave them out.
+Config sound_config(const std::string& text, const std::string& source) {
+    const std::string name = "import";
+    try {
+        Config config = parse_config(text, name);
+        config.name = source;
+        config.places = {};
+        expect_sound(config);
+        return config;
+    } catch (const ConfigError& error) {
+        const std::string what = error.what();
+        if (!what.starts_with(name + ":"))
+            throw;
+        throw ConfigError(fmt::format("{}{}", source, what.substr(what.find(": "))));
+    }
+}
+
 void import(ImportOptions options) {
     if (!options.origin.empty())
         options.pvx.origin = {options.origin[0], options.origin[1], options.origin[2]};
     const PvxImport imported = read_pvx(options.file, options.pvx);
-    for (const std::string& note : imported.notes)
-        fmt::print(stderr, "note: {}\n", note);
     const std::string text =
         "# Imported from a .pvx file of ParaView.\n" + display_config_text(imported.installation);
-    const Config config = parse_config(text, options.out.value_or("the imported configuration"));
+    const Config config = sound_config(text, options.file);
+    if (options.out) {
+        refuse_input_as_output({options.file}, *options.out);
+        index::NewFile file(*options.out);
+        file.write_at(0, std::as_bytes(std::span(text)));
+        file.commit();
+    } else {
+        fmt::print("{}", text);
+    }
+    for (const std::string& note : imported.notes)
+        fmt::print(stderr, "note: {}\n", note);
     for (const ConfigProblem& problem : problems_of(config))
         fmt::print(stderr, "{}\n", line_of(problem, config));
-    if (!options.out) {
-        fmt::print("{}", text);
-        return;
-    }
-    refuse_input_as_output({options.file}, *options.out);
-    index::NewFile file(*options.out);
-    file.write_at(0, std::as_bytes(std::span(text)));
-    file.commit();
 }
 
 } // namespace

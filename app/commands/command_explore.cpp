@@ -1,11 +1,16 @@
 // `isochron explore`: the live program, in a window.
+#include "app/commands/cancel.h"
 #include "app/commands/cluster_job.h"
 #include "app/commands/file_patterns.h"
+#include "app/commands/kept_session.h"
+#include "app/commands/open_index.h"
 #include "app/commands/subcommands.h"
 #include "app/config/check_config.h"
 #include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
 #include "app/session/live_loop.h"
+#include "app/session/recording_file.h"
+#include "app/text.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
@@ -29,6 +34,8 @@ struct ExploreOptions {
     std::optional<std::uint32_t> step;
     std::vector<int> size;
     std::string screenshots = ".";
+    std::optional<std::string> session;
+    bool force = false, resume = false;
     bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
 };
 
@@ -61,7 +68,9 @@ Config configure(const ExploreOptions& options) {
     return config;
 }
 
-ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps) {
+ExplorerState start_from(ExplorerState state, const ExploreOptions& options,
+                         const index::SeriesInfo& info) {
+    const std::size_t steps = info.steps();
     if (options.step && *options.step >= steps)
         throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
     if (options.isovalue && !std::isfinite(*options.isovalue))
@@ -69,7 +78,7 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
             fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
     state.set_isovalue(options.isovalue.value_or(state.isovalue()));
     state.step = options.step.value_or(state.step);
-    state.panel = !options.no_panel;
+    state.panel = state.panel && !options.no_panel;
     if (options.stereo)
         state.stereo = *stereo::stereo_mode_from_name(*options.stereo);
     return state;
@@ -85,24 +94,39 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
     // An emulated installation is as large as configured.
     if (!session.outputs().windows().room() && session.outputs().windows().number(0) == 0)
         header.window = {window.x, window.y};
-    header.data_hash = fmt::format("{:016x}", file.content_hash());
+    header.data_hash = data_hash_of(file);
     header.start = session.state().as_commands();
     return header;
+}
+
+/// What a file holds already is lost only where the user says so.
+void refuse_to_replace(const std::string& recording) {
+    for (const std::string& name : {recording, recording + ".part"})
+        if (std::filesystem::exists(name))
+            throw index::Error(fmt::format("{}: exists already{}; --force replaces it", name,
+                                           name == recording
+                                               ? ""
+                                               : ", a recording that was cut short and can be "
+                                                 "replayed"));
 }
 
 /// Refuses now what would fail, or destroy something, only when the session ends.
 void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
     namespace fs = std::filesystem;
-    if (!fs::is_directory(options.screenshots))
+    std::error_code error, ignored;
+    fs::create_directories(options.screenshots, error);
+    if (error)
         throw index::Error(
-            fmt::format("{}: expected a folder for screenshots", options.screenshots));
+            fmt::format("{}: cannot be made: {}", options.screenshots, error.message()));
     if (!job.leads())
         return;
-    for (const auto& out : {options.record, options.report})
+    for (const auto& out : {options.record, options.report, options.session})
         if (out)
             refuse_input_as_output({*options.data}, *out);
-    if (options.record && fs::exists(*options.record))
-        interaction::read_recording(*options.record); // only a recording may be replaced by one
+    if (options.record && !options.force)
+        refuse_to_replace(*options.record);
+    if (options.record && fs::exists(*options.record, ignored))
+        read_recording(*options.record); // only a recording may be replaced by one
     if (options.report)
         index::NewFile{*options.report};
 }
@@ -137,14 +161,23 @@ void warn(const Config& config) {
     for (const ConfigProblem& problem : problems_of(config))
         fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
     for (const std::string& warning : device_warnings(config))
-        fmt::print(stderr, "isochron: warning: {}\n", warning);
+        fmt::print(stderr, "isochron: warning: {}\n", one_line(warning));
 }
 
 LiveOptions live_options(const ExploreOptions& options) {
-    LiveOptions live{.emulated = options.emulate, .length = std::nullopt};
+    LiveOptions live{.emulated = options.emulate, .length = std::nullopt, .ended = [] {
+                         return CancelOnSignal::received() != 0;
+                     }};
     if (options.seconds)
         live.length = interaction::Seconds(*options.seconds);
     return live;
+}
+
+std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
+                                             const index::IndexFile& file) {
+    if (options.session)
+        return *options.session;
+    return session_path(*options.data, data_hash_of(file));
 }
 
 void print_status(const LiveLoop& live) {
@@ -161,7 +194,7 @@ void show_test_pattern(const ExploreOptions& options, const ClusterJob& job) {
     const Config config = configure(options);
     warn(config);
     interaction::CompositeInput trackers;
-    open_trackers(config.devices, trackers);
+    open_trackers(config, trackers);
     PatternShow show(config, open(options, config, job, nullptr));
     if (options.stereo)
         show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
@@ -187,6 +220,8 @@ bool only_describes(const ExploreOptions& options) {
 }
 
 void explore(const ExploreOptions& options, ClusterJob& job) {
+    // A signal ends the session as its user would: what was recorded gets its name.
+    const CancelOnSignal signals;
     if (options.test_pattern)
         return job.together([&] { show_test_pattern(options, job); });
     Config config;
@@ -202,18 +237,29 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
             throw UsageError("a headset belongs to one process: start it without mpirun");
         prepare_walls(config, job, options.emulate);
         if (job.leads())
-            open_trackers(config.devices, trackers);
-        file = index::IndexFile::open(*options.data);
+            open_trackers(config, trackers);
+        file = open_index(*options.data);
         check_outputs(options, job);
     });
     job.require_same(facts_of(config, *file));
     job.set_limits(config.cluster.limits);
     std::optional<Session> opened;
+    std::optional<SavedSession> earlier;
     job.together([&] {
+        if (job.size() == 1)
+            earlier = earlier_session(kept_in(options, *file), options.resume);
+        else if (options.resume)
+            throw UsageError("--resume is for one process, without mpirun");
         auto headset = open_headset(config.openxr);
         stereo::Windows windows = open(options, config, job, headset.get());
         opened.emplace(config, file, std::move(windows), index::Extract(), std::move(headset));
-        opened->set_state(start_from(opened->state(), options, file->info().steps()));
+        const std::size_t steps = file->info().steps();
+        const ExplorerState start =
+            earlier ? state_of(*earlier, opened->state(), data_hash_of(*file), steps, "--resume")
+                    : opened->state();
+        if (options.isovalue)
+            warn_beyond(*options.isovalue, *file);
+        opened->set_state(start_from(start, options, file->info()));
         opened->outputs().set_screenshots(options.screenshots);
         if (config.cluster.swap_group && job.size() > 1)
             stereo::join_swap_group(opened->outputs().windows());
@@ -224,6 +270,8 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     LiveLoop live(config, std::move(trackers), live_options(options), session.outputs().headset());
     session.set_clock(live.clock());
     if (job.leads()) {
+        if (job.size() == 1)
+            keep_session(live, kept_in(options, *file), *options.data, *file, session, earlier);
         if (options.record) {
             live.record(*options.record, header_of(session, config, *file, *options.data));
             session.set_recording(true);
@@ -233,12 +281,15 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         job.follow(session);
     }
     session.frames().end();
-    live.finish();
+    live.finish(session.state());
     session.outputs().pictures().finish();
     print_status(live);
     if (options.report)
         session.log().write(job.own_file(*options.report), session.drawing());
     job.finish();
+    if (options.record && job.leads())
+        fmt::print(stderr, "recording: {}\n", *options.record);
+    signals.check();
 }
 
 std::string footer() {
@@ -291,9 +342,17 @@ void add_explore(Command& program) {
     command.option("--isovalue", options->isovalue, "Isovalue to start with, in data units");
     command.option("--step", options->step, "Step to start at, from 0");
     command.option("--record", options->record, "Record the session to this file (JSON Lines)");
+    command.flag("--force", options->force, "Let --record replace a recording");
+    command.option("--session", options->session,
+                   "Keep the session in this file (NAME.isochron-session) instead of the user's "
+                   "folder for such files; saved every 30 s and at the end");
+    command.flag("--resume", options->resume,
+                 "Go on where the last session on these data ended, or that of --session");
     command.option("--report", options->report,
                    "Write the time of every frame's stages to this JSON file");
-    command.option("--screenshots", options->screenshots, "Folder for screenshots (key P)")
+    command
+        .option("--screenshots", options->screenshots,
+                "Folder for screenshots (key P); made where it is missing")
         .shows_default();
     command.option("--seconds", options->seconds, "Leave after this many seconds").positive();
     command.flag("--list-devices", options->list_devices,

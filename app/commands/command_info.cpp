@@ -1,5 +1,6 @@
 // `isochron info`: what an index holds.
 #include "app/commands/index_report.h"
+#include "app/commands/open_index.h"
 #include "app/commands/subcommands.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ struct InfoArguments {
 };
 
 void run_info(const InfoArguments& arguments) {
-    const auto file = index::IndexFile::open(arguments.file);
+    const auto file = open_index(arguments.file);
     const IndexReport report{arguments.file.string(), *file, arguments.tree};
     fmt::print("{}", arguments.json ? as_json(report) : as_text(report));
 }

@@ -2,6 +2,8 @@
 #include "app/commands/command_line.h"
 
 #include "app/commands/cancel.h"
+#include "app/config/toml_reader.h"
+#include "app/text.h"
 #include "app/version.h"
 
 #include <CLI/CLI.hpp>
@@ -14,6 +16,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -154,8 +157,19 @@ void Command::on_run(std::function<void()> run) {
 namespace {
 
 int fail(const std::string& program, const std::string& what, int status) {
-    std::fprintf(stderr, "%s: %s\n", program.c_str(), what.c_str());
+    std::fprintf(stderr, "%s: %s\n", program.c_str(), one_line(what).c_str());
     return status;
+}
+
+/// What a word that is no command may have been meant for.
+std::string mistaken(const std::string& word, const std::vector<std::string>& names) {
+    std::error_code error;
+    if (std::filesystem::exists(word, error))
+        return fmt::format("{0}: a file, not a command; did you mean `isochron {1} {0}`?", word,
+                           std::filesystem::path(word).extension() == ".isochron" ? "explore"
+                                                                                  : "build");
+    const std::string near = nearest_word(word, names);
+    return fmt::format("{}: unknown{}", word, near.empty() ? "" : ", did you mean " + near);
 }
 
 /// The parser's complaint in one line, with the command whose help explains more.
@@ -175,7 +189,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
         for (const CLI::App* candidate : known)
             names.push_back(candidate->get_name());
         what = fmt::format("{}, expected {}",
-                           unknown.empty() ? what : fmt::format("{}: unknown", unknown.front()),
+                           unknown.empty() ? what : mistaken(unknown.front(), names),
                            fmt::join(names, ", "));
     }
     return fmt::format("{} (see {} --help)", what, name);
@@ -227,6 +241,11 @@ int run_program(const std::string& name, const std::string& description,
         return 0;
     } catch (const UsageError& error) {
         return fail(name, error.what(), 2);
+    } catch (const std::bad_alloc&) {
+        return fail(name, "there is not enough memory", 1);
+    } catch (const std::filesystem::filesystem_error& error) {
+        const std::string path = error.path1().empty() ? "." : error.path1().string();
+        return fail(name, fmt::format("{}: {}", path, error.code().message()), 1);
     } catch (const std::exception& error) {
         return fail(name, error.what(), 1);
     }

@@ -1,6 +1,7 @@
 // `isochron query`: the active cells of one isovalue at one step, and what finding them took.
 #include "app/commands/file_patterns.h"
 #include "app/commands/id_file.h"
+#include "app/commands/open_index.h"
 #include "app/commands/process_usage.h"
 #include "app/commands/subcommands.h"
 #include "app/text.h"
@@ -146,11 +147,12 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
 void run_query(const QueryArguments& arguments) {
     if (!arguments.ids.empty())
         refuse_input_as_output({arguments.file}, arguments.ids);
-    const auto file = index::IndexFile::open(arguments.file);
+    const auto file = open_index(arguments.file);
     const auto steps = static_cast<std::int64_t>(file->info().steps());
     if (arguments.step < 0 || arguments.step >= steps)
         throw index::Error(fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(),
                                        arguments.step, steps - 1));
+    warn_beyond(arguments.isovalue, *file);
     const Measured result =
         measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue},
                 method_of(arguments, *file), arguments.repeats);

@@ -2,9 +2,12 @@
 #include "app/commands/cluster_job.h"
 #include "app/commands/file_patterns.h"
 #include "app/commands/progress_bar.h"
+#include "app/commands/replay_source.h"
 #include "app/commands/subcommands.h"
 #include "app/output/picture_names.h"
 #include "app/session/pattern_show.h"
+#include "app/session/recording_file.h"
+#include "app/text.h"
 
 #include <fmt/format.h>
 
@@ -16,61 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
-    std::string recording;
-    std::optional<std::string> data, out, config, context, stereo, quality, footprint, report;
+struct Options : ReplaySource {
+    std::optional<std::string> out, report;
     std::size_t every = 0;
-    bool stamps = false, from_devices = false, live = false, any_data = false, emulate = false;
-    bool test_pattern = false;
+    bool stamps = false, from_devices = false, test_pattern = false;
     std::string eyes = "window";
     std::string format = "png";
-    std::optional<int> samples;
-    std::vector<int> size;
 };
-
-Config configure(const Options& options, const interaction::RecordingHeader& header) {
-    Config config =
-        options.config ? read_config(*options.config)
-                       : parse_config(header.configuration, options.recording + " (configuration)");
-    // A recording made in a window replays without one unless a window is asked for.
-    config.context = options.live ? stereo::ContextKind::glfw : stereo::ContextKind::egl;
-    if (options.context)
-        config.context = *stereo::context_kind_from_name(*options.context);
-    if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
-        config.installation.windows.front().size = {header.window[0], header.window[1]};
-    if (options.footprint)
-        config.settled_footprint = settled_footprint_from_name(*options.footprint);
-    config.picture_samples = options.samples.value_or(config.picture_samples);
-    for (stereo::Window& window : config.installation.windows) {
-        if (!options.size.empty() && !options.emulate)
-            window.size = {options.size[0], options.size[1]};
-        window.fullscreen = false; // a replay looks on, it does not take the displays over
-    }
-    return config;
-}
-
-std::shared_ptr<const index::IndexFile> open_data(const Options& options,
-                                                  const interaction::RecordingHeader& header) {
-    std::string path = options.data.value_or(header.data);
-    if (!options.data && !fs::exists(path)) {
-        // A relative name is from where the session was started; the data may lie beside the
-        // recording.
-        path = (fs::path(options.recording).parent_path() / header.data).string();
-        if (!fs::exists(path))
-            throw interaction::Error(
-                fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
-                            options.recording, header.data));
-    }
-    auto file = index::IndexFile::open(path);
-    const std::string hash = fmt::format("{:016x}", file->content_hash());
-    // A recording without a hash is not bound to one data set: demonstrations are like that.
-    if (!options.any_data && !header.data_hash.empty() && header.data_hash != hash)
-        throw interaction::Error(
-            fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
-                        "(--any-data replays all the same)",
-                        options.recording, header.data_hash, path, hash));
-    return file;
-}
 
 /// Writes the pictures of one frame under names that start with `stem`, and notes which.
 void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
@@ -134,25 +89,6 @@ void check(const Options& options) {
         refuse_input_as_output({options.recording}, *options.report);
 }
 
-stereo::Windows open(const Options& options, const Config& config,
-                     const interaction::RecordingHeader& header, const ClusterJob& job) {
-    const std::string title = "Isochron: " + options.recording;
-    if (options.emulate) {
-        stereo::ContextOptions room{.title = title};
-        if (!options.size.empty())
-            room.size = {options.size[0], options.size[1]};
-        return open_room(config.context, config.installation, room);
-    }
-    const std::string mode = options.stereo.value_or(header.start.stereo.value_or(""));
-    return open_windows(config.context, config.installation,
-                        {.title = title,
-                         .vsync = config.vsync,
-                         .stereo = stereo::stereo_mode_from_name(mode).value_or(
-                             config.installation.windows.front().stereo),
-                         .rank = job.rank(),
-                         .ranks = job.size()});
-}
-
 /// Of one frame, where the options ask for them.
 void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
                     std::size_t number, const interaction::RecordedFrame& frame,
@@ -170,11 +106,11 @@ void replay_test_pattern(const Options& options, const ClusterJob& job) {
     check(options);
     if (job.size() > 1)
         throw UsageError("--test-pattern is shown by one process, without mpirun");
-    const interaction::Recording recording = interaction::read_recording(options.recording);
-    const Config config = configure(options, recording.header);
+    const interaction::Recording recording = read_recording(options.recording);
+    const Config config = config_of(options, recording.header);
     if (options.out)
         make_folder(*options.out);
-    PatternShow show(config, open(options, config, recording.header, job));
+    PatternShow show(config, windows_of(options, config, recording.header, job));
     show.obey(recording.header.start);
     const PictureNames names = picture_names(config.installation);
     std::vector<fs::path> written;
@@ -203,18 +139,15 @@ struct Prepared {
 Prepared prepare(const Options& options, const ClusterJob& job) {
     check(options);
     Prepared all;
-    all.recording = interaction::read_recording(options.recording);
+    all.recording = read_recording(options.recording);
     if (!all.recording.note.empty() && job.leads())
-        fmt::print(stderr, "note: {}\n", all.recording.note);
-    all.config = configure(options, all.recording.header);
+        fmt::print(stderr, "note: {}\n", one_line(all.recording.note));
+    all.config = config_of(options, all.recording.header);
     all.names = picture_names(all.config.installation);
     prepare_walls(all.config, job, options.emulate);
-    all.file = open_data(options, all.recording.header);
+    all.file = data_of(options, all.recording.header);
+    all.replay = replay_options(options);
     all.replay.from_devices = options.from_devices;
-    if (options.stereo)
-        all.replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
-    if (options.quality)
-        all.replay.quality = quality_mode_from_name(*options.quality);
     return all;
 }
 
@@ -250,7 +183,8 @@ void replay(const Options& options, ClusterJob& job) {
     job.set_limits(all.config.cluster.limits);
     std::optional<Session> opened;
     job.together([&] {
-        opened.emplace(all.config, all.file, open(options, all.config, all.recording.header, job));
+        opened.emplace(all.config, all.file,
+                       windows_of(options, all.config, all.recording.header, job));
         opened->set_state(
             start_of(all.recording.header, opened->state(), all.file->info().steps(), all.replay));
         if (options.out)
@@ -285,13 +219,7 @@ void add_replay(Command& program) {
     auto options = std::make_shared<Options>();
     Command command = program.subcommand(
         "replay", "Replay a recording: to pictures, to a timing report, or live in a window.");
-    command.option("recording", options->recording, "Recording made by `explore --record`")
-        .required();
-    command.option("--data", options->data,
-                   "Index to use instead of the recorded path (which may also be relative "
-                   "to the recording)");
-    command.flag("--any-data", options->any_data,
-                 "Accept data other than the recorded (another hash)");
+    add_replay_source(command, *options);
     command.option("--out", options->out, "Folder for the pictures; made where it is missing");
     command.option("--every", options->every, "Write a picture every N frames").positive();
     command.flag("--stamps", options->stamps, "Write a picture at every stamp");
@@ -304,35 +232,6 @@ void add_replay(Command& program) {
     command.option("--format", options->format, "png, or exr (linear)")
         .one_of({"png", "exr"})
         .shows_default();
-    command
-        .option(
-            "--size", options->size,
-            "Size of every window's pictures, or of the room's, in pixels (default: as recorded)")
-        .values(2)
-        .between(16, 16384);
-    command
-        .option("--samples", options->samples,
-                "Samples of each pixel of the pictures (default: as configured, 4 where "
-                "nothing is)")
-        .between(1, 64);
-    command.flag("--emulate", options->emulate,
-                 "Show the room from outside, with what every wall shows, instead");
-    command.option("--stereo", options->stereo, "Stereo mode instead of the recorded one")
-        .one_of(stereo_mode_names());
-    command.option("--quality", options->quality, "Quality mode instead of the recorded one")
-        .one_of(interaction::all_names<interaction::QualityMode>());
-    command
-        .option("--footprint", options->footprint,
-                "What a settled picture is drawn with, instead of the configured: auto (the "
-                "best there is; with --live the best that fits the frame budget), gaussian or "
-                "surface")
-        .one_of(settled_footprint_names());
-    command.option("--config", options->config,
-                   "TOML file or shipped name instead of the recorded configuration");
-    command
-        .option("--context", options->context,
-                "GL context: egl (default), osmesa, glfw (default with --live)")
-        .one_of({"glfw", "egl", "osmesa"});
     command.option("--report", options->report,
                    "Write times and states of every frame to this JSON file");
     command.flag("--from-devices", options->from_devices,

@@ -1,5 +1,6 @@
 // `isochron verify`: whether an index is intact.
 #include "app/commands/cancel.h"
+#include "app/commands/open_index.h"
 #include "app/commands/progress_bar.h"
 #include "app/commands/subcommands.h"
 #include "app/text.h"
@@ -16,7 +17,7 @@ namespace {
 
 void run_verify(const std::filesystem::path& path) {
     const CancelOnSignal signals;
-    const auto file = index::IndexFile::open(path);
+    const auto file = open_index(path);
     {
         ProgressBar bar(stderr, static_cast<double>(file->stats().file_bytes));
         file->verify([&](std::string_view phase, double fraction) {

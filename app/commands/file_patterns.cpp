@@ -8,14 +8,16 @@
 #include <glob.h>
 
 #include <memory>
+#include <system_error>
 
 namespace isochron::app {
 
 std::vector<std::filesystem::path> expand_patterns(const std::vector<std::string>& arguments) {
     std::vector<std::filesystem::path> files;
+    std::error_code ignored;
     for (const std::string& argument : arguments) {
         // A file may well have brackets in its name: what exists is a name.
-        if (std::filesystem::exists(argument) ||
+        if (std::filesystem::exists(argument, ignored) ||
             argument.find_first_of("*?[") == std::string::npos) {
             files.emplace_back(argument);
             continue;

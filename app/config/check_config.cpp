@@ -1,7 +1,9 @@
 // Lists an installation and judges it.
 #include "app/config/check_config.h"
 
+#include "app/config/check_devices.h"
 #include "app/config/tracker_setup.h"
+#include "app/text.h"
 #include "stereo/nodes.h"
 #include "stereo/screen.h"
 
@@ -20,6 +22,8 @@ constexpr float kSmallest = 0.02f, kLargest = 30.0f; ///< [m] sides of screens t
 constexpr float kSquare = 0.02f;    ///< pixels' width and height may differ by this fraction
 constexpr float kNeighbors = 0.10f; ///< [m] corners this near are meant to be one
 constexpr float kSeam = 0.005f;     ///< [m] and this is what a seam may take
+constexpr float kSame = 1e-3f;      ///< [m] corners this near are the same
+constexpr float kLevel = 0.7f;      ///< cosine to an axis of the room
 constexpr const char* kScreenKey = "windows.viewports.projection";
 
 struct PlacedViewport {
@@ -75,6 +79,26 @@ glm::vec2 pixel_size(const PlacedViewport& place) {
     return oblong(half) < oblong(whole) ? half : whole;
 }
 
+/// Of corners that somebody gave: a screen that was left out is as it always is.
+bool same_place(const stereo::Screen& a, const stereo::Screen& b) {
+    const stereo::Screen usual;
+    const bool given = a.lower_left != usual.lower_left || a.upper_right != usual.upper_right;
+    return given && glm::distance(a.lower_left, b.lower_left) < kSame &&
+           glm::distance(a.upper_left, b.upper_left) < kSame &&
+           glm::distance(a.upper_right, b.upper_right) < kSame;
+}
+
+/// Pixels of the desktop that two windows share, where both are told where to stand.
+glm::ivec2 shared_pixels(const stereo::Window& a, const stereo::Window& b) {
+    const glm::ivec2 nowhere(-1);
+    if (a.fullscreen || b.fullscreen || a.position == nowhere || b.position == nowhere ||
+        a.node != b.node)
+        return glm::ivec2(0);
+    return glm::max(glm::min(a.position + a.size, b.position + b.size) -
+                        glm::max(a.position, b.position),
+                    glm::ivec2(0));
+}
+
 class Judge {
   public:
     explicit Judge(const Config& config) : config_(config) {}
@@ -111,6 +135,14 @@ class Judge {
             add(place.line, kScreenKey,
                 fmt::format("{}: {:.4g} x {:.4g} m is no size of a screen: corners are in meters",
                             name_of(place), size.x, size.y));
+        const glm::vec3 up = glm::normalize(screen.upper_left - screen.lower_left);
+        const glm::vec3 across = glm::normalize(screen.upper_right - screen.upper_left);
+        if (!screen.carried_by_head && glm::cross(across, up).y > kLevel && up.z > kLevel)
+            add(place.line, kScreenKey,
+                fmt::format("{}: a floor whose upper edge is at the back: upside down to who faces "
+                            "the front (-Z)",
+                            name_of(place)),
+                false);
         const glm::vec2 pixel = pixel_size(place);
         const float aspect = pixel.x / pixel.y;
         if (!screen.fit_aspect && std::abs(aspect - 1.0f) > kSquare)
@@ -134,8 +166,26 @@ class Judge {
                                 "pixels",
                                 name_of(b), overlap.x, overlap.y));
         }
-        if (!a.viewport.screen.carried_by_head && !b.viewport.screen.carried_by_head)
+        if (a.viewport.screen.carried_by_head || b.viewport.screen.carried_by_head)
+            return;
+        if (same_place(a.viewport.screen, b.viewport.screen))
+            twins(a, b);
+        else
             seam(a, b);
+    }
+
+    /// Two projectors on one wall show an eye each.
+    void twins(const PlacedViewport& a, const PlacedViewport& b) {
+        using stereo::StereoMode;
+        const StereoMode first = a.window.stereo, second = b.window.stereo;
+        const bool one_eye = first == StereoMode::left || first == StereoMode::right;
+        if (one_eye && first == second)
+            add(b.line, "windows.stereo",
+                fmt::format("{} and {} have the same corners, and both show the {} eye", name_of(a),
+                            name_of(b), stereo::name_of(first)));
+        else if (!one_eye || (second != StereoMode::left && second != StereoMode::right))
+            add(b.line, kScreenKey,
+                fmt::format("{} has the same corners as {}", name_of(b), name_of(a)), false);
     }
 
     /// Walls that meet in a corner of the room share it to the width of a seam.
@@ -157,13 +207,21 @@ class Judge {
     void windows() {
         const auto& windows = config_.installation.windows;
         for (std::size_t i = 0; i < windows.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j)
+            for (std::size_t j = 0; j < i; ++j) {
+                const int line = place_of_window(config_, i).line;
                 if (windows[i].fullscreen && windows[j].fullscreen &&
                     windows[i].monitor != stereo::kNextMonitor &&
                     windows[i].monitor == windows[j].monitor && windows[i].node == windows[j].node)
-                    add(place_of_window(config_, i).line, "windows.monitor",
+                    add(line, "windows.monitor",
                         fmt::format("window {} covers monitor {}, as window {} does",
                                     windows[i].name, windows[i].monitor, windows[j].name));
+                const glm::ivec2 shared = shared_pixels(windows[i], windows[j]);
+                if (shared.x > 0 && shared.y > 0)
+                    add(line, "windows.position",
+                        fmt::format("window {} covers {} x {} pixels of window {}", windows[i].name,
+                                    shared.x, shared.y, windows[j].name),
+                        false);
+            }
     }
 
     void viewers(const std::vector<PlacedViewport>& all) {
@@ -236,14 +294,27 @@ std::string describe_nodes(const stereo::Installation& installation) {
 } // namespace
 
 std::vector<ConfigProblem> problems_of(const Config& config) {
-    return Judge(config).judge();
+    std::vector<ConfigProblem> all = Judge(config).judge();
+    for (ConfigProblem& problem : problems_of_devices(config))
+        all.push_back(std::move(problem));
+    return all;
 }
 
 std::string line_of(const ConfigProblem& problem, const Config& config) {
     const std::string name = config.name.empty() ? "built-in configuration" : config.name;
-    return fmt::format("{}{}: {}{}: {}", name,
-                       problem.line > 0 ? fmt::format(":{}", problem.line) : "",
-                       problem.wrong ? "" : "warning: ", problem.key, problem.text);
+    return one_line(fmt::format("{}{}: {}{}: {}", name,
+                                problem.line > 0 ? fmt::format(":{}", problem.line) : "",
+                                problem.wrong ? "" : "warning: ", problem.key, problem.text));
+}
+
+void expect_sound(const Config& config) {
+    const std::vector<ConfigProblem> problems = problems_of(config);
+    const auto first = std::ranges::find(problems, true, &ConfigProblem::wrong);
+    if (first == problems.end())
+        return;
+    const auto wrong = std::ranges::count(problems, true, &ConfigProblem::wrong);
+    throw ConfigError(line_of(*first, config) +
+                      (wrong > 1 ? fmt::format(" (the first of {} faults)", wrong) : ""));
 }
 
 std::string describe(const Config& config) {
@@ -273,16 +344,13 @@ std::string describe(const Config& config) {
 void check_config(const std::filesystem::path& path) {
     const Config config = read_config(path);
     fmt::print("{}", describe(config));
-    std::fflush(stdout); // before what is wrong with it
     const std::vector<ConfigProblem> problems = problems_of(config);
     for (const ConfigProblem& problem : problems)
-        fmt::print(stderr, "{}\n", line_of(problem, config));
+        fmt::print("{}\n", line_of(problem, config));
     for (const std::string& warning : device_warnings(config))
-        fmt::print(stderr, "{}: warning: {}\n", path.string(), warning);
-    const auto wrong = std::ranges::count(problems, true, &ConfigProblem::wrong);
-    if (wrong > 0)
-        throw ConfigError(fmt::format("{}: {} {} wrong", path.string(), wrong,
-                                      wrong == 1 ? "thing is" : "things are"));
+        fmt::print("{}: warning: {}\n", path.string(), warning);
+    std::fflush(stdout); // before the error
+    expect_sound(config);
     fmt::print("nothing is wrong\n");
 }
 

@@ -3,15 +3,17 @@
 
 #include "app/config/shipped_configs.h"
 #include "app/config/toml_reader.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/system/input_file.h"
 #include "render/passes/color_map.h"
 #include "stereo/screen.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
-#include <iterator>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 namespace isochron::app {
@@ -19,6 +21,7 @@ namespace {
 
 using interaction::QualityMode;
 
+constexpr std::uint64_t kMostBytes = 16 << 20; ///< of a configuration
 constexpr const char* kAnyFootprint = "auto";
 constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::surface};
 
@@ -201,8 +204,8 @@ Config parse_config(const std::string& text, const std::string& name) {
         read_root(reader, config);
         reader.finish();
     } catch (const toml::parse_error& error) {
-        throw ConfigError(
-            fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+        throw ConfigError(one_line(
+            fmt::format("{}:{}: {}", name, error.source().begin.line, error.description())));
     }
     return config;
 }
@@ -216,15 +219,18 @@ std::string config_schema() {
 }
 
 Config read_config(const std::filesystem::path& path) {
-    if (const auto shipped = shipped_config(path.string());
-        shipped && !std::filesystem::exists(path))
+    // A name without a slash or suffix is a shipped one, whatever lies in the working directory.
+    if (const auto shipped = shipped_config(path.string()))
         return parse_config(*shipped, path.string());
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path))
-        throw ConfigError(fmt::format("{}: cannot be read, expected a TOML file or the name of a "
-                                      "shipped configuration ({})",
-                                      path.string(), fmt::join(shipped_config_names(), ", ")));
-    return parse_config({std::istreambuf_iterator<char>(file), {}}, path.string());
+    std::string text;
+    try {
+        text = index::read_text(path, kMostBytes);
+    } catch (const index::Error& error) {
+        throw ConfigError(fmt::format("{}; expected a TOML file or the name of a shipped "
+                                      "configuration ({})",
+                                      error.what(), fmt::join(shipped_config_names(), ", ")));
+    }
+    return parse_config(text, path.string());
 }
 
 } // namespace isochron::app

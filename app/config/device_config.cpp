@@ -111,8 +111,22 @@ void read_endpoint(TomlReader& reader, Endpoint& endpoint) {
     reader.integer("port", 1, 65535, endpoint.port);
 }
 
+/// `from`: whose datagrams count.
+void read_sender(TomlReader& reader, std::optional<Endpoint>& from) {
+    std::string text;
+    reader.text("from", text);
+    if (!reader.has("from"))
+        return;
+    from = endpoint_from(text);
+    if (!from)
+        reader.fail("from", fmt::format("expected a numeric address such as 192.168.0.10 or "
+                                        "192.168.0.10:5000, got '{}'",
+                                        text));
+}
+
 void read_dtrack(TomlReader& reader, DeviceOptions common, DTrackOptions& dtrack) {
     read_endpoint(reader, dtrack.endpoint);
+    read_sender(reader, dtrack.from);
     read_tracker(reader, common);
     read_devices_of<DTrackDevice>(
         reader, common, dtrack.devices, [](TomlReader& inner, DTrackDevice& device) {
@@ -176,11 +190,15 @@ void read_devices(TomlReader& root, DeviceConfig& devices, EmulationOptions& emu
     root.table("tracking",
                [&](TomlReader& reader) { read_filter(reader, common.limits, common.prediction); });
     root.table_or_tables("dtrack", [&](TomlReader& reader) {
+        devices.places.dtrack.push_back(reader.line());
         read_dtrack(reader, common, devices.dtrack.emplace_back());
     });
-    root.table_or_tables(
-        "osc", [&](TomlReader& reader) { read_osc(reader, common, devices.osc.emplace_back()); });
+    root.table_or_tables("osc", [&](TomlReader& reader) {
+        devices.places.osc.push_back(reader.line());
+        read_osc(reader, common, devices.osc.emplace_back());
+    });
     root.table_or_tables("vrpn", [&](TomlReader& reader) {
+        devices.places.vrpn.push_back(reader.line());
         read_vrpn(reader, common, devices.vrpn.emplace_back());
     });
     root.table("gamepad", [&](TomlReader& reader) { read_gamepad(reader, emulation); });

@@ -12,11 +12,17 @@
 
 namespace isochron::app {
 
+/// Lines of the file in which the trackers stand, in their order.
+struct DevicePlaces {
+    std::vector<int> dtrack, osc, vrpn;
+};
+
 /// Each source may appear several times.
 struct DeviceConfig {
     std::vector<interaction::DTrackOptions> dtrack;
     std::vector<interaction::OscOptions> osc;
     std::vector<interaction::VrpnOptions> vrpn;
+    DevicePlaces places;
     bool empty() const { return dtrack.empty() && osc.empty() && vrpn.empty(); }
 };
 

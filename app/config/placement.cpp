@@ -1,6 +1,7 @@
 // Where a volume first stands in the room.
 #include "app/config/placement.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
@@ -45,6 +46,13 @@ interaction::Similarity place(const index::SeriesInfo& info, const PlacementOpti
     home.translation = glm::dvec3(0, options.height, -options.distance) -
                        home.scale * (home.rotation * physical_center(info.grid));
     return home;
+}
+
+interaction::DataFrame data_frame(const index::SeriesInfo& info) {
+    const auto cells = info.grid.cells();
+    const glm::dmat4 index_from_box =
+        glm::scale(glm::dmat4(1.0), glm::dvec3(cells[0], cells[1], cells[2]));
+    return {info.grid.physical_from_index() * index_from_box, info.length_unit};
 }
 
 } // namespace isochron::app

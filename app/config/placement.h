@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/volume/volume_series.h"
+#include "interaction/control_context.h"
 #include "interaction/pose.h"
 
 namespace isochron::app {
@@ -22,5 +23,8 @@ glm::dvec3 physical_size(const index::Grid& grid);
 
 /// Center of the volume in physical space.
 glm::dvec3 physical_center(const index::Grid& grid);
+
+/// The box of the data, for tools.
+interaction::DataFrame data_frame(const index::SeriesInfo& info);
 
 } // namespace isochron::app

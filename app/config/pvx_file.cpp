@@ -2,6 +2,9 @@
 #include "app/config/pvx_file.h"
 
 #include "app/config/toml_reader.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/system/input_file.h"
 
 #include <fmt/format.h>
 #include <tinyxml2.h>
@@ -9,8 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -23,6 +24,8 @@ using tinyxml2::XMLElement;
 
 constexpr float kUsualSeparation = 0.065f; ///< [m] ParaView's, where the file gives none
 constexpr int kMostViewers = 64;
+constexpr int kMostNode = 255;    ///< that a configuration may name
+constexpr float kFarthest = 1e6f; ///< [m] that a configuration may hold
 
 /// ParaView's words. Its red-blue and anaglyph pictures are for the glasses of our red-cyan one;
 /// its interlaced one alternates rows, and Dresden's display columns.
@@ -51,19 +54,21 @@ class PvxReader {
                                           document.ErrorName()));
         const XMLElement* root = document.RootElement();
         if (!root || std::string_view(root->Name()) != "pvx")
-            throw ConfigError(fmt::format("{}: expected <pvx>, got {}", file_,
-                                          root ? fmt::format("<{}>", root->Name()) : "no element"));
+            throw ConfigError(
+                one_line(fmt::format("{}: expected <pvx>, got {}", file_,
+                                     root ? fmt::format("<{}>", root->Name()) : "no element")));
         read_process(process_of(*root));
         return std::move(import_);
     }
 
   private:
     [[noreturn]] void fail(const XMLElement& element, const std::string& what) const {
-        throw ConfigError(
-            fmt::format("{}:{}: {}: {}", file_, element.GetLineNum(), element.Name(), what));
+        throw ConfigError(one_line(
+            fmt::format("{}:{}: {}: {}", file_, element.GetLineNum(), element.Name(), what)));
     }
     void note(const XMLElement& element, const std::string& what) {
-        import_.notes.push_back(fmt::format("{}:{}: {}", file_, element.GetLineNum(), what));
+        import_.notes.push_back(
+            one_line(fmt::format("{}:{}: {}", file_, element.GetLineNum(), what)));
     }
 
     /// The `Process` of the server, else the last one; files of newer versions have none.
@@ -98,7 +103,13 @@ class PvxReader {
     /// A corner in the room.
     glm::vec3 corner(const XMLElement& machine, const char* attribute) const {
         const std::vector<float> n = numbers(machine, attribute, 3);
-        return options_.meters_per_unit * glm::vec3(n[0], n[1], n[2]) + options_.origin;
+        const glm::vec3 meters =
+            options_.meters_per_unit * glm::vec3(n[0], n[1], n[2]) + options_.origin;
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(meters[axis]) <= kFarthest))
+                fail(machine, fmt::format("{}: expected corners within {} m, got {} m", attribute,
+                                          kFarthest, meters[axis]));
+        return meters;
     }
 
     float separation(const XMLElement& element, const char* attribute) const {
@@ -127,8 +138,12 @@ class PvxReader {
             eye_separation_ = separation(*element, "Value");
         import_.installation.windows.clear();
         for (const XMLElement* machine = process.FirstChildElement("Machine"); machine;
-             machine = machine->NextSiblingElement("Machine"))
-            import_.installation.windows.push_back(read_machine(process, *machine));
+             machine = machine->NextSiblingElement("Machine")) {
+            stereo::Window window = read_machine(process, *machine);
+            window.node =
+                std::min(static_cast<int>(import_.installation.windows.size()), kMostNode);
+            import_.installation.windows.push_back(std::move(window));
+        }
         if (import_.installation.windows.empty())
             fail(process, "it has no Machine");
         make_viewers(process);
@@ -151,11 +166,34 @@ class PvxReader {
         window.stereo = read_stereo(machine);
         stereo::Viewport& viewport = window.viewports.front();
         viewport.viewer = read_viewer(machine);
+        viewport.screen = read_screen(machine, window.name);
+        return window;
+    }
+
+    /// From three corners; UpperLeft is how files from before 2012 give the third one. A machine
+    /// without any shows what its viewer sees, as a window on a desktop does.
+    stereo::Screen read_screen(const XMLElement& machine, const std::string& name) {
+        const auto has = [&](const char* corner) { return machine.Attribute(corner) != nullptr; };
+        if (!has("LowerLeft") && !has("LowerRight") && !has("UpperRight") && !has("UpperLeft")) {
+            note(machine, fmt::format("{}: no corners (LowerLeft, LowerRight, UpperRight): a "
+                                      "window on a desktop, whose screen the head carries",
+                                      name));
+            return {.lower_left = {-0.9f, -0.5f, -1.2f},
+                    .upper_left = {-0.9f, 0.5f, -1.2f},
+                    .upper_right = {0.9f, 0.5f, -1.2f},
+                    .carried_by_head = true,
+                    .fit_aspect = true};
+        }
         const glm::vec3 lower_left = corner(machine, "LowerLeft");
         const glm::vec3 lower_right = corner(machine, "LowerRight");
-        const glm::vec3 upper_right = corner(machine, "UpperRight");
-        viewport.screen = {lower_left, lower_left + (upper_right - lower_right), upper_right};
-        return window;
+        if (has("UpperRight")) {
+            const glm::vec3 upper_right = corner(machine, "UpperRight");
+            return {lower_left, lower_left + (upper_right - lower_right), upper_right};
+        }
+        if (!has("UpperLeft"))
+            fail(machine, "UpperRight is missing");
+        const glm::vec3 upper_left = corner(machine, "UpperLeft");
+        return {lower_left, upper_left, lower_right + (upper_left - lower_left)};
     }
 
     std::string new_name(const XMLElement& machine) {
@@ -239,12 +277,19 @@ class PvxReader {
 
 } // namespace
 
+PvxImport parse_pvx(const std::string& text, const std::string& name, const PvxOptions& options) {
+    return PvxReader(name, options).read(text);
+}
+
 PvxImport read_pvx(const std::filesystem::path& path, const PvxOptions& options) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path))
-        throw ConfigError(fmt::format("{}: cannot be read, expected a .pvx file", path.string()));
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    return PvxReader(path.string(), options).read(text);
+    constexpr std::uint64_t kMostBytes = 16 << 20;
+    std::string text;
+    try {
+        text = index::read_text(path, kMostBytes);
+    } catch (const index::Error& error) {
+        throw ConfigError(error.what());
+    }
+    return parse_pvx(text, path.string(), options);
 }
 
 } // namespace isochron::app

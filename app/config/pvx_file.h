@@ -22,7 +22,11 @@ struct PvxImport {
 /// A window with one viewport for each `Machine`, a viewer for each `ViewerId`, who stands at the
 /// file's origin until a tracker tells. The attributes are those of ParaView's
 /// `Remoting/Core/vtkDisplayConfiguration.cxx`.
+/// @param name of the file, for messages
 /// @throws ConfigError in one line, with the file and the line
+PvxImport parse_pvx(const std::string& text, const std::string& name, const PvxOptions& options);
+
+/// As above, of a file. @throws ConfigError also when it cannot be read
 PvxImport read_pvx(const std::filesystem::path& path, const PvxOptions& options);
 
 } // namespace isochron::app

@@ -1,6 +1,8 @@
 // Checked reading of a TOML table.
 #include "app/config/toml_reader.h"
 
+#include "app/text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -114,7 +116,7 @@ void TomlReader::refuse(std::string_view key, const std::string& message) const 
     const toml::node* node = find(key);
     const auto line = (node ? node->source() : table_.source()).begin.line;
     const std::string place = where_.empty() ? std::string(key) : where_ + "." + std::string(key);
-    throw ConfigError(fmt::format("{}:{}: {}: {}", file_, line, place, message));
+    throw ConfigError(one_line(fmt::format("{}:{}: {}: {}", file_, line, place, message)));
 }
 
 double TomlReader::finite_number(std::string_view key, const toml::node& node, double low,
@@ -342,11 +344,11 @@ void TomlReader::finish() const {
         if (now != name && knows(now) && !table_.contains(now))
             continue;
         const std::string near = nearest_word(name, known_);
-        throw ConfigError(fmt::format("{}:{}: unknown key '{}'{}{}", file_, key.source().begin.line,
-                                      name, where_.empty() ? "" : fmt::format(" in [{}]", where_),
-                                      near.empty()
-                                          ? fmt::format("; known: {}", fmt::join(known_, ", "))
-                                          : fmt::format("; did you mean '{}'?", near)));
+        throw ConfigError(
+            one_line(fmt::format("{}:{}: unknown key '{}'{}{}", file_, key.source().begin.line,
+                                 name, where_.empty() ? "" : fmt::format(" in [{}]", where_),
+                                 near.empty() ? fmt::format("; known: {}", fmt::join(known_, ", "))
+                                              : fmt::format("; did you mean '{}'?", near))));
     }
 }
 

@@ -122,13 +122,24 @@ std::string source_of(const VrpnDevice& device) {
 
 } // namespace
 
-void open_trackers(const DeviceConfig& devices, CompositeInput& input) {
-    for (const DTrackOptions& dtrack : devices.dtrack)
-        input.add(std::make_unique<DTrackInput>(dtrack));
-    for (const OscOptions& osc : devices.osc)
-        input.add(open_osc(osc));
-    for (const VrpnOptions& vrpn : devices.vrpn)
-        input.add(open_vrpn(vrpn));
+void open_trackers(const Config& config, CompositeInput& input) {
+    // What cannot be opened is named with the place that asks for it.
+    const auto open_all = [&](const char* kind, const auto& trackers, const std::vector<int>& lines,
+                              auto&& open) {
+        for (std::size_t i = 0; i < trackers.size(); ++i) {
+            try {
+                input.add(open(trackers[i]));
+            } catch (const Error& error) {
+                throw Error(
+                    fmt::format("{}:{}: {}: {}", config.name, lines.at(i), kind, error.what()));
+            }
+        }
+    };
+    const DeviceConfig& devices = config.devices;
+    open_all("dtrack", devices.dtrack, devices.places.dtrack,
+             [](const DTrackOptions& options) { return std::make_unique<DTrackInput>(options); });
+    open_all("osc", devices.osc, devices.places.osc, open_osc);
+    open_all("vrpn", devices.vrpn, devices.places.vrpn, open_vrpn);
 }
 
 std::vector<std::string> describe_devices(const Config& config) {
@@ -156,20 +167,28 @@ std::vector<std::string> describe_devices(const Config& config) {
     return lines;
 }
 
+std::vector<MissingTracker> missing_trackers(const Config& config) {
+    std::vector<MissingTracker> lacking;
+    const auto add = [&](const std::vector<int>& lines, const char* key, const char* library) {
+        lacking.push_back({lines.empty() ? 0 : lines.front(), key, missing(key, library).what()});
+    };
+    if (!config.devices.osc.empty() && !kWithOsc)
+        add(config.devices.places.osc, "osc", "liblo");
+    if (!config.devices.vrpn.empty() && !kWithVrpn)
+        add(config.devices.places.vrpn, "vrpn", "VRPN");
+    if (config.openxr.enabled && !built_with_openxr())
+        add({}, "openxr", "OpenXR");
+    return lacking;
+}
+
 std::vector<std::string> device_warnings(const Config& config) {
     std::vector<std::string> warnings;
     const auto warn = [&](std::string_view text) {
         warnings.push_back(fmt::format("{}: {}", config.name, text));
     };
-    if (!config.devices.osc.empty() && !kWithOsc)
-        warn(missing("osc", "liblo").what());
-    if (!config.devices.vrpn.empty() && !kWithVrpn)
-        warn(missing("vrpn", "VRPN").what());
     const auto devices = all_devices(config.devices);
     const bool head = std::ranges::any_of(
         devices, [](const DeviceOptions* each) { return each->name == "head" && each->has_pose; });
-    if (config.openxr.enabled && !built_with_openxr())
-        warn(missing("openxr", "OpenXR").what());
     if (!devices.empty() && !head && !config.openxr.enabled)
         warn("no tracked device is called head: mouse and keyboard move it");
     return warnings;

@@ -4,6 +4,8 @@
 #include "interaction/command_fields.h"
 #include "render/passes/color_map.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -49,6 +51,17 @@ bool holds(const Field&, const interaction::Similarity& similarity) {
 }
 bool holds(const Field&, const interaction::RoomPanel& panel) {
     return is_finite(panel.pose);
+}
+bool is_place(const glm::dvec3& place) {
+    return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
+}
+bool holds(const Field&, const interaction::ClipPlane& clip) {
+    constexpr double kOff = 1e-6; ///< of a unit vector's length
+    return is_place(clip.point) && std::abs(glm::length(clip.normal) - 1) < kOff;
+}
+bool holds(const Field&, const interaction::Ruler& ruler) {
+    return ruler.places.size() <= interaction::kMostRulerPlaces &&
+           std::ranges::all_of(ruler.places, is_place);
 }
 bool holds(const Field& field, const interaction::Mark& mark) {
     return !mark.point || holds(field, mark.point->step);
@@ -119,6 +132,17 @@ interaction::Commands ExplorerState::as_commands() const {
         *this);
     all.isovalue = isovalue();
     return all;
+}
+
+interaction::Commands ExplorerState::commands_to(const ExplorerState& target) const {
+    interaction::Commands changes;
+    interaction::each_setting(
+        [](const Field& field, auto& command, const auto& mine, const auto& other) {
+            if (field.undone && !(mine == other))
+                command = as_command(other);
+        },
+        changes, *this, target);
+    return changes;
 }
 
 double quantile(const index::IndexStats& stats, double share) {

@@ -21,7 +21,11 @@ struct ExplorerState {
     bool panel = true;
     interaction::RoomPanel room_panel;
     interaction::Mark mark;
-    bool grid = false; ///< of the floor
+    interaction::Tools tools;
+    interaction::ClipPlane clip;
+    interaction::Ruler ruler;
+    bool leaving = false; ///< the user is asked whether to leave
+    bool grid = false;    ///< of the floor
     std::vector<interaction::Viewpoint> views;
 
     double isovalue() const { return isosurfaces[picked].isovalue; }
@@ -34,6 +38,9 @@ struct ExplorerState {
 
     /// Commands that set every field.
     interaction::Commands as_commands() const;
+
+    /// Commands that set what differs in `target`, of the fields whose changes can be undone.
+    interaction::Commands commands_to(const ExplorerState& target) const;
 
     /// The step, every surface's isovalue, in the order of `isosurfaces`, and what colors them.
     index::SurfacesQuery surfaces() const;

@@ -3,14 +3,15 @@
 
 #include "index/error.h"
 #include "index/formats/series_writer.h"
+#include "index/system/input_file.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <span>
 #include <string>
+#include <system_error>
 
 namespace isochron::app {
 
@@ -56,10 +57,12 @@ struct Destination {
     /// @throws Error when it is there with another recipe
     bool complete() const {
         const fs::path pvd = dir / (name + ".pvd");
-        if (!fs::exists(pvd))
+        std::error_code ignored;
+        if (!fs::exists(pvd, ignored))
             return false;
-        std::ifstream file(note());
-        if (json::parse(file, nullptr, false) == recipe)
+        constexpr std::uint64_t kMost = 1 << 20;
+        if (fs::exists(note(), ignored) &&
+            json::parse(index::read_text(note(), kMost), nullptr, false) == recipe)
             return true;
         throw index::Error(fmt::format("{}: is another series than {}; remove it or choose another "
                                        "folder",

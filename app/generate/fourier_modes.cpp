@@ -14,7 +14,6 @@ namespace isochron::app {
 
 namespace {
 
-constexpr int kLongest = 10; ///< wave number
 constexpr int kShortest = 2;
 constexpr double kDecay = 0.0005;
 
@@ -29,12 +28,12 @@ Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Vector wave_vector(std::mt19937_64& bits) {
+Vector wave_vector(std::mt19937_64& bits, int longest) {
     for (;;) {
         Vector k{};
         for (double& along : k)
-            along = std::floor((2 * kLongest + 1) * uniform(bits)) - kLongest;
-        if (dot(k, k) >= kShortest * kShortest && dot(k, k) <= kLongest * kLongest)
+            along = std::floor((2 * longest + 1) * uniform(bits)) - longest;
+        if (dot(k, k) >= kShortest * kShortest && dot(k, k) <= longest * longest)
             return k;
     }
 }
@@ -53,10 +52,11 @@ std::vector<Complex> waves(const std::vector<FourierModes::Mode>& modes, std::si
 
 } // namespace
 
-FourierModes::FourierModes(std::uint64_t seed, std::size_t modes) : modes_(modes) {
+FourierModes::FourierModes(std::uint64_t seed, std::size_t modes, int longest)
+    : longest_(longest), modes_(modes) {
     std::mt19937_64 bits(seed);
     for (Mode& mode : modes_) {
-        mode.k = wave_vector(bits);
+        mode.k = wave_vector(bits, longest);
         const double k2 = dot(mode.k, mode.k);
         const auto [a, b] = normal_pair(bits);
         const auto [c, f] = normal_pair(bits);
@@ -80,14 +80,18 @@ double FourierModes::remaining(const Mode& mode, double time) {
 }
 
 /// In a row of vertices every mode is a sine and a cosine of a whole wave number along x: the modes
-/// are gathered by that number first, which leaves 21 waves to add up instead of 96.
+/// are gathered by that number first, which leaves 21 waves to add up instead of 96. Numbers that no
+/// mode has are left out.
 void FourierModes::vorticity_magnitude(std::size_t n, double time, std::span<float> out,
                                        unsigned threads) const {
     assert(out.size() == n * n * n);
     const std::vector<Complex> along_y = waves(modes_, 1, n), along_z = waves(modes_, 2, n);
-    constexpr std::size_t kWaves = kLongest + 1;
-    std::vector<double> cosines(kWaves * n), sines(kWaves * n); // [wave number][x]
-    for (std::size_t wave = 0; wave < kWaves; ++wave)
+    const std::size_t waves_along_x = static_cast<std::size_t>(longest_) + 1;
+    std::vector<bool> used(waves_along_x);
+    for (const Mode& mode : modes_)
+        used[static_cast<std::size_t>(std::abs(mode.k[0]))] = true;
+    std::vector<double> cosines(waves_along_x * n), sines(waves_along_x * n); // [wave number][x]
+    for (std::size_t wave = 0; wave < waves_along_x; ++wave)
         for (std::size_t x = 0; x < n; ++x) {
             const double angle =
                 2.0 * std::numbers::pi / static_cast<double>(n) * static_cast<double>(wave * x);
@@ -101,10 +105,13 @@ void FourierModes::vorticity_magnitude(std::size_t n, double time, std::span<flo
             at_z[m] = along_z[z * modes_.size() + m] *
                       std::polar(remaining(modes_[m], time),
                                  modes_[m].frequency * time + modes_[m].phase);
-        std::array<std::vector<double>, 3> curl;
+        std::array<std::vector<double>, 3> curl, of_cosine, of_sine;
         for (std::size_t y = 0; y < n; ++y) {
             // curl u = -sum of (k x a) sin(k_x x + angle), with exp(i angle) in `rest`.
-            std::array<std::array<double, kWaves>, 3> of_cosine{}, of_sine{};
+            for (std::size_t c = 0; c < 3; ++c) {
+                of_cosine[c].assign(waves_along_x, 0.0);
+                of_sine[c].assign(waves_along_x, 0.0);
+            }
             for (std::size_t m = 0; m < modes_.size(); ++m) {
                 const Complex rest = at_z[m] * along_y[y * modes_.size() + m];
                 const double k = modes_[m].k[0];
@@ -117,8 +124,8 @@ void FourierModes::vorticity_magnitude(std::size_t n, double time, std::span<flo
             }
             for (std::size_t c = 0; c < 3; ++c) {
                 curl[c].assign(n, 0.0);
-                for (std::size_t wave = 0; wave < kWaves; ++wave)
-                    for (std::size_t x = 0; x < n; ++x)
+                for (std::size_t wave = 0; wave < waves_along_x; ++wave)
+                    for (std::size_t x = 0; used[wave] && x < n; ++x)
                         curl[c][x] += of_cosine[c][wave] * cosines[wave * n + x] +
                                       of_sine[c][wave] * sines[wave * n + x];
             }

@@ -10,13 +10,14 @@
 namespace isochron::app {
 
 /// The velocity u(x, t) = sum of a exp(-0.0005 k^2 t) cos(k x + f t + p) in the periodic cube
-/// [0, 2 pi)^3: wave vectors k of whole numbers, drawn evenly from the shell 2 <= |k| <= 10;
+/// [0, 2 pi)^3: wave vectors k of whole numbers, drawn evenly from the shell 2 <= |k| <= 10, or up
+/// to another length;
 /// amplitudes a of length |k|^(-11/6), at right angles to k, so that no mode has a divergence and
 /// the energy falls as k^(-5/3); frequencies f = 0.1 |k|^(2/3) N(0, 1); phases p at random.
 /// Being a sum it needs no grid of its own, and resolves any.
 class FourierModes {
   public:
-    explicit FourierModes(std::uint64_t seed, std::size_t modes = 96);
+    explicit FourierModes(std::uint64_t seed, std::size_t modes = 96, int longest = 10);
 
     struct Mode {
         std::array<double, 3> k, amplitude, curl; ///< curl: k x amplitude
@@ -34,6 +35,7 @@ class FourierModes {
     static double remaining(const Mode& mode, double time);
 
   private:
+    int longest_; ///< wave number
     std::vector<Mode> modes_;
 };
 

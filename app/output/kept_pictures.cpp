@@ -8,7 +8,7 @@ stereo::DisplayOptions KeptPictures::options(std::size_t window) const {
 }
 
 bool KeptPictures::serves(std::size_t window) const {
-    return options(window).samples == display_options(gl, config).samples;
+    return shown[window].fills() && options(window).samples == display_options(gl, config).samples;
 }
 
 void KeptPictures::each(const TakePicture& take) const {

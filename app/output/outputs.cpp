@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace isochron::app {
@@ -41,6 +42,24 @@ std::vector<glm::ivec2> Outputs::window_sizes() const {
 
 std::vector<stereo::HeadsetEye> Outputs::headset_eyes() const {
     return headset_ ? headset_->eyes() : std::vector<stereo::HeadsetEye>();
+}
+
+std::optional<interaction::Pose> Outputs::ray_at(const interaction::MouseMoveEvent& cursor,
+                                                 std::span<const stereo::Viewpoint> viewers) const {
+    if (room_ || headset_ || cursor.window >= displays_.size())
+        return std::nullopt;
+    return displays_[cursor.window].ray_at(viewers, {cursor.x, 1.0f - cursor.y});
+}
+
+void Outputs::leave_free(int pixels) {
+    if (room_ || headset_ || displays_.empty())
+        return;
+    stereo::Display& first = displays_.front();
+    const bool adapts =
+        std::ranges::all_of(first.window().viewports, [](const stereo::Viewport& viewport) {
+            return viewport.screen.fit_aspect;
+        });
+    first.leave_free(adapts ? pixels : 0);
 }
 
 /// How a window shows what is drawn.

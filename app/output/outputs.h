@@ -86,6 +86,16 @@ class Outputs {
     /// False while a headset wants no picture.
     bool want(const Audience& audience) const { return !headset_ || !audience.eyes.empty(); }
 
+    /// The eye's ray under the cursor in a window as drawn last; nothing in a headset or an
+    /// emulated room.
+    /// @param viewers where they are now
+    std::optional<interaction::Pose> ray_at(const interaction::MouseMoveEvent& cursor,
+                                            std::span<const stereo::Viewpoint> viewers) const;
+
+    /// Leaves the left of the first window to the panel that lies over it, where its screens take
+    /// on the shape of what is left. @param pixels of each eye's part
+    void leave_free(int pixels);
+
     /// Draws what each eye sees.
     /// @param scene the same until the next call, for pictures to keep
     /// @param overlay over one of them: the first window, or a headset's mirror; empty: none

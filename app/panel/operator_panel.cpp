@@ -20,20 +20,37 @@ OperatorPanel::feed(std::span<const interaction::WindowEvent> events, bool shown
     return all;
 }
 
-interaction::Commands OperatorPanel::draw_over(glm::ivec2 picture, const Model& model,
-                                               interaction::Seconds time) {
+interaction::Commands OperatorPanel::draw_over(glm::ivec2 picture, glm::ivec2 places,
+                                               const Model& model, interaction::Seconds time) {
     if (!first_.has_window() || console_)
         return {};
     // The right buffer of a quad-buffered window shows what was laid out for the left one.
     interaction::Commands commands;
+    const glm::ivec2 part = picture / places;
+    over_.repeat(places);
     if (!std::exchange(laid_out_, true))
-        commands = over_.lay_out(picture, model(PanelPlace::over), time);
-    over_.draw(picture);
+        commands = over_.lay_out(part, model(PanelPlace::over), time);
+    for (int y = 0; y < places.y; ++y)
+        for (int x = 0; x < places.x; ++x)
+            over_.draw(part, glm::ivec2(x, y) * (picture - part));
     return commands;
 }
 
 interaction::Commands OperatorPanel::draw_alone(const Model& model, interaction::Seconds time) {
     return console_ ? console_->draw(model(PanelPlace::whole), time) : interaction::Commands();
+}
+
+int OperatorPanel::covered(int width) const {
+    if (console_ || !first_.has_window())
+        return 0;
+    const PanelArea& area = over_.area();
+    const bool folded = area.bottom - area.top < 2 * area.title;
+    const int right = static_cast<int>(area.right);
+    return folded || 2 * right > width ? 0 : right;
+}
+
+bool OperatorPanel::covers(const interaction::MouseMoveEvent& cursor) const {
+    return !console_ && cursor.window == 0 && over_.covers({cursor.x, cursor.y});
 }
 
 void OperatorPanel::present() {

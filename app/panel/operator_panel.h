@@ -28,13 +28,20 @@ class OperatorPanel {
     /// Draws the panel over the first window's picture, which is bound; lays it out once a frame.
     /// Nothing where the panel has a window of its own, or the picture has none.
     /// @param picture its size, pixels @param time of the session
+    /// @param places eyes that have a part of the picture each, beside and above one another: the
+    /// panel stands in every part
     /// @return what the operator did
-    interaction::Commands draw_over(glm::ivec2 picture, const Model& model,
+    interaction::Commands draw_over(glm::ivec2 picture, glm::ivec2 places, const Model& model,
                                     interaction::Seconds time);
     /// Draws it in its own window, where it has one. @return what the operator did
     interaction::Commands draw_alone(const Model& model, interaction::Seconds time);
     /// Shows its own window, where it has one, and ends the frame.
     void present();
+    /// Pixels of a picture's width, from its left, that the panel over it covers; 0 where it is folded,
+    /// or would cover more than half. @param width of the part of the picture that an eye has
+    int covered(int width) const;
+    /// Whether the panel over the picture is under the cursor.
+    bool covers(const interaction::MouseMoveEvent& cursor) const;
 
   private:
     stereo::GlContext& first_; ///< window

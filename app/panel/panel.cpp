@@ -4,6 +4,7 @@
 #include "app/config/config.h"
 #include "app/config/placement.h"
 #include "app/panel/panel_colors.h"
+#include "app/panel/panel_tools.h"
 #include "app/scene/mark.h"
 #include "app/text.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 using interaction::Commands;
 
+constexpr float kDocked = 380.0f, kLeast = 260.0f; ///< width of the docked panel, at most, at least
 constexpr ImU32 kBarColor = IM_COL32(120, 128, 140, 255);
 constexpr ImU32 kAskedColor = IM_COL32(255, 196, 92, 255);
 constexpr ImU32 kShownColor = IM_COL32(120, 220, 160, 255);
@@ -38,13 +40,12 @@ void note(const std::string& line, const ImVec4& color) {
     ImGui::PopStyleColor();
 }
 
-/// On what changes by itself. In the room it never takes another line, which would move the
-/// controls below it: a replay must find them where the wand found them.
-void state_note(const PanelModel& model, const std::string& line, const ImVec4& color) {
-    if (model.place == PanelPlace::in_room)
-        ImGui::TextColored(color, "%s", line.c_str());
-    else
-        note(line, color);
+/// On what changes by itself. It never takes another line, which would move the controls below it
+/// away from the hand; in the room a replay must find them where the wand found them.
+void state_note(const std::string& line, const ImVec4& color) {
+    ImGui::TextColored(color, "%s", line.c_str());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", line.c_str());
 }
 
 /// Histogram of all values on a logarithmic scale; pressing or dragging picks an isovalue.
@@ -112,7 +113,6 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
         commands.isovalue = value;
     const auto& shown = model.frame.shown;
     state_note(
-        model,
         fmt::format("isovalue: asked {}   shown {}",
                     with_unit(model.asked.isovalue(), model.info.value_unit),
                     shown ? with_unit(shown->isovalues[shown_surface(model)], model.info.value_unit)
@@ -160,12 +160,12 @@ void time_section(const PanelModel& model, Commands& commands) {
     const int last = static_cast<int>(times.size()) - 1;
     ImGui::SetNextItemWidth(-1.0f);
     ImGui::BeginDisabled(last == 0);
-    const std::string format = fmt::format("step %d of {}", last);
+    // Said as people count.
+    const std::string format = fmt::format("step {} of {}", step + 1, last + 1);
     if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
         commands.step = static_cast<std::uint32_t>(step);
     const auto& shown = model.frame.shown;
     state_note(
-        model,
         fmt::format("time: asked {}   shown {}",
                     with_unit(times[model.asked.step], model.info.time_unit),
                     shown ? with_unit(times[shown->step], model.info.time_unit) : "nothing yet"),
@@ -185,9 +185,10 @@ void view_section(const PanelModel& model, Commands& commands) {
     if (ImGui::Combo("quality", &mode, mode_name, nullptr, static_cast<int>(kModes.size())))
         commands.quality = static_cast<interaction::QualityMode>(mode);
     const bool settled = model.frame.pace == interaction::Pace::settled;
+    if (model.place == PanelPlace::in_room)
+        ImGui::SameLine();
     // The footprint follows from what is drawn, and in the room the panel is a part of that.
-    state_note(model,
-               model.place == PanelPlace::in_room ? name_of(model.frame.pace)
+    state_note(model.place == PanelPlace::in_room ? name_of(model.frame.pace)
                                                   : quality_line(model.frame),
                settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
     ImGui::SetNextItemWidth(-60.0f);
@@ -207,12 +208,6 @@ void view_section(const PanelModel& model, Commands& commands) {
     if (ImGui::SliderFloat("eyes", &millimeters, 0.0f, interaction::kWidestEyes * 1000.0f,
                            "%.0f mm", ImGuiSliderFlags_AlwaysClamp))
         commands.eye_separation = millimeters / 1000.0f;
-    if (ImGui::Button("Screenshot"))
-        commands.screenshot = true;
-    if (model.recording) {
-        ImGui::SameLine();
-        note("recording", kWarning);
-    }
 }
 
 void measurements(const PanelModel& model) {
@@ -296,9 +291,13 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
     Commands commands;
     ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings;
     if (model.place == PanelPlace::over) {
-        ImGui::SetNextWindowPos({12.0f, 12.0f}, ImGuiCond_FirstUseEver);
-        ImGui::SetNextWindowSize({380.0f, 0.0f}, ImGuiCond_Always);
+        // Docked: at the left, as high as the picture; its arrow folds it.
+        const ImVec2 picture = ImGui::GetIO().DisplaySize;
+        ImGui::SetNextWindowPos({0.0f, 0.0f});
+        ImGui::SetNextWindowSize(
+            {std::min(kDocked, std::max(kLeast, 0.45f * picture.x)), picture.y});
         ImGui::SetNextWindowBgAlpha(0.86f);
+        flags |= ImGuiWindowFlags_NoMove;
     } else {
         ImGui::SetNextWindowPos({0.0f, 0.0f});
         ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
@@ -307,6 +306,14 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
         flags |= ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse;
     }
     ImGui::Begin(("Isochron: " + model.info.array + "###panel").c_str(), nullptr, flags);
+    history_section(model, commands);
+    ImGui::SameLine();
+    if (ImGui::Button("Screenshot"))
+        commands.screenshot = true;
+    if (model.recording) {
+        ImGui::SameLine();
+        state_note("recording", kWarning);
+    }
     isovalue_section(model, commands);
     surfaces_section(model, commands);
     ImGui::Separator();
@@ -315,10 +322,15 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
     time_section(model, commands);
     ImGui::Separator();
     mark_section(model, commands);
+    // In the room it begins folded, so that nothing has to be scrolled to.
+    const bool in_room = model.place == PanelPlace::in_room;
+    if (ImGui::CollapsingHeader("tools", in_room ? 0 : ImGuiTreeNodeFlags_DefaultOpen))
+        tools_section(model, commands);
     view_section(model, commands);
     ImGui::Separator();
     if (model.place != PanelPlace::in_room) {
-        measurements(model);
+        if (ImGui::CollapsingHeader("statistics"))
+            measurements(model);
         complaints(model);
     }
     if (ImGui::CollapsingHeader("keys and mouse"))

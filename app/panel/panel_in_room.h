@@ -46,6 +46,9 @@ class PanelInRoom {
     void lay_out(const PanelModel& model, interaction::Seconds time);
     void leave_out();
 
+    /// The wand's ray ended on it in the frame that was laid out last.
+    bool touched() const { return pointer_.touch().hit.has_value(); }
+
     /// Nothing where it does not stand.
     std::optional<ShownPanel> shown(const interaction::RoomPanel& panel) const;
 

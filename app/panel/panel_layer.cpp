@@ -1,10 +1,12 @@
 // Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
 #include "app/panel/panel_layer.h"
 
+#include "app/panel/panel_tools.h"
 #include "app/scene/font.h"
 #include "render/gl/limits.h"
 #include "render/gl/shader.h"
 
+#include <glm/common.hpp>
 #include <imgui.h>
 #include <imgui_internal.h>
 
@@ -12,6 +14,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -41,29 +44,60 @@ constexpr std::pair<ImGuiKey_, Key> kKeys[]{
     {ImGuiKey_Z, Key{'Z'}},
 };
 
+bool is_read(Key key) {
+    return std::ranges::any_of(kKeys, [key](const auto& each) { return each.second == key; });
+}
+
+/// A place of the window as a place of one of the panel's. Beyond the window it stays beyond.
+glm::vec2 folded(glm::vec2 at, glm::ivec2 places) {
+    const glm::vec2 shown = at * glm::vec2(places);
+    return shown - glm::clamp(glm::floor(shown), glm::vec2(0.0f), glm::vec2(places - 1));
+}
+
 /// One event taken into ImGui's state. @return whether the panel has use for it
 struct Taker {
     ImGuiIO& io;
     const PanelArea& area;
     std::uint32_t& late_releases;
     std::optional<glm::vec2>& cursor;
+    glm::ivec2 places;   ///< of the panel in its window
+    bool popups = false; ///< something is open over the panel, which Escape closes
+    bool& closes_popup;
     std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
+    bool clicked = false;      ///< one of them on the panel
+    bool typed = false;        ///< characters came
+    std::set<Key> changed{};   ///< keys that ImGui reads
+
+    /// Whether ImGui would mistake the event for something else in this frame.
+    bool must_wait(const WindowEvent& event) const {
+        if (const auto* key = std::get_if<KeyEvent>(&event))
+            return clicked || (io.WantTextInput && is_read(key->key) &&
+                               (changed.contains(key->key) || (typed && key->down)));
+        if (std::holds_alternative<TextEvent>(event))
+            return clicked || (io.WantTextInput && !changed.empty());
+        return false;
+    }
 
     /// ImGui's own answer is from the last frame; a quick hand moves and presses within one.
     bool captures_mouse() const {
         return io.WantCaptureMouse || area.contains(io.MousePos.x, io.MousePos.y);
     }
-    bool operator()(const KeyEvent& event) const {
+    bool operator()(const KeyEvent& event) {
         const auto code = static_cast<std::size_t>(event.key);
+        if (is_read(event.key))
+            changed.insert(event.key);
         if (code < std::size(io.KeysDown))
             io.KeysDown[code] = event.down;
         if (event.key == Key::left_control || event.key == Key::right_control)
             io.KeyCtrl = event.down;
         if (event.key == Key::left_shift || event.key == Key::right_shift)
             io.KeyShift = event.down;
+        if (event.key == Key::escape && event.down && popups && !io.WantTextInput)
+            return closes_popup = true;
         return event.down && io.WantTextInput;
     }
-    bool operator()(const TextEvent& event) const {
+    bool operator()(const TextEvent& event) {
+        typed = true;
         if (io.WantTextInput)
             io.AddInputCharacter(event.character);
         return io.WantTextInput;
@@ -78,11 +112,14 @@ struct Taker {
             late_releases |= bit;
         else
             io.MouseDown[button] = event.down;
-        return event.down && captures_mouse();
+        const bool taken = event.down && captures_mouse();
+        clicked = clicked || taken;
+        return taken;
     }
     bool operator()(const MouseMoveEvent& event) const {
-        cursor = glm::vec2(event.x, event.y);
-        io.MousePos = {event.x * io.DisplaySize.x, event.y * io.DisplaySize.y};
+        const glm::vec2 at = folded({event.x, event.y}, places);
+        cursor = at;
+        io.MousePos = {at.x * io.DisplaySize.x, at.y * io.DisplaySize.y};
         return false;
     }
     bool operator()(const ScrollEvent& event) const {
@@ -167,8 +204,17 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
         if (late_releases_ & (1u << button))
             io.MouseDown[button] = false;
     late_releases_ = 0;
-    Taker taker{io, area_, late_releases_, cursor_};
-    for (const WindowEvent& event : events) {
+    Taker taker{.io = io,
+                .area = area_,
+                .late_releases = late_releases_,
+                .cursor = cursor_,
+                .places = places_,
+                .popups = imgui_->OpenPopupStack.Size > 0,
+                .closes_popup = closes_popup_};
+    waiting_.insert(waiting_.end(), events.begin(), events.end());
+    while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
+        const WindowEvent event = waiting_.front();
+        waiting_.pop_front();
         const bool taken = std::visit(taker, event);
         if (!taken || !shown)
             left.push_back(event);
@@ -196,9 +242,26 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     const Seconds elapsed = time - std::exchange(laid_out_, time);
     io.DeltaTime = static_cast<float>(std::clamp(elapsed.count(), kShortest, kLongest));
     ImGui::NewFrame();
-    Commands commands = draw_panel(model, area_);
+    if (std::exchange(closes_popup_, false) && imgui_->OpenPopupStack.Size > 0)
+        ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
+    Commands commands;
+    area_ = {};
+    if (model.asked.panel || model.place != PanelPlace::over)
+        commands = draw_panel(model, area_);
+    if (model.place != PanelPlace::in_room)
+        leaving_window(model, commands);
+    if (std::exchange(messages_, model.messages) != model.messages)
+        said_ = time;
+    if (model.place == PanelPlace::over)
+        message_window(model.message, time - said_);
     ImGui::Render();
     return commands;
+}
+
+bool PanelLayer::covers(glm::vec2 at) const {
+    const ImGuiIO& io = imgui_->IO;
+    at = folded(at, places_);
+    return io.WantCaptureMouse || area_.contains(at.x * io.DisplaySize.x, at.y * io.DisplaySize.y);
 }
 
 std::uint32_t PanelLayer::hovered() const {
@@ -228,10 +291,10 @@ std::size_t PanelLayer::digest() const {
     return digest;
 }
 
-void PanelLayer::draw(glm::ivec2 picture) {
+void PanelLayer::draw(glm::ivec2 picture, glm::ivec2 corner) {
     ImGui::SetCurrentContext(imgui_);
     const ImDrawData& data = *ImGui::GetDrawData();
-    gl_.Viewport(0, 0, picture.x, picture.y);
+    gl_.Viewport(corner.x, corner.y, picture.x, picture.y);
     gl_.Disable(GL_DEPTH_TEST);
     gl_.Enable(GL_BLEND);
     gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -256,7 +319,7 @@ void PanelLayer::draw(glm::ivec2 picture) {
             const int height = static_cast<int>(scale_ * (clip.w - clip.y));
             if (width <= 0 || height <= 0)
                 continue;
-            gl_.Scissor(left, picture.y - bottom, width, height);
+            gl_.Scissor(corner.x + left, corner.y + picture.y - bottom, width, height);
             gl_.DrawElementsBaseVertex(
                 GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,
                 reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)),

@@ -8,6 +8,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,8 +27,10 @@ class PanelLayer {
     PanelLayer(const PanelLayer&) = delete;
     PanelLayer& operator=(const PanelLayer&) = delete;
 
-    /// Takes events into account. @return those that the panel has no use for; releases always
-    /// pass, so that nothing sticks
+    /// Takes events into account. Dear ImGui sees levels, once a frame: what it could not tell
+    /// apart, such as a key that goes down twice, or Enter before a digit, waits for the next
+    /// frame, and all that comes after it. @return those that the panel has no use for; releases
+    /// always pass, so that nothing sticks
     std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,
                                                bool shown);
 
@@ -43,12 +46,20 @@ class PanelLayer {
     interaction::Commands lay_out(glm::ivec2 picture, const PanelModel& model,
                                   interaction::Seconds time);
 
-    /// Draws what was laid out last onto the bound framebuffer, which is of that size.
-    void draw(glm::ivec2 picture);
+    /// Draws what was laid out last onto a part of the bound framebuffer, of the size that it was
+    /// laid out for. @param corner lower left, pixels
+    void draw(glm::ivec2 picture, glm::ivec2 corner = glm::ivec2(0));
+
+    /// How many times the panel stands beside and above itself in its window: in each eye's half
+    /// the cursor means the same.
+    void repeat(glm::ivec2 places) { places_ = places; }
 
     /// Of all that `draw` would draw: a panel that looks the same has the same one.
     std::size_t digest() const;
     const PanelArea& area() const { return area_; }
+    /// Whether the panel, or what it has opened, is there. @param at fractions of the picture from
+    /// the top left
+    bool covers(glm::vec2 at) const;
     /// What is under the pointer, and what is held; 0: nothing.
     std::uint32_t hovered() const;
     std::uint32_t held() const;
@@ -63,6 +74,11 @@ class PanelLayer {
     PanelArea area_;                   ///< of the panel when it was laid out last
     std::uint32_t late_releases_ = 0;  ///< mouse buttons, by bit, that go up with the next events
     std::optional<glm::vec2> cursor_;  ///< of the window, fractions from the top left
+    std::deque<interaction::WindowEvent> waiting_; ///< for the next frame, see `feed`
+    glm::ivec2 places_{1};
+    std::size_t messages_ = 0;        ///< said so far
+    interaction::Seconds said_{-1e9}; ///< when the newest one came
+    bool closes_popup_ = false;       ///< Escape was pressed
     render::Program program_;
     render::VertexArray vertex_array_;
     render::Buffer vertices_, elements_;

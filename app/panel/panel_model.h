@@ -3,6 +3,7 @@
 
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
+#include "interaction/control_context.h"
 
 #include <array>
 #include <cstdint>
@@ -32,8 +33,12 @@ struct PanelModel {
     bool recording = false;
     std::string failure;                      ///< of the worker; empty when all is well
     std::string message;                      ///< newest note, such as a saved screenshot
+    std::size_t messages = 0;                 ///< how many there were
     const std::vector<std::string>& controls; ///< one line per key
     PanelPlace place = PanelPlace::over;
+    const interaction::Commands* undo = nullptr; ///< null: there is nothing to undo
+    const interaction::Commands* redo = nullptr;
+    interaction::DataFrame data;
     bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
 };
 

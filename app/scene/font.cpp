@@ -1,14 +1,20 @@
 // The font, rasterized by Dear ImGui.
 #include "app/scene/font.h"
 
+#include "index/system/input_file.h"
+
 #include <imgui.h>
 
+#include <cstring>
 #include <filesystem>
+#include <string>
+#include <system_error>
 
 namespace isochron::app {
 namespace {
 
 constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr std::uint64_t kMostBytes = 64 << 20; ///< of a font file
 
 /// A glyph whose rectangle reaches a little beyond it, so that its edge is filtered and lies where
 /// it should, at any place between pixels.
@@ -34,10 +40,15 @@ void add_font(ImFontAtlas& fonts, float pixels) {
     static constexpr ImWchar kGlyphs[]{0x20,   0xff,   0x370,  0x3ff,  0x2010, 0x209f,
                                        0x2100, 0x214f, 0x2190, 0x22ff, 0};
     // The built-in bitmap font is readable but small; a desktop nearly always has this one.
-    if (std::filesystem::exists(kFontFile))
-        fonts.AddFontFromFileTTF(kFontFile, pixels, nullptr, kGlyphs);
-    else
+    std::error_code ignored;
+    if (!std::filesystem::exists(kFontFile, ignored)) {
         fonts.AddFontDefault();
+        return;
+    }
+    const std::string file = index::read_text(kFontFile, kMostBytes);
+    void* owned = ImGui::MemAlloc(file.size());
+    std::memcpy(owned, file.data(), file.size());
+    fonts.AddFontFromMemoryTTF(owned, static_cast<int>(file.size()), pixels, nullptr, kGlyphs);
 }
 
 render::GlyphAtlas room_font(float pixels) {

@@ -3,8 +3,10 @@
 
 #include "index/volume/volume_series.h"
 #include "interaction/commands.h"
+#include "interaction/pointed.h"
 #include "render/passes/text_pass.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,5 +20,17 @@ std::string mark_text(const interaction::MarkedPoint& point, const index::Series
 std::vector<render::ScreenQuad> mark_quads(const interaction::MarkedPoint& point,
                                            const glm::vec3& in_room, const index::SeriesInfo& info,
                                            const render::TextPass& text, const glm::ivec2& picture);
+
+/// What is under the cursor, likewise, with the name of the surface that it is on.
+std::vector<render::ScreenQuad> pointed_quads(const interaction::Pointed& pointed,
+                                              std::span<const interaction::Isosurface> surfaces,
+                                              const glm::vec3& in_room,
+                                              const index::SeriesInfo& info,
+                                              const render::TextPass& text,
+                                              const glm::ivec2& picture);
+
+/// A line of text on its paper, in the middle of which the point is.
+void add_label(const std::string& words, const glm::vec3& in_room, const render::TextPass& text,
+               const glm::ivec2& picture, std::vector<render::ScreenQuad>& quads);
 
 } // namespace isochron::app

@@ -18,6 +18,7 @@ namespace {
 
 constexpr float kWandLength = 1.2f;             // meters
 constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
+constexpr float kToolLine = 2.0f;               ///< [pixel]
 constexpr glm::vec4 kBoxColor(0.45f, 0.50f, 0.56f, 0.55f);
 constexpr glm::vec4 kWandColor(1.0f, 0.77f, 0.36f, 0.9f);
 constexpr float kFontPixels = 32.0f; ///< of glyphs, which are shown smaller
@@ -100,10 +101,67 @@ glm::vec3 Scene::head_of(const render::View& view) const {
         heads_, {}, [&](const glm::vec3& head) { return glm::distance(head, eye); });
 }
 
+void Scene::set_tools(const interaction::ToolDrawing& drawing, const interaction::ClipPlane& clip) {
+    tools_ = drawing;
+    clip_ = clip;
+}
+
+std::optional<glm::vec4> Scene::cut_in(const interaction::Similarity& room_from_physical) const {
+    if (!clip_.shown)
+        return std::nullopt;
+    const glm::dvec3 normal = room_from_physical.rotation * clip_.normal;
+    const glm::dvec3 at = interaction::transform(room_from_physical, clip_.point);
+    return glm::vec4(glm::dvec4(normal, -glm::dot(normal, at)));
+}
+
+/// Over the cells: who stands among them reads it, with both eyes alike.
+void Scene::draw_panel(const render::View& view) {
+    if (!panel_)
+        return;
+    gl_.DepthRange(0.0, 0.0); // nearer than all else
+    panel_pass_.draw(view, panel_->quad);
+    gl_.DepthRange(0.0, 1.0);
+}
+
+/// Over the cells: a distance is measured through them.
+void Scene::draw_tools(const render::View& view,
+                       const interaction::Similarity& room_from_physical) {
+    if (tools_.lines.empty() && tools_.labels.empty())
+        return;
+    const auto in_room = [&](const glm::dvec3& at) {
+        return glm::vec3(interaction::transform(room_from_physical, at));
+    };
+    std::vector<render::Line> lines;
+    for (const interaction::ToolLine& line : tools_.lines)
+        lines.push_back({in_room(line.from), in_room(line.to), line.color});
+    gl_.DepthRange(0.0, 0.0); // nearer than all else
+    line_pass_.draw(view, glm::mat4(1.0f), lines, kToolLine);
+    gl_.DepthRange(0.0, 1.0);
+    std::vector<render::ScreenQuad> quads;
+    for (const interaction::ToolLabel& label : tools_.labels)
+        if (const glm::vec3 at = in_room(label.at); !hidden_by_panel(view, at))
+            add_label(label.text, at, text_pass_, view.size, quads);
+    text_pass_.draw(view, glm::mat4(1.0f), quads, render::TextPass::Depth::none);
+}
+
+bool Scene::hidden_by_panel(const render::View& view, const glm::vec3& at) const {
+    return panel_ && render::hides(panel_->quad, view.eye_in_room(), at);
+}
+
+void Scene::draw_pointed(const render::View& view,
+                         const interaction::Similarity& room_from_physical) {
+    const glm::vec3 at(interaction::transform(room_from_physical, pointed_->point.position));
+    if (hidden_by_panel(view, at) || pointed_->surface >= surfaces_.size())
+        return;
+    text_pass_.draw(view, glm::mat4(1.0f),
+                    pointed_quads(*pointed_, surfaces_, at, info_, text_pass_, view.size),
+                    render::TextPass::Depth::none);
+}
+
 /// Over the surface that it lies on, but not over the panel.
 void Scene::draw_mark(const render::View& view, const interaction::Similarity& room_from_physical) {
     const glm::vec3 at(interaction::transform(room_from_physical, mark_.point->position));
-    if (panel_ && render::hides(panel_->quad, view.eye_in_room(), at))
+    if (hidden_by_panel(view, at))
         return;
     text_pass_.draw(view, glm::mat4(1.0f),
                     mark_quads(*mark_.point, at, info_, text_pass_, view.size),
@@ -116,16 +174,17 @@ void Scene::draw(std::span<const render::View> views,
     const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
     // Soft edges blend with what is drawn before them. What splats may hide must come before these
     // all the same, since they write no depth.
+    appearance_.cut = cut_in(room_from_physical);
     const bool depth = writes_depth(footprint);
     if (!depth)
-        draw_among_cells(views, placement, wand);
+        draw_among_cells(views, placement, room_from_physical, wand);
     if (footprint == render::Footprint::surface)
         cells_.compute_corners();
     if (appearance_.near_fade && !views.empty()) // of one viewer, all of them
         appearance_.near_fade->between_eyes = head_of(views.front());
     cell_pass_.draw(views, placement, cells_, footprint, appearance_);
     if (depth)
-        draw_among_cells(views, placement, wand);
+        draw_among_cells(views, placement, room_from_physical, wand);
     draw_before_cells(views, placement);
     for (const render::View& view : views)
         draw_over_cells(view, room_from_physical);
@@ -148,11 +207,12 @@ render::BoxLines Scene::box_in(const render::View& view, const render::Placement
 
 void Scene::draw_among_cells(std::span<const render::View> views,
                              const render::Placement& placement,
+                             const interaction::Similarity& room_from_physical,
                              const std::optional<interaction::Pose>& wand) {
     for (const render::View& view : views) {
         if (box_)
             line_pass_.draw(view, placement.room_from_index, box_in(view, placement).far);
-        draw_guides(view, wand);
+        draw_guides(view, room_from_physical, wand);
     }
 }
 
@@ -175,22 +235,34 @@ void Scene::draw_before_cells(std::span<const render::View> views,
     }
 }
 
-void Scene::draw_guides(const render::View& view, const std::optional<interaction::Pose>& wand) {
+/// To the place under the cursor, or to the panel, or ahead.
+render::Line Scene::wand_ray(const interaction::Similarity& room_from_physical,
+                             const interaction::Pose& wand) const {
+    const float length = panel_ && panel_->ray ? *panel_->ray : kWandLength;
+    const glm::vec3 end =
+        pointed_ ? glm::vec3(interaction::transform(room_from_physical, pointed_->point.position))
+                 : wand.position + wand.orientation * glm::vec3(0, 0, -length);
+    return {wand.position, end, kWandColor};
+}
+
+void Scene::draw_guides(const render::View& view, const interaction::Similarity& room_from_physical,
+                        const std::optional<interaction::Pose>& wand) {
     if (!guides_.empty())
         line_pass_.draw(view, glm::mat4(1.0f), guides_);
     if (wand) {
-        const float length = panel_ && panel_->ray ? *panel_->ray : kWandLength;
-        const std::array ray{render::Line{{0, 0, 0}, {0, 0, -length}, kWandColor}};
-        line_pass_.draw(view, room_from(*wand), ray, panel_ ? kPointing : kThin);
+        const std::array ray{wand_ray(room_from_physical, *wand)};
+        line_pass_.draw(view, glm::mat4(1.0f), ray, panel_ ? kPointing : kThin);
     }
-    if (panel_)
-        panel_pass_.draw(view, panel_->quad);
 }
 
 void Scene::draw_over_cells(const render::View& view,
                             const interaction::Similarity& room_from_physical) {
+    draw_panel(view);
+    draw_tools(view, room_from_physical);
     if (mark_.point)
         draw_mark(view, room_from_physical);
+    if (pointed_)
+        draw_pointed(view, room_from_physical);
     veil_pass_.draw(view, veil_);
     text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
                     legend_quads({surfaces_, info_.value_unit, scale_}, text_pass_, view.size),

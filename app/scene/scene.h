@@ -9,6 +9,8 @@
 #include "app/scene/legend.h"
 #include "app/scene/shown_panel.h"
 #include "index/volume/volume_series.h"
+#include "interaction/pointed.h"
+#include "interaction/tool.h"
 #include "render/cells/cell_buffers.h"
 #include "render/cells/cell_pass.h"
 #include "render/gl/view.h"
@@ -48,6 +50,9 @@ class Scene {
 
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
     void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }
+    void set_pointed(const std::optional<interaction::Pointed>& pointed) { pointed_ = pointed; }
+    /// What is drawn for tools, and the plane that cuts the surfaces.
+    void set_tools(const interaction::ToolDrawing& drawing, const interaction::ClipPlane& clip);
     void set_veil(const render::Veil& veil) { veil_ = veil; }
 
     /// Where what comes near to somebody fades, and who is there.
@@ -72,13 +77,22 @@ class Scene {
     bool writes_depth(render::Footprint footprint) const;
     render::BoxLines box_in(const render::View& view, const render::Placement& placement) const;
     void draw_among_cells(std::span<const render::View> views, const render::Placement& placement,
+                          const interaction::Similarity& room_from_physical,
                           const std::optional<interaction::Pose>& wand);
     void draw_before_cells(std::span<const render::View> views, const render::Placement& placement);
-    void draw_guides(const render::View& view, const std::optional<interaction::Pose>& wand);
+    void draw_guides(const render::View& view, const interaction::Similarity& room_from_physical,
+                     const std::optional<interaction::Pose>& wand);
+    render::Line wand_ray(const interaction::Similarity& room_from_physical,
+                          const interaction::Pose& wand) const;
     void draw_over_cells(const render::View& view,
                          const interaction::Similarity& room_from_physical);
     glm::vec3 head_of(const render::View& view) const;
     void draw_mark(const render::View& view, const interaction::Similarity& room_from_physical);
+    void draw_pointed(const render::View& view, const interaction::Similarity& room_from_physical);
+    std::optional<glm::vec4> cut_in(const interaction::Similarity& room_from_physical) const;
+    void draw_panel(const render::View& view);
+    void draw_tools(const render::View& view, const interaction::Similarity& room_from_physical);
+    bool hidden_by_panel(const render::View& view, const glm::vec3& at) const;
 
     const render::Gl& gl_;
     const index::SeriesInfo& info_;
@@ -98,6 +112,9 @@ class Scene {
     std::optional<ShownPanel> panel_;
     std::vector<glm::vec3> heads_; ///< of viewers before whom cells fade
     interaction::Mark mark_;
+    std::optional<interaction::Pointed> pointed_;
+    interaction::ToolDrawing tools_;
+    interaction::ClipPlane clip_;
     render::VeilPass veil_pass_;
     render::Veil veil_;
 };

@@ -1,13 +1,10 @@
 // Which presses of buttons are felt.
 #include "app/session/haptics.h"
 
-#include "interaction/actions.h"
-
-#include <utility>
-
 namespace isochron::app {
 namespace {
 
+using interaction::Reading;
 using interaction::WandButton;
 
 constexpr double kShort = 0.02, kLong = 0.04; ///< [s]
@@ -16,17 +13,20 @@ constexpr float kLight = 0.4f, kFirm = 0.8f;
 } // namespace
 
 std::vector<interaction::HapticPulse> Haptics::update(const interaction::InputState& input) {
+    const Reading now(input, before_);
     std::vector<interaction::HapticPulse> pulses;
-    for (const char* name : {"wand", "wand2"}) {
-        const interaction::DeviceState* hand = input.find(name);
-        const std::uint64_t now = hand ? hand->buttons : 0;
-        const std::uint64_t before = std::exchange(before_[name], now);
-        const bool tracked = hand && hand->pose && hand->pose_valid;
-        if (tracked && (now & ~before & bit(WandButton::grab)))
-            pulses.push_back({name, kLong, kFirm});
-        if (tracked && (before & ~now & bit(WandButton::teleport)))
-            pulses.push_back({name, kShort, kLight});
-    }
+    const auto feel = [&](const interaction::DeviceState* hand, std::uint64_t before) {
+        const std::uint64_t buttons = Reading::buttons(hand);
+        if (!hand || !hand->pose || !hand->pose_valid)
+            return;
+        if (buttons & ~before & bit(WandButton::grab))
+            pulses.push_back({hand->name, kLong, kFirm});
+        if (before & ~buttons & bit(WandButton::teleport))
+            pulses.push_back({hand->name, kShort, kLight});
+    };
+    feel(now.wand, now.before.wand);
+    feel(now.other, now.before.other);
+    before_ = now.levels();
     return pulses;
 }
 

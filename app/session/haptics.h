@@ -2,10 +2,8 @@
 #pragma once
 
 #include "interaction/commands.h"
-#include "interaction/tracked_input.h"
+#include "interaction/device_reading.h"
 
-#include <map>
-#include <string>
 #include <vector>
 
 namespace isochron::app {
@@ -18,7 +16,7 @@ class Haptics {
     std::vector<interaction::HapticPulse> update(const interaction::InputState& input);
 
   private:
-    std::map<std::string, std::uint64_t> before_; ///< buttons by device
+    interaction::ButtonLevels before_;
 };
 
 } // namespace isochron::app

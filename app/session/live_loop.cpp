@@ -3,6 +3,7 @@
 
 #include "app/frame/pacer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -11,6 +12,16 @@ namespace isochron::app {
 using interaction::Commands;
 using interaction::InputState;
 using interaction::Seconds;
+namespace {
+
+bool is_pressed(interaction::Key key, std::span<const interaction::WindowEvent> events) {
+    return std::ranges::any_of(events, [key](const interaction::WindowEvent& event) {
+        const auto* change = std::get_if<interaction::KeyEvent>(&event);
+        return change && change->key == key && change->down;
+    });
+}
+
+} // namespace
 
 LiveLoop::LiveLoop(const Config& config, interaction::CompositeInput trackers,
                    const LiveOptions& options, stereo::Headset* headset)
@@ -29,6 +40,11 @@ void LiveLoop::record(const std::filesystem::path& path,
     recorder_ = std::make_shared<interaction::RecordingWriter>(path, header);
 }
 
+void LiveLoop::keep_session(const std::filesystem::path& path, const SavedSession& start,
+                            bool resumed) {
+    keeper_.emplace(path, start, resumed);
+}
+
 /// The devices of a frame that begins now.
 InputState LiveLoop::poll(std::span<const interaction::WindowEvent> events) {
     if (options_.emulated)
@@ -37,14 +53,20 @@ InputState LiveLoop::poll(std::span<const interaction::WindowEvent> events) {
         emulation_.feed(events);
     paced_ = headset_.begin_frame(clock_());
     const Seconds now = clock_();
-    InputState input = interaction::merged(trackers_.poll(now), emulation_.poll(now));
+    InputState input = trackers_.poll(now);
+    InputState emulated = emulation_.poll(now);
+    // The cursor's ray is that of the emulated eye: somebody who is tracked points with the wand.
+    if (input.find("head") || input.find("wand"))
+        std::erase_if(emulated.devices,
+                      [](const interaction::DeviceState& each) { return each.name == "pointer"; });
+    input = interaction::merged(std::move(input), emulated);
     if (options_.emulated)
         input.devices.push_back({.name = kRoomCamera, .pose = camera_.pose(), .valuators = {}});
     return headset_.with_devices(std::move(input), now);
 }
 
 bool LiveLoop::goes_on(const Commands& commands, const InputState& input) const {
-    return !commands.quit && !headset_.ended() &&
+    return !commands.quit && !options_.ended() && !headset_.ended() &&
            !(options_.length && input.time >= *options_.length);
 }
 
@@ -55,22 +77,50 @@ void LiveLoop::record(interaction::RecordedFrame frame) {
     });
 }
 
+/// Whether a window that is closed ends the loop. Where somebody would lose something, they are
+/// asked first; whoever closes it again means it.
+bool LiveLoop::closes(const Session& session, Commands& asked) {
+    if (!session.should_close())
+        return false;
+    const stereo::Windows& windows = session.outputs().windows();
+    if (!windows.should_close() || !session.history().has_changes() || session.state().leaving)
+        return true;
+    windows.keep_open();
+    asked.leaving = true;
+    return false;
+}
+
 void LiveLoop::run(Session& session) {
     const Latch latch = [this] { return trackers_.latch(clock_()); };
     Pacer pacer(config_.frame_rate_limit);
-    for (bool running = true; running && !session.should_close();) {
+    emulation_.set_eye(
+        [&session](const interaction::Pose& head, const interaction::MouseMoveEvent& cursor) {
+            return session.ray_at(cursor, head);
+        });
+    trackers_.begin();
+    for (bool running = true; running;) {
+        Commands asked;
+        if (closes(session, asked))
+            break;
         const auto events = session.panel_events(session.outputs().windows().poll_events());
+        if (is_pressed(interaction::Key::f11, events))
+            session.outputs().windows().first().toggle_fullscreen();
         if (config_.devices.empty() && !session.outputs().headset()) // a tracked wand points itself
             emulation_.set_panel(session.state().room_panel, session.room_panel_size());
         const InputState input = poll(events);
         Commands commands = session.commands_from(input);
-        const Commands from_panel = session.take_panel_commands();
+        Commands from_panel = session.take_panel_commands();
+        interaction::merge(from_panel, asked);
         interaction::merge(commands, from_panel);
         headset_.feel(commands.haptics);
         const FrameReport& drawn = session.frame(input, commands, Waiting::never, latch);
         if (recorder_)
             record({input, commands, from_panel, name_of(drawn.footprint), session.latched()});
         session.show_messages(recording_.messages());
+        if (keeper_) {
+            keeper_->update(session.state(), emulation_.standing(), input.time);
+            session.show_messages(keeper_->messages());
+        }
         running = goes_on(commands, input);
         if (!paced_)
             pacer.wait();
@@ -81,6 +131,7 @@ void LiveLoop::run(Session& session) {
 void LiveLoop::run(PatternShow& show) {
     const Latch latch = [this] { return trackers_.latch(clock_()); };
     Pacer pacer(config_.frame_rate_limit);
+    trackers_.begin();
     for (bool running = true; running && !show.outputs().windows().should_close();) {
         const InputState input = poll(show.outputs().windows().poll_events());
         const Commands commands = show.commands_from(input);
@@ -91,10 +142,12 @@ void LiveLoop::run(PatternShow& show) {
     }
 }
 
-void LiveLoop::finish() {
+void LiveLoop::finish(const ExplorerState& state) {
     recording_.finish();
     if (recorder_)
         recorder_->finish();
+    if (keeper_)
+        keeper_->finish(state, emulation_.standing());
 }
 
 std::vector<std::string> LiveLoop::status() const {

@@ -4,7 +4,7 @@
 //     LiveLoop live(config, std::move(trackers), {}, session.outputs().headset());
 //     live.record("walk.jsonl", header);
 //     live.run(session);
-//     live.finish();
+//     live.finish(session.state());
 #pragma once
 
 #include "app/config/config.h"
@@ -14,6 +14,7 @@
 #include "app/session/headset_loop.h"
 #include "app/session/pattern_show.h"
 #include "app/session/session.h"
+#include "app/session/session_keeper.h"
 #include "interaction/composite_input.h"
 #include "interaction/desktop_emulation.h"
 #include "interaction/recording/recording.h"
@@ -31,6 +32,7 @@ namespace isochron::app {
 struct LiveOptions {
     bool emulated = false; ///< the room is shown from outside: mouse and keys move its camera, too
     std::optional<interaction::Seconds> length; ///< the loop ends after this long; empty: never
+    std::function<bool()> ended = [] { return false; }; ///< asked in each frame: the loop ends
 };
 
 /// Session time starts with it, at 0.
@@ -49,14 +51,20 @@ class LiveLoop {
     /// picture. @throws interaction::Error when the file cannot be created
     void record(const std::filesystem::path& path, const interaction::RecordingHeader& header);
 
+    /// Keeps what the user comes to, to go on from there. @param resumed what this session began as
+    void keep_session(const std::filesystem::path& path, const SavedSession& start, bool resumed);
+    /// Where the emulated head is.
+    interaction::StandingPlace standing() const { return emulation_.standing(); }
+    void stand(const interaction::StandingPlace& place) { emulation_.stand(place); }
+
     /// Until the user closes a window, leaves by a device or ends the headset's program, or the
     /// time is over; a headset is left then.
     void run(Session& session);
     void run(PatternShow& show);
 
-    /// Completes the recording, if there is one.
+    /// Completes the recording, if there is one, and keeps the session.
     /// @throws index::Error, interaction::Error when it cannot be written
-    void finish();
+    void finish(const ExplorerState& state);
     /// What trackers and headset say of themselves: a line each.
     std::vector<std::string> status() const;
 
@@ -64,6 +72,7 @@ class LiveLoop {
     interaction::InputState poll(std::span<const interaction::WindowEvent> events);
     bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
     void record(interaction::RecordedFrame frame);
+    static bool closes(const Session& session, interaction::Commands& asked);
 
     const Config& config_;
     const LiveOptions options_;
@@ -72,6 +81,7 @@ class LiveLoop {
     RoomCamera camera_;
     HeadsetLoop headset_;
     bool paced_ = false; ///< by the headset, in this frame
+    std::optional<SessionKeeper> keeper_;
     BackgroundWork recording_;
     /// Lives on the thread that writes.
     std::shared_ptr<interaction::RecordingWriter> recorder_;

@@ -24,7 +24,9 @@ Commands PatternShow::commands_from(const InputState& input) {
     context.eye_separation = eye_separation_;
     context.stereo = stereo::name_of(mode_);
     context.stereo_modes = &outputs_.stereo_modes();
-    return controls_.update(input, context);
+    interaction::Commands commands = controls_.update(input, context);
+    commands.quit = commands.leaving.has_value(); // there is nothing to lose
+    return commands;
 }
 
 void PatternShow::frame(const InputState& input, const Latch& latch) {

@@ -1,9 +1,8 @@
-// Presses of the picking buttons, and what they find.
+// Rays through what is shown, and reading of data.
 #include "app/session/picker.h"
 
 #include "index/extraction/cell_ray.h"
 #include "index/volume/sample.h"
-#include "interaction/device_reading.h"
 
 #include <glm/matrix.hpp>
 
@@ -20,6 +19,11 @@ glm::dvec3 in_data(const ExplorerState& state, const glm::dvec4& in_room) {
     return glm::dvec3(glm::inverse(matrix(state.room_from_physical)) * in_room);
 }
 
+index::Ray ray_of(const Pose& pose, const ExplorerState& state) {
+    const glm::dvec3 ahead(pose.orientation * glm::vec3(0.0f, 0.0f, -1.0f));
+    return {in_data(state, glm::dvec4(pose.position, 1.0)), in_data(state, glm::dvec4(ahead, 0.0))};
+}
+
 std::uint32_t visible(const ExplorerState& state) {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < state.isosurfaces.size(); ++i)
@@ -27,45 +31,92 @@ std::uint32_t visible(const ExplorerState& state) {
     return bits;
 }
 
+constexpr double kOnPlane = 1e-9; ///< of a place's distance from the origin, by rounding
+
+/// Distance on the side that is cut away.
+double beyond(const ClipPlane& clip, const glm::dvec3& at) {
+    return glm::dot(at - clip.point, clip.normal);
+}
+
+/// The part of a ray that is not cut away begins here; nothing where there is none.
+std::optional<index::Ray> uncut(index::Ray ray, const ClipPlane& clip) {
+    const double start = clip.shown ? beyond(clip, ray.origin) : 0.0;
+    if (!(start > 0))
+        return ray;
+    const double rate = glm::dot(ray.direction, clip.normal);
+    if (!(rate < 0))
+        return std::nullopt;
+    ray.origin += start / -rate * ray.direction;
+    return ray;
+}
+
 } // namespace
 
 Picker::Picker(std::shared_ptr<const index::IndexFile> file) : file_(std::move(file)) {}
 
-Mark Picker::picked(const Pose& wand, const ExplorerState& state,
-                    const index::Extraction& shown) const {
-    const glm::dvec3 ahead(wand.orientation * glm::vec3(0.0f, 0.0f, -1.0f));
-    const index::Ray ray{in_data(state, glm::dvec4(wand.position, 1.0)),
-                         in_data(state, glm::dvec4(ahead, 0.0))};
-    const auto hit = index::first_hit(shown, file_->info().grid, ray, visible(state));
-    if (!hit)
-        return {};
-    return {MarkedPoint{hit->at, shown.query.step, shown.query.isovalues[hit->surface]}};
+std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& state,
+                                      const index::ExtractionPtr& shown) const {
+    if (!shown)
+        return std::nullopt;
+    const auto seen = uncut(ray_of(pose, state), state.clip);
+    if (!seen)
+        return std::nullopt;
+    const auto hit = index::first_hit(*shown, file_->info().grid, *seen, visible(state));
+    if (!hit || (state.clip.shown && beyond(state.clip, hit->at) > kOnPlane * glm::length(hit->at)))
+        return std::nullopt;
+    return Pointed{{hit->at, shown->query.step, shown->query.isovalues[hit->surface]},
+                   hit->surface};
 }
 
-void Picker::read_at(const Pose& wand, const ExplorerState& state) {
-    const glm::dvec3 at = in_data(state, glm::dvec4(wand.position, 1.0));
+std::optional<Pointed> Picker::pointed(const InputState& input, bool aims,
+                                       const ExplorerState& state,
+                                       const index::ExtractionPtr& shown) const {
+    const auto ray = Reading::hand(Reading(input).pointer);
+    return ray && aims ? hit_by(*ray, state, shown) : std::nullopt;
+}
+
+/// Along the cursor's ray the first surface, or else where the ray enters the data; the tip of a
+/// wand.
+std::optional<glm::dvec3> Picker::place_to_read(const InputState& input, const ExplorerState& state,
+                                                const index::ExtractionPtr& shown) const {
+    const Reading now(input);
+    if (const auto eye = Reading::hand(now.pointer)) {
+        const auto hit = hit_by(*eye, state, shown);
+        return hit ? hit->point.position
+                   : index::entry_into(file_->info().grid, ray_of(*eye, state));
+    }
+    const auto wand = Reading::hand(now.wand);
+    return wand ? std::optional(in_data(state, glm::dvec4(wand->position, 1.0))) : std::nullopt;
+}
+
+void Picker::read_at(const glm::dvec3& at, const ExplorerState& state) {
     reading_.post([file = file_, slot = read_, at, step = state.step] {
         const index::LoadedStep loaded = file->load(step);
         const auto value = index::value_at(loaded.values, step, at);
         const std::lock_guard lock(slot->mutex);
         slot->mark = value ? Mark{MarkedPoint{at, step, *value}} : Mark{};
-        return std::string();
+        return std::string(value ? "" : "no data there");
     });
 }
 
-Commands Picker::update(const InputState& input, bool aims, const ExplorerState& state,
+std::vector<std::string> Picker::messages() {
+    std::vector<std::string> all = reading_.messages();
+    all.insert(all.end(), notes_.begin(), notes_.end());
+    notes_.clear();
+    return all;
+}
+
+Commands Picker::update(const InputState& input, const ExplorerState& state,
                         const index::ExtractionPtr& shown) {
-    const Reading now(input);
-    const bool picks = now.key(Action::pick) || now.wand_button(WandButton::pick);
-    const bool probes = now.key(Action::probe) || now.wand_button(WandButton::probe);
-    const bool picked_before = std::exchange(picked_before_, picks);
-    const bool probed_before = std::exchange(probed_before_, probes);
-    const auto wand = Reading::hand(now.wand);
+    const Reading now(input, before_);
+    before_ = now.levels();
     Commands commands;
-    if (probes && !probed_before && wand)
-        read_at(*wand, state);
-    if (picks && !picked_before && wand && aims && shown)
-        commands.mark = picked(*wand, state, *shown);
+    if (now.pressed(Action::probe) || now.pressed(WandButton::probe)) {
+        if (const auto place = place_to_read(input, state, shown))
+            read_at(*place, state);
+        else
+            notes_.emplace_back("no data there");
+    }
     {
         const std::lock_guard lock(read_->mutex); // held by the reader for one assignment
         if (const auto read = std::exchange(read_->mark, std::nullopt))

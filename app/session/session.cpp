@@ -3,6 +3,7 @@
 
 #include "app/session/start_state.h"
 #include "interaction/navigator.h"
+#include "interaction/tool_table.h"
 
 #include <chrono>
 #include <utility>
@@ -84,16 +85,29 @@ interaction::ControlContext Session::control_context() const {
     context.grid = state_.grid;
     context.views = &state_.views;
     context.stereo_modes = &outputs_.stereo_modes();
+    context.tools = state_.tools;
+    context.state = {state_.mark, state_.clip, state_.ruler};
+    context.data = data_frame(file_->info());
+    context.find_surface = [this](const interaction::Pose& ray) {
+        return picker_.hit_by(ray, state_, scene_.shown());
+    };
+    context.leaving = state_.leaving;
+    context.undo = history_.undo();
+    context.redo = history_.redo();
     return context;
 }
 
 Commands Session::commands_from(const interaction::InputState& input) {
     PanelInRoom::Outcome panel = room_panel_.outcome(input, state_.room_panel);
-    Commands commands = controls_.update(panel.rest, control_context());
+    interaction::ControlContext context = control_context();
+    if (panel.touched) // the wand points at what is nearer than the data
+        context.find_surface = {};
+    Commands commands = controls_.update(panel.rest, context);
     interaction::merge(commands, panel.commands);
     // What is found depends on what is shown: recorded with what the operator's panel leads to.
-    interaction::merge(panel_commands_,
-                       picker_.update(panel.rest, !panel.touched, state_, scene_.shown()));
+    interaction::merge(panel_commands_, controls_.found());
+    interaction::merge(panel_commands_, picker_.update(panel.rest, state_, scene_.shown()));
+    show_messages(controls_.notes());
     return commands;
 }
 
@@ -150,22 +164,29 @@ std::optional<ColorScale> Session::shown_scale() const {
 Session::Picture Session::picture(const interaction::InputState& input,
                                   const FrameReport& report) const {
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
-    return {.audience = {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
-                         .eyes = outputs_.headset_eyes(),
-                         .wand = wand ? wand->pose : std::nullopt,
-                         .panel = room_panel_.shown(state_.room_panel),
-                         .stereo = state_.stereo},
-            .mark = state_.mark,
-            .guides = {state_.grid, interaction::teleport_target(input)},
-            .veil = {static_cast<float>(report.comfort.fade),
-                     static_cast<float>(report.comfort.vignette)},
-            .room_from_physical = state_.room_from_physical,
-            .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
-            .cells = scene_.shown(),
-            .isosurfaces = state_.isosurfaces,
-            .scale = shown_scale(),
-            .bounding_box = state_.bounding_box,
-            .windows = outputs_.window_sizes()};
+    return {
+        .audience = {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
+                     .eyes = outputs_.headset_eyes(),
+                     .wand = wand ? wand->pose : std::nullopt,
+                     .panel = room_panel_.shown(state_.room_panel),
+                     .stereo = state_.stereo},
+        .mark = state_.mark,
+        .pointed = picker_.pointed(input, !room_panel_.touched(), state_, scene_.shown()),
+        .tools = drawing_of({state_.mark, state_.clip, state_.ruler}, data_frame(file_->info())),
+        .clip = state_.clip,
+        .guides = {state_.grid, interaction::teleport_target(input)},
+        .veil = {static_cast<float>(report.comfort.fade),
+                 static_cast<float>(report.comfort.vignette)},
+        .room_from_physical = state_.room_from_physical,
+        .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
+        .cells = scene_.shown(),
+        .isosurfaces = state_.isosurfaces,
+        .scale = shown_scale(),
+        .bounding_box = state_.bounding_box,
+        .windows = outputs_.window_sizes(),
+        .free = state_.panel
+                    ? panel_.covered(outputs_.windows()[0].framebuffer_size().x / panel_places().x)
+                    : 0};
 }
 
 /// The devices that the views are made of, asked for as late as can be.
@@ -219,9 +240,12 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     drawn_ = now;
     StopWatch watch;
     if (report.redrawn) {
+        outputs_.leave_free(now.free);
         quality_.begin(log_.next());
         scene_.set_guides(now.guides);
         scene_.set_panel(now.audience.panel);
+        scene_.set_pointed(now.pointed);
+        scene_.set_tools(now.tools, now.clip);
         scene_.set_near_fade(config_.comfort, now.audience.viewers);
         scene_.set_veil(now.veil);
         scene_.look(state_, now.audience.viewers.front().head, now.scale);
@@ -260,8 +284,10 @@ bool Session::captures(const FrameReport& report) {
 }
 
 void Session::show_messages(std::vector<std::string> messages) {
-    if (!messages.empty())
-        message_ = std::move(messages.back());
+    if (messages.empty())
+        return;
+    message_ = std::move(messages.back());
+    messages_ += messages.size();
 }
 
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
@@ -273,7 +299,9 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     report.tracking = tracking_of(input);
     panel_commands_ = {}; // a replay takes none
     const interaction::InputState rest = room_panel_.update(input, state_.room_panel);
+    const ExplorerState before = state_;
     state_.apply(commands, file_->info().steps());
+    history_.add(before, state_, commands, input);
     if (commands.screenshot)
         captures_.ask();
     report.comfort = comfort_.update(input, state_.room_from_physical);

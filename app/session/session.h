@@ -14,6 +14,7 @@
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "app/frame/frame_quality.h"
+#include "app/frame/history.h"
 #include "app/frame/late_latch.h"
 #include "app/output/outputs.h"
 #include "app/panel/operator_panel.h"
@@ -52,9 +53,15 @@ class Session {
     const ExplorerState& state() const { return state_; }
     void set_state(const ExplorerState& state) { state_ = state; }
     const ExplorerState& home() const { return home_; }
+    const History& history() const { return history_; }
 
     /// What the devices lead to in this frame; advances the controls, changes nothing else.
     interaction::Commands commands_from(const interaction::InputState& input);
+
+    /// The eye's ray under the cursor, for a head that mouse and keyboard emulate; nothing where
+    /// the operator's panel is under it.
+    std::optional<interaction::Pose> ray_at(const interaction::MouseMoveEvent& cursor,
+                                            const interaction::Pose& head) const;
 
     /// The panel in the room, for those who emulate a wand.
     interaction::PanelSize room_panel_size() const { return room_panel_.size(); }
@@ -97,6 +104,9 @@ class Session {
     struct Picture {
         Audience audience;
         interaction::Mark mark;
+        std::optional<interaction::Pointed> pointed;
+        interaction::ToolDrawing tools;
+        interaction::ClipPlane clip;
         Guides guides;
         render::Veil veil;
         interaction::Similarity room_from_physical;
@@ -106,6 +116,7 @@ class Session {
         std::optional<ColorScale> scale;
         bool bounding_box = true;
         std::vector<glm::ivec2> windows;
+        int free = 0; ///< pixels at the left of the first one
         bool operator==(const Picture&) const = default;
     };
 
@@ -125,6 +136,7 @@ class Session {
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     void draw_views(std::span<const render::View> views);
     OperatorPanel::Model panel_models(const FrameReport& report) const;
+    glm::ivec2 panel_places() const;
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
 
     Config config_;
@@ -141,6 +153,7 @@ class Session {
     OperatorPanel panel_;
     PanelInRoom room_panel_;
     Picker picker_;
+    History history_;
     const std::vector<std::string> documentation_ = interaction::Controls::documentation();
     interaction::Commands panel_commands_;
     interaction::InputState latched_;
@@ -151,6 +164,7 @@ class Session {
     CaptureWait captures_;
     bool recording_ = false;
     std::string message_;
+    std::size_t messages_ = 0;
 };
 
 } // namespace isochron::app

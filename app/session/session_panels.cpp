@@ -17,7 +17,17 @@ interaction::Commands Session::take_panel_commands() {
 
 std::vector<interaction::WindowEvent>
 Session::panel_events(std::span<const interaction::WindowEvent> events) {
-    return panel_.feed(events, state_.panel);
+    return panel_.feed(events, state_.panel || state_.leaving);
+}
+
+std::optional<interaction::Pose> Session::ray_at(const interaction::MouseMoveEvent& cursor,
+                                                 const interaction::Pose& head) const {
+    if ((state_.panel || state_.leaving) && panel_.covers(cursor))
+        return std::nullopt;
+    interaction::InputState emulated;
+    emulated.devices.push_back({.name = "head", .pose = head, .valuators = {}});
+    return outputs_.ray_at(cursor,
+                           viewpoints(config_.installation, emulated, state_.eye_separation));
 }
 
 PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) const {
@@ -34,8 +44,12 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .recording = recording_,
             .failure = failure(),
             .message = message_,
+            .messages = messages_,
             .controls = documentation_,
             .place = place,
+            .undo = history_.undo(),
+            .redo = history_.redo(),
+            .data = data_frame(file_->info()),
             .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
 }
 
@@ -43,10 +57,19 @@ OperatorPanel::Model Session::panel_models(const FrameReport& report) const {
     return [this, &report](PanelPlace place) { return panel_model(place, report); };
 }
 
+/// Each eye that has a half of the window sees the panel there.
+glm::ivec2 Session::panel_places() const {
+    const stereo::StereoMode mode = stereo::upright(state_.stereo);
+    if (outputs_.room() || outputs_.headset())
+        return glm::ivec2(1);
+    return {mode == stereo::StereoMode::side_by_side ? 2 : 1,
+            mode == stereo::StereoMode::top_bottom ? 2 : 1};
+}
+
 void Session::draw_panel_overlay(glm::ivec2 size, const FrameReport& report) {
-    if (state_.panel)
-        interaction::merge(panel_commands_,
-                           panel_.draw_over(size, panel_models(report), report.time));
+    if (outputs_.windows().first().has_window())
+        interaction::merge(panel_commands_, panel_.draw_over(size, panel_places(),
+                                                             panel_models(report), report.time));
 }
 
 } // namespace isochron::app

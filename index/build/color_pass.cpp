@@ -3,13 +3,12 @@
 
 #include "index/build/value_stats.h"
 #include "index/error.h"
-#include "index/file/color_array.h"
 #include "index/file/file_layout.h"
-#include "index/file/metadata.h"
+#include "index/file/step_packer.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <optional>
 
 namespace isochron::index {
 
@@ -20,17 +19,19 @@ void expect_colors_of(const SeriesInfo& colors, const SeriesInfo& volume) {
                                 volume.array, volume.grid.vertex_count(), volume.steps()));
 }
 
-ColorArray read_colors(VolumeSeries& series, NewFile& file, std::uint64_t offset, bool with_values,
-                       Team& team, const Progress& progress, std::uint64_t& table_checksum) {
+ColorFindings read_colors(VolumeSeries& series, const ChunkContents& contents, NewFile& file,
+                          std::uint64_t offset, const std::filesystem::path& spill,
+                          unsigned threads, Team& team, const Progress& progress) {
     const SeriesInfo& info = series.info();
-    const std::size_t stride = step_stride(info.step_bytes());
-    const std::uint64_t values = offset + ColorSection::table_bytes(info.steps());
     ValueRange range;
     std::vector<std::uint64_t> checksums;
+    std::optional<PartWriter> parts;
+    std::vector<StepEntry> steps;
     team.together([&] {
+        parts.emplace(file, offset, spill, team);
+        StepPacker packer(info.grid, info.type, contents.codec, threads);
         const auto [first, last] = team.share(info.steps());
-        std::vector<std::byte> step(stride); // its padding stays zero
-        const auto stored = std::span(step).first(info.step_bytes());
+        std::vector<std::byte> stored(info.step_bytes());
         for (std::size_t t = first; t < last; ++t) {
             if (progress)
                 progress("reading colors",
@@ -38,25 +39,24 @@ ColorArray read_colors(VolumeSeries& series, NewFile& file, std::uint64_t offset
             series.read(t, stored);
             add_range(info.type, info.scaling, stored, range.low, range.high, range.nan_values);
             checksums.push_back(checksum_of(stored));
-            if (with_values)
-                file.write_at(values + t * stride, step);
+            const std::uint64_t begin = parts->align(kPartAlignment);
+            StepEntry entry = packer.pack(
+                contents.values ? std::span<const std::byte>(stored) : std::span<const std::byte>(),
+                {}, [&](std::span<const std::byte> bytes) { parts->append(bytes); });
+            entry.offset = begin;
+            steps.push_back(entry);
         }
     });
     const ValueRange all = agreed_range(range, team);
-    std::vector<std::uint64_t> table = team.gather_items(checksums);
-    table_checksum = checksum_of(std::as_bytes(std::span(table)));
-    table.resize(ColorSection::table_bytes(info.steps()) / sizeof(std::uint64_t));
-    team.together([&] {
-        if (team.rank() == 0)
-            file.write_at(offset, std::as_bytes(std::span(table)));
-    });
-    return {.array = info.array,
-            .value_unit = info.value_unit,
-            .type = info.type,
-            .scaling = info.scaling,
-            .low = all.low,
-            .high = all.high,
-            .nan_values = all.nan_values};
+    return {{.array = info.array,
+             .value_unit = info.value_unit,
+             .type = info.type,
+             .scaling = info.scaling,
+             .low = all.low,
+             .high = all.high,
+             .nan_values = all.nan_values},
+            placed_steps(*parts, std::move(steps), team),
+            team.gather_items(checksums)};
 }
 
 } // namespace isochron::index

@@ -1,15 +1,15 @@
 // Building of .isochron files: one pass over the series, then the tiers over what was written.
 #include "index/build/index_build.h"
 
+#include "index/build/chunk_pass.h"
 #include "index/build/color_pass.h"
 #include "index/build/tier_plan.h"
 #include "index/build/unit_pass.h"
 #include "index/build/volume_pass.h"
 #include "index/error.h"
-#include "index/file/color_array.h"
 #include "index/file/file_layout.h"
 #include "index/file/metadata.h"
-#include "index/scan/bricks.h"
+#include "index/system/input_file.h"
 #include "index/system/mapped_file.h"
 #include "index/system/new_file.h"
 #include "index/system/parallel.h"
@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <optional>
 
 namespace isochron::index {
@@ -27,10 +26,12 @@ namespace {
 
 /// A slip of the hand must not cost anybody a volume.
 void refuse_foreign_file(const std::filesystem::path& out) {
-    std::ifstream file(out, std::ios::binary);
+    std::error_code ignored;
+    if (!std::filesystem::exists(out, ignored))
+        return;
     std::array<char, 8> start{};
-    file.read(start.data(), start.size());
-    if (file.gcount() > 0 && start != FileHeader{}.magic)
+    const std::size_t got = InputFile(out).read(0, std::as_writable_bytes(std::span(start)));
+    if (got > 0 && start != FileHeader{}.magic)
         throw Error(
             fmt::format("{}: exists and is not an isochron index: not replaced", out.string()));
 }
@@ -94,24 +95,22 @@ class Build {
     Build(VolumeSeries& series, const std::filesystem::path& out, const BuildOptions& options,
           const Progress& progress, Team& team)
         : series_(series), out_(out), options_(options), progress_(progress), team_(team),
-          threads_(thread_count(options.threads)),
-          file_(team, out), metadata_{.info = series.info(),
-                                      .tree = options.tree,
-                                      .referral = options.referral} {
-        if (options.referral)
-            scratch_.emplace(team, out.string() + ".volume");
-    }
+          threads_(thread_count(options.threads)), file_(team, out),
+          values_file_(team, out.string() + ".volume"), metadata_{.info = series.info(),
+                                                                  .codec = options.codec,
+                                                                  .tree = options.tree,
+                                                                  .referral = options.referral} {}
 
     void run() {
         team_.together([&] { refuse_foreign_file(out_); });
         read_steps();
-        team_.together([&] { written_.emplace(volume_file().temporary()); });
+        team_.together([&] { written_.emplace(values_file_->temporary()); });
         const SeriesInfo& info = metadata_.info;
         values_ = {.grid = info.grid,
                    .type = info.type,
                    .scaling = info.scaling,
                    .steps = info.steps(),
-                   .first = written_->bytes().data() + volume_offset(),
+                   .first = written_->bytes().data(),
                    .stride = step_stride(info.step_bytes())};
         IndexStats& stats = metadata_.stats;
         stats.histogram =
@@ -121,9 +120,9 @@ class Build {
             if (options_.with_tree)
                 metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::tree);
         });
-        write_bricks();
-        write_cells();
+        write_volume();
         write_colors();
+        write_cells();
         team_.together([&] {
             if (team_.rank() == 0)
                 write_rest();
@@ -134,23 +133,15 @@ class Build {
     }
 
   private:
-    /// Where the values are while the file is made; a file that refers to them needs them too.
-    NewFile& volume_file() { return scratch_ ? **scratch_ : *file_; }
-    std::uint64_t volume_offset() const { return scratch_ ? 0 : kSectionAlignment; }
     bool has(Tier tier) const { return metadata_.plan.tiers.has(tier); }
 
     void read_steps() {
         const SeriesInfo& info = metadata_.info;
-        const std::uint64_t bytes = info.steps() * step_stride(info.step_bytes());
-        if (!scratch_)
-            header_.section(SectionKind::volume) = {kSectionAlignment, bytes, 0};
-        end_ = kSectionAlignment + header_.section(SectionKind::volume).bytes;
         team_.together([&] {
             if (team_.rank() == 0)
-                volume_file().reserve(volume_offset() + bytes);
+                values_file_->reserve(info.steps() * step_stride(info.step_bytes()));
         });
-        VolumeFindings found =
-            read_volume(series_, volume_file(), volume_offset(), team_, progress_);
+        VolumeFindings found = read_volume(series_, *values_file_, 0, team_, progress_);
         metadata_.stats.low = found.low;
         metadata_.stats.high = found.high;
         metadata_.stats.nan_values = found.nan_values;
@@ -166,40 +157,28 @@ class Build {
         return section;
     }
 
-    void write_bricks() {
-        if (!has(Tier::bricks))
-            return;
-        Section& section = begin(SectionKind::bricks);
-        const BrickGrid bricks(values_.grid);
-        const std::uint64_t stride = align_up(bricks.bytes_per_step(), kPartAlignment);
-        section.bytes = stride * values_.steps;
+    ChunkContents contents() const {
+        return {has(Tier::bricks), !options_.referral, options_.codec};
+    }
+    std::string spill(const char* what) const { return out_.string() + what; }
+
+    void write_volume() {
+        Section& section = begin(SectionKind::volume);
+        ChunkFindings found =
+            write_chunks(values_, *written_, *metadata_.levels, contents(), *file_, section.offset,
+                         spill(".chunks"), threads_, team_, progress_);
+        section.bytes = found.bytes;
         end_ = section.offset + section.bytes;
-        const auto [first, last] = team_.share(values_.steps);
-        std::vector<std::uint64_t> checksums(last - first);
-        team_.together([&] {
-            parallel_for(
-                last - first, threads_,
-                [&](std::size_t item, unsigned) {
-                    std::vector<std::uint8_t> step(stride); // its padding is zero
-                    const auto extremes = std::span(step).first(bricks.bytes_per_step());
-                    build_bricks(values_, *metadata_.levels, first + item, extremes);
-                    written_->let_go(values_.step_bytes(first + item));
-                    checksums[item] = checksum_of(std::as_bytes(extremes));
-                    file_->write_at(section.offset + (first + item) * stride,
-                                    std::as_bytes(std::span(step)));
-                },
-                phase_of(progress_, "bricks"));
-        });
-        append_checksums(team_.gather_items(checksums));
+        steps_ = std::move(found.steps);
     }
 
     void write_cells() {
         if (!has(Tier::cells))
             return;
         Section& section = begin(SectionKind::units);
-        UnitFindings units = write_units(
-            values_, *written_, *metadata_.levels, has(Tier::deltas), *file_, section.offset,
-            out_.string() + fmt::format(".units{}", team_.rank()), threads_, team_, progress_);
+        UnitFindings units =
+            write_units(values_, *written_, *metadata_.levels, has(Tier::deltas), *file_,
+                        section.offset, spill(".units"), threads_, team_, progress_);
         section.bytes = units.bytes;
         end_ = section.offset + section.bytes;
         directory_ = std::move(units.directory);
@@ -210,13 +189,18 @@ class Build {
     void write_colors() {
         if (!options_.color)
             return;
-        Section& section = header_.colors;
-        section.offset = align_up(end_, kSectionAlignment);
-        section.bytes =
-            ColorSection::bytes(metadata_.info, options_.color->info().type, !options_.referral);
+        Section& section = header_.section(SectionKind::volume);
+        const std::uint64_t before = align_up(section.bytes, kPartAlignment);
+        ColorFindings found =
+            read_colors(*options_.color, contents(), *file_, section.offset + before,
+                        spill(".colors"), threads_, team_, progress_);
+        for (StepEntry& step : found.chunks.steps)
+            step.offset += before;
+        steps_.insert(steps_.end(), found.chunks.steps.begin(), found.chunks.steps.end());
+        section.bytes = before + found.chunks.bytes;
         end_ = section.offset + section.bytes;
-        metadata_.color = read_colors(*options_.color, *file_, section.offset, !options_.referral,
-                                      team_, progress_, section.checksum);
+        color_checksums_ = std::move(found.checksums);
+        metadata_.color = std::move(found.array);
         metadata_.color->chosen_array = options_.color_array;
         metadata_.color->chosen_component = options_.color_component;
     }
@@ -235,6 +219,8 @@ class Build {
     void write_rest() {
         if (has(Tier::tree))
             append(SectionKind::tree, build_thi_tree(values_, options_.tree, progress_, threads_));
+        append_checksums(color_checksums_);
+        append(SectionKind::steps, std::as_bytes(std::span(steps_)));
         append(SectionKind::directory, std::as_bytes(std::span(directory_)));
         append(SectionKind::checksums, std::as_bytes(std::span(checksums_)));
         const std::string text = to_json(metadata_);
@@ -253,14 +239,16 @@ class Build {
     Team& team_;
     unsigned threads_;
     TeamFile file_;
-    std::optional<TeamFile> scratch_; ///< never gets its name
+    TeamFile values_file_; ///< the values as they are read; never gets its name
     Metadata metadata_;
     FileHeader header_;
-    std::optional<MappedFile> written_; ///< the volume, once it is complete
+    std::optional<MappedFile> written_; ///< the values, once they are complete
     StepValues values_;
     std::vector<UnitEntry> directory_;
     std::vector<std::uint64_t> checksums_;
-    std::uint64_t end_ = 0; ///< of what has been written
+    std::vector<StepEntry> steps_;
+    std::vector<std::uint64_t> color_checksums_;
+    std::uint64_t end_ = kSectionAlignment; ///< of what has been written
 };
 
 } // namespace

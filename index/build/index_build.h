@@ -1,6 +1,7 @@
 // Building of .isochron files.
 #pragma once
 
+#include "index/file/chunk_codec.h"
 #include "index/file/index_file.h"
 #include "index/progress.h"
 #include "index/system/team.h"
@@ -13,6 +14,7 @@ struct BuildOptions {
     bool with_tree = false; ///< besides
     ThiOptions tree = {};
     unsigned threads = 0; ///< 0 for as many as there are processors
+    Codec codec = Codec::fitting;
     /// When set the file refers to these instead of carrying a copy of the values.
     std::optional<Referral> referral = {};
     /// Carried to color surfaces by: another array of the same files. Outlives the build.

@@ -2,6 +2,7 @@
 #include "index/build/tier_plan.h"
 
 #include "index/cells/chunk_ranks.h"
+#include "index/cells/unit_builder.h"
 #include "index/error.h"
 #include "index/volume/chunking.h"
 
@@ -14,8 +15,12 @@ namespace isochron::index {
 namespace {
 
 constexpr std::uint32_t kSampledChunks = 4, kSampledSteps = 17;
-/// Above this, cells take more than some 16 GiB.
-constexpr std::uint64_t kMaxCellSteps = std::uint64_t{6} << 30;
+/// Up to so many bytes of values cells are small beside a machine's memory, and always pay.
+constexpr std::uint64_t kSmallSeries = 32 << 20;
+/// Of larger ones they pay where merging in time leaves at most this share of the entries: those
+/// of a search are read in place of the values around them.
+constexpr double kPayingCoherence = 0.8;
+constexpr std::uint32_t kMergedSteps = 64; ///< looked at to find out
 
 /// Values between which both or only one of the half-open intervals lie.
 std::uint32_t difference(std::uint8_t a_low, std::uint8_t a_high, std::uint8_t b_low,
@@ -57,6 +62,25 @@ double churn(const StepValues& values, const LevelMap& levels) {
                   : std::numeric_limits<double>::infinity();
 }
 
+double merged_share(const StepValues& values, const LevelMap& levels) {
+    const Chunking chunking(values.grid);
+    const std::uint32_t chunks = std::min(kSampledChunks, chunking.count());
+    StepValues window = values;
+    window.steps = std::min<std::size_t>(kMergedSteps, values.steps);
+    window.first += (values.steps - window.steps) / 2 * values.stride;
+    UnitBuilder builder(window, levels);
+    UnitBytes unit;
+    std::uint64_t entries = 0, cell_steps = 0;
+    for (std::uint32_t i = 0; i < chunks; ++i) {
+        const auto chunk = static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) *
+                                                      chunking.count() / (2 * chunks));
+        builder.build(chunk, 0, false, unit);
+        entries += unit.entries;
+        cell_steps += chunking.cells(chunk) * window.steps;
+    }
+    return static_cast<double>(entries) / static_cast<double>(cell_steps);
+}
+
 void check_tiers(const Grid& grid, const TierSet& asked) {
     if (asked.has(Tier::cells) && grid.cells()[0] > Chunking::kMaxCells)
         throw Error(fmt::format("rows of {} cells, expected at most {} for the tier cells",
@@ -72,7 +96,7 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
         check_tiers(values.grid, *asked);
         if (asked->has(Tier::deltas) && !levels.lossless())
             throw Error("the tier deltas needs at most 256 distinct values in the series");
-        return {*asked, {"as asked for"}};
+        return {*asked, {"as asked for"}, true};
     }
     TierPlan plan;
     const auto add = [&](Tier tier, const std::string& reason) {
@@ -84,7 +108,6 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
         plan.reasons.push_back(fmt::format("no {}: {}", tier, reason));
     };
     add(Tier::bricks, "exact with the volume, for every type and size");
-    const std::uint64_t cell_steps = values.grid.cell_count() * values.steps;
     if (!levels.lossless()) {
         leave_out("cells", "more than 256 distinct values, so that entries do not merge in time");
         return plan;
@@ -94,11 +117,19 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
                                        values.grid.cells()[0], Chunking::kMaxCells));
         return plan;
     }
-    if (cell_steps > kMaxCellSteps) {
-        leave_out("cells", fmt::format("{} million cell-steps, which would take some {} GiB; "
-                                       "--tiers bricks,cells makes them all the same",
-                                       cell_steps / 1'000'000, cell_steps * 5 / 2 >> 30));
-        return plan;
+    const std::uint64_t bytes = values.grid.vertex_count() * size_of(values.type) * values.steps;
+    if (bytes > kSmallSeries) {
+        const double share = merged_share(values, levels);
+        const std::string figures =
+            fmt::format("{:.2f} entries for a cell and step, which is {} {:.1f}", share,
+                        share > kPayingCoherence ? "more than" : "at most", kPayingCoherence);
+        if (share > kPayingCoherence) {
+            leave_out("cells", fmt::format("{}: reading the bricks' values takes fewer bytes; "
+                                           "--tiers bricks,cells makes them all the same",
+                                           figures));
+            return plan;
+        }
+        plan.reasons.push_back(fmt::format("cells pay: {}", figures));
     }
     add(Tier::cells,
         fmt::format("at most {} levels, none of them shared by two values", levels.levels()));

@@ -13,8 +13,9 @@ namespace isochron::index {
 /// @throws Error when it cannot
 void check_tiers(const Grid& grid, const TierSet& asked);
 
-/// Bricks always; cells where levels are lossless, so that an entry never needs the volume; deltas
-/// where a step changes fewer cells than a search finds. What was asked for overrides that.
+/// Bricks always; cells where levels are lossless, so that an entry never needs the volume, and
+/// where the series is small or merging in time saves enough; deltas where a step changes fewer
+/// cells than a search finds. What was asked for overrides that.
 /// Looks at a sample of the steps and chunks, which depends on the series alone.
 /// @throws Error when something was asked for that cannot be
 TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
@@ -23,5 +24,9 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
 /// Mean over all isovalues of (added + removed cells) / (active cells), from step to step.
 /// Infinite where no cell is ever active; 0 for one step.
 double churn(const StepValues& values, const LevelMap& levels);
+
+/// Entries of the tier cells for each cell and step, of a sample: 1 where nothing merges in time.
+/// Cells that are active at no isovalue have none.
+double merged_share(const StepValues& values, const LevelMap& levels);
 
 } // namespace isochron::index

@@ -49,6 +49,7 @@ class Observer {
 };
 
 constexpr std::size_t kReadAhead = 64 << 20; ///< [bytes] of a step
+constexpr std::size_t kTooSmall = 32 << 10;  ///< [bytes] starting a thread takes longer
 
 } // namespace
 
@@ -74,6 +75,10 @@ VolumeFindings read_volume(VolumeSeries& series, NewFile& file, std::uint64_t of
             series.read(t, std::span(step).first(info.step_bytes()));
             if (looking.valid())
                 looking.get();
+            if (stride <= kTooSmall) {
+                observer.look(t, step);
+                continue;
+            }
             looking =
                 std::async(std::launch::async, [&observer, t, &step] { observer.look(t, step); });
         }

@@ -34,13 +34,23 @@ std::vector<Unit> views(std::string_view kind, const CellTier::Units& units,
 } // namespace
 
 CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
-                   const Units& deltas)
+                   const Units& deltas, const LazyPart* pages, std::uint64_t budget)
     : chunking_(chunking), steps_(steps),
       cells_(views<CellUnit>("cells", cells, chunking,
                              std::size_t{chunking.count()} * epoch_count(steps))),
       deltas_(views<DeltaUnit>("deltas", deltas, chunking, deltas.empty() ? 0 : cells.size())),
       sound_steps_(cells.size() * kEpoch), sound_tables_(cells.size() * 2 * kEpoch),
-      sound_transitions_(deltas.size() * kEpoch) {}
+      sound_transitions_(deltas.size() * kEpoch), pages_(pages), budget_(budget) {}
+
+std::shared_lock<std::shared_mutex> CellTier::hold() const {
+    if (pages_ && pages_->held() > budget_)
+        if (const std::unique_lock alone(held_, std::try_to_lock); alone) {
+            for (Marks* marks : {&sound_steps_, &sound_tables_, &sound_transitions_})
+                marks->clear();
+            pages_->drop();
+        }
+    return std::shared_lock(held_);
+}
 
 std::uint32_t CellTier::epoch_steps(std::uint32_t epoch) const {
     return std::min(kEpoch, steps_ - epoch * kEpoch);
@@ -54,12 +64,14 @@ TimePath CellTier::path_to(std::uint32_t step) const {
 void CellTier::check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
     const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
     const CellUnit& unit = cells_[i];
+    need(unit.head_bytes(epoch_steps(epoch)));
     if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
         refuse("cells", epoch, chunk);
     for (const std::uint32_t node : path_to(step)) {
         const std::size_t mark = i * 2 * kEpoch + node;
         if (sound_tables_[mark])
             continue;
+        need(unit.table_bytes(node));
         if (!unit.check_table(node))
             refuse("cells", epoch, chunk);
         sound_tables_.set(mark);
@@ -70,10 +82,22 @@ void CellTier::check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32
 void CellTier::check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
     const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
     const DeltaUnit& unit = deltas_[i];
-    if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)) ||
-        !unit.check_transition(step % kEpoch))
+    need(unit.head_bytes(epoch_steps(epoch)));
+    if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
+        refuse("deltas", epoch, chunk);
+    need(unit.table_bytes(2 * (step % kEpoch)));
+    need(unit.table_bytes(2 * (step % kEpoch) + 1));
+    if (!unit.check_transition(step % kEpoch))
         refuse("deltas", epoch, chunk);
     sound_transitions_.set(i * kEpoch + step % kEpoch);
+}
+
+/// Says which heads a first search at a step will need, so that the disk works on all of them.
+void CellTier::expect_cells(std::uint32_t step) const {
+    const std::size_t begin = std::size_t{step / kEpoch} * chunking_.count();
+    for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk)
+        if (!sound_steps_[(begin + chunk) * kEpoch + step % kEpoch])
+            pages_->expect(cells_[begin + chunk].head_bytes(epoch_steps(step / kEpoch)));
 }
 
 /// Calls `f` with the cells of every chunk, sound as far as the step needs them, while the next
@@ -84,6 +108,8 @@ void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
     const std::uint32_t epoch = step / kEpoch, chunks = chunking_.count();
     const TimePath path = path_to(step);
     const std::size_t begin = std::size_t{epoch} * chunks;
+    if (pages_ && !sound_steps_[begin * kEpoch + step % kEpoch])
+        expect_cells(step);
     for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
         if (chunk + 1 < chunks)
             cells_[begin + chunk + 1].prefetch(path);
@@ -150,14 +176,18 @@ void CellTier::level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap
 }
 
 void CellTier::verify() const {
-    for (std::uint32_t i = 0; i < cells_.size(); ++i) {
-        const std::uint32_t epoch = i / chunking_.count(), chunk = i % chunking_.count();
-        const std::uint32_t steps = epoch_steps(epoch), cells = chunking_.cells(chunk);
-        if (!cells_[i].check(steps, cells))
-            refuse("cells", epoch, chunk);
-        if (has_deltas() && !deltas_[i].check(steps, cells))
-            refuse("deltas", epoch, chunk);
-    }
+    for (std::size_t unit = 0; unit < cells_.size(); ++unit)
+        verify_unit(unit);
+}
+
+void CellTier::verify_unit(std::size_t unit) const {
+    const auto epoch = static_cast<std::uint32_t>(unit / chunking_.count());
+    const auto chunk = static_cast<std::uint32_t>(unit % chunking_.count());
+    const std::uint32_t steps = epoch_steps(epoch), cells = chunking_.cells(chunk);
+    if (!cells_[unit].check(steps, cells))
+        refuse("cells", epoch, chunk);
+    if (has_deltas() && !deltas_[unit].check(steps, cells))
+        refuse("deltas", epoch, chunk);
 }
 
 std::vector<TimeNodeCells> CellTier::nodes() const {
@@ -166,8 +196,12 @@ std::vector<TimeNodeCells> CellTier::nodes() const {
         std::vector<std::uint64_t> cells(TimeNode::count(epoch_steps(epoch)));
         for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk) {
             const CellUnit& unit = cells_[std::size_t{epoch} * chunking_.count() + chunk];
+            need(unit.head_bytes(epoch_steps(epoch)));
             if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
                 refuse("cells", epoch, chunk);
+            for (std::uint32_t node = 0; node < cells.size(); ++node)
+                if (const auto table = unit.table_bytes(node); !table.empty())
+                    need(table.first(sizeof(CellTableHead)));
             const std::vector<std::uint32_t> entries = unit.entries();
             for (std::size_t node = 0; node < cells.size(); ++node)
                 cells[node] += entries[node];

@@ -2,22 +2,25 @@
 #pragma once
 
 #include "index/cells/cell_unit.h"
+#include "index/system/lazy_part.h"
 #include "index/volume/chunking.h"
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <shared_mutex>
 #include <span>
 #include <vector>
 
 namespace isochron::index {
 
-/// The units stay where they are, usually in a mapped file. A table is checked when it is first
-/// needed, which throws Error where its bytes are damaged; none is looked at before. Any number of
+/// The units stay where they are. A table is read and checked when it is first needed, which throws
+/// Error where its bytes are damaged or cannot be read; none is looked at before. Any number of
 /// threads may search at once; a search allocates nothing but what the results need.
 ///
 ///     index::CellTier cells(Chunking(grid), steps, cell_bytes, delta_bytes);
+///     const auto held = cells.hold();
 ///     cells.search(t, cut, certain, ambiguous);
 ///     index::append_ids(certain, ids);
 class CellTier {
@@ -26,8 +29,14 @@ class CellTier {
     using Units = std::vector<std::span<const std::byte>>;
 
     /// @param deltas may be empty
-    CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
-             const Units& deltas);
+    /// @param pages what the units lie in, where they are read when they are needed; outlives this
+    /// @param budget bytes of it to keep
+    CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells, const Units& deltas,
+             const LazyPart* pages = nullptr, std::uint64_t budget = 0);
+
+    /// While somebody holds the tier, what searches find stays where it is. Who takes hold when
+    /// more has been read than the budget allows, and nobody else holds it, makes it begin anew.
+    std::shared_lock<std::shared_mutex> hold() const;
 
     bool has_deltas() const { return !deltas_.empty(); }
 
@@ -49,28 +58,41 @@ class CellTier {
     std::vector<TimeNodeCells> nodes() const;
     /// Checks everything, also what no search has needed yet; throws Error.
     void verify() const;
+    /// Likewise one unit, of which all has been read. @param unit by epoch and chunk, chunks faster
+    void verify_unit(std::size_t unit) const;
 
   private:
     /// A bit for each of many things, set by any thread.
     class Marks {
       public:
         explicit Marks(std::size_t count)
-            : words_(std::make_unique<std::atomic<std::uint64_t>[]>((count + 63) / 64)) {}
+            : count_((count + 63) / 64),
+              words_(std::make_unique<std::atomic<std::uint64_t>[]>(count_)) {}
         bool operator[](std::size_t i) const {
             return words_[i / 64].load(std::memory_order_acquire) >> i % 64 & 1;
         }
         void set(std::size_t i) {
             words_[i / 64].fetch_or(std::uint64_t{1} << i % 64, std::memory_order_release);
         }
+        void clear() {
+            for (std::size_t word = 0; word < count_; ++word)
+                words_[word] = 0;
+        }
 
       private:
+        std::size_t count_; ///< of words
         std::unique_ptr<std::atomic<std::uint64_t>[]> words_;
     };
 
     template <class F>
     void for_each_cells(std::uint32_t step, F&& f) const;
+    void expect_cells(std::uint32_t step) const;
     void check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
     void check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
+    void need(std::span<const std::byte> bytes) const {
+        if (pages_)
+            pages_->need(bytes);
+    }
 
     std::uint32_t epoch_steps(std::uint32_t epoch) const;
     TimePath path_to(std::uint32_t step) const;
@@ -81,6 +103,9 @@ class CellTier {
     std::vector<DeltaUnit> deltas_;
     /// Found sound: all that is needed at a step of a unit; a unit's head and its tables.
     mutable Marks sound_steps_, sound_tables_, sound_transitions_;
+    const LazyPart* pages_;
+    std::uint64_t budget_;
+    mutable std::shared_mutex held_;
 };
 
 } // namespace isochron::index

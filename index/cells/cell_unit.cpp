@@ -35,6 +35,14 @@ bool CellTables::lies_inside(const TableRef& ref) const {
            end * CellTableHead::kAlignment <= size_ - kSlackBytes;
 }
 
+std::span<const std::byte> CellTables::table_bytes(std::uint32_t table) const {
+    const TableRef& ref = refs()[table];
+    if (ref.offset == 0 || !lies_inside(ref))
+        return {};
+    return {bytes_ + std::size_t{ref.offset} * CellTableHead::kAlignment,
+            std::size_t{ref.size} * CellTableHead::kAlignment};
+}
+
 bool CellTables::check_table(std::uint32_t table) const {
     const TableRef& ref = refs()[table];
     if (ref.offset == 0)

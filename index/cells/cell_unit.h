@@ -5,6 +5,7 @@
 #include "index/volume/level_map.h"
 #include "index/volume/time_tree.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -58,6 +59,13 @@ class CellTables {
     bool check_table(std::uint32_t table) const;
     /// Whether all are, with their ids.
     bool check_tables() const;
+
+    /// Where the head lies with that many references, as far as there are bytes.
+    std::span<const std::byte> head_bytes(std::uint32_t tables) const {
+        return {bytes_, std::min(size_, sizeof(CellUnitHead) + tables * sizeof(TableRef))};
+    }
+    /// Where a table lies, when the head is sound; empty where it has none, or lies outside.
+    std::span<const std::byte> table_bytes(std::uint32_t table) const;
 
     /// Asks for the bytes that say where a table lies, ahead of need.
     void prefetch(std::uint32_t table) const { __builtin_prefetch(refs() + table); }
@@ -139,6 +147,13 @@ class CellUnit {
 
     /// Whether the head is sound and says so many steps and cells.
     bool check_head(std::uint32_t steps, std::uint32_t cells) const;
+    /// What must have been read for `check_head`, and then for a time node's table.
+    std::span<const std::byte> head_bytes(std::uint32_t steps) const {
+        return tables_.head_bytes(TimeNode::count(steps));
+    }
+    std::span<const std::byte> table_bytes(std::uint32_t node) const {
+        return tables_.table_bytes(node);
+    }
     /// Whether a time node's table is sound, when the head is: only then may it be searched.
     bool check_table(std::uint32_t node) const { return tables_.check_table(node); }
     /// Whether everything is sound.
@@ -178,6 +193,14 @@ class DeltaUnit {
 
     /// Whether the head is sound and says so many steps and cells.
     bool check_head(std::uint32_t steps, std::uint32_t cells) const;
+    /// What must have been read for `check_head`, and then for a table: 2 * step for what is added
+    /// into a step, the next one for what is removed.
+    std::span<const std::byte> head_bytes(std::uint32_t steps) const {
+        return tables_.head_bytes(2 * steps);
+    }
+    std::span<const std::byte> table_bytes(std::uint32_t table) const {
+        return tables_.table_bytes(table);
+    }
     /// Whether a transition's tables are sound, when the head is: only then may it be searched.
     bool check_transition(std::uint32_t into_step) const {
         return tables_.check_table(2 * into_step) && tables_.check_table(2 * into_step + 1);

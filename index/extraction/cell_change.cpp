@@ -101,6 +101,7 @@ CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
         work.set = work.search(to, {});
         return {true, work.set->ids, {}};
     }
+    const auto held = cells->hold();
     work.clear();
     bool disjoint = true; // a cell is in one of the runs at most
     bool found = true;

@@ -197,19 +197,35 @@ bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+struct IndexRay {
+    glm::dvec3 origin, direction; ///< vertex index coordinates
+};
+/// Nothing where it is not finite or of no length.
+std::optional<IndexRay> in_index(const Grid& grid, const Ray& ray) {
+    const glm::dmat4 index_from_physical = glm::inverse(grid.physical_from_index());
+    const IndexRay result{glm::dvec3(index_from_physical * glm::dvec4(ray.origin, 1.0)),
+                          glm::dvec3(index_from_physical * glm::dvec4(ray.direction, 0.0))};
+    if (!is_finite(result.origin) || !is_finite(result.direction) ||
+        result.direction == glm::dvec3(0.0))
+        return std::nullopt;
+    return result;
+}
+
+CellRay through_cells(const Grid& grid, const IndexRay& ray) {
+    const auto cells = grid.cells();
+    return {ray.origin, ray.direction, glm::ivec3(cells[0], cells[1], cells[2])};
+}
+
 } // namespace
 
 std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const Ray& ray,
                                 std::uint32_t surfaces) {
-    const glm::dmat4 index_from_physical = glm::inverse(grid.physical_from_index());
-    const glm::dvec3 origin(index_from_physical * glm::dvec4(ray.origin, 1.0));
-    const glm::dvec3 direction(index_from_physical * glm::dvec4(ray.direction, 0.0));
-    if (!is_finite(origin) || !is_finite(direction) || direction == glm::dvec3(0.0))
+    const auto indexed = in_index(grid, ray);
+    if (!indexed)
         return std::nullopt;
-    const auto cells = grid.cells();
+    const auto& [origin, direction] = *indexed;
     BrickVertices vertices(shown.bricks, grid);
-    for (CellRay at(origin, direction, glm::ivec3(cells[0], cells[1], cells[2])); at.inside();
-         at.advance()) {
+    for (CellRay at = through_cells(grid, *indexed); at.inside(); at.advance()) {
         const auto corners = vertices.of_cell(at.cell());
         if (!corners)
             continue;
@@ -230,6 +246,16 @@ std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const
             return nearest;
     }
     return std::nullopt;
+}
+
+std::optional<glm::dvec3> entry_into(const Grid& grid, const Ray& ray) {
+    const auto indexed = in_index(grid, ray);
+    if (!indexed)
+        return std::nullopt;
+    const CellRay first = through_cells(grid, *indexed);
+    if (!first.inside())
+        return std::nullopt;
+    return ray.origin + first.enter() * ray.direction;
 }
 
 } // namespace isochron::index

@@ -35,4 +35,7 @@ struct RayHit {
 std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const Ray& ray,
                                 std::uint32_t surfaces = ~std::uint32_t{0});
 
+/// Where the ray enters the grid, or starts in it; physical space. Nothing where it passes by.
+std::optional<glm::dvec3> entry_into(const Grid& grid, const Ray& ray);
+
 } // namespace isochron::index

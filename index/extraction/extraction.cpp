@@ -27,6 +27,7 @@ class Extracting {
             throw Error(fmt::format("{} isovalues: expected 1 to {}", count, kMostSurfaces));
         auto result = std::make_shared<Extraction>();
         result->query = query;
+        by_chunks_ = !file_->better_whole(query.step);
         for (std::size_t i = 0; i < count; ++i) {
             if (searches_.size() == i)
                 searches_.push_back(search_in(file_, method_, shading_));
@@ -47,19 +48,28 @@ class Extracting {
         result.bricks = gatherer_.none();
         if (result.cells() == 0) // no need to load, which may decode a file
             return true;
-        const LoadedStep loaded = file_->load(result.query.step);
         for (const CellSet& surface : result.surfaces)
             gatherer_.need(surface.ids);
-        if (!gatherer_.gather(loaded.values, result.query.step, levels, result.bricks, stop))
-            return false;
+        std::optional<LoadedStep> whole;
+        const std::uint32_t step = result.query.step;
+        if (by_chunks_) {
+            if (!gatherer_.gather(file_->chunks(), step, levels, result.bricks, stop))
+                return false;
+        } else {
+            whole = file_->load(step);
+            if (!gatherer_.gather(whole->values, step, levels, result.bricks, stop))
+                return false;
+        }
         result.gather_time = std::chrono::steady_clock::now() - started;
-        return colors_.fill(result.query, result.surfaces, loaded.values, result.colors, stop);
+        return colors_.fill(result.query, result.surfaces, whole ? &whole->values : nullptr,
+                            result.colors, stop);
     }
 
     std::shared_ptr<const IndexFile> file_;
     std::optional<SearchMethod> method_;
     Shading shading_;
     std::vector<Search> searches_; ///< by surface
+    bool by_chunks_ = false;       ///< the query's step is not loaded as a whole
     BrickValues values_;
     BrickGatherer gatherer_;
     SurfaceColors colors_;

@@ -14,7 +14,7 @@
 
 namespace isochron::index {
 
-/// Immutable once published; whoever shows it needs no mapped page.
+/// Immutable once published; whoever shows it reads nothing of the file.
 struct Extraction {
     SurfacesQuery query;
     std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows where asked for

@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/extraction/id_sort.h"
+#include "index/extraction/layer_search.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 
@@ -15,7 +16,8 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kCandidatesPerLook = 1 << 16;     ///< candidates between two looks at the stop token
+constexpr std::size_t kCandidatesPerLook =
+    1 << 16;                                ///< candidates between two looks at the stop token
 constexpr std::size_t kScanChunk = 1 << 22; ///< cells between two looks at the stop token
 
 class IndexSearch {
@@ -23,7 +25,7 @@ class IndexSearch {
     IndexSearch(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> forced,
                 Shading shading)
         : file_(std::move(file)), method_(forced ? *forced : cheapest_method(*file_)),
-          shading_(shading), keys_(file_->info().type, file_->info().scaling) {}
+          shading_(shading), keys_(file_->info().type, file_->info().scaling), layers_(file_) {}
 
     CellSetPtr operator()(const Query& query, const std::stop_token& stop) {
         const std::size_t steps = file_->info().steps();
@@ -33,14 +35,13 @@ class IndexSearch {
         auto set = std::make_shared<CellSet>();
         set->query = query;
         set->method = method_;
+        by_chunks_ = !file_->better_whole(query.step);
+        step_.reset();
         const bool searched = !std::isfinite(query.isovalue) || search(*set, stop);
         const auto found = Clock::now();
-        if (!searched)
+        if (!searched || (shading_ == Shading::cells && !set->ids.empty() && !shade(*set, stop)))
             return nullptr;
-        // Loading may decode a file; a step without active cells does without.
-        if (shading_ == Shading::cells && !set->ids.empty() &&
-            !shade_cells(file_->load(query.step).values, *set, stop))
-            return nullptr;
+        file_->chunks().worked_on(query.step);
         set->search_time = found - started;
         set->shading_time = Clock::now() - found;
         return set;
@@ -59,10 +60,23 @@ class IndexSearch {
         return search_all(set, stop);
     }
 
+    bool shade(CellSet& set, const std::stop_token& stop) {
+        return by_chunks_ ? layers_.shade_cells(set, stop)
+                          : shade_cells(whole(set.query.step).values, set, stop);
+    }
+
+    /// Loaded when it is needed: that may decode a file, and a step without cells does without.
+    const LoadedStep& whole(std::uint32_t step) {
+        if (!step_)
+            step_ = file_->load(step);
+        return *step_;
+    }
+
     bool search_cells(CellSet& set, const std::stop_token& stop) {
         const auto cut = file_->levels().cut(file_->info().scaling, set.query.isovalue);
         if (!cut)
             return true;
+        const auto held = file_->cells()->hold();
         certain_.clear();
         ambiguous_.clear();
         file_->cells()->search(set.query.step, *cut, certain_, ambiguous_);
@@ -80,9 +94,11 @@ class IndexSearch {
     }
 
     bool search_bricks_of(CellSet& set, const std::stop_token& stop) {
-        const LoadedStep loaded = file_->load(set.query.step);
-        set.candidates = search_bricks(loaded.values, file_->levels(),
-                                       file_->bricks(set.query.step), set.query, set.ids);
+        if (by_chunks_)
+            return layers_.search(set.query, true, set.ids, set.candidates, stop);
+        const LoadedStep& loaded = whole(set.query.step);
+        set.candidates =
+            search_bricks(loaded.values, file_->levels(), loaded.bricks, set.query, set.ids);
         sort_ids(set.ids, file_->info().grid.cell_count());
         return !stop.stop_requested();
     }
@@ -98,17 +114,23 @@ class IndexSearch {
 
     /// Appends those of `candidates_` that are active, ascending.
     bool test_candidates(CellSet& set, const std::stop_token& stop) {
-        const LoadedStep loaded = file_->load(set.query.step);
         // Ascending first: the test then walks through the volume instead of jumping about in it.
-        sort_ids(candidates_, loaded.values.grid.cell_count());
+        sort_ids(candidates_, file_->info().grid.cell_count());
+        if (by_chunks_) {
+            if (!layers_.keep_active(set.query, candidates_, stop))
+                return false;
+            set.ids.insert(set.ids.end(), candidates_.begin(), candidates_.end());
+            return true;
+        }
+        const StepValues& values = whole(set.query.step).values;
         set.ids.reserve(set.ids.size() + candidates_.size());
         for (std::size_t at = 0; at < candidates_.size(); at += kCandidatesPerLook) {
             if (stop.stop_requested())
                 return false;
             const auto first = candidates_.begin() + static_cast<std::ptrdiff_t>(at);
-            chunk_.assign(first, first + static_cast<std::ptrdiff_t>(
-                                             std::min(kCandidatesPerLook, candidates_.size() - at)));
-            keep_active(loaded.values, set.query, chunk_);
+            chunk_.assign(first, first + static_cast<std::ptrdiff_t>(std::min(
+                                             kCandidatesPerLook, candidates_.size() - at)));
+            keep_active(values, set.query, chunk_);
             set.ids.insert(set.ids.end(), chunk_.begin(), chunk_.end());
         }
         return !stop.stop_requested();
@@ -116,8 +138,10 @@ class IndexSearch {
 
     /// Slab by slab of whole z layers, so that a stop is noticed within one.
     bool search_all(CellSet& set, const std::stop_token& stop) {
-        const LoadedStep loaded = file_->load(set.query.step);
-        StepValues slab = loaded.values;
+        if (by_chunks_)
+            return layers_.search(set.query, false, set.ids, set.candidates, stop);
+        const StepValues& values = whole(set.query.step).values;
+        StepValues slab = values;
         const auto [width, height, depth] = slab.grid.cells();
         const std::uint64_t layer_cells = std::uint64_t{width} * height;
         const std::uint64_t layer_bytes =
@@ -127,7 +151,7 @@ class IndexSearch {
         for (std::uint32_t z = 0; z < depth; z += layers) {
             if (stop.stop_requested())
                 return false;
-            slab.first = loaded.values.first + z * layer_bytes;
+            slab.first = values.first + z * layer_bytes;
             slab.grid.vertices[2] = std::min(layers, depth - z) + 1;
             chunk_.clear();
             scan(slab, set.query, chunk_);
@@ -143,6 +167,9 @@ class IndexSearch {
     Shading shading_;
     KeyMap keys_;
     ThiTree::Cursor cursor_;
+    LayerSearch layers_;
+    bool by_chunks_ = false;         ///< the query's step is worked on by its chunks
+    std::optional<LoadedStep> step_; ///< else as a whole, when it is needed
     // Kept for their memory:
     std::vector<CellId> candidates_, chunk_;
     std::vector<IdRun> certain_, ambiguous_;
@@ -153,7 +180,7 @@ class IndexSearch {
 bool can_search(const IndexFile& file, SearchMethod method) {
     switch (method) {
     case SearchMethod::cells: return file.cells();
-    case SearchMethod::bricks: return !file.bricks(0).empty();
+    case SearchMethod::bricks: return file.plan().tiers.has(Tier::bricks);
     case SearchMethod::tree: return file.stats().tree_bytes > 0;
     case SearchMethod::scan: break;
     }

@@ -10,17 +10,16 @@ namespace isochron::index {
 
 SurfaceColors::SurfaceColors(std::shared_ptr<const IndexFile> file,
                              std::optional<SearchMethod> method)
-    : file_(std::move(file)), method_(method) {}
+    : file_(std::move(file)), method_(method), layers_(file_) {}
 
 bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>& surfaces,
-                         const StepValues& step, std::vector<std::uint16_t>& out,
+                         const StepValues* step, std::vector<std::uint16_t>& out,
                          const std::stop_token& stop) {
     forget_all_but(query);
     out.clear();
     const ColorArray* array = file_->color();
     if (query.coloring == CellColoring::none || (query.coloring == CellColoring::value && !array))
         return true;
-    std::optional<LoadedStep> colors;
     std::size_t rank = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const auto& cells = surfaces[i].ids;
@@ -29,10 +28,7 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
         out.resize(rank + cells.size());
         const auto part = std::span(out).subspan(rank);
         if (query.coloring == CellColoring::value) {
-            if (!colors)
-                colors = file_->load_color(query.step);
-            if (!color_cells(step, colors->values, query.surface(i), cells, array->low, array->high,
-                             part, stop))
+            if (!color_by_value(query.surface(i), cells, step, part, stop))
                 return false;
         } else {
             const FirstCrossings* first = crossings(query.isovalues[i], stop);
@@ -43,6 +39,16 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
         rank = out.size();
     }
     return true;
+}
+
+bool SurfaceColors::color_by_value(const Query& query, std::span<const CellId> cells,
+                                   const StepValues* step, std::span<std::uint16_t> out,
+                                   const std::stop_token& stop) {
+    if (!step)
+        return layers_.color_cells(query, cells, out, stop);
+    const ColorArray& array = *file_->color();
+    const LoadedStep colors = file_->load_color(query.step);
+    return color_cells(*step, colors.values, query, cells, array.low, array.high, out, stop);
 }
 
 void SurfaceColors::forget_all_but(const SurfacesQuery& query) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/extraction/first_crossing.h"
+#include "index/extraction/layer_search.h"
 
 #include <cstdint>
 #include <memory>
@@ -20,18 +21,21 @@ class SurfaceColors {
     SurfaceColors(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method);
 
     /// The coordinates as `Extraction::colors` has them.
-    /// @param step the volume's values at the query's step
+    /// @param step the volume's values at the query's step; null to work on its chunks
     /// @return false when it was stopped and `out` is incomplete
     /// @throws Error as loading a step and the search for first crossings do
     bool fill(const SurfacesQuery& query, const std::vector<CellSet>& surfaces,
-              const StepValues& step, std::vector<std::uint16_t>& out, const std::stop_token& stop);
+              const StepValues* step, std::vector<std::uint16_t>& out, const std::stop_token& stop);
 
   private:
+    bool color_by_value(const Query& query, std::span<const CellId> cells, const StepValues* step,
+                        std::span<std::uint16_t> out, const std::stop_token& stop);
     void forget_all_but(const SurfacesQuery& query);
     const FirstCrossings* crossings(double isovalue, const std::stop_token& stop);
 
     std::shared_ptr<const IndexFile> file_;
     std::optional<SearchMethod> method_;
+    LayerSearch layers_;
     std::vector<FirstCrossingsPtr> crossings_; ///< of isovalues that the last query had
 };
 

@@ -1,12 +1,14 @@
 // Marking and copying of bricks.
 #include "index/extraction/volume_bricks.h"
 
+#include "index/system/parallel.h"
 #include "index/volume/cell_walk.h"
 
 #include <xxhash.h>
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 namespace isochron::index {
 namespace {
@@ -75,32 +77,39 @@ void BrickGatherer::mark_row(std::uint32_t y, std::uint32_t z) {
     std::ranges::fill(row_outer_, std::uint8_t{0});
 }
 
-void BrickGatherer::copy(const std::byte* first, BrickId brick, const BrickLevels& levels,
-                         std::byte* out) const {
-    const auto& n = grid_.vertices;
+/// Stored values from a brick's first vertex on, and how many of them along each axis.
+struct BrickGatherer::Box {
+    const std::byte* first;
+    std::size_t row, plane; ///< bytes from one to the next
+    std::array<std::uint32_t, 3> size;
+};
+
+/// In bricks.
+std::array<std::uint32_t, 3> BrickGatherer::at(BrickId brick) const {
     const auto& tiles = tiling_.bricks;
-    const std::array<std::uint32_t, 3> at{brick % tiles[0] * kBrickEdge,
-                                          brick / tiles[0] % tiles[1] * kBrickEdge,
-                                          brick / tiles[0] / tiles[1] * kBrickEdge};
-    const std::size_t stored = size_of(values_.stored()), held = size_of(values_.held());
+    return {brick % tiles[0], brick / tiles[0] % tiles[1], brick / tiles[0] / tiles[1]};
+}
+
+void BrickGatherer::copy(const Box& from, const BrickLevels& levels, VolumeBricks& bricks,
+                         std::size_t i) const {
+    const std::size_t held = size_of(values_.held()), bytes = bricks.brick_bytes();
+    std::byte* out = bricks.bytes.data() + i * bytes;
     const bool inside =
-        at[0] + kBrickEdge <= n[0] && at[1] + kBrickEdge <= n[1] && at[2] + kBrickEdge <= n[2];
+        from.size == std::array<std::uint32_t, 3>{kBrickEdge, kBrickEdge, kBrickEdge};
     if (inside && values_.stored() == values_.held()) {
-        const std::size_t row = n[0] * stored, slice = n[1] * row;
-        const std::byte* from = first + at[2] * slice + at[1] * row + at[0] * stored;
-        switch (stored) {
-        case 1: return copy_rows<kBrickEdge>(from, row, slice, out);
-        case 2: return copy_rows<2 * kBrickEdge>(from, row, slice, out);
-        default: return copy_rows<4 * kBrickEdge>(from, row, slice, out);
+        switch (held) {
+        case 1: copy_rows<kBrickEdge>(from.first, from.row, from.plane, out); break;
+        case 2: copy_rows<2 * kBrickEdge>(from.first, from.row, from.plane, out); break;
+        default: copy_rows<4 * kBrickEdge>(from.first, from.row, from.plane, out);
         }
+    } else {
+        for (std::uint32_t z = 0; z < from.size[2]; ++z)
+            for (std::uint32_t y = 0; y < from.size[1]; ++y)
+                values_.convert(from.first + z * from.plane + y * from.row, from.size[0], levels,
+                                out + (z * kBrickEdge + y) * kBrickEdge * held);
     }
-    const std::uint32_t width = std::min(kBrickEdge, n[0] - at[0]);
-    for (std::uint32_t z = at[2]; z < std::min(at[2] + kBrickEdge, n[2]); ++z)
-        for (std::uint32_t y = at[1]; y < std::min(at[1] + kBrickEdge, n[1]); ++y) {
-            const std::size_t from = (std::size_t{z} * n[1] + y) * n[0] + at[0];
-            const std::size_t to = ((z - at[2]) * kBrickEdge + (y - at[1])) * kBrickEdge;
-            values_.convert(first + from * stored, width, levels, out + to * held);
-        }
+    const XXH128_hash_t hash = XXH3_128bits(out, bytes);
+    bricks.digests[i] = {hash.low64, hash.high64};
 }
 
 VolumeBricks BrickGatherer::none() const {
@@ -111,25 +120,81 @@ VolumeBricks BrickGatherer::none() const {
     return bricks;
 }
 
+void BrickGatherer::take_marked(VolumeBricks& bricks) {
+    bricks = none();
+    for (auto it = needed_.begin(); (it = std::find(it, needed_.end(), 1)) != needed_.end(); ++it) {
+        bricks.ids.push_back(static_cast<BrickId>(it - needed_.begin()));
+        *it = 0;
+    }
+    bricks.bytes.assign(bricks.ids.size() * bricks.brick_bytes(), std::byte{0});
+    bricks.digests.resize(bricks.ids.size());
+}
+
 bool BrickGatherer::gather(const StepValues& step, std::uint32_t number, const BrickLevels& levels,
                            VolumeBricks& bricks, const std::stop_token& stop) {
-    bricks = none();
-    for (auto at = needed_.begin(); (at = std::find(at, needed_.end(), 1)) != needed_.end(); ++at) {
-        bricks.ids.push_back(static_cast<BrickId>(at - needed_.begin()));
-        *at = 0;
-    }
-    const std::size_t size = bricks.brick_bytes();
-    bricks.bytes.assign(bricks.ids.size() * size, std::byte{0});
-    bricks.digests.resize(bricks.ids.size());
+    take_marked(bricks);
     const std::byte* first = step.step_bytes(number).data();
+    const auto& n = grid_.vertices;
+    const std::size_t size = size_of(values_.stored()), row = n[0] * size, plane = n[1] * row;
     for (std::size_t i = 0; i < bricks.ids.size(); ++i) {
         if (i % 256 == 0 && stop.stop_requested())
             return false;
-        copy(first, bricks.ids[i], levels, bricks.bytes.data() + i * size);
-        const XXH128_hash_t hash = XXH3_128bits(bricks.bytes.data() + i * size, size);
-        bricks.digests[i] = {hash.low64, hash.high64};
+        Box box{first, row, plane, {}};
+        auto corner = at(bricks.ids[i]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            corner[axis] *= kBrickEdge;
+            box.size[axis] = std::min(kBrickEdge, n[axis] - corner[axis]);
+        }
+        box.first += corner[2] * plane + corner[1] * row + corner[0] * size;
+        copy(box, levels, bricks, i);
     }
     return true;
+}
+
+bool BrickGatherer::gather(const ChunkStore& chunks, std::uint32_t number,
+                           const BrickLevels& levels, VolumeBricks& bricks,
+                           const std::stop_token& stop) {
+    static_assert(kChunkEdge % kBrickEdge == 0);
+    constexpr std::uint32_t kAcross = kChunkEdge / kBrickEdge;
+    take_marked(bricks);
+    const std::size_t size = size_of(values_.stored());
+    const std::uint64_t layer_bricks =
+        std::uint64_t{tiling_.bricks[0]} * tiling_.bricks[1] * kAcross;
+    parallel_for(
+        chunks.grid().layers(), thread_count(0),
+        [&](std::size_t layer, unsigned) {
+            const auto first = std::ranges::lower_bound(bricks.ids, layer * layer_bricks);
+            const auto last =
+                std::ranges::lower_bound(first, bricks.ids.end(), (layer + 1) * layer_bricks);
+            if (first == last || stop.stop_requested())
+                return;
+            const auto place_of = [&](BrickId brick) {
+                const auto tile = at(brick);
+                return chunks.grid().place(tile[0] / kAcross, tile[1] / kAcross);
+            };
+            std::vector<std::uint32_t> places;
+            std::transform(first, last, std::back_inserter(places), place_of);
+            std::ranges::sort(places);
+            places.erase(std::unique(places.begin(), places.end()), places.end());
+            const auto found = chunks.chunks(number, static_cast<std::uint32_t>(layer), places);
+            for (auto brick = first; brick != last; ++brick) {
+                const auto place = std::ranges::lower_bound(places, place_of(*brick));
+                const Chunk& chunk = *found[static_cast<std::size_t>(place - places.begin())];
+                auto corner = at(*brick);
+                Box box{chunk.values.data(),
+                        chunk.size[0] * size,
+                        chunk.size[0] * chunk.size[1] * size,
+                        {}};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    corner[axis] = corner[axis] % kAcross * kBrickEdge;
+                    box.size[axis] = std::min(kBrickEdge, chunk.size[axis] - corner[axis]);
+                }
+                box.first += corner[2] * box.plane + corner[1] * box.row + corner[0] * size;
+                copy(box, levels, bricks, static_cast<std::size_t>(brick - bricks.ids.begin()));
+            }
+        },
+        {});
+    return !stop.stop_requested();
 }
 
 } // namespace isochron::index

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/extraction/brick_values.h"
+#include "index/file/chunk_store.h"
 #include "index/volume/step_values.h"
 
 #include <array>
@@ -62,10 +63,17 @@ class BrickGatherer {
     bool gather(const StepValues& step, std::uint32_t number, const BrickLevels& levels,
                 VolumeBricks& bricks, const std::stop_token& stop = {});
 
+    /// The same from the chunks of a step, with all cores. @throws Error as ChunkStore does
+    bool gather(const ChunkStore& chunks, std::uint32_t number, const BrickLevels& levels,
+                VolumeBricks& bricks, const std::stop_token& stop = {});
+
   private:
+    struct Box;
     void mark_row(std::uint32_t y, std::uint32_t z);
-    void copy(const std::byte* first, BrickId brick, const BrickLevels& levels,
-              std::byte* out) const;
+    std::array<std::uint32_t, 3> at(BrickId brick) const;
+    void take_marked(VolumeBricks& bricks);
+    void copy(const Box& from, const BrickLevels& levels, VolumeBricks& bricks,
+              std::size_t i) const;
 
     Grid grid_;
     BrickTiling tiling_;

@@ -1,27 +1,28 @@
 // Header and section table of the .isochron file: where everything lies, and whether it is intact.
 //
-// Version 2, little-endian, offsets from the start of the file. The header has 4096 bytes:
-// FileHeader, then zeros. The sections follow from 4096 on, those up to `units` at multiples of
-// 4096, the others of 64, the gaps zero:
-// - volume: stored values, step after step, each step padded with zeros to 64 bytes; empty when the
-//   file refers to its sources
-// - bricks: extremes of the bricks (bricks.h), step after step, padded likewise
+// Version 3, little-endian, offsets from the start of the file. The header has 4096 bytes:
+// FileHeader, then zeros. The sections follow from 4096 on, volume and units at multiples of 4096,
+// the others of 64, the gaps zero:
+// - volume: chunks of values with the extremes of their bricks, and the tables that say where they
+//   lie (chunk_table.h), array after array, step after step, each from a multiple of 64
 // - units: cells and deltas of every chunk in every epoch (cell_unit.h), each part padded to 64
 //   bytes
 // - tree: the THI tree's block (thi_tree.h)
+// - steps: a StepEntry for each step of the volume, then for each of the array to color by
 // - directory: a UnitEntry for each epoch and chunk, chunks faster
-// - checksums: XXH3, 64 bits: of every step of the volume, of every step of the bricks, of cells
-//   and deltas of every unit, all without their padding
+// - checksums: XXH3, 64 bits: of the stored values of every step of the volume, of cells and deltas
+//   of every unit, of the stored values of every step of the array to color by
 // - metadata: JSON (metadata.h)
 // A section that the plan does without is empty.
 #pragma once
+
+#include "index/system/byte_source.h"
 
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 
 namespace isochron::index {
 
@@ -29,18 +30,18 @@ static_assert(std::endian::native == std::endian::little, "files are little-endi
 
 constexpr std::uint64_t kSectionAlignment = 4096;
 constexpr std::uint64_t kPartAlignment = 64;
-constexpr std::uint32_t kFileVersion = 2;
+constexpr std::uint32_t kFileVersion = 3;
 
 enum class SectionKind : std::uint32_t {
     volume,
-    bricks,
     units,
     tree,
+    steps,
     directory,
     checksums,
     metadata
 };
-constexpr std::array<const char*, 7> kSectionNames{"volume",    "bricks",    "units",   "tree",
+constexpr std::array<const char*, 7> kSectionNames{"volume",    "units",     "tree",    "steps",
                                                    "directory", "checksums", "metadata"};
 
 struct Section {
@@ -54,6 +55,12 @@ struct UnitEntry {
     std::uint64_t deltas_offset, deltas_bytes;
 };
 
+/// Where the chunks of a step lie in their section.
+struct StepEntry {
+    std::uint64_t offset = 0, bytes = 0;
+    std::uint64_t tables = 0; ///< where the tables of the layers begin, from `offset`
+};
+
 /// As stored, without padding.
 struct FileHeader {
     std::array<char, 8> magic{'I', 'S', 'O', 'C', 'H', 'R', 'O', 'N'};
@@ -63,17 +70,13 @@ struct FileHeader {
     std::uint64_t content_hash = 0;
     std::array<Section, kSectionNames.size()> sections{};
     std::uint64_t checksum = 0; ///< XXH3 of the 4096 header bytes with this field 0
-    /// Behind what every index has, since few have it: the array to color by, in an otherwise
-    /// empty stretch between sections; all zero when there is none. The checksum is that of its
-    /// table of checksums.
-    Section colors{};
 
     Section& section(SectionKind kind) { return sections[static_cast<std::size_t>(kind)]; }
     const Section& section(SectionKind kind) const {
         return sections[static_cast<std::size_t>(kind)];
     }
 };
-static_assert(sizeof(FileHeader) == 32 + kSectionNames.size() * 24 + 8 + 24);
+static_assert(sizeof(FileHeader) == 32 + kSectionNames.size() * 24 + 8);
 
 constexpr std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
     return (value + alignment - 1) / alignment * alignment;
@@ -83,9 +86,8 @@ constexpr std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
 std::array<std::byte, kSectionAlignment> header_bytes(FileHeader header);
 
 /// Checks the header of a file and that every section lies within it.
-/// @param name of the file, for the message  @param file all of its bytes; only the header is read
 /// @throws Error: foreign, other byte order, other version, damaged header, truncated
-FileHeader checked_header(const std::string& name, std::span<const std::byte> file);
+FileHeader checked_header(const ByteSource& file);
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes);
 

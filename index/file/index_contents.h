@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,11 @@ struct Referral {
     ReadOptions options;
 };
 
-/// The values of one step, for as long as `owner` lives.
+/// One step as a whole, for as long as `owner` lives.
 struct LoadedStep {
-    StepValues values; ///< a window of this step
-    std::shared_ptr<const void> owner;
+    StepValues values;                         ///< a window of this step
+    std::span<const std::uint8_t> bricks = {}; ///< as from `build_bricks`; empty without bricks
+    std::shared_ptr<const void> owner = nullptr;
 };
 
 } // namespace isochron::index

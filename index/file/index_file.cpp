@@ -2,13 +2,15 @@
 #include "index/file/index_file.h"
 
 #include "index/scan/bricks.h"
+#include "index/system/memory_limit.h"
 #include "index/volume/chunking.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <utility>
-#include <vector>
 
 namespace isochron::index {
 namespace {
@@ -19,71 +21,195 @@ const char* section_name(SectionKind kind) {
     return kSectionNames[static_cast<std::size_t>(kind)];
 }
 
+/// A step of which values and bricks come from two places.
+struct JoinedStep {
+    LoadedStep values, bricks;
+};
+
 } // namespace
 
-IndexFile::IndexFile(const std::filesystem::path& path)
-    : name_(path.string()), file_(path), header_(checked_header(name_, file_.bytes())) {
-    for (const SectionKind kind :
-         {SectionKind::metadata, SectionKind::directory, SectionKind::checksums})
-        check(kind);
-    const auto bytes = section(SectionKind::metadata);
-    if (bytes.size() > kMaxMetadataBytes)
-        throw damaged(fmt::format("metadata of {} bytes", bytes.size()));
+IndexFile::IndexFile(std::unique_ptr<ByteSource> bytes, std::uint64_t cache_bytes)
+    : bytes_(std::move(bytes)), cache_bytes_(cache_bytes ? cache_bytes : memory_limit() / 4),
+      cache_(cache_bytes_), header_(checked_header(*bytes_)) {
+    if (const std::uint64_t size = header_.section(SectionKind::metadata).bytes;
+        size > kMaxMetadataBytes)
+        throw damaged(fmt::format("metadata of {} bytes", size));
+    const auto text = section<char>(SectionKind::metadata);
     try {
-        metadata_ = metadata_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        metadata_ = metadata_from_json({text.data(), text.size()});
     } catch (const Error& error) {
         throw damaged(fmt::format("metadata: {}", error.what()));
     }
-    set_values();
-    set_bricks();
+    step_entries_ = section<StepEntry>(SectionKind::steps);
+    directory_ = section<UnitEntry>(SectionKind::directory);
+    checksums_ = section<std::uint64_t>(SectionKind::checksums);
+    set_arrays();
     set_cells();
-    if (checksums().size() != checksum_count_)
-        throw damaged(
-            fmt::format("{} checksums, expected {}", checksums().size(), checksum_count_));
-    if (metadata_.referral)
-        source_ = std::make_unique<StepSource>(
-            path, metadata_.info, *metadata_.referral,
-            std::vector<std::uint64_t>(checksums().begin(),
-                                       checksums().begin() + std::ptrdiff_t(steps())));
-    set_colors(path);
     IndexStats& stats = metadata_.stats;
-    stats.color_bytes = header_.colors.bytes;
     stats.file_bytes = header_.file_bytes;
-    stats.volume_bytes = header_.section(SectionKind::volume).bytes;
-    stats.bricks_bytes = header_.section(SectionKind::bricks).bytes;
     stats.tree_bytes = header_.section(SectionKind::tree).bytes;
 }
 
-const StepValues& IndexFile::values() const {
-    if (source_)
-        throw Error(fmt::format("{}: refers to its values instead of carrying them", name_));
-    return values_;
+/// All of a section, compared with its checksum.
+template <class T>
+std::vector<T> IndexFile::section(SectionKind kind) const {
+    const Section& where = header_.section(kind);
+    std::vector<T> items(where.bytes / sizeof(T));
+    const auto bytes = std::as_writable_bytes(std::span(items));
+    if (bytes.size() != where.bytes)
+        throw damaged(fmt::format("section {} of {} bytes", section_name(kind), where.bytes));
+    bytes_->read(where.offset, bytes);
+    if (checksum_of(bytes) != where.checksum)
+        throw mismatch(kind);
+    return items;
+}
+
+std::span<const std::byte> IndexFile::part(std::uint64_t offset, std::uint64_t bytes) const {
+    return units_->bytes().subspan(offset, bytes);
+}
+
+ChunkArray IndexFile::array_of(std::uint32_t number, const SeriesInfo& info) const {
+    const Section& section = header_.section(SectionKind::volume);
+    ChunkArray array{.called = number == 0 ? "volume" : "colors",
+                     .number = number,
+                     .info = info,
+                     .section = section.offset,
+                     .steps = {},
+                     .has_bricks = number == 0 && metadata_.plan.tiers.has(Tier::bricks),
+                     .has_values = !metadata_.referral};
+    const ChunkGrid grid(info.grid);
+    const std::uint64_t tables = layer_table_bytes(grid.chunks_of_layer()) * grid.layers();
+    for (std::size_t step = 0; step < steps(); ++step) {
+        const StepEntry& entry = step_entries_[number * steps() + step];
+        if (entry.offset > section.bytes || entry.bytes > section.bytes - entry.offset ||
+            entry.offset % kPartAlignment || entry.tables > entry.bytes ||
+            entry.bytes - entry.tables != tables)
+            throw damaged(
+                fmt::format("step {} of the {} lies outside its section", step, array.called));
+        array.steps.push_back(entry);
+    }
+    return array;
+}
+
+void IndexFile::set_arrays() {
+    const std::size_t arrays = metadata_.color ? 2 : 1;
+    if (step_entries_.size() / arrays != steps() || step_entries_.size() % arrays)
+        throw damaged(
+            fmt::format("{} steps of chunks, expected {}", step_entries_.size(), arrays * steps()));
+    const std::size_t checksums = arrays * steps() + 2 * directory_.size();
+    if (checksums_.size() != checksums)
+        throw damaged(fmt::format("{} checksums, expected {}", checksums_.size(), checksums));
+    const auto sums = checksums_.begin();
+    const auto count = static_cast<std::ptrdiff_t>(steps());
+    volume_ = std::make_unique<ChunkStore>(*bytes_, cache_, array_of(0, metadata_.info));
+    if (metadata_.referral)
+        source_ = std::make_unique<StepSource>(bytes_->name(), metadata_.info, *metadata_.referral,
+                                               std::vector(sums, sums + count));
+    IndexStats& stats = metadata_.stats;
+    stats.bricks_bytes = metadata_.plan.tiers.has(Tier::bricks)
+                             ? volume_->grid().count() * sizeof(ChunkBricks) * steps()
+                             : 0;
+    for (std::size_t i = 0; i < step_entries_.size(); ++i)
+        (i < steps() ? stats.volume_bytes : stats.color_bytes) += step_entries_[i].bytes;
+    stats.volume_bytes -= std::min(stats.volume_bytes, stats.bricks_bytes);
+    if (!metadata_.color)
+        return;
+    SeriesInfo info = metadata_.info;
+    info.array = metadata_.color->array;
+    info.value_unit = metadata_.color->value_unit;
+    info.type = metadata_.color->type;
+    info.scaling = metadata_.color->scaling;
+    colors_ = std::make_unique<ChunkStore>(*bytes_, cache_, array_of(1, info));
+    if (!metadata_.referral)
+        return;
+    color_referral_ = metadata_.referral;
+    color_referral_->options.array = metadata_.color->chosen_array;
+    color_referral_->options.component = metadata_.color->chosen_component;
+    color_source_ =
+        std::make_unique<StepSource>(bytes_->name(), colors_->info(), *color_referral_,
+                                     std::vector(checksums_.end() - count, checksums_.end()));
+}
+
+void IndexFile::set_cells() {
+    if (!metadata_.plan.tiers.has(Tier::cells)) {
+        if (!directory_.empty())
+            throw damaged("a directory of cells that there are none of");
+        return;
+    }
+    const Grid& grid = metadata_.info.grid;
+    if (grid.cells()[0] > Chunking::kMaxCells)
+        throw damaged(fmt::format("cells in rows of {}", grid.cells()[0]));
+    const std::uint64_t expected = Chunking(grid).count() * std::uint64_t{epoch_count(steps())};
+    if (directory_.size() != expected)
+        throw damaged(
+            fmt::format("directory of {} units, expected {}", directory_.size(), expected));
+    const Section& section = header_.section(SectionKind::units);
+    units_ = std::make_unique<LazyPart>(*bytes_, section.offset, section.bytes);
+    const bool with_deltas = metadata_.plan.tiers.has(Tier::deltas);
+    CellTier::Units cells, deltas;
+    for (const UnitEntry& unit : directory_) {
+        for (const auto& [offset, length] : {std::pair{unit.cells_offset, unit.cells_bytes},
+                                             std::pair{unit.deltas_offset, unit.deltas_bytes}})
+            if (offset > section.bytes || length > section.bytes - offset ||
+                offset % kPartAlignment)
+                throw damaged("a unit of cells lies outside its section");
+        cells.push_back(part(unit.cells_offset, unit.cells_bytes));
+        if (with_deltas)
+            deltas.push_back(part(unit.deltas_offset, unit.deltas_bytes));
+        metadata_.stats.cells_bytes += unit.cells_bytes;
+        metadata_.stats.deltas_bytes += unit.deltas_bytes;
+    }
+    cells_.emplace(Chunking(grid), static_cast<std::uint32_t>(steps()), cells, deltas, units_.get(),
+                   cache_bytes_);
 }
 
 LoadedStep IndexFile::load(std::uint32_t step) const {
-    if (source_)
-        return source_->load(step);
-    StepValues window = values_;
-    window.first += step * window.stride;
-    window.first_step = step;
-    return {window, nullptr};
+    if (!source_)
+        return volume_->whole(step);
+    auto both = std::make_shared<JoinedStep>(JoinedStep{source_->load(step), {}});
+    if (metadata_.plan.tiers.has(Tier::bricks))
+        both->bricks = volume_->whole(step);
+    return {both->values.values, both->bricks.bricks, both};
 }
 
-std::span<const std::uint8_t> IndexFile::bricks(std::uint32_t step) const {
-    if (brick_bytes_ == 0)
-        return {};
-    const auto bytes = section(SectionKind::bricks).subspan(step * brick_stride_, brick_bytes_);
-    return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+bool IndexFile::better_whole(std::uint32_t step) const {
+    return source_ || volume_->better_whole(step);
+}
+
+LoadedStep IndexFile::load_color(std::uint32_t step) const {
+    return color_source_ ? color_source_->load(step) : colors_->whole(step);
+}
+
+const StepValues& IndexFile::values() const {
+    std::call_once(all_read_, [this] {
+        const SeriesInfo& info = metadata_.info;
+        StepValues all{.grid = info.grid,
+                       .type = info.type,
+                       .scaling = info.scaling,
+                       .steps = info.steps(),
+                       .stride = step_stride(info.step_bytes())};
+        const std::size_t bytes = align_up(all.stride * all.steps, kSectionAlignment);
+        all_.reset(static_cast<std::byte*>(std::aligned_alloc(kSectionAlignment, bytes)),
+                   [](std::byte* memory) { std::free(memory); });
+        if (!all_)
+            throw Error(fmt::format("{}: no memory for {} bytes", bytes_->name(), bytes));
+        for (std::uint32_t step = 0; step < info.steps(); ++step)
+            std::memcpy(all_.get() + step * all.stride, load(step).values.step_bytes(step).data(),
+                        info.step_bytes());
+        all.first = all_.get();
+        values_ = all;
+    });
+    return values_;
 }
 
 const ThiTree* IndexFile::tree() const {
-    std::call_once(tree_checked_, [this] {
-        const auto bytes = section(SectionKind::tree);
-        if (bytes.empty())
+    std::call_once(tree_read_, [this] {
+        const Section& where = header_.section(SectionKind::tree);
+        if (where.bytes == 0)
             return;
-        check(SectionKind::tree);
+        tree_bytes_ = section<std::uint64_t>(SectionKind::tree);
         try {
-            tree_ = std::make_unique<ThiTree>(bytes);
+            tree_ = std::make_unique<ThiTree>(std::as_bytes(std::span(tree_bytes_)));
         } catch (const Error& error) {
             throw damaged(fmt::format("tree: {}", error.what()));
         }
@@ -94,61 +220,46 @@ const ThiTree* IndexFile::tree() const {
     return tree_.get();
 }
 
+void IndexFile::check_step(const LoadedStep& loaded, std::uint32_t step, std::uint64_t checksum,
+                           const char* called) const {
+    if (checksum_of(loaded.values.step_bytes(step)) != checksum)
+        throw damaged(
+            fmt::format("the checksum of the {} of step {} does not match", called, step));
+}
+
 void IndexFile::verify(const Progress& progress) const {
+    const auto total = static_cast<double>(checksums_.size());
     std::size_t next = 0;
-    const auto total = static_cast<double>(checksum_count_);
-    const auto expect = [&](std::span<const std::byte> bytes, SectionKind kind) {
+    const auto take = [&](const char* called) {
         if (progress)
-            progress(section_name(kind), static_cast<double>(next) / total);
-        if (checksum_of(bytes) != checksums()[next++])
-            throw mismatch(kind);
+            progress(called, static_cast<double>(next) / total);
+        return checksums_[next++];
     };
-    for (std::uint32_t step = 0; step < steps(); ++step) {
-        const LoadedStep loaded = load(step);
-        expect(loaded.values.step_bytes(step), SectionKind::volume);
+    for (std::uint32_t step = 0; step < steps(); ++step)
+        check_step(load(step), step, take("volume"), "volume");
+    for (std::size_t i = 0; i < directory_.size(); ++i) {
+        const auto held = cells_->hold(); // gives memory back where there is too much of it
+        const UnitEntry& unit = directory_[i];
+        for (const auto& bytes : {part(unit.cells_offset, unit.cells_bytes),
+                                  part(unit.deltas_offset, unit.deltas_bytes)}) {
+            units_->need(bytes);
+            if (checksum_of(bytes) != take("units"))
+                throw mismatch(SectionKind::units);
+        }
+        cells_->verify_unit(i);
     }
-    if (brick_bytes_ > 0)
-        for (std::uint32_t step = 0; step < steps(); ++step)
-            expect(std::as_bytes(bricks(step)), SectionKind::bricks);
-    for (const UnitEntry& unit : directory_) {
-        expect(part(unit.cells_offset, unit.cells_bytes), SectionKind::units);
-        expect(part(unit.deltas_offset, unit.deltas_bytes), SectionKind::units);
-    }
-    if (cells_)
-        cells_->verify();
     if (metadata_.plan.tiers.has(Tier::tree))
-        check(SectionKind::tree);
+        section<std::byte>(SectionKind::tree);
     for (std::uint32_t step = 0; colors_ && step < steps(); ++step)
-        if (!colors_->matches(step))
-            throw damaged(
-                fmt::format("the checksum of the colors of step {} does not match", step));
+        check_step(load_color(step), step, take("colors"), "colors");
     check_gaps();
 }
 
-std::span<const std::byte> IndexFile::section(SectionKind kind) const {
-    const Section& section = header_.section(kind);
-    return file_.bytes().subspan(section.offset, section.bytes);
-}
-std::span<const std::byte> IndexFile::part(std::uint64_t offset, std::uint64_t bytes) const {
-    return section(SectionKind::units).subspan(offset, bytes);
-}
-
 Error IndexFile::damaged(const std::string& what) const {
-    return Error(fmt::format("{}: damaged: {}", name_, what));
+    return Error(fmt::format("{}: damaged: {}", bytes_->name(), what));
 }
 Error IndexFile::mismatch(SectionKind kind) const {
     return damaged(fmt::format("the checksum of section {} does not match", section_name(kind)));
-}
-
-void IndexFile::check(SectionKind kind) const {
-    if (checksum_of(section(kind)) != header_.section(kind).checksum)
-        throw mismatch(kind);
-}
-
-std::span<const std::uint64_t> IndexFile::checksums() const {
-    const auto bytes = section(SectionKind::checksums);
-    return {reinterpret_cast<const std::uint64_t*>(bytes.data()),
-            bytes.size() / sizeof(std::uint64_t)};
 }
 
 /// Padding is zero and lies outside every checksum.
@@ -157,116 +268,38 @@ void IndexFile::check_gaps() const {
     const auto use = [&](SectionKind kind, std::uint64_t offset, std::uint64_t bytes) {
         used.emplace_back(header_.section(kind).offset + offset, bytes);
     };
-    if (!source_)
-        for (std::size_t step = 0; step < steps(); ++step)
-            use(SectionKind::volume, step * values_.stride, metadata_.info.step_bytes());
-    for (std::size_t step = 0; brick_bytes_ > 0 && step < steps(); ++step)
-        use(SectionKind::bricks, step * brick_stride_, brick_bytes_);
+    for (const StepEntry& step : step_entries_)
+        use(SectionKind::volume, step.offset, step.bytes);
     for (const UnitEntry& unit : directory_) {
         use(SectionKind::units, unit.cells_offset, unit.cells_bytes);
         use(SectionKind::units, unit.deltas_offset, unit.deltas_bytes);
     }
-    for (const SectionKind kind :
-         {SectionKind::tree, SectionKind::directory, SectionKind::checksums, SectionKind::metadata})
+    for (const SectionKind kind : {SectionKind::tree, SectionKind::steps, SectionKind::directory,
+                                   SectionKind::checksums, SectionKind::metadata})
         use(kind, 0, header_.section(kind).bytes);
-    if (colors_)
-        for (const auto& [offset, bytes] : colors_->parts())
-            used.emplace_back(header_.colors.offset + offset, bytes);
     std::sort(used.begin(), used.end());
     std::uint64_t end = 0;
+    std::vector<std::byte> gap;
     for (const auto& [offset, bytes] : used) {
-        for (std::uint64_t at = end; at < offset; ++at)
-            if (file_.bytes()[at] != std::byte{0})
-                throw damaged(fmt::format("byte {} is not zero", at));
+        // Longer than padding ever is: no gap of the sections' making.
+        if (offset > end + kSectionAlignment)
+            throw damaged(fmt::format("nothing lies from byte {} to {}", end, offset));
+        gap.resize(offset > end ? offset - end : 0);
+        bytes_->read(end, gap);
+        for (std::size_t i = 0; i < gap.size(); ++i)
+            if (gap[i] != std::byte{0})
+                throw damaged(fmt::format("byte {} is not zero", end + i));
         end = std::max(end, offset + bytes);
     }
 }
 
-void IndexFile::set_values() {
-    const SeriesInfo& info = metadata_.info;
-    checksum_count_ = steps();
-    if (metadata_.referral)
-        return;
-    const auto volume = section(SectionKind::volume);
-    values_ = {.grid = info.grid,
-               .type = info.type,
-               .scaling = info.scaling,
-               .steps = info.steps(),
-               .first = volume.data(),
-               .stride = step_stride(info.step_bytes())};
-    // Division, since the product of damaged numbers could wrap.
-    if (volume.size() / values_.steps != values_.stride || volume.size() % values_.steps)
-        throw damaged(fmt::format("volume of {} bytes, expected {} steps of {}", volume.size(),
-                                  values_.steps, values_.stride));
+std::shared_ptr<const IndexFile> IndexFile::open(const std::filesystem::path& path,
+                                                 std::uint64_t cache_bytes) {
+    return open(open_bytes(path), cache_bytes);
 }
-
-void IndexFile::set_bricks() {
-    if (!metadata_.plan.tiers.has(Tier::bricks))
-        return;
-    brick_bytes_ = BrickGrid(metadata_.info.grid).bytes_per_step();
-    brick_stride_ = align_up(brick_bytes_, kPartAlignment);
-    const std::uint64_t bytes = section(SectionKind::bricks).size();
-    if (bytes / steps() != brick_stride_ || bytes % steps())
-        throw damaged(fmt::format("bricks of {} bytes, expected {} steps of {}", bytes, steps(),
-                                  brick_stride_));
-    checksum_count_ += steps();
-}
-
-void IndexFile::set_cells() {
-    const auto bytes = section(SectionKind::directory);
-    directory_ = {reinterpret_cast<const UnitEntry*>(bytes.data()),
-                  bytes.size() / sizeof(UnitEntry)};
-    if (!metadata_.plan.tiers.has(Tier::cells)) {
-        if (!bytes.empty())
-            throw damaged("a directory of cells that there are none of");
-        return;
-    }
-    const Grid& grid = metadata_.info.grid;
-    if (grid.cells()[0] > Chunking::kMaxCells)
-        throw damaged(fmt::format("cells in rows of {}", grid.cells()[0]));
-    const std::uint64_t expected = Chunking(grid).count() * std::uint64_t{epoch_count(steps())};
-    if (directory_.size() != expected || bytes.size() % sizeof(UnitEntry))
-        throw damaged(
-            fmt::format("directory of {} units, expected {}", directory_.size(), expected));
-    const std::uint64_t size = section(SectionKind::units).size();
-    const bool with_deltas = metadata_.plan.tiers.has(Tier::deltas);
-    CellTier::Units cells, deltas;
-    for (const UnitEntry& unit : directory_) {
-        for (const auto& [offset, length] : {std::pair{unit.cells_offset, unit.cells_bytes},
-                                             std::pair{unit.deltas_offset, unit.deltas_bytes}})
-            if (offset > size || length > size - offset || offset % kPartAlignment)
-                throw damaged("a unit of cells lies outside its section");
-        cells.push_back(part(unit.cells_offset, unit.cells_bytes));
-        if (with_deltas)
-            deltas.push_back(part(unit.deltas_offset, unit.deltas_bytes));
-        metadata_.stats.cells_bytes += unit.cells_bytes;
-        metadata_.stats.deltas_bytes += unit.deltas_bytes;
-    }
-    checksum_count_ += 2 * directory_.size();
-    file_.expect_scattered_reads(section(SectionKind::units));
-    cells_.emplace(Chunking(grid), static_cast<std::uint32_t>(steps()), cells, deltas);
-}
-
-void IndexFile::set_colors(const std::filesystem::path& path) {
-    const Section& section = header_.colors;
-    if (metadata_.color.has_value() != (section.bytes > 0))
-        throw damaged(metadata_.color ? "no section of colors" : "colors of no array");
-    if (!metadata_.color)
-        return;
-    const auto bytes = file_.bytes().subspan(section.offset, section.bytes);
-    const std::uint64_t table = steps() * sizeof(std::uint64_t);
-    if (bytes.size() < table || checksum_of(bytes.first(table)) != section.checksum)
-        throw damaged("the checksum of the table of colors does not match");
-    try {
-        colors_ = std::make_unique<ColorSection>(bytes, path, metadata_.info, *metadata_.color,
-                                                 metadata_.referral);
-    } catch (const Error& error) {
-        throw damaged(error.what());
-    }
-}
-
-std::shared_ptr<const IndexFile> IndexFile::open(const std::filesystem::path& path) {
-    return std::shared_ptr<const IndexFile>(new IndexFile(path));
+std::shared_ptr<const IndexFile> IndexFile::open(std::unique_ptr<ByteSource> bytes,
+                                                 std::uint64_t cache_bytes) {
+    return std::shared_ptr<const IndexFile>(new IndexFile(std::move(bytes), cache_bytes));
 }
 
 } // namespace isochron::index

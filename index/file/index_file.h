@@ -1,14 +1,17 @@
-// The .isochron file: one memory-mapped file with the volume and its search structures.
+// The .isochron file: the volume in chunks and its search structures, read as they are needed.
 #pragma once
 
 #include "index/cells/cell_tier.h"
 #include "index/error.h"
-#include "index/file/color_array.h"
+#include "index/file/byte_cache.h"
+#include "index/file/chunk_store.h"
 #include "index/file/file_layout.h"
 #include "index/file/index_contents.h"
 #include "index/file/metadata.h"
 #include "index/file/step_source.h"
-#include "index/system/mapped_file.h"
+#include "index/progress.h"
+#include "index/system/byte_source.h"
+#include "index/system/lazy_part.h"
 #include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
 #include "index/volume/volume_series.h"
@@ -21,81 +24,101 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace isochron::index {
 
-/// An open index: immutable, thread-safe, owns the mapping. Opening checks the header, the
-/// metadata and the directory of parts and touches nothing else; `verify` checks the rest. A mapped
-/// file that is made shorter, or whose disk fails, ends the program with SIGBUS.
+/// An open index: immutable but for what it keeps of the file, thread-safe. Opening reads the
+/// header, the metadata and what says where everything lies; the rest is read when it is needed,
+/// and checked then. A file that is made shorter, or whose disk fails, is an Error of what needs
+/// it.
 class IndexFile {
   public:
+    /// @param cache_bytes how much of what was read is kept; 0 for a quarter of what this process
+    ///        may have
     /// @throws Error: missing, truncated, foreign, another version, damaged
-    static std::shared_ptr<const IndexFile> open(const std::filesystem::path& path);
+    static std::shared_ptr<const IndexFile> open(const std::filesystem::path& path,
+                                                 std::uint64_t cache_bytes = 0);
+    static std::shared_ptr<const IndexFile> open(std::unique_ptr<ByteSource> bytes,
+                                                 std::uint64_t cache_bytes = 0);
 
     const SeriesInfo& info() const { return metadata_.info; }
     const IndexStats& stats() const { return metadata_.stats; }
     const TierPlan& plan() const { return metadata_.plan; }
+    Codec codec() const { return metadata_.codec; }
     const LevelMap& levels() const { return *metadata_.levels; } ///< of bricks and cells
     const ThiOptions& tree_options() const { return metadata_.tree; }
-
-    /// All steps. @throws Error when the file refers to its sources instead of carrying a copy
-    const StepValues& values() const;
     const std::optional<Referral>& referral() const { return metadata_.referral; }
-    /// One step; decoded from its source where the file refers to it: not for the thread that
-    /// draws. @throws Error when a source cannot be read or is not as it was
+
+    /// One step as a whole; decoded, from its source where the file refers to it: not for the
+    /// thread that draws. @throws Error when it cannot be read, is damaged or is not as it was
     LoadedStep load(std::uint32_t step) const;
+    /// Whether that is better than working on the chunks that are needed.
+    bool better_whole(std::uint32_t step) const;
+    /// The volume in chunks; of an index that refers to its sources they have no values.
+    const ChunkStore& chunks() const { return *volume_; }
+    /// All steps at once, decoded into memory when it is first asked for: for measurements and
+    /// tests. @throws Error as `load`
+    const StepValues& values() const;
 
     /// Null when the index carries no array to color by.
     const ColorArray* color() const { return metadata_.color ? &*metadata_.color : nullptr; }
+    /// Likewise in chunks; null where the index refers to its sources.
+    const ChunkStore* color_chunks() const { return color_source_ ? nullptr : colors_.get(); }
     /// One step of it, as `load`. There must be one.
-    LoadedStep load_color(std::uint32_t step) const { return colors_->load(step); }
+    LoadedStep load_color(std::uint32_t step) const;
 
-    // Null or empty where the plan does without them.
-    std::span<const std::uint8_t> bricks(std::uint32_t step) const;
-    const CellTier* cells() const {
-        return cells_ ? &*cells_ : nullptr;
-    } ///< with the deltas, if any
-    /// Checked when first asked for, which reads the whole tree: not for the thread that draws.
+    /// Null where the plan does without them; with the deltas, if any.
+    const CellTier* cells() const { return cells_ ? &*cells_ : nullptr; }
+    /// Null without one. Read and checked when first asked for: not for the thread that draws.
     /// @throws Error when it is damaged
     const ThiTree* tree() const;
 
     /// Of the values and grid: the same data, the same hash.
     std::uint64_t content_hash() const { return header_.content_hash; }
+    /// What is kept of the values, and what it may take.
+    ByteCache::Use cache() const { return cache_.use(); }
 
     /// Compares every checksum; reads the whole file, and the sources that it refers to.
     /// @throws Error naming the damaged section
     void verify(const Progress& progress = {}) const;
 
   private:
-    explicit IndexFile(const std::filesystem::path& path);
+    IndexFile(std::unique_ptr<ByteSource> bytes, std::uint64_t cache_bytes);
 
     std::size_t steps() const { return metadata_.info.steps(); }
-    std::span<const std::byte> section(SectionKind kind) const;
+    template <class T>
+    std::vector<T> section(SectionKind kind) const;
     std::span<const std::byte> part(std::uint64_t offset, std::uint64_t bytes) const;
-    std::span<const std::uint64_t> checksums() const;
 
-    void set_values();
-    void set_bricks();
+    void set_arrays();
     void set_cells();
-    void set_colors(const std::filesystem::path& path);
-    void check(SectionKind kind) const;
+    ChunkArray array_of(std::uint32_t number, const SeriesInfo& info) const;
     void check_gaps() const;
+    void check_step(const LoadedStep& loaded, std::uint32_t step, std::uint64_t checksum,
+                    const char* called) const;
     Error damaged(const std::string& what) const;
     Error mismatch(SectionKind kind) const;
 
-    std::string name_;
-    MappedFile file_;
+    std::unique_ptr<ByteSource> bytes_;
+    std::uint64_t cache_bytes_;
+    mutable ByteCache cache_;
     FileHeader header_;
     Metadata metadata_;
-    StepValues values_; ///< unless it refers to its sources
-    std::unique_ptr<StepSource> source_;
-    std::unique_ptr<ColorSection> colors_;
-    std::uint64_t brick_bytes_ = 0, brick_stride_ = 0;
-    std::span<const UnitEntry> directory_;
+    std::vector<StepEntry> step_entries_;
+    std::vector<std::uint64_t> checksums_;
+    std::unique_ptr<ChunkStore> volume_, colors_;
+    std::optional<Referral> color_referral_;
+    std::unique_ptr<StepSource> source_, color_source_; ///< when it refers to its sources
+    std::vector<UnitEntry> directory_;
+    std::unique_ptr<LazyPart> units_;
     std::optional<CellTier> cells_;
-    std::uint64_t checksum_count_ = 0;
-    mutable std::once_flag tree_checked_;
+    mutable std::once_flag tree_read_;
+    mutable std::vector<std::uint64_t> tree_bytes_;
     mutable std::unique_ptr<ThiTree> tree_;
+    mutable std::once_flag all_read_;
+    mutable std::shared_ptr<std::byte> all_;
+    mutable StepValues values_;
 };
 
 } // namespace isochron::index

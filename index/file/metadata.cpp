@@ -63,13 +63,42 @@ void check_depth(std::string_view text) {
     }
 }
 
+/// The bytes of a name of a file or an array: as text where they are UTF-8, as every JSON is, else one by one.
+json exact(const std::string& name) {
+    try {
+        json text = name;
+        text.dump(); // which checks them
+        return text;
+    } catch (const json::type_error&) {
+        return std::vector<std::uint8_t>(name.begin(), name.end());
+    }
+}
+
+json exact(const std::vector<std::string>& names) {
+    json all = json::array();
+    for (const std::string& name : names)
+        all.push_back(exact(name));
+    return all;
+}
+
+std::string exact_text(const json& value) {
+    if (value.is_string())
+        return value.get<std::string>();
+    if (!value.is_array())
+        throw Error("expected a name");
+    std::string name;
+    for (const json& byte : value)
+        name += static_cast<char>(whole<std::uint8_t>(byte));
+    return name;
+}
+
 bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 SeriesInfo info_of(const json& j) {
     SeriesInfo info;
-    j.at("array").get_to(info.array);
+    info.array = exact_text(j.at("array"));
     j.at("value_unit").get_to(info.value_unit);
     j.at("length_unit").get_to(info.length_unit);
     j.at("time_unit").get_to(info.time_unit);
@@ -90,7 +119,8 @@ SeriesInfo info_of(const json& j) {
     j.at("slope").get_to(info.scaling.slope);
     j.at("intercept").get_to(info.scaling.intercept);
     j.at("times").get_to(info.times);
-    j.at("sources").get_to(info.sources);
+    for (const json& source : j.at("sources"))
+        info.sources.push_back(exact_text(source));
     j.at("notes").get_to(info.notes);
     check_limits(info);
     return info;
@@ -131,7 +161,7 @@ json json_of(const TierPlan& plan) {
     for (std::size_t i = 0; i < kTierNames.size(); ++i)
         if (plan.tiers.has(static_cast<Tier>(i)))
             tiers.push_back(kTierNames[i]);
-    return {{"tiers", tiers}, {"reasons", plan.reasons}};
+    return {{"tiers", tiers}, {"reasons", plan.reasons}, {"asked", plan.asked}};
 }
 
 TierPlan plan_of(const json& j) {
@@ -143,17 +173,26 @@ TierPlan plan_of(const json& j) {
         plan.tiers = plan.tiers.with(*tier);
     }
     j.at("reasons").get_to(plan.reasons);
+    plan.asked = j.value("asked", false); // version 2 did not say
     return plan;
 }
 
 template <class T>
 void put_optional(json& j, const char* key, const std::optional<T>& value) {
-    if (value)
+    if constexpr (std::is_same_v<T, std::string>) {
+        if (value)
+            j[key] = exact(*value);
+    } else if (value) {
         j[key] = *value;
+    }
 }
 template <class T>
 void get_optional(const json& j, const char* key, std::optional<T>& value) {
-    if (j.contains(key))
+    if (!j.contains(key))
+        return;
+    if constexpr (std::is_same_v<T, std::string>)
+        value = exact_text(j.at(key));
+    else
         value = j.at(key).get<T>();
 }
 
@@ -163,7 +202,9 @@ json json_of(const Referral& referral) {
            {"big_endian", options.big_endian},
            {"header_bytes", options.header_bytes}};
     for (const std::filesystem::path& file : referral.files)
-        j["files"].push_back(file.string());
+        j["files"].push_back(exact(file.string()));
+    if (options.allow_surplus)
+        j["allow_surplus"] = true;
     put_optional(j, "array", options.array);
     put_optional(j, "component", options.component);
     put_optional(j, "dims", options.dims);
@@ -176,8 +217,9 @@ json json_of(const Referral& referral) {
 Referral referral_of(const json& j) {
     Referral referral;
     for (const json& file : j.at("files"))
-        referral.files.emplace_back(file.get<std::string>());
+        referral.files.emplace_back(exact_text(file));
     ReadOptions& options = referral.options;
+    options.allow_surplus = j.value("allow_surplus", false);
     j.at("big_endian").get_to(options.big_endian);
     options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
     get_optional(j, "array", options.array);
@@ -192,7 +234,7 @@ Referral referral_of(const json& j) {
 }
 
 json json_of(const ColorArray& color) {
-    json j{{"array", color.array},
+    json j{{"array", exact(color.array)},
            {"value_unit", color.value_unit},
            {"type", name_of(color.type)},
            {"slope", color.scaling.slope},
@@ -207,7 +249,7 @@ json json_of(const ColorArray& color) {
 
 ColorArray color_of(const json& j) {
     ColorArray color;
-    j.at("array").get_to(color.array);
+    color.array = exact_text(j.at("array"));
     j.at("value_unit").get_to(color.value_unit);
     const auto type = value_type_from_name(j.at("type").get<std::string>());
     if (!type)
@@ -260,7 +302,7 @@ std::string to_json(const Metadata& metadata) {
     const Grid& grid = info.grid;
     const IndexStats& stats = metadata.stats;
     json j{
-        {"array", info.array},
+        {"array", exact(info.array)},
         {"value_unit", info.value_unit},
         {"length_unit", info.length_unit},
         {"time_unit", info.time_unit},
@@ -274,7 +316,7 @@ std::string to_json(const Metadata& metadata) {
         {"slope", info.scaling.slope},
         {"intercept", info.scaling.intercept},
         {"times", info.times},
-        {"sources", info.sources},
+        {"sources", exact(info.sources)},
         {"notes", info.notes},
         {"stats",
          {{"low", stats.low},
@@ -284,6 +326,7 @@ std::string to_json(const Metadata& metadata) {
           {"histogram", stats.histogram}}},
         {"levels", json_of(metadata.levels.value())},
         {"plan", json_of(metadata.plan)},
+        {"codec", kCodecNames[static_cast<std::size_t>(metadata.codec)]},
         {"tree",
          {{"lattice", metadata.tree.lattice}, {"max_variation", metadata.tree.max_variation}}},
     };
@@ -291,7 +334,7 @@ std::string to_json(const Metadata& metadata) {
         j["referral"] = json_of(*metadata.referral);
     if (metadata.color)
         j["color"] = json_of(*metadata.color);
-    // File names may be any bytes; JSON may not.
+    // What files say in words may be any bytes; JSON may not.
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -309,6 +352,12 @@ Metadata metadata_from_json(std::string_view text) try {
     get_whole(stats.at("histogram"), metadata.stats.histogram);
     metadata.levels = levels_of(j.at("levels"), metadata.info.type);
     metadata.plan = plan_of(j.at("plan"));
+    if (j.contains("codec")) { // version 2 had none
+        const auto codec = codec_from_name(j.at("codec").get<std::string>());
+        if (!codec)
+            throw Error("unknown codec");
+        metadata.codec = *codec;
+    }
     const json& tree = j.at("tree");
     metadata.tree.lattice = whole<std::uint32_t>(tree.at("lattice"));
     metadata.tree.max_variation = whole<std::uint32_t>(tree.at("max_variation"));

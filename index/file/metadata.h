@@ -1,6 +1,7 @@
 // What an .isochron file knows about its volume, as JSON.
 #pragma once
 
+#include "index/file/chunk_codec.h"
 #include "index/file/index_contents.h"
 #include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
@@ -15,6 +16,7 @@ struct Metadata {
     SeriesInfo info = {};
     IndexStats stats = {};
     TierPlan plan = {};
+    Codec codec = Codec::fitting;        ///< that values were packed with
     std::optional<LevelMap> levels = {}; ///< always set once the values are known
     ThiOptions tree = {};
     std::optional<Referral> referral = {};

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -21,27 +22,38 @@ StepSource::StepSource(std::filesystem::path index, const SeriesInfo& info,
     : index_(std::move(index)), info_(info), referral_(referral), checksums_(std::move(checksums)) {
 }
 
+void StepSource::open_sources() {
+    series_.reset();
+    std::vector<std::filesystem::path> files;
+    for (const std::filesystem::path& file : referral_.files)
+        files.push_back(index_.parent_path() / file);
+    auto series = open_series(files, referral_.options);
+    const SeriesInfo& now = series->info();
+    if (now.grid.vertices != info_.grid.vertices || now.type != info_.type ||
+        now.steps() < info_.steps())
+        throw Error(fmt::format("{}: its sources have changed since it was built: {} steps, "
+                                "expected {} of the same grid and type",
+                                index_.string(), now.steps(), info_.steps()));
+    series_ = std::move(series);
+}
+
 LoadedStep StepSource::load(std::uint32_t step) {
     const std::lock_guard lock(mutex_);
     auto found = std::find_if(kept_.begin(), kept_.end(),
                               [&](const Decoded& decoded) { return decoded.step == step; });
     if (found == kept_.end()) {
-        if (!series_) {
-            std::vector<std::filesystem::path> files;
-            for (const std::filesystem::path& file : referral_.files)
-                files.push_back(index_.parent_path() / file);
-            series_ = open_series(files, referral_.options);
-        }
-        const SeriesInfo& now = series_->info();
-        if (now.grid.vertices != info_.grid.vertices || now.type != info_.type ||
-            step >= now.steps())
-            throw Error(fmt::format("{}: its sources have changed since it was built: {} steps, "
-                                    "expected {} of the same grid and type",
-                                    index_.string(), now.steps(), info_.steps()));
         auto words = std::make_shared<std::vector<std::uint64_t>>(step_stride(info_.step_bytes()) /
                                                                   sizeof(std::uint64_t));
         const auto stored = std::as_writable_bytes(std::span(*words)).first(info_.step_bytes());
-        series_->read(step, stored);
+        if (!series_)
+            open_sources();
+        try {
+            series_->read(step, stored);
+        } catch (const Error&) {
+            // Files may be copied or touched while somebody looks at them: what they hold counts.
+            open_sources();
+            series_->read(step, stored);
+        }
         if (checksum_of(stored) != checksums_[step])
             throw Error(fmt::format(
                 "{}: its source {} has changed since it was built (step {})", index_.string(),
@@ -61,6 +73,7 @@ LoadedStep StepSource::load(std::uint32_t step) {
              .first = reinterpret_cast<const std::byte*>(decoded.words->data()),
              .stride = decoded.words->size() * sizeof(std::uint64_t),
              .first_step = step},
+            {},
             decoded.words};
 }
 

@@ -28,6 +28,8 @@ class StepSource {
         std::shared_ptr<const std::vector<std::uint64_t>> words;
     };
 
+    void open_sources();
+
     std::filesystem::path index_;
     const SeriesInfo& info_;
     const Referral& referral_;

@@ -42,6 +42,7 @@ class TierSet {
 struct TierPlan {
     TierSet tiers;
     std::vector<std::string> reasons; ///< a sentence for each tier that could be, for `info`
+    bool asked = false;               ///< chosen by whoever built the index
 };
 
 } // namespace isochron::index

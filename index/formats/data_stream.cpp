@@ -2,6 +2,7 @@
 #include "index/formats/data_stream.h"
 
 #include "index/error.h"
+#include "index/system/input_file.h"
 
 #include <bzlib.h>
 #include <fmt/format.h>
@@ -9,11 +10,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fstream>
 #include <optional>
-#include <system_error>
-#include <utility>
+#include <string>
 #include <vector>
 
 namespace isochron::index {
@@ -23,33 +21,28 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kChunk = 1 << 18;
 
-std::ifstream open_file(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-        throw Error(fmt::format("{}: cannot be opened: {}", path.string(),
-                                std::generic_category().message(errno)));
-    return in;
-}
-
 class PlainData final : public DataStream {
   public:
-    PlainData(fs::path path, std::uint64_t offset)
-        : path_(std::move(path)), offset_(offset), in_(open_file(path_)) {}
+    PlainData(const fs::path& path, std::uint64_t offset)
+        : name_(path.string()), offset_(offset), file_(path) {}
 
     void read(std::uint64_t position, std::span<std::byte> out) override {
-        in_.clear();
-        in_.seekg(static_cast<std::streamoff>(offset_ + position));
-        in_.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size()));
-        if (!in_)
-            throw Error(fmt::format("{}: truncated: data end at byte {}, expected {}",
-                                    path_.string(), file_bytes(path_),
-                                    offset_ + position + out.size()));
+        const std::uint64_t begin = offset_ + position;
+        const std::size_t got = file_.read(begin, out);
+        if (got < out.size())
+            throw Error(fmt::format("{}: truncated: data end at byte {}, expected {}", name_,
+                                    begin + got, begin + out.size()));
+    }
+
+    Rest rest(std::uint64_t position) override {
+        const std::uint64_t begin = offset_ + position;
+        return {.bytes = file_.size() > begin ? file_.size() - begin : 0};
     }
 
   private:
-    fs::path path_;
+    std::string name_;
     std::uint64_t offset_;
-    std::ifstream in_;
+    InputFile file_;
 };
 
 /// zlib's streaming interface; concatenated members are one stream, as gzip has it.
@@ -64,6 +57,10 @@ class Deflate {
     ~Deflate() { inflateEnd(&stream_); }
     Deflate(const Deflate&) = delete;
     Deflate& operator=(const Deflate&) = delete;
+
+    /// Whether a stream has ended and no other has begun.
+    bool ended() const { return ended_; }
+    static bool begins_with(char first) { return first == '\x1f'; } ///< a gzip member
 
     /// Consumes from `in`, fills from the front of `out`. @return false when the data are damaged
     bool step(std::span<char>& in, std::span<std::byte>& out) {
@@ -96,6 +93,9 @@ class Bzip2 {
     ~Bzip2() { BZ2_bzDecompressEnd(&stream_); }
     Bzip2(const Bzip2&) = delete;
     Bzip2& operator=(const Bzip2&) = delete;
+
+    bool ended() const { return ended_; }
+    static bool begins_with(char first) { return first == 'B'; }
 
     bool step(std::span<char>& in, std::span<std::byte>& out) {
         if (ended_) {
@@ -130,96 +130,124 @@ class Bzip2 {
 template <class Decoder>
 class CompressedData final : public DataStream {
   public:
-    CompressedData(fs::path path, std::uint64_t offset)
-        : path_(std::move(path)), offset_(offset), chunk_(kChunk) {
+    CompressedData(const fs::path& path, std::uint64_t offset)
+        : name_(path.string()), offset_(offset), file_(path), chunk_(kChunk) {
         rewind();
     }
 
     void read(std::uint64_t position, std::span<std::byte> out) override {
+        go_to(position);
+        fill(out);
+    }
+
+    Rest rest(std::uint64_t position) override {
+        go_to(position);
+        std::vector<std::byte> decoded(kChunk);
+        while (position_ - position < Rest::kMostCounted) {
+            if (decoder_->ended() && has_input() && !Decoder::begins_with(pending_.front()))
+                return {position_ - position, file_.size() - next_ + pending_.size()};
+            std::span<std::byte> out(decoded);
+            if (!advance(out))
+                break;
+        }
+        return {.bytes = position_ - position};
+    }
+
+  private:
+    void rewind() {
+        next_ = offset_;
+        decoder_.emplace();
+        pending_ = {};
+        position_ = 0;
+    }
+
+    void go_to(std::uint64_t position) {
         if (position < position_)
             rewind();
         std::vector<std::byte> skipped(std::min<std::uint64_t>(position - position_, kChunk));
         while (position_ < position)
             fill(std::span(skipped).first(
                 std::min<std::uint64_t>(position - position_, skipped.size())));
-        fill(out);
-    }
-
-  private:
-    void rewind() {
-        in_ = open_file(path_);
-        in_.seekg(static_cast<std::streamoff>(offset_));
-        decoder_.emplace();
-        pending_ = {};
-        position_ = 0;
     }
 
     void fill(std::span<std::byte> out) {
         const std::uint64_t end = position_ + out.size();
-        while (!out.empty()) {
-            if (pending_.empty()) {
-                in_.read(chunk_.data(), static_cast<std::streamsize>(chunk_.size()));
-                pending_ = std::span(chunk_).first(static_cast<std::size_t>(in_.gcount()));
-            }
-            const std::size_t wanted = out.size(), had = pending_.size();
-            const bool good = decoder_->step(pending_, out);
-            position_ += wanted - out.size();
-            if (!good)
-                throw Error(fmt::format("{}: damaged {} data after {} decompressed bytes",
-                                        path_.string(), Decoder::kName, position_));
-            if (had == 0 && wanted == out.size())
-                throw Error(
-                    fmt::format("{}: truncated: {} data end after {} bytes, expected at least {}",
-                                path_.string(), Decoder::kName, position_, end));
-        }
+        while (!out.empty())
+            if (!advance(out))
+                fail_truncated(fmt::format("at least {}", end));
     }
 
-    fs::path path_;
+    bool has_input() {
+        if (pending_.empty()) {
+            const std::size_t got = file_.read(next_, std::as_writable_bytes(std::span(chunk_)));
+            pending_ = std::span(chunk_).first(got);
+            next_ += got;
+        }
+        return !pending_.empty();
+    }
+
+    /// Decodes what comes next to the front of `out`. @return false where the data have ended
+    bool advance(std::span<std::byte>& out) {
+        const bool fed = has_input();
+        if (!fed && decoder_->ended())
+            return false;
+        const std::size_t room = out.size();
+        const bool good = decoder_->step(pending_, out);
+        position_ += room - out.size();
+        if (!good)
+            throw Error(fmt::format("{}: damaged {} data after {} decompressed bytes", name_,
+                                    Decoder::kName, position_));
+        if (!fed && room == out.size() && !decoder_->ended())
+            fail_truncated("the check that ends them");
+        return true;
+    }
+
+    [[noreturn]] void fail_truncated(const std::string& expected) const {
+        throw Error(fmt::format("{}: truncated: {} data end after {} bytes, expected {}", name_,
+                                Decoder::kName, position_, expected));
+    }
+
+    std::string name_;
     std::uint64_t offset_;
-    std::ifstream in_;
+    InputFile file_;
+    std::uint64_t next_ = 0; ///< byte of the file to read next
     std::vector<char> chunk_;
     std::span<char> pending_;
     std::optional<Decoder> decoder_;
     std::uint64_t position_ = 0;
 };
 
+bool starts_as_gzip(const InputFile& file) {
+    constexpr std::array kMagic{std::byte{0x1f}, std::byte{0x8b}};
+    std::array<std::byte, kMagic.size()> start{};
+    return file.read(0, start) == start.size() && start == kMagic;
+}
+
 } // namespace
 
 std::uint64_t file_bytes(const fs::path& path) {
-    std::error_code failure;
-    const fs::file_status status = fs::status(path, failure);
-    if (!fs::exists(status))
-        throw Error(fmt::format("{}: there is no such file", path.string()));
-    if (fs::is_directory(status))
-        throw Error(fmt::format("{}: a folder, expected a file", path.string()));
-    if (!fs::is_regular_file(status))
-        throw Error(fmt::format("{}: not a regular file", path.string()));
-    const std::uint64_t bytes = fs::file_size(path, failure);
-    if (failure)
-        throw Error(fmt::format("{}: cannot be read: {}", path.string(), failure.message()));
-    return bytes;
+    return InputFile(path).size();
 }
 
 std::string head_of(const fs::path& path, std::size_t most) {
-    const std::uint64_t size = file_bytes(path);
-    const bool packed = is_gzip(path);
-    std::string head(packed ? most : std::min<std::uint64_t>(size, most), '\0');
-    std::ifstream in = open_file(path);
-    if (!packed) {
-        in.read(head.data(), static_cast<std::streamsize>(head.size()));
-        head.resize(static_cast<std::size_t>(in.gcount()));
+    const InputFile file(path);
+    std::string head(most, '\0');
+    std::span<std::byte> output = std::as_writable_bytes(std::span(head));
+    if (!starts_as_gzip(file)) {
+        head.resize(file.read(0, output));
         return head;
     }
     // As much input as it takes: a name in the gzip header may be long, and what does not compress
     // grows.
     std::vector<char> chunk(4096);
     std::span<char> pending;
+    std::uint64_t next = 0;
     Deflate decoder;
-    std::span<std::byte> output = std::as_writable_bytes(std::span(head));
     while (!output.empty()) {
         if (pending.empty()) {
-            in.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-            pending = std::span(chunk).first(static_cast<std::size_t>(in.gcount()));
+            pending =
+                std::span(chunk).first(file.read(next, std::as_writable_bytes(std::span(chunk))));
+            next += pending.size();
         }
         const std::size_t had = pending.size(), wanted = output.size();
         if (!decoder.step(pending, output))
@@ -232,10 +260,7 @@ std::string head_of(const fs::path& path, std::size_t most) {
 }
 
 bool is_gzip(const fs::path& path) {
-    std::array<unsigned char, 2> magic{};
-    std::ifstream in = open_file(path);
-    in.read(reinterpret_cast<char*>(magic.data()), magic.size());
-    return in && magic[0] == 0x1f && magic[1] == 0x8b;
+    return starts_as_gzip(InputFile(path));
 }
 
 void expect_room(const fs::path& path, std::uint64_t offset, Compression compression,
@@ -254,7 +279,6 @@ void expect_room(const fs::path& path, std::uint64_t offset, Compression compres
 
 std::unique_ptr<DataStream> open_data(const fs::path& path, std::uint64_t offset,
                                       Compression compression) {
-    file_bytes(path);
     switch (compression) {
     case Compression::deflate: return std::make_unique<CompressedData<Deflate>>(path, offset);
     case Compression::bzip2: return std::make_unique<CompressedData<Bzip2>>(path, offset);

@@ -26,6 +26,14 @@ bool is_gzip(const std::filesystem::path& path);
 void expect_room(const std::filesystem::path& path, std::uint64_t offset, Compression compression,
                  std::uint64_t bytes);
 
+/// What follows a place in the data.
+struct Rest {
+    static constexpr std::uint64_t kMostCounted = std::uint64_t{1} << 30;
+
+    std::uint64_t bytes = 0;   ///< decompressed; counted no further than `kMostCounted`
+    std::uint64_t foreign = 0; ///< of the file, behind the end of what is compressed
+};
+
 /// Reading forward decompresses each byte once; going back starts again from the beginning.
 class DataStream {
   public:
@@ -34,6 +42,10 @@ class DataStream {
     /// Reads `out.size()` bytes from `position` in the decompressed data.
     /// @throws Error naming the file: the data end before that, or are damaged
     virtual void read(std::uint64_t position, std::span<std::byte> out) = 0;
+
+    /// Reads on from `position` to the end, where compressed data have their check.
+    /// @throws Error naming the file: the data are truncated, or differ from their check
+    virtual Rest rest(std::uint64_t position) = 0;
 };
 
 /// @param offset of the first byte of (compressed) data in the file; `deflate` takes zlib and gzip

@@ -4,11 +4,13 @@
 #include "index/error.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/time_unit.h"
+#include "index/system/input_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 namespace isochron::index {
@@ -65,12 +67,49 @@ void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInf
         fail("space", text(got.anatomy), text(first.anatomy));
 }
 
+/// What a file was when the series was opened.
+struct Found {
+    std::vector<std::filesystem::path> paths; ///< itself, and those that hold its values
+    std::vector<FileState> states;
+    std::size_t steps = 0;
+};
+
+void expect_unchanged(const Found& found) {
+    for (std::size_t i = 0; i < found.paths.size(); ++i) {
+        const FileState &was = found.states[i], is = state_of(found.paths[i]);
+        if (is == was)
+            continue;
+        const std::string name = found.paths[i].string();
+        if (is.size != was.size)
+            throw Error(fmt::format("{}: changed while it was read: {} bytes, at first {}", name,
+                                    is.size, was.size));
+        throw Error(fmt::format("{}: changed while it was read: {}", name,
+                                is.inode != was.inode || is.device != was.device
+                                    ? "another file has taken its place"
+                                    : "it was written to"));
+    }
+}
+
+/// Runs `work`, whose errors all name the file.
+template <class Work>
+auto named(const std::filesystem::path& file, Work&& work) {
+    try {
+        return work();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw Error(fmt::format("{}: there is not enough memory to read it", file.string()));
+    } catch (const std::exception& other) {
+        throw Error(fmt::format("{}: cannot be read: {}", file.string(), other.what()));
+    }
+}
+
 class FileSeries final : public VolumeSeries {
   public:
     FileSeries(std::vector<SeriesFile> files, ReadOptions options)
         : files_(std::move(files)), options_(std::move(options)) {
         for (std::size_t i = 0; i < files_.size(); ++i)
-            add(i);
+            named(files_[i].path, [&] { add(i); });
         if (!options_.time_step)
             check_times();
         override_info();
@@ -80,9 +119,13 @@ class FileSeries final : public VolumeSeries {
 
     void read(std::size_t step, std::span<std::byte> out) override {
         const Place place = places_.at(step);
-        if (!open_ || place.file != open_index_)
-            reopen(place.file);
-        open_->read(place.step, out);
+        named(files_[place.file].path, [&] {
+            expect_unchanged(found_[place.file]);
+            if (!open_ || place.file != open_index_)
+                reopen(place.file);
+            open_->read(place.step, out);
+            expect_unchanged(found_[place.file]);
+        });
     }
 
   private:
@@ -93,9 +136,16 @@ class FileSeries final : public VolumeSeries {
     std::string name(std::size_t file) const { return files_[file].path.string(); }
 
     void add(std::size_t index) {
+        Found found{.paths = {files_[index].path}, .states = {state_of(files_[index].path)}};
         // Kept open only while it is the last: a long series has more files than descriptors.
-        open_ = files_[index].open(files_[index].path, options_);
-        open_index_ = index;
+        open_file(index);
+        found.steps = open_->steps();
+        for (std::filesystem::path& path : open_->beside()) {
+            found.states.push_back(state_of(path));
+            found.paths.push_back(std::move(path));
+        }
+        found_.push_back(std::move(found));
+        expect_few_steps(places_.size() + open_->steps(), name(index));
         const SeriesInfo& info = open_->info();
         if (index == 0) {
             info_ = info;
@@ -135,10 +185,18 @@ class FileSeries final : public VolumeSeries {
         }
     }
 
-    void reopen(std::size_t index) {
+    void open_file(std::size_t index) {
+        open_.reset(); // so that the next is read where this one was
         open_ = files_[index].open(files_[index].path, options_);
         open_index_ = index;
+    }
+
+    void reopen(std::size_t index) {
+        open_file(index);
         expect_same(open_->info(), name(index), first_, name(0));
+        if (open_->steps() != found_[index].steps)
+            throw Error(fmt::format("{}: changed while it was read: {} steps, at first {}",
+                                    name(index), open_->steps(), found_[index].steps));
     }
 
     void check_times() const {
@@ -188,6 +246,7 @@ class FileSeries final : public VolumeSeries {
     SeriesInfo first_; ///< what the first file said, before overrides
     bool timed_ = false;
     std::vector<Place> places_; ///< of every step
+    std::vector<Found> found_;  ///< of every file
     std::unique_ptr<VolumeFile> open_;
     std::size_t open_index_ = 0;
 };

@@ -93,8 +93,8 @@ class MetaImageHeader {
     std::uint64_t bytes_ = 0;
 };
 
-void orient(const MetaImageHeader& header, std::size_t dimensions, const std::string& name, SeriesInfo& info,
-            double& time_step, double& first_time) {
+void orient(const MetaImageHeader& header, std::size_t dimensions, const std::string& name,
+            SeriesInfo& info, double& time_step, double& first_time) {
     std::vector<double> spacing = header.numbers({"ElementSpacing", "ElementSize"}, dimensions);
     const auto matrix =
         header.numbers({"TransformMatrix", "Rotation", "Orientation"}, dimensions * dimensions);
@@ -122,24 +122,25 @@ void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_
                StoredLayout& layout) {
     const std::string name = path.string();
     const std::string file = *header.find({"ElementDataFile"});
-    layout.compression =
-        header.truth({"CompressedData"}) ? Compression::deflate : Compression::none;
     layout.big_endian = header.truth({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"});
     layout.ascii = header.find({"BinaryData"}) && !header.truth({"BinaryData"});
+    if (header.truth({"CompressedData"}) && !layout.ascii)
+        layout.compression = Compression::deflate;
     if (lower_case(file) == "local") {
         layout.data = path;
         layout.offset = header.bytes();
         return;
     }
     if (file.find('%') != file.npos || lower_case(file).starts_with("list"))
-        throw Error(fmt::format("{}: ElementDataFile {}, expected LOCAL or one file", name, file));
+        throw Error(
+            fmt::format("{}: ElementDataFile {}, expected LOCAL or one file", name, excerpt(file)));
     layout.data = path.parent_path() / file;
     const auto skipped = header.find({"HeaderSize"});
     if (!skipped)
         return;
     const auto bytes = integers_of(*skipped, "HeaderSize", name);
     if (bytes.size() != 1 || bytes[0] < -1)
-        throw Error(fmt::format("{}: HeaderSize {}, expected -1 or more", name, *skipped));
+        throw Error(fmt::format("{}: HeaderSize {}, expected -1 or more", name, excerpt(*skipped)));
     layout.offset = static_cast<std::uint64_t>(std::max<std::int64_t>(bytes[0], 0));
     if (bytes[0] == -1) { // the values end the file, whatever comes before them
         const std::uint64_t size = file_bytes(layout.data);
@@ -173,14 +174,14 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     const auto known = std::find_if(kTypes.begin(), kTypes.end(),
                                     [&](const auto& entry) { return entry.first == type; });
     if (known == kTypes.end())
-        throw Error(
-            fmt::format("{}: ElementType {}, expected MET_UCHAR to MET_DOUBLE", name, type));
+        throw Error(fmt::format("{}: ElementType {}, expected MET_UCHAR to MET_DOUBLE", name,
+                                excerpt(type)));
     layout.array = {"values", known->second};
     if (const auto channels = header.find({"ElementNumberOfChannels"})) {
         const auto number = integers_of(*channels, "ElementNumberOfChannels", name);
         if (number.size() != 1 || number[0] < 1 || number[0] > 64)
-            throw Error(
-                fmt::format("{}: ElementNumberOfChannels {}, expected 1 to 64", name, *channels));
+            throw Error(fmt::format("{}: ElementNumberOfChannels {}, expected 1 to 64", name,
+                                    excerpt(*channels)));
         layout.array.components = static_cast<std::uint32_t>(number[0]);
     }
     find_data(header, path, info.grid.vertex_count(), layout);

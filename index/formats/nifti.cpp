@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <system_error>
 
 namespace isochron::index {
 namespace {
@@ -216,9 +217,10 @@ std::string time_unit(std::int32_t units) {
 fs::path image_beside(const fs::path& header) {
     std::string name = header.string();
     const std::size_t dot = name.rfind(".hdr");
+    std::error_code ignored;
     for (const char* extension : {".img", ".img.gz"}) {
         fs::path image = name.substr(0, dot) + extension;
-        if (fs::exists(image))
+        if (fs::exists(image, ignored))
             return image;
     }
     throw Error(fmt::format("{}: its .img is not beside it", name));

@@ -6,13 +6,13 @@
 #include "index/formats/readers.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
+#include "index/system/input_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <utility>
@@ -57,12 +57,15 @@ constexpr std::array<SpaceName, 5> kSpaces{{
 class NrrdHeader {
   public:
     explicit NrrdHeader(const fs::path& path) : file_(path.string()) {
-        file_bytes(path);
-        std::ifstream in(path, std::ios::binary);
+        constexpr std::uint64_t kMost = 16 << 20;
+        InputStream in(path);
         std::string line;
         if (!read_line(in, line) || !line.starts_with("NRRD000"))
             throw Error(fmt::format("{}: not NRRD: it does not start with NRRD000", file_));
         while (read_line(in, line) && !line.empty()) {
+            if (bytes_ > kMost)
+                throw Error(
+                    fmt::format("{}: not NRRD: its header is longer than {} bytes", file_, kMost));
             const std::size_t colon = line.find(':');
             if (line.starts_with('#') || colon == line.npos)
                 continue;
@@ -72,8 +75,6 @@ class NrrdHeader {
             std::erase(key, ' ');
             fields_[key] = trimmed(std::string_view(line).substr(colon + 1));
         }
-        in.clear();
-        bytes_ = static_cast<std::uint64_t>(in.tellg());
     }
 
     /// A field, its key in lower case without blanks, as its spelling varies.
@@ -91,12 +92,14 @@ class NrrdHeader {
 
   private:
     // A header's line is short: one that is not is no header.
-    bool read_line(std::istream& in, std::string& line) const {
+    bool read_line(std::istream& in, std::string& line) {
         constexpr std::size_t kMost = 1 << 16;
         line.clear();
-        for (char c = 0; in.get(c) && c != '\n'; line += c)
+        char c = 0;
+        for (; in.get(c) && c != '\n'; line += c)
             if (line.size() > kMost)
                 throw Error(fmt::format("{}: not NRRD: a line of the header has no end", file_));
+        bytes_ += line.size() + (c == '\n');
         if (line.ends_with('\r'))
             line.pop_back();
         return !in.fail();
@@ -125,8 +128,8 @@ std::optional<glm::dvec3> vector_of(std::string_view text, const std::string& ke
         ' ');
     const auto v = numbers_of(numbers, key, file);
     if (v.size() != 3)
-        throw Error(
-            fmt::format("{}: {}: {} has {} numbers, expected 3", file, key, text, v.size()));
+        throw Error(fmt::format("{}: {}: {} has {} numbers, expected 3", file, key, excerpt(text),
+                                v.size()));
     return glm::dvec3(v[0], v[1], v[2]);
 }
 
@@ -150,8 +153,8 @@ Axes axes_of(const NrrdHeader& header) {
     const std::size_t count = axes.sizes.size();
     const auto dimension = integers_of(header.need("dimension"), "dimension", file);
     if (dimension.size() != 1 || dimension[0] != static_cast<std::int64_t>(count))
-        throw Error(
-            fmt::format("{}: {} sizes, dimension is {}", file, count, header.need("dimension")));
+        throw Error(fmt::format("{}: {} sizes, dimension is {}", file, count,
+                                excerpt(header.need("dimension"))));
     if (count < 3 || count > 5)
         throw Error(fmt::format("{}: {} dimensions, expected 3, or 4 with time", file, count));
     const std::vector<std::string> kinds = words_of(lower_case(header.find("kinds").value_or("")));
@@ -231,8 +234,8 @@ void orient(const NrrdHeader& header, const Axes& axes, SeriesInfo& info, Stored
             return s.name == name || s.letters == name;
         });
         if (known == kSpaces.end())
-            throw Error(
-                fmt::format("{}: space {}, expected one of three dimensions", file, *space));
+            throw Error(fmt::format("{}: space {}, expected one of three dimensions", file,
+                                    excerpt(*space)));
         info.anatomy = known->anatomy;
         signs = known->signs;
     }
@@ -271,6 +274,23 @@ void orient(const NrrdHeader& header, const Axes& axes, SeriesInfo& info, Stored
         info.time_unit = units[*axes.time];
 }
 
+/// Where the line begins that follows `lines` others.
+std::uint64_t after_lines(const fs::path& path, std::uint64_t offset, std::uint64_t lines) {
+    if (lines == 0)
+        return offset;
+    const InputFile file(path);
+    std::vector<std::byte> part(1 << 18);
+    std::uint64_t left = lines;
+    while (const std::size_t got = file.read(offset, part)) {
+        for (std::size_t i = 0; i < got; ++i)
+            if (part[i] == std::byte{'\n'} && --left == 0)
+                return offset + i + 1;
+        offset += got;
+    }
+    throw Error(fmt::format("{}: truncated: {} lines, expected {} to skip", path.string(),
+                            lines - left, lines));
+}
+
 void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t value_bytes,
                StoredLayout& layout) {
     const std::string& file = header.file();
@@ -282,14 +302,14 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
     else if (encoding == "ascii" || encoding == "text" || encoding == "txt")
         layout.ascii = true;
     else if (encoding != "raw")
-        throw Error(
-            fmt::format("{}: encoding {}, expected raw, ascii, gzip or bzip2", file, encoding));
+        throw Error(fmt::format("{}: encoding {}, expected raw, ascii, gzip or bzip2", file,
+                                excerpt(encoding)));
     layout.big_endian = lower_case(header.find("endian").value_or("little")) == "big";
     layout.data = path;
     layout.offset = header.bytes();
     if (const auto data = header.find("datafile")) {
         if (data->find('%') != data->npos || lower_case(*data).starts_with("list"))
-            throw Error(fmt::format("{}: data file {}, expected one file", file, *data));
+            throw Error(fmt::format("{}: data file {}, expected one file", file, excerpt(*data)));
         layout.data = path.parent_path() / *data;
         layout.offset = 0;
     }
@@ -297,18 +317,10 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
         const auto text = header.find(key);
         const auto number = integers_of(text.value_or("0"), key, file);
         if (number.size() != 1 || number[0] < 0)
-            throw Error(fmt::format("{}: {} {}, expected 0 or more", file, key, *text));
+            throw Error(fmt::format("{}: {} {}, expected 0 or more", file, key, excerpt(*text)));
         return static_cast<std::uint64_t>(number[0]);
     };
-    for (std::uint64_t lines = skip("lineskip"); lines > 0; --lines) {
-        std::ifstream in(layout.data, std::ios::binary);
-        in.seekg(static_cast<std::streamoff>(layout.offset));
-        std::string line;
-        if (!std::getline(in, line))
-            throw Error(fmt::format("{}: truncated: {} lines to skip are not there",
-                                    layout.data.string(), lines));
-        layout.offset += line.size() + 1;
-    }
+    layout.offset = after_lines(layout.data, layout.offset, skip("lineskip"));
     // Compressed data skip bytes of what comes out; -1 says that the values end the file.
     if (header.find("byteskip") == "-1" && layout.compression == Compression::none) {
         const std::uint64_t size = file_bytes(layout.data);
@@ -331,12 +343,13 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
     orient(header, axes, info, layout);
 
     const std::string type = lower_case(header.need("type"));
-    const auto known = std::find_if(kNrrdTypes.begin(), kNrrdTypes.end(), [&](const TypeNames& entry) {
-        return entry.names.find("|" + type + "|") != entry.names.npos;
-    });
+    const auto known =
+        std::find_if(kNrrdTypes.begin(), kNrrdTypes.end(), [&](const TypeNames& entry) {
+            return entry.names.find("|" + type + "|") != entry.names.npos;
+        });
     if (known == kNrrdTypes.end())
         throw Error(fmt::format("{}: type {}, expected integers of up to 64 bits, float or double",
-                                file, type));
+                                file, excerpt(type)));
     layout.array = {"values", known->type};
     if (axes.components) {
         const std::int64_t number = axes.sizes[*axes.components];

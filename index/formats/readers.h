@@ -21,17 +21,17 @@ std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
                                        const ReadOptions& options);
 
-/// VTK XML image data (.vti) and legacy structured points (.vtk); they load the module of readers.
+/// VTK XML image data (.vti) and legacy structured points (.vtk), in a reader.
 std::unique_ptr<VolumeFile> open_vti(const std::filesystem::path& path, const ReadOptions& options);
 std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path, const ReadOptions& options);
 
-/// NetCDF, classic and 4 (.nc, .nc4, .cdf); it loads a module of its own, which a build without the
-/// library lacks. Space is that of the coordinate variables, with z up where a file says so.
+/// NetCDF, classic and 4 (.nc, .nc4, .cdf), in a reader, where it was built with the library. Space
+/// is that of the coordinate variables, with z up where a file says so.
 std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
                                         const ReadOptions& options);
 
 /// The files and times of a ParaView collection (.pvd), in its order, paths made relative to where
-/// the program runs. @throws Error naming the file
+/// the program runs; in a reader. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> read_pvd(const std::filesystem::path& path);
 
 } // namespace isochron::index

@@ -2,6 +2,7 @@
 #include "index/formats/stored_file.h"
 
 #include "index/error.h"
+#include "index/formats/text_values.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -9,9 +10,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstring>
+#include <optional>
 #include <utility>
 
 namespace isochron::index {
@@ -24,55 +24,24 @@ void swap_bytes(std::span<std::byte> values, std::size_t size) {
         std::reverse(values.begin() + i, values.begin() + i + size);
 }
 
-template <class T>
-void parse_number(std::string_view word, std::byte* out, const std::string& file) {
-    T value{};
-    if (word.starts_with('+'))
-        word.remove_prefix(1);
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (failure != std::errc{} || end != word.data() + word.size())
-        throw Error(fmt::format("{}: `{}` is not a value of the array's type", file, word));
-    std::memcpy(out, &value, sizeof value);
-}
-
-void parse_number(StoredType type, std::string_view word, std::byte* out, const std::string& file) {
-    switch (type) {
-    case StoredType::i8: {
-        std::int16_t wide = 0; // from_chars would read a character
-        parse_number<std::int16_t>(word, reinterpret_cast<std::byte*>(&wide), file);
-        if (wide < -128 || wide > 127)
-            throw Error(fmt::format("{}: `{}` is not a value of the array's type", file, word));
-        *out = static_cast<std::byte>(static_cast<std::int8_t>(wide));
-        return;
-    }
-    case StoredType::u8: {
-        std::uint16_t wide = 0;
-        parse_number<std::uint16_t>(word, reinterpret_cast<std::byte*>(&wide), file);
-        if (wide > 255)
-            throw Error(fmt::format("{}: `{}` is not a value of the array's type", file, word));
-        *out = static_cast<std::byte>(wide);
-        return;
-    }
-    case StoredType::i16: return parse_number<std::int16_t>(word, out, file);
-    case StoredType::u16: return parse_number<std::uint16_t>(word, out, file);
-    case StoredType::i32: return parse_number<std::int32_t>(word, out, file);
-    case StoredType::u32: return parse_number<std::uint32_t>(word, out, file);
-    case StoredType::i64: return parse_number<std::int64_t>(word, out, file);
-    case StoredType::u64: return parse_number<std::uint64_t>(word, out, file);
-    case StoredType::f32: return parse_number<float>(word, out, file);
-    case StoredType::f64: return parse_number<double>(word, out, file);
-    }
-}
-
 class StoredFile final : public VolumeFile {
   public:
     StoredFile(std::filesystem::path header, SeriesInfo info, StoredLayout layout,
-               ChosenScalar chosen)
+               ChosenScalar chosen, bool allow_surplus)
         : header_(std::move(header)), info_(std::move(info)), layout_(std::move(layout)),
-          chosen_(std::move(chosen)) {}
+          chosen_(std::move(chosen)), allow_surplus_(allow_surplus) {
+        // What is compressed or text shows its end only when it is read.
+        if (layout_.compression == Compression::none && !layout_.ascii)
+            expect_end(open_data(layout_.data, layout_.offset, Compression::none)
+                           ->rest(layout_.skip + layout_.steps * std::uint64_t{step_bytes()}));
+    }
 
     const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return layout_.steps; }
+    std::vector<std::filesystem::path> beside() const override {
+        return layout_.data == header_ ? std::vector<std::filesystem::path>{}
+                                       : std::vector{layout_.data};
+    }
 
     void read(std::size_t step, std::span<std::byte> out) override {
         const std::string name = layout_.data.string();
@@ -93,49 +62,45 @@ class StoredFile final : public VolumeFile {
 
   private:
     void load(std::size_t step, std::span<std::byte> out) {
-        if (layout_.ascii)
-            return load_ascii(step, out);
+        if (layout_.ascii) {
+            if (!text_)
+                text_.emplace(layout_.data, layout_.offset, *layout_.array.type);
+            text_->read(step * (out.size() / size_of(*layout_.array.type)), out);
+            if (step + 1 == layout_.steps)
+                expect_end({.bytes = text_->rest()});
+            return;
+        }
         if (!stream_)
             stream_ = open_data(layout_.data, layout_.offset, layout_.compression);
-        stream_->read(layout_.skip + step * std::uint64_t{out.size()}, out);
+        const std::uint64_t position = layout_.skip + step * std::uint64_t{out.size()};
+        stream_->read(position, out);
+        if (step + 1 == layout_.steps)
+            expect_end(stream_->rest(position + out.size()));
         if (layout_.big_endian)
             swap_bytes(out, size_of(*layout_.array.type));
     }
 
-    void load_ascii(std::size_t step, std::span<std::byte> out) {
-        if (values_.empty())
-            parse_ascii();
-        std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(step * out.size()), out.size(),
-                    out.begin());
-    }
-
-    void parse_ascii() {
-        const std::string name = layout_.data.string();
-        std::string text(file_bytes(layout_.data) - layout_.offset, '\0');
-        open_data(layout_.data, layout_.offset, Compression::none)
-            ->read(0, std::as_writable_bytes(std::span(text)));
-        constexpr std::string_view kBetween = " \t\r\n,";
-        const std::size_t size = size_of(*layout_.array.type);
-        std::vector<std::byte> values(step_bytes() * layout_.steps);
-        std::size_t at = 0;
-        for (std::size_t i = 0; i < values.size(); i += size) {
-            const std::size_t begin = text.find_first_not_of(kBetween, at);
-            if (begin == std::string::npos)
-                throw Error(fmt::format("{}: truncated: {} values, expected {}", name, i / size,
-                                        values.size() / size));
-            at = std::min(text.find_first_of(kBetween, begin), text.size());
-            parse_number(*layout_.array.type, std::string_view(text).substr(begin, at - begin),
-                         &values[i], name);
-        }
-        values_ = std::move(values);
+    /// More values than the header says may be steps that it forgot.
+    void expect_end(const Rest& rest) const {
+        if (allow_surplus_ || (rest.bytes == 0 && rest.foreign == 0))
+            return;
+        const char* at_least = rest.bytes >= Rest::kMostCounted ? "at least " : "";
+        throw Error(
+            fmt::format("{}: {}{} bytes {}, expected none (--allow-surplus reads it)",
+                        layout_.data.string(), at_least, rest.bytes > 0 ? rest.bytes : rest.foreign,
+                        rest.bytes > 0 ? fmt::format("follow the values of the {} step{} that the "
+                                                     "header has",
+                                                     layout_.steps, layout_.steps == 1 ? "" : "s")
+                                       : "follow the end of the compressed data"));
     }
 
     std::filesystem::path header_;
     SeriesInfo info_;
     StoredLayout layout_;
     ChosenScalar chosen_;
+    bool allow_surplus_;
     std::unique_ptr<DataStream> stream_;
-    std::vector<std::byte> values_; ///< of all steps, ascii only
+    std::optional<TextValues> text_;
 };
 
 } // namespace
@@ -158,13 +123,21 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     constexpr double kMost = 1e18; // beyond any file, within 64 bits
     expect_room(layout.data, layout.offset, layout.compression,
                 static_cast<std::uint64_t>(std::min(bytes, kMost)));
+    expect_few_steps(layout.steps, name);
     // Only now is it known that there are as many steps as the header says.
     if (layout.steps > 1 && layout.time_step > 0 && std::isfinite(layout.time_step))
         for (std::size_t step = 0; step < layout.steps; ++step)
             info.times.push_back(layout.first_time + static_cast<double>(step) * layout.time_step);
     if (info.times.empty())
         info.time_unit.clear();
-    return std::make_unique<StoredFile>(header, std::move(info), layout, chosen);
+    return std::make_unique<StoredFile>(header, std::move(info), layout, chosen,
+                                        options.allow_surplus);
+}
+
+void expect_few_steps(std::size_t steps, const std::string& file) {
+    constexpr std::size_t kMost = std::size_t{1} << 20;
+    if (steps > kMost)
+        throw Error(fmt::format("{}: {} steps, at most {} are supported", file, steps, kMost));
 }
 
 void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file) {

@@ -31,6 +31,10 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
 /// @throws Error naming the file when one vanishes, is not finite, or all lie in a plane
 void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file);
 
+/// A million steps are decades of work for whoever looks at them; a header that has more lies.
+/// @throws Error naming the file
+void expect_few_steps(std::size_t steps, const std::string& file);
+
 /// @throws Error naming the file: fewer than 2 vertices along an axis, or more than 2^32-2 cells
 void check_grid(const Grid& grid, const std::string& file);
 

@@ -28,15 +28,19 @@ bool is_ghost_flag(const StoredArray& array) {
 }
 
 std::string listed(std::span<const StoredArray> arrays) {
+    constexpr std::size_t kShown = 20;
     std::string list;
+    std::size_t count = 0;
     for (const StoredArray& array : arrays) {
-        if (is_ghost_flag(array))
+        if (is_ghost_flag(array) || ++count > kShown)
             continue;
         list += fmt::format("{}{} ({}{}{})", list.empty() ? "" : ", ", array.name,
                             array.type ? name_of(*array.type) : "no number",
                             array.components == 1 ? "" : fmt::format(" x {}", array.components),
                             array.on_cells ? ", cell data" : "");
     }
+    if (count > kShown)
+        list += fmt::format(" and {} more", count - kShown);
     return list;
 }
 

@@ -20,7 +20,7 @@ Number parse(std::string_view word, const std::string& key, const std::string& f
     Number number{};
     const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (failure != std::errc{} || end != word.data() + word.size())
-        throw Error(fmt::format("{}: {}: `{}` is not a number", file, key, word));
+        throw Error(fmt::format("{}: {}: `{}` is not a number", file, key, excerpt(word)));
     return number;
 }
 
@@ -47,6 +47,11 @@ std::vector<std::string> words_of(std::string_view text) {
     for (std::string word; in >> word;)
         words.push_back(word);
     return words;
+}
+
+std::string excerpt(std::string_view text) {
+    constexpr std::size_t kMost = 60;
+    return std::string(text.substr(0, kMost)) + (text.size() > kMost ? "..." : "");
 }
 
 double number_of(std::string_view word, const std::string& key, const std::string& file) {

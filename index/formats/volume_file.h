@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace isochron::index {
 
@@ -19,6 +20,8 @@ class VolumeFile {
     /// one per step; `sources` is not used.
     virtual const SeriesInfo& info() const = 0;
     virtual std::size_t steps() const = 0;
+    /// Other files that hold its values, as the .raw of a .mhd.
+    virtual std::vector<std::filesystem::path> beside() const { return {}; }
 
     /// As `VolumeSeries::read`, for a step of this file.
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;

@@ -242,13 +242,15 @@ class BrickSearch {
     std::uint64_t tested_ = 0;
 };
 
-/// @return cells that were tested; none, and nothing is found, where a scan is faster
+/// @return cells that were tested; none, and nothing is found, where a scan is faster and may be
+///         used instead
 std::optional<std::uint64_t> search_step(const StepValues& values,
                                          std::span<const std::uint8_t> bricks,
                                          const LevelMap::Cut& level, std::uint64_t cut,
-                                         std::size_t step, std::vector<CellId>& out) {
+                                         std::size_t step, bool may_scan,
+                                         std::vector<CellId>& out) {
     const Candidates candidates(bricks, level);
-    if (candidates.count() * 100 > candidates.bricks() * scan_percent(values.type))
+    if (may_scan && candidates.count() * 100 > candidates.bricks() * scan_percent(values.type))
         return std::nullopt;
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         BrickSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), out);
@@ -270,22 +272,38 @@ namespace isochron::index {
 
 HWY_EXPORT(search_step);
 
-std::uint64_t search_bricks(const StepValues& values, const LevelMap& levels,
-                            std::span<const std::uint8_t> bricks, const Query& query,
-                            std::vector<CellId>& out) {
+namespace {
+
+std::optional<std::uint64_t> search_in_bricks(const StepValues& values, const LevelMap& levels,
+                                              std::span<const std::uint8_t> bricks,
+                                              const Query& query, bool may_scan,
+                                              std::vector<CellId>& out) {
     assert(query.step < values.steps && levels.type() == values.type);
     assert(bricks.size() == BrickGrid(values.grid).bytes_per_step());
     const auto level = levels.cut(values.scaling, query.isovalue);
     const auto cut = stored_cut(values.type, values.scaling, query.isovalue);
     if (!level || !cut)
         return 0;
-    const auto tested =
-        HWY_DYNAMIC_DISPATCH(search_step)(values, bricks, *level, *cut, query.step, out);
-    if (tested)
+    return HWY_DYNAMIC_DISPATCH(search_step)(values, bricks, *level, *cut, query.step, may_scan,
+                                             out);
+}
+
+} // namespace
+
+std::uint64_t search_bricks(const StepValues& values, const LevelMap& levels,
+                            std::span<const std::uint8_t> bricks, const Query& query,
+                            std::vector<CellId>& out) {
+    if (const auto tested = search_in_bricks(values, levels, bricks, query, true, out))
         return *tested;
     const std::size_t before = out.size();
     scan(values, query, out);
     return out.size() - before;
+}
+
+std::uint64_t test_bricks(const StepValues& values, const LevelMap& levels,
+                          std::span<const std::uint8_t> bricks, const Query& query,
+                          std::vector<CellId>& out) {
+    return search_in_bricks(values, levels, bricks, query, false, out).value_or(0);
 }
 
 } // namespace isochron::index

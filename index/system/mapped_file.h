@@ -20,9 +20,6 @@ class MappedFile {
 
     std::span<const std::byte> bytes() const { return bytes_; }
 
-    /// Says that a part is read here and there, so that the system reads no more than what is
-    /// touched.
-    void expect_scattered_reads(std::span<const std::byte> part) const;
     /// Says that a part has been read: its pages no longer count as memory of this process. It may
     /// be read again, also meanwhile.
     void let_go(std::span<const std::byte> part) const;

@@ -37,13 +37,15 @@ NewFile::NewFile(fs::path target) : target_(std::move(target)) {
         throw Error(fmt::format("{}: cannot be written: there is no folder {}", target_.string(),
                                 folder.string()));
     std::random_device random;
-    do {
+    constexpr int kMostTries =
+        1000; // of 65,536 names: a folder that holds most of them is no accident
+    for (int tries = 0; file_ < 0; ++tries) {
         temporary_ =
             folder / fmt::format(".{}.{:04x}.tmp", target_.filename().string(), random() & 0xffff);
         file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (file_ < 0 && errno == EEXIST);
-    if (file_ < 0)
-        fail(errno);
+        if (file_ < 0 && (errno != EEXIST || tries == kMostTries))
+            fail(errno);
+    }
     ::flock(file_, LOCK_EX | LOCK_NB); // says that its writer lives
 }
 
@@ -70,12 +72,15 @@ void NewFile::remove_remains() const {
         if (name.size() != start.size() + 8 || !name.starts_with(start) ||
             !name.ends_with(".tmp") || entry.path() == temporary_)
             continue;
-        const int file = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC);
+        // What somebody else put there under such a name may be anything, a pipe or a link, too.
+        const int file =
+            ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
         if (file < 0)
             continue;
         // A new one may not have its lock yet.
         struct stat status {};
-        const bool old = ::fstat(file, &status) == 0 && status.st_mtime + 60 < std::time(nullptr);
+        const bool old = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
+                         status.st_mtime + 60 < std::time(nullptr);
         if (old && ::flock(file, LOCK_EX | LOCK_NB) == 0)
             ::unlink(entry.path().c_str());
         ::close(file);

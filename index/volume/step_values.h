@@ -1,4 +1,4 @@
-// Read-only view of a whole series in memory (usually mapped): what search and extraction work on.
+// Read-only view of a whole series in memory (or of the parts of it that matter): what search and extraction work on.
 #pragma once
 
 #include "index/volume/grid.h"

@@ -41,6 +41,7 @@ struct SeriesInfo {
 struct ReadOptions {
     std::optional<std::string> array;     ///< --array
     std::optional<std::string> component; ///< --component: a number from 0, or `magnitude`
+    bool allow_surplus = false; ///< --allow-surplus: values may follow those that the header has
     // Headerless raw files only:
     std::optional<std::array<std::uint32_t, 3>> dims; ///< --dims NX NY NZ, vertices
     std::optional<ValueType> type;                    ///< --type

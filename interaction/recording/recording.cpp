@@ -6,7 +6,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <istream>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -51,11 +52,7 @@ json parse(const std::string& line) {
 /// Line by line, with the errors of each named after it.
 class LineReader {
   public:
-    explicit LineReader(const std::filesystem::path& path)
-        : name_(path.filename().string()), file_(path, std::ios::binary) {
-        if (!file_)
-            throw Error(fmt::format("{}: {}", path.string(), system_message()));
-    }
+    LineReader(std::istream& file, std::string name) : name_(std::move(name)), file_(file) {}
     /// False at the end of the file.
     bool next() {
         line_.clear();
@@ -82,7 +79,7 @@ class LineReader {
 
   private:
     std::string name_;
-    std::ifstream file_;
+    std::istream& file_;
     std::string line_;
     bool complete_ = false;
     std::size_t number_ = 0;
@@ -178,12 +175,10 @@ void RecordingWriter::finish() {
         state_->close();
 }
 
-Recording read_recording(const std::filesystem::path& path) {
-    if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
-        throw Error(fmt::format("{}: not a file", path.string()));
-    LineReader reader(path);
+Recording read_recording(std::istream& file, const std::string& name) {
+    LineReader reader(file, name);
     if (!reader.next())
-        throw Error(fmt::format("{}: not a recording: empty", path.filename().string()));
+        throw Error(fmt::format("{}: not a recording: empty", name));
     Recording recording;
     try {
         recording.header = header_from_json(parse(reader.line()));

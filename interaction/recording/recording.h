@@ -6,6 +6,7 @@
 #include "interaction/tracked_input.h"
 
 #include <filesystem>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -50,9 +51,10 @@ class RecordingWriter {
 };
 
 /// Only a last line without line end that is cut short is forgiven, with a note.
+/// @param name of the file, for messages
 /// @throws Error naming file and line: not a recording, newer version, bad JSON, time going back,
 /// ...
-Recording read_recording(const std::filesystem::path& path);
+Recording read_recording(std::istream& file, const std::string& name);
 
 /// Plays recorded device states: the newest frame not later than `now`, at first the first one.
 class ReplayInput final : public TrackedInput {

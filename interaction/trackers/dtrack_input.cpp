@@ -4,6 +4,7 @@
 #include "interaction/trackers/device_clock.h"
 #include "interaction/trackers/dtrack_protocol.h"
 #include "interaction/trackers/frame_sequence.h"
+#include "interaction/trackers/sender_choice.h"
 
 #include <algorithm>
 
@@ -35,11 +36,12 @@ struct DTrackInput::State {
     };
     UdpSocket socket;
     std::vector<Device> devices;
+    SenderChoice senders;
     FrameSequence sequence;
     DeviceClock clock;
     std::uint64_t malformed = 0;
 
-    explicit State(const DTrackOptions& options) : socket(options.endpoint) {
+    explicit State(const DTrackOptions& options) : socket(options.endpoint), senders(options.from) {
         for (const DTrackDevice& each : options.devices)
             devices.push_back({each.kind, each.id, TrackedDevice(each.device)});
     }
@@ -79,15 +81,24 @@ struct DTrackInput::State {
     }
 
     void take(const Datagram& datagram, Seconds now) {
+        const Seconds arrival = now - datagram.age;
+        // Again: the one before may have shown that its sender makes no sense.
+        if (!senders.admits(datagram.sender, arrival))
+            return;
         const auto frame = parse_dtrack(datagram.bytes);
         malformed += frame ? static_cast<std::uint64_t>(frame->malformed_lines) : 1;
-        const Seconds arrival = now - datagram.age;
-        if (frame && sequence.accept(frame->counter, arrival))
+        if (!frame)
+            return senders.made_no_sense(arrival);
+        senders.heard(arrival);
+        if (sequence.accept(frame->counter, arrival))
             take(*frame, arrival);
     }
 
     void receive(Seconds now) {
-        for (const Datagram& datagram : socket.take(kMostDatagrams))
+        const auto admits = [&](const Endpoint& sender, Seconds age) {
+            return senders.admits(sender, now - age);
+        };
+        for (const Datagram& datagram : socket.take(kMostDatagrams, admits))
             take(datagram, now);
     }
 };
@@ -103,6 +114,10 @@ InputState DTrackInput::poll(Seconds now) {
     return input;
 }
 
+void DTrackInput::begin() {
+    state_->socket.drain();
+}
+
 InputState DTrackInput::latch(Seconds now) {
     state_->receive(now);
     InputState input{now, {}};
@@ -114,9 +129,9 @@ InputState DTrackInput::latch(Seconds now) {
 std::vector<std::string> DTrackInput::status() const {
     const State& s = *state_;
     std::vector<std::string> lines{
-        fmt::format("dtrack {}: {} frames, {} missing, {} late, {} malformed, {} thrown away",
+        fmt::format("dtrack {}: {} frames, {} missing, {} late, {} malformed, {} thrown away{}",
                     to_string(s.socket.endpoint()), s.sequence.accepted(), s.sequence.missing(),
-                    s.sequence.late(), s.malformed, s.socket.thrown_away())};
+                    s.sequence.late(), s.malformed, s.socket.thrown_away(), s.senders.strangers())};
     for (const State::Device& device : s.devices)
         lines.push_back(device.tracked.status());
     return lines;

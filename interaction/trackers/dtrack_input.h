@@ -20,12 +20,13 @@ struct DTrackDevice {
 
 struct DTrackOptions {
     Endpoint endpoint{"127.0.0.1", 5000};
+    std::optional<Endpoint> from; ///< who may send; port 0: from any port there
     std::vector<DTrackDevice> devices;
 };
 
 /// Datagrams that overtake each other are put right by their frame counter: one that is not newer
 /// than the newest is dropped. Poses are dated by the controller's time stamps where it sends them
-/// (`ts`), else by their arrival.
+/// (`ts`), else by their arrival. One sender counts at a time (`SenderChoice`).
 class DTrackInput final : public TrackedInput {
   public:
     /// @throws Error when the address cannot be bound
@@ -33,6 +34,7 @@ class DTrackInput final : public TrackedInput {
     ~DTrackInput() override;
     InputState poll(Seconds now) override;
     InputState latch(Seconds now) override;
+    void begin() override;
     /// `dtrack 127.0.0.1:5000: 3600 frames, 2 missing, 1 late, 0 malformed`, then its devices.
     std::vector<std::string> status() const override;
     /// Where it listens.

@@ -231,6 +231,10 @@ InputState OscInput::poll(Seconds now) {
     return input;
 }
 
+void OscInput::begin() {
+    state_->socket.drain();
+}
+
 InputState OscInput::latch(Seconds now) {
     state_->receive(now);
     InputState input{now, {}};

@@ -35,6 +35,7 @@ class OscInput final : public TrackedInput {
     ~OscInput() override;
     InputState poll(Seconds now) override;
     InputState latch(Seconds now) override;
+    void begin() override;
     /// `osc 127.0.0.1:9000: 3600 messages, 2 of wrong types, ..`, then its devices.
     std::vector<std::string> status() const override;
     const Endpoint& endpoint() const;

@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <ctime>
 #include <deque>
 #include <memory>
-#include <optional>
 
+#include <arpa/inet.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -39,14 +40,27 @@ Addresses resolve(const std::string& address, int port) {
     return {status == 0 ? found : nullptr, &freeaddrinfo};
 }
 
+int port_of(const sockaddr_storage& address) {
+    return ntohs(address.ss_family == AF_INET6
+                     ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
+                     : reinterpret_cast<const sockaddr_in&>(address).sin_port);
+}
+
 int bound_port(int socket) {
     sockaddr_storage address{};
     socklen_t length = sizeof address;
     if (getsockname(socket, reinterpret_cast<sockaddr*>(&address), &length) != 0)
         return 0;
-    return ntohs(address.ss_family == AF_INET6
-                     ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
-                     : reinterpret_cast<const sockaddr_in&>(address).sin_port);
+    return port_of(address);
+}
+
+Endpoint endpoint_of(const sockaddr_storage& address) {
+    char text[INET6_ADDRSTRLEN] = "";
+    const void* number = &reinterpret_cast<const sockaddr_in&>(address).sin_addr;
+    if (address.ss_family == AF_INET6)
+        number = &reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
+    inet_ntop(address.ss_family, number, text, sizeof text);
+    return {text, port_of(address)};
 }
 
 /// When the kernel received a datagram, by the wall clock.
@@ -80,6 +94,34 @@ bool is_address(const std::string& text) {
     return resolve(text, 0) != nullptr;
 }
 
+std::optional<Endpoint> endpoint_from(const std::string& text) {
+    std::string address = text, port = "0";
+    const std::size_t colon = text.rfind(':');
+    // More than one colon is an IPv6 address, which stands in brackets where a port follows.
+    if (text.starts_with('[') ? text.find("]:") + 1 == colon : text.find(':') == colon) {
+        address = text.substr(0, colon);
+        port = colon == std::string::npos ? "0" : text.substr(colon + 1);
+    }
+    if (address.starts_with('[')) {
+        if (!address.ends_with(']'))
+            return std::nullopt;
+        address = address.substr(1, address.size() - 2);
+    }
+    int number = 0;
+    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+    const bool whole = error == std::errc() && end == port.data() + port.size();
+    if (!whole || number < 0 || number > 65535)
+        return std::nullopt;
+    const Addresses found =
+        address.empty() ? Addresses(nullptr, &freeaddrinfo) : resolve(address, number);
+    if (!found)
+        return std::nullopt;
+    // In the one spelling that senders are told by.
+    sockaddr_storage canonical{};
+    std::memcpy(&canonical, found->ai_addr, found->ai_addrlen);
+    return endpoint_of(canonical);
+}
+
 UdpSocket::UdpSocket(const Endpoint& endpoint) : endpoint_(endpoint), buffer_(kLongest, '\0') {
     const Addresses address = resolve(endpoint.address, endpoint.port);
     if (!address)
@@ -105,13 +147,24 @@ UdpSocket::~UdpSocket() {
     close(socket_);
 }
 
-std::vector<Datagram> UdpSocket::take(std::size_t kept) {
+void UdpSocket::drain() {
+    // A sender that never pauses must not keep it here.
+    constexpr std::size_t kMostDrained = 1 << 20;
+    for (std::size_t drained = 0; drained < kMostDrained; ++drained)
+        if (recv(socket_, buffer_.data(), buffer_.size(), 0) < 0)
+            break;
+}
+
+std::vector<Datagram> UdpSocket::take(std::size_t kept, const Admission& admits) {
     std::deque<Datagram> newest;
     const Seconds now = wall_clock();
     for (std::size_t taken = 0; taken < kMostTaken; ++taken) {
         alignas(cmsghdr) char control[CMSG_SPACE(sizeof(timespec))];
         iovec bytes{buffer_.data(), buffer_.size()};
+        sockaddr_storage sender{};
         msghdr message{};
+        message.msg_name = &sender;
+        message.msg_namelen = sizeof sender;
         message.msg_iov = &bytes;
         message.msg_iovlen = 1;
         message.msg_control = control;
@@ -119,14 +172,17 @@ std::vector<Datagram> UdpSocket::take(std::size_t kept) {
         const ssize_t length = recvmsg(socket_, &message, 0);
         if (length < 0)
             break; // nothing is waiting, or an error that concerns one datagram only
+        // The wall clock may have been set meanwhile: a wait has a sensible length.
+        const Seconds age =
+            std::clamp(now - arrival(message).value_or(now), Seconds(0), Seconds(1));
+        const Endpoint from = endpoint_of(sender);
+        if (!admits(from, age))
+            continue;
         if (message.msg_flags & MSG_TRUNC) {
             ++thrown_away_;
             continue;
         }
-        // The wall clock may have been set meanwhile: a wait has a sensible length.
-        const Seconds age = now - arrival(message).value_or(now);
-        newest.push_back({buffer_.substr(0, static_cast<std::size_t>(length)),
-                          std::clamp(age, Seconds(0), Seconds(1))});
+        newest.push_back({buffer_.substr(0, static_cast<std::size_t>(length)), age, from});
         if (newest.size() > kept) {
             newest.pop_front();
             ++thrown_away_;

@@ -35,6 +35,7 @@ struct EyeBlock {
     glm::vec4 key_light;
     glm::vec4 up;
     glm::vec4 between_eyes;
+    glm::vec4 cut;
 };
 struct Frame {
     std::array<EyeBlock, 2> eyes;
@@ -54,7 +55,7 @@ struct Frame {
     std::int32_t soft_near_eye;
     glm::vec2 padding{0.0f};
 };
-static_assert(sizeof(Frame) == 2 * (3 * 64 + 10 * 16) + (index::kMostSurfaces + 7) * 16);
+static_assert(sizeof(Frame) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 7) * 16);
 static_assert(sizeof(Frame) <= kUniformBlockBytes);
 constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
 
@@ -110,6 +111,8 @@ EyeBlock eye_block(const View& view, const Placement& placement, const CellAppea
             appearance.near_fade
                 ? view.eye_from_room * glm::vec4(appearance.near_fade->between_eyes, 1.0f)
                 : glm::vec4(0.0f),
+        .cut = appearance.cut ? *appearance.cut * glm::inverse(view.eye_from_room)
+                              : glm::vec4(0.0f, 0.0f, 0.0f, -1.0f),
     };
 }
 
@@ -127,7 +130,7 @@ bool is_translucent(const SurfaceAppearance& surface) {
 
 /// Whether all quads are drawn whole: none is left out, which others would be seen through.
 bool hides_what_is_behind(const CellAppearance& look, const Placement& placement) {
-    if (std::ranges::any_of(look.surfaces, is_translucent))
+    if (look.cut || std::ranges::any_of(look.surfaces, is_translucent))
         return false;
     if (!look.near_fade)
         return true;

@@ -53,8 +53,6 @@ struct SurfaceAppearance {
     float opacity = 1.0f;                 ///< of the surface seen face-on, 0 to 1
 };
 
-/// Isosurfaces that are drawn at a time: what the style of a cell can number.
-
 /// Colors by value: cells carry the value's place in its whole range (`index::CellPoint`).
 struct ValueColors {
     GLuint map = 0;                       ///< GL_TEXTURE_1D in linear light, from low to high
@@ -87,6 +85,9 @@ struct CellAppearance {
     /// How much darker the far end of the volume is than its near end, 0 to 1.
     float depth_cue = 0.45f;
     std::optional<NearFade> near_fade;
+    /// A plane in the room, normal and offset: what lies above it is cut away, cells whole with
+    /// quads and splats, exactly with surfaces.
+    std::optional<glm::vec4> cut;
     /// Splats blend as light does. Without it they blend in display values, which on software GL
     /// takes two thirds of the time. Opaque quads look the same either way.
     bool linear_light = true;

@@ -4,7 +4,6 @@
 #include "render/gl/render_target.h"
 #include "render/gl/shader.h"
 
-#include <array>
 #include <vector>
 
 namespace isochron::render {

@@ -33,9 +33,10 @@ uint hash_of(uvec3 cell) {
 // @return 0 to 1, 1 left out, evenly spread
 float evenly(uint hash) { return float(hash >> 8) / 16777216.0; }
 
-// How much is left of what comes near to the viewer, 0 to 1. @param at eye space
+// How much is left of what comes near to the viewer or is cut away, 0 to 1. @param at eye space
 float near_share(vec3 at) {
-    return clamp((distance(at, EYE(between_eyes).xyz) - near_fade.x) * near_fade.y, 0.0, 1.0);
+    float whole = dot(EYE(cut), vec4(at, 1.0)) > 0.0 ? 0.0 : 1.0;
+    return whole * clamp((distance(at, EYE(between_eyes).xyz) - near_fade.x) * near_fade.y, 0.0, 1.0);
 }
 
 // Opaque surfaces near by let a share of their grains through, which are far smaller than cells.

@@ -17,6 +17,7 @@ struct Eye {
     vec4 key_light;         // direction towards it, eye space
     vec4 up;                // of the room, eye space
     vec4 between_eyes;      // of the viewer, eye space: what fades near by is the same for both
+    vec4 cut;               // plane in eye space: what lies above it is cut away
 };
 
 layout(std140, binding = 0) uniform Frame {

@@ -47,6 +47,10 @@ class GlContext {
     /// [Hz] of the display that shows the window; empty where nothing tells it.
     virtual std::optional<double> refresh_rate() const { return std::nullopt; }
     virtual bool should_close() const = 0;
+    /// The user changed their mind: the window no longer wants to close.
+    virtual void keep_open() {}
+    /// Covers the monitor that the window is on, or goes back to where it was.
+    virtual void toggle_fullscreen() {}
     virtual std::vector<interaction::WindowEvent> poll_events() = 0;
     /// The context as the window system knows it.
     virtual NativeGl native() const { return {}; }

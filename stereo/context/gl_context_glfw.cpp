@@ -42,7 +42,7 @@ class GlfwLibrary {
         glfw_complaint().clear();
         glfwSetErrorCallback([](int, const char* text) { glfw_complaint() = text; });
         if (!glfwInit())
-            fail("no display to open a window on");
+            fail("no display to open a window on (`isochron replay` draws pictures without one)");
     }
     ~GlfwLibrary() { glfwTerminate(); }
     GlfwLibrary(const GlfwLibrary&) = delete;
@@ -103,6 +103,11 @@ bool same(const GamepadEvent& a, const GamepadEvent& b) {
     return a.present == b.present && a.buttons == b.buttons &&
            std::equal(std::begin(a.axes), std::end(a.axes), b.axes);
 }
+
+/// Where a window was before it covered its monitor, screen units.
+struct WindowedPlace {
+    glm::ivec2 corner{100}, size{1280, 720};
+};
 
 class GlfwContext final : public GlContext {
   public:
@@ -177,6 +182,21 @@ class GlfwContext final : public GlContext {
         return mode->refreshRate;
     }
     bool should_close() const override { return glfwWindowShouldClose(window_); }
+    void keep_open() override { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+    void toggle_fullscreen() override {
+        if (glfwGetWindowMonitor(window_)) {
+            glfwSetWindowMonitor(window_, nullptr, before_.corner.x, before_.corner.y,
+                                 before_.size.x, before_.size.y, GLFW_DONT_CARE);
+            return;
+        }
+        GLFWmonitor* monitor = monitor_under_window();
+        const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+        if (!mode)
+            return;
+        glfwGetWindowPos(window_, &before_.corner.x, &before_.corner.y);
+        glfwGetWindowSize(window_, &before_.size.x, &before_.size.y);
+        glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    }
     std::vector<WindowEvent> poll_events() override {
         glfwPollEvents();
         if (const GamepadEvent gamepad = first_gamepad(); !same(gamepad, gamepad_))
@@ -253,6 +273,7 @@ class GlfwContext final : public GlContext {
     GLFWwindow* window_ = nullptr;
     std::vector<WindowEvent> events_;
     GamepadEvent gamepad_{};
+    WindowedPlace before_;
     bool stereo_buffers_ = false;
 };
 

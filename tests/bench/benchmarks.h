@@ -9,5 +9,6 @@ void add_index(app::Command& program);
 void add_render(app::Command& program);
 void add_artifacts(app::Command& program);
 void add_results(app::Command& program);
+void add_scale(app::Command& program);
 
 } // namespace isochron::bench

@@ -3,8 +3,8 @@
 
 int main(int argc, char** argv) {
     using namespace isochron;
-    return app::run_program(
-        "isochron-bench", "Measure Isochron's parts against their rivals.",
-        {bench::add_index, bench::add_render, bench::add_artifacts, bench::add_results}, argc,
-        argv);
+    return app::run_program("isochron-bench", "Measure Isochron's parts against their rivals.",
+                            {bench::add_index, bench::add_render, bench::add_artifacts,
+                             bench::add_results, bench::add_scale},
+                            argc, argv);
 }

@@ -6,18 +6,22 @@
 #include "app/commands/command_line.h"
 #include "app/frame/draw_meter.h"
 #include "app/frame/frame_quality.h"
+#include "app/frame/history.h"
 #include "app/frame/quality_controller.h"
 #include "app/output/kept_pictures.h"
+#include "app/output/movie_file.h"
 #include "app/output/outputs.h"
 #include "app/panel/panel_in_room.h"
 #include "app/scene/scene.h"
 #include "app/session/live_loop.h"
 #include "app/session/session.h"
+#include "app/session/session_file.h"
 #include "index/build/level_choice.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
 #include "index/formats/series_writer.h"
+#include "index/reader/reader_messages.h"
 #include "index/scan/bricks.h"
 #include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
@@ -27,6 +31,7 @@
 #include "interaction/enum_names.h"
 #include "interaction/motion_gate.h"
 #include "interaction/panel_pointer.h"
+#include "interaction/tool.h"
 #include "interaction/trackers/pose_filter.h"
 #include "render/cells/cell_buffers.h"
 #include "render/cells/cell_pass.h"
@@ -96,6 +101,10 @@ void series_writer_example(const std::filesystem::path& dir, const SeriesInfo& i
 #include "index/formats/series_writer.example"
 }
 
+void reader_messages_example() {
+#include "index/reader/reader_messages.example"
+}
+
 void bricks_example(const StepValues& values, const LevelMap& levels, std::uint32_t step,
                     double isovalue, std::vector<CellId>& ids) {
 #include "index/scan/bricks.example"
@@ -131,6 +140,11 @@ namespace {
 void panel_pointer_example(PanelPointer& pointer, const InputState& input,
                            const TouchedPanel& panel) {
 #include "interaction/panel_pointer.example"
+}
+
+void tool_example(Tool& tool, std::span<const ToolHand> hands, const ToolContext& now,
+                  Commands& commands) {
+#include "interaction/tool.example"
 }
 
 void pose_filter_example(Seconds now, const Pose& pose) {
@@ -248,6 +262,21 @@ void outputs_example(const Config& config, stereo::Windows windows, const Audien
                      const Outputs::Scene& scene, const Outputs::Overlay& panel,
                      const interaction::InputState& input) {
 #include "app/output/outputs.example"
+}
+
+void history_example(History& history, const ExplorerState& before, const ExplorerState& after,
+                     interaction::Commands& commands, const interaction::InputState& input) {
+#include "app/frame/history.example"
+}
+
+void movie_file_example(const render::Image& image) {
+#include "app/output/movie_file.example"
+}
+
+void session_file_example(const std::filesystem::path& path, const std::string& data,
+                          const std::string& hash, Session& session,
+                          const interaction::StandingPlace& head, std::size_t steps) {
+#include "app/session/session_file.example"
 }
 
 void live_loop_example(const Config& config, interaction::CompositeInput trackers, Session& session,

@@ -29,9 +29,10 @@ const std::map<std::string, Steps> kOrder{
       {"config", "generate"},
       {"text", "version"}}},
     {"index",
-     {{"extraction", "build"},
+     {{"extraction", "build", "decoders"},
       {"file"},
       {"thi", "cells", "scan", "formats"},
+      {"reader"},
       {"volume", "system"},
       {"error", "progress"}}},
     {"interaction", {{"trackers", "recording"}, {"."}}},
@@ -42,6 +43,8 @@ const std::map<std::string, Steps> kOrder{
 /// Wings that stand apart, and the only places that may include them. Tests may include all.
 const std::map<std::string, std::set<std::string>> kApart{
     {"app/generate", {"app/commands"}},
+    // The reader: a program of its own.
+    {"index/decoders", {}},
     // The module is loaded when a picture is read or written; nobody else knows it.
     {"stereo/image_module", {"stereo/image_file"}},
 };

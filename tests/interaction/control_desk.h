@@ -29,6 +29,7 @@ class Desk {
         context.home = {{0.1, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.01};
         context.room_from_physical = context.home;
         context.pivot = {30, 25, 30};
+        context.data = {glm::dmat4(60, 0, 0, 0, 0, 50, 0, 0, 0, 0, 60, 0, 0, 0, 0, 1), "mm"};
     }
     Commands frame(std::vector<DeviceState> devices, double elapsed = 1.0 / 60) {
         now_ += elapsed;
@@ -59,6 +60,17 @@ class Desk {
             context.picked = *commands.picked;
         if (commands.coloring)
             context.coloring = *commands.coloring;
+        if (commands.leaving)
+            context.leaving = *commands.leaving;
+        if (commands.tools)
+            context.tools = *commands.tools;
+        merge(commands, controls_.found());
+        if (commands.clip)
+            context.state.clip = *commands.clip;
+        if (commands.ruler)
+            context.state.ruler = *commands.ruler;
+        if (commands.mark)
+            context.state.mark = *commands.mark;
         return commands;
     }
     /// Presses keys for one frame and lets go for another.

@@ -130,7 +130,11 @@ TEST(Controls, SwitchesReportOnlyChanges) {
     EXPECT_EQ(desk.tap(bit(Action::next_stereo)).stereo, "mono");
     EXPECT_EQ(desk.tap(bit(Action::panel)).panel, false);
     EXPECT_TRUE(desk.tap(bit(Action::screenshot)).screenshot);
-    EXPECT_TRUE(desk.tap(bit(Action::quit)).quit);
+    EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, true);
+    EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, false) << "stays";
+    EXPECT_FALSE(desk.tap(bit(Action::pick)).quit) << "nobody asks any more";
+    desk.tap(bit(Action::quit));
+    EXPECT_TRUE(desk.tap(bit(Action::pick)).quit);
     EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-1"});
     EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-2"});
 }
@@ -155,11 +159,11 @@ TEST(Controls, LooksGoRoundByKeys) {
 
 TEST(Controls, EveryActionHasAKeyAndEveryKeyOneLineOfDocumentation) {
     std::set<Action> actions;
-    std::set<Key> keys;
+    std::set<std::pair<Key, Chord>> keys;
     for (const KeyLine& line : key_lines())
         for (const KeyBinding& binding : line.bindings) {
             actions.insert(binding.action);
-            EXPECT_TRUE(keys.insert(binding.key).second) << line.keys;
+            EXPECT_TRUE(keys.insert({binding.key, binding.chord}).second) << line.keys;
         }
     EXPECT_EQ(actions.size(), static_cast<std::size_t>(Action::count));
     const std::vector<std::string> lines = Controls::documentation();

@@ -66,6 +66,21 @@ TEST_F(CommandLine, AppendingGivesTheBytesOfBuildingAnew) {
     EXPECT_EQ(folder.read("a.isochron"), whole);
 }
 
+TEST_F(CommandLine, AppendingKeepsWhatTheIndexWasBuiltWith) {
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"--tiers", "bricks", "--codec", "none"},
+          {"--refer"},
+          {"--lattice", "16", "--codec", "lz4"}}) {
+        ASSERT_EQ(isochron(build_of("t*.raw", options)).status, 0);
+        const std::string whole = folder.read("a.isochron");
+        std::filesystem::remove(folder.path() / "a.isochron");
+        ASSERT_EQ(isochron(build_of("t[01].raw", options)).status, 0);
+        EXPECT_EQ(isochron(build_of("t*.raw", {"--append"})).status, 0);
+        EXPECT_TRUE(folder.read("a.isochron") == whole) << options.front();
+        std::filesystem::remove(folder.path() / "a.isochron");
+    }
+}
+
 TEST_F(CommandLine, AnIndexThatRefersToItsSourcesAnswersAsOneThatCarriesThem) {
     ASSERT_EQ(isochron(build_of("t*.raw", {"--refer"})).status, 0);
     EXPECT_LT(folder.read("a.isochron").size(), kSteps * kX * kY * kZ * 4);
@@ -98,6 +113,39 @@ TEST_F(CommandLine, AnIndexThatRefersToItsSourcesAnswersAsOneThatCarriesThem) {
                    "t2.raw");
 }
 
+TEST_F(CommandLine, AnIndexRefersToNamesThatAreNoText) {
+    const std::string name = "t\xff\xfe 1.raw"; // bytes that are not UTF-8
+    std::filesystem::rename(folder.path() / "t1.raw", folder.path() / name);
+    ASSERT_EQ(isochron(build_of(name, {"--refer"})).status, 0);
+    const ChildResult verified = isochron({"verify", "a.isochron"});
+    EXPECT_EQ(verified.status, 0) << verified.err;
+    ASSERT_EQ(isochron(build_of(name)).status, 0);
+    std::filesystem::copy(folder.path() / "t2.raw", folder.path() / "t\xff\xfe 2.raw");
+    const ChildResult appended = isochron(build_of("t\xff*.raw", {"--append"}));
+    EXPECT_EQ(appended.status, 0) << appended.err;
+    EXPECT_TRUE(nlohmann::json::accept(isochron({"info", "a.isochron", "--json"}).out));
+    std::filesystem::rename(folder.path() / "a.isochron", folder.path() / "\xff.isochron");
+    const ChildResult changes = isochron({"change", "\xff.isochron", "--json", "--step", "0",
+                                          "--isovalue", "0", "--to-isovalue", "0.1"});
+    EXPECT_EQ(changes.status, 0) << changes.err;
+    EXPECT_TRUE(nlohmann::json::accept(changes.out));
+}
+
+TEST_F(CommandLine, DataThatAreLeftOverAreAllowedWhereTheUserSaysSo) {
+    const std::string header = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\n"
+                               "encoding: raw\n\n";
+    folder.write("more.nrrd", header + "12345678" + "abc");
+    expect_failure(isochron({"build", "more.nrrd", "-o", "a.isochron"}), 1,
+                   "more.nrrd: 3 bytes follow the values of the 1 step that the header has");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.isochron"));
+    for (const char* how : {"--quiet", "--refer"}) {
+        ASSERT_EQ(
+            isochron({"build", "more.nrrd", "-o", "a.isochron", "--allow-surplus", how}).status, 0);
+        const ChildResult verified = isochron({"verify", "a.isochron"});
+        EXPECT_EQ(verified.status, 0) << verified.err;
+    }
+}
+
 TEST_F(CommandLine, AFullDiskDuringABuildLeavesTheOldIndexAlone) {
     ASSERT_EQ(isochron(build_of("t*.raw", {"--lattice", "8"})).status, 0);
     const std::string old = folder.read("a.isochron");
@@ -105,7 +153,7 @@ TEST_F(CommandLine, AFullDiskDuringABuildLeavesTheOldIndexAlone) {
     for (const std::uint64_t limit : {std::uint64_t{6000}, std::uint64_t{30'000}}) {
         const ChildResult result =
             isochron(build_of("t*.raw", {"--quiet"}), {.largest_file = limit});
-        expect_failure(result, 1, "a.isochron: cannot be written: File too large");
+        expect_failure(result, 1, "cannot be written: File too large");
         EXPECT_EQ(folder.names(), before);
         EXPECT_EQ(folder.read("a.isochron"), old);
     }
@@ -125,7 +173,7 @@ TEST_F(CommandLine, AnInterruptedBuildEndsWithStatus130AndLeavesTheOldIndexAlone
     const auto before = folder.names();
     const std::vector<std::string> build{"build", "noise*.raw", "--dims", "100", "100",
                                          "100",   "--type",     "u8",     "-o",  "a.isochron"};
-    for (const char* phase : {"reading", "counting", "bricks", "indexing"}) {
+    for (const char* phase : {"reading", "counting", "packing", "indexing"}) {
         const ChildResult result =
             isochron(build, {.interrupt_after = phase}); // as soon as it is printed
         EXPECT_EQ(result.status, 130);
@@ -204,8 +252,9 @@ TEST_F(CommandLine, ColorsAreAppendedWithTheRest) {
     const std::string whole = folder.read("c.isochron");
     std::filesystem::remove(folder.path() / "c.isochron");
     ASSERT_EQ(build("s[01].vtk", {"--color", "heat"}).status, 0);
-    expect_failure(build("s?.vtk", {"--append"}), 1, "it holds the colors heat, none given");
-    const ChildResult appended = build("s?.vtk", {"--append", "--color", "heat"});
+    expect_failure(build("s?.vtk", {"--append", "--color", "speed"}), 1,
+                   "it holds the colors heat, the colors speed given");
+    const ChildResult appended = build("s?.vtk", {"--append"});
     EXPECT_EQ(appended.status, 0) << appended.err;
     EXPECT_EQ(folder.read("c.isochron"), whole);
     expect_failure(build("s?.vtk", {"--color", "cold"}), 1, "cold");

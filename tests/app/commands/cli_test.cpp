@@ -87,6 +87,17 @@ TEST_F(CommandLine, InfoTellsWhatWasBuilt) {
         EXPECT_THAT(text.out, HasSubstr(part));
 }
 
+TEST_F(CommandLine, AnIsovalueBeyondTheDataIsToldWithTheirRange) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const ChildResult beyond =
+        isochron({"query", "a.isochron", "--isovalue", "50", "--step", "0", "--repeat", "0"});
+    EXPECT_EQ(beyond.status, 0);
+    EXPECT_THAT(beyond.err, HasSubstr("isochron: isovalue 50 lies beyond the data, -"));
+    EXPECT_EQ(
+        isochron({"query", "a.isochron", "--isovalue", "0", "--step", "0", "--repeat", "0"}).err,
+        "");
+}
+
 TEST_F(CommandLine, TimesAreTextWithoutTheDigitsOfRounding) {
     ASSERT_EQ(isochron(build_of("t*.raw", {"--time-step", "0.1", "--time-unit", "s"})).status, 0);
     const ChildResult query =
@@ -123,11 +134,13 @@ TEST_F(CommandLine, BadInputIsOneLineAndLeavesNothingBehind) {
           "a.isochron: is an input");
     fails({"query", "a.isochron", "--isovalue", "0", "--step", "0", "--method", "tree"},
           "a.isochron: has no tree to search in");
+    fails({"explore", "t0.raw", "--no-panel"},
+          "`isochron build t0.raw -o t0.isochron` makes an index of data");
     fails(build_of("t[01].raw", {"--append"}), "must begin with the 5 steps that it holds");
     fails(build_of("t*.raw", {"--tiers", "deltas"}),
           "t0.raw: the tier deltas needs the tier cells");
-    fails({"info", "none.isochron"}, "none.isochron: cannot be opened: No such file");
-    fails({"info", "."}, "not a regular file");
+    fails({"info", "none.isochron"}, "none.isochron: there is no such file");
+    fails({"info", "."}, ".: a folder, expected a file");
 }
 
 TEST_F(CommandLine, BadUsageIsStatus2) {
@@ -142,7 +155,12 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
                    "expected a positive number, got 0");
     expect_failure(isochron(build_of("t*.raw", {"--time-step", "nan"})), 2, "got nan");
     expect_failure(isochron({}), 2, "expected build, query");
-    expect_failure(isochron({"bild"}), 2, "bild: unknown, expected build, query");
+    expect_failure(isochron({"bild"}), 2,
+                   "bild: unknown, did you mean build, expected build, query");
+    expect_failure(isochron({"exlpore"}), 2, "exlpore: unknown, did you mean explore");
+    expect_failure(isochron({"t0.raw"}), 2, "a file, not a command; did you mean `isochron build");
+    expect_failure(isochron({"change", "a.isochron", "--isovalue", "0", "--step", "1"}), 2,
+                   "--to-step or --to-isovalue is missing");
     expect_failure(isochron({"generate", "cube"}), 2, "cube: unknown, expected sphere, vorticity");
     expect_failure(isochron({"replay", "walk.jsonl", "--out", "pictures"}), 2,
                    "--every N or --stamps");
@@ -151,11 +169,11 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
 TEST_F(CommandLine, HelpOfEveryCommandNamesItsOptions) {
     for (const auto& [command, options] :
          std::vector<std::pair<std::string, std::vector<std::string>>>{
-             {"build",
-              {"--array", "--component", "--dims", "--type", "--spacing", "--origin", "--time-step",
-               "--length-unit", "--time-unit", "--value-unit", "--big-endian", "--header-bytes",
-               "--lattice", "--max-variation", "--tiers", "--append", "--refer", "--threads",
-               "--quiet"}},
+             {"build", {"--array",         "--component",  "--dims",          "--type",
+                        "--spacing",       "--origin",     "--time-step",     "--length-unit",
+                        "--time-unit",     "--value-unit", "--big-endian",    "--header-bytes",
+                        "--allow-surplus", "--lattice",    "--max-variation", "--tiers",
+                        "--append",        "--refer",      "--threads",       "--quiet"}},
              {"query", {"--isovalue", "--step", "--ids", "--json", "--method"}},
              {"change",
               {"--isovalue", "--step", "--to-isovalue", "--to-step", "--added", "--removed",
@@ -177,7 +195,7 @@ TEST_F(CommandLine, VerifyFindsDamageThatOpeningDoesNotTouch) {
     EXPECT_EQ(isochron({"info", "b.isochron"}).status, 0);
     EXPECT_EQ(isochron({"verify", "a.isochron"}).out, "a.isochron: every checksum matches\n");
     expect_failure(isochron({"verify", "b.isochron"}), 1,
-                   "b.isochron: damaged: the checksum of section volume does not match");
+                   "b.isochron: damaged: volume, step ");
 }
 
 TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsAFailure) {

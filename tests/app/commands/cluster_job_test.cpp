@@ -2,7 +2,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/session_fixture.h"
 
-#include "interaction/recording/recording.h"
+#include "app/session/recording_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
 
@@ -232,7 +232,7 @@ TEST_F(ClusterJobTest, InWindowsEveryProcessShowsItsOwnAndAllLeaveTogether) {
         EXPECT_TRUE(
             std::filesystem::exists(folder_.path() / fmt::format("isochron_0001_{}.png", wall)))
             << wall;
-    EXPECT_FALSE(interaction::read_recording(folder_.path() / "walk.jsonl").frames.empty());
+    EXPECT_FALSE(read_recording(folder_.path() / "walk.jsonl").frames.empty());
     // Frame by frame, both have shown the same cells in the same way.
     const auto first = nlohmann::json::parse(folder_.read("timing.json"))["rows"];
     const auto second = nlohmann::json::parse(folder_.read("timing_rank1.json"))["rows"];

@@ -4,7 +4,7 @@
 #include "tests/support/session_fixture.h"
 
 #include "app/config/shipped_configs.h"
-#include "interaction/recording/recording.h"
+#include "app/session/recording_file.h"
 #include "stereo/image_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
@@ -12,6 +12,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
 #include <spawn.h>
 #include <sys/wait.h>
 
@@ -31,6 +35,7 @@ class Program {
         argv.push_back(nullptr);
         EXPECT_EQ(posix_spawn(&pid_, argv[0], nullptr, nullptr, argv.data(), environ), 0);
     }
+    void signal(int number) const { kill(pid_, number); }
     int exit_status() const {
         int status = 0;
         waitpid(pid_, &status, 0);
@@ -43,7 +48,10 @@ class Program {
 
 class ExploreTest : public testing::Test {
   protected:
-    ExploreTest() { build_sphere(folder_.path()); }
+    ExploreTest() {
+        build_sphere(folder_.path());
+        setenv("XDG_STATE_HOME", state_.path().c_str(), 1);
+    }
 
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
 
@@ -59,7 +67,10 @@ class ExploreTest : public testing::Test {
         return program;
     }
 
-    TestFolder folder_;
+    /// Escape asks, Enter says yes; each has a frame of its own, however slow.
+    void leave() { screen_.xdotool({"key", "Escape", "sleep", "0.3", "key", "Return"}); }
+
+    TestFolder folder_, state_; ///< the data's, and the user's for what programs remember
     test_support::VirtualDisplay screen_;
 };
 
@@ -73,10 +84,10 @@ TEST_F(ExploreTest, KeysLeadToCommandsThatTheRecordingHoldsAndReplays) {
     const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8", "--no-panel"});
     screen_.xdotool({"key", "space", "Up", "Up", "2", "v", "m"});
     screen_.xdotool({"mousedown", "1", "mousemove_relative", "40", "10", "mouseup", "1"});
-    screen_.xdotool({"key", "Escape"});
+    leave();
     ASSERT_EQ(program->exit_status(), 0);
 
-    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    const auto recording = read_recording(file("walk.jsonl"));
     EXPECT_TRUE(
         any_frame(recording, [](const auto& c) { return c.playback && c.playback->playing; }));
     EXPECT_TRUE(any_frame(recording, [](const auto& c) { return c.isovalue && *c.isovalue > 8; }));
@@ -102,6 +113,20 @@ TEST_F(ExploreTest, KeysLeadToCommandsThatTheRecordingHoldsAndReplays) {
     EXPECT_EQ(pictures, 1);
 }
 
+TEST_F(ExploreTest, EndedByASignalItLeavesAWholeRecordingUnderItsName) {
+    for (const int number : {SIGTERM, SIGINT}) {
+        const auto program = explore({"--record", file("walk.jsonl")});
+        screen_.xdotool({"key", "2"});
+        while (folder_.read("walk.jsonl.part").find("\"fast\"") == std::string::npos)
+            std::this_thread::yield(); // the test's limit ends a hang
+        program->signal(number);
+        EXPECT_EQ(program->exit_status(), 128 + number);
+        EXPECT_FALSE(read_recording(file("walk.jsonl")).frames.empty());
+        EXPECT_EQ(folder_.names(), (std::vector<std::string>{"sphere.isochron", "walk.jsonl"}));
+        std::filesystem::remove(file("walk.jsonl"));
+    }
+}
+
 TEST_F(ExploreTest, PressingOnTheHistogramPicksAnIsovalue) {
     const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8"});
     screen_.xdotool({"mousemove_relative", "--", "-10", "-130"});
@@ -109,9 +134,9 @@ TEST_F(ExploreTest, PressingOnTheHistogramPicksAnIsovalue) {
     // The test's limit ends a hang.
     while (folder_.read("walk.jsonl.part").find("\"panel\":{\"isovalue\"") == std::string::npos)
         screen_.xdotool({"click", "1", "sleep", "0.2"});
-    screen_.xdotool({"key", "Escape"});
+    leave();
     ASSERT_EQ(program->exit_status(), 0);
-    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    const auto recording = read_recording(file("walk.jsonl"));
     EXPECT_TRUE(
         std::any_of(recording.frames.begin(), recording.frames.end(),
                     [](const auto& frame) { return frame.from_panel.isovalue.has_value(); }));
@@ -135,9 +160,10 @@ TEST_F(ExploreTest, FromTheConsoleAnOperatorSteersWithThePanelAndKeys) {
         const auto title = screen_.pixel(1150, 110);
         return title[2] > title[0] + 40;
     })) << "the panel fills the window";
-    screen_.xdotool({"search", "--name", "console", "windowfocus", "key", "Escape"});
+    screen_.xdotool({"search", "--name", "console", "windowfocus"});
+    leave();
     ASSERT_EQ(program->exit_status(), 0);
-    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    const auto recording = read_recording(file("walk.jsonl"));
     EXPECT_FALSE(any_frame(recording, [](const auto& c) {
         return c.room_from_physical.has_value();
     })) << "clicks are the console's alone";
@@ -147,7 +173,7 @@ TEST_F(ExploreTest, ClosingTheWindowKeepsTheRecording) {
     const auto program = explore({"--record", file("walk.jsonl")});
     screen_.close_window("Isochron: " + file("sphere.isochron"));
     EXPECT_EQ(program->exit_status(), 0);
-    EXPECT_FALSE(interaction::read_recording(file("walk.jsonl")).frames.empty());
+    EXPECT_FALSE(read_recording(file("walk.jsonl")).frames.empty());
 }
 
 TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
@@ -157,7 +183,7 @@ TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
     while (!std::filesystem::exists(picture))
         screen_.xdotool(
             {"getmouselocation"}); // the program is at work; the test's limit ends a hang
-    screen_.xdotool({"key", "Escape"});
+    leave();
     EXPECT_EQ(program->exit_status(), 0);
     const render::Image image = stereo::read_image(picture);
     EXPECT_EQ(image.width, 640);
@@ -175,9 +201,9 @@ TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheC
     screen_.xdotool({"mouseup", "1", "keyup", "c", "key", "m"});
     while (folder_.read("walk.jsonl.part").find("stamp-1") == std::string::npos)
         screen_.xdotool({"getmouselocation"});
-    screen_.xdotool({"key", "Escape"});
+    leave();
     ASSERT_EQ(program->exit_status(), 0);
-    const auto recording = interaction::read_recording(file("walk.jsonl"));
+    const auto recording = read_recording(file("walk.jsonl"));
     EXPECT_EQ(recording.header.window, (std::array{0, 0})) << "the walls are as configured";
     const interaction::DeviceState* camera = recording.frames.back().input.find("camera");
     ASSERT_TRUE(camera);
@@ -201,6 +227,56 @@ TEST_F(ExploreTest, TheTestPatternNeedsNoDataAndStopsAtTheKey) {
     EXPECT_EQ(program.exit_status(), 0);
     EXPECT_EQ(Program({"explore", "--test-pattern", "--record", file("walk.jsonl")}).exit_status(),
               2);
+}
+
+TEST_F(ExploreTest, ARecordingIsReplacedOnlyWithForce) {
+    for (const char* name : {"walk.jsonl", "cut.jsonl.part"})
+        folder_.write(name, "{}");
+    for (const char* name : {"walk.jsonl", "cut.jsonl"})
+        EXPECT_EQ(
+            Program({"explore", file("sphere.isochron"), "--record", file(name)}).exit_status(), 1)
+            << name;
+    EXPECT_EQ(folder_.read("walk.jsonl"), "{}");
+    EXPECT_EQ(folder_.read("cut.jsonl.part"), "{}");
+}
+
+TEST_F(ExploreTest, ASessionEndedByASignalIsKeptAndResumed) {
+    const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8", "--no-panel"});
+    screen_.xdotool({"key", "Up", "Up", "h", "keydown", "w", "sleep", "0.3", "keyup", "w"});
+    while (folder_.read("walk.jsonl.part").find("\"grid\":true") == std::string::npos)
+        screen_.xdotool({"getmouselocation"}); // the test's limit ends a hang
+    program->signal(SIGTERM);
+    ASSERT_EQ(program->exit_status(), 128 + SIGTERM);
+    const auto first = read_recording(file("walk.jsonl"));
+    const auto again = explore({"--resume", "--record", file("more.jsonl"), "--no-panel"});
+    leave();
+    ASSERT_EQ(again->exit_status(), 0);
+    const auto more = read_recording(file("more.jsonl"));
+    EXPECT_EQ(more.header.start.grid, true);
+    EXPECT_GT(*more.header.start.isovalue, 8);
+    EXPECT_EQ(more.frames.front().input.find("head")->pose,
+              first.frames.back().input.find("head")->pose)
+        << "the head stands where it stood";
+    EXPECT_EQ(Program({"explore", file("sphere.isochron"), "--resume", "--session",
+                       file("none.isochron-session")})
+                  .exit_status(),
+              1);
+}
+
+TEST_F(ExploreTest, ClosingTheWindowAsksWhereSomethingHasChanged) {
+    const auto program = explore({"--record", file("walk.jsonl"), "--no-panel"});
+    screen_.xdotool({"key", "h"});
+    while (folder_.read("walk.jsonl.part").find("\"grid\":true") == std::string::npos)
+        screen_.xdotool({"getmouselocation"}); // the test's limit ends a hang
+    const std::string title = "Isochron: " + file("sphere.isochron");
+    screen_.close_window(title);
+    while (folder_.read("walk.jsonl.part").find("\"leaving\":true") == std::string::npos)
+        screen_.xdotool({"getmouselocation"});
+    screen_.xdotool({"key", "Escape"}); // stay
+    while (folder_.read("walk.jsonl.part").find("\"leaving\":false") == std::string::npos)
+        screen_.xdotool({"getmouselocation"});
+    leave();
+    EXPECT_EQ(program->exit_status(), 0);
 }
 
 TEST_F(ExploreTest, NothingThatIsReadIsEverOverwritten) {

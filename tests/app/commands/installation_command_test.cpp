@@ -7,6 +7,10 @@
 
 #include <gmock/gmock.h>
 
+#include <sys/stat.h>
+
+#include <algorithm>
+
 namespace isochron::app {
 namespace {
 
@@ -37,9 +41,10 @@ TEST_F(InstallationCommand, CheckConfigNamesWhatIsWrongAndFails) {
                              "= true\nmonitor = 0\n");
     ChildResult result = isochron({"explore", "--check-config", "lab.toml"});
     EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.err, "lab.toml:4: windows.monitor: window window 2 covers monitor 0, as "
-                          "window window does\n"
-                          "isochron: lab.toml: 1 thing is wrong\n");
+    const std::string wrong = "lab.toml:4: windows.monitor: window window 2 covers monitor 0, as "
+                              "window window does\n";
+    EXPECT_EQ(result.err, "isochron: " + wrong);
+    EXPECT_THAT(result.out, testing::EndsWith(wrong));
     folder.write("lab.toml", "[[windows]]\nname = \"x\"\nsteroe = \"mono\"\n");
     result = isochron({"explore", "--check-config", "lab.toml"});
     EXPECT_EQ(result.status, 1);
@@ -59,13 +64,63 @@ TEST_F(InstallationCommand, ImportWritesAConfigurationThatIsSound) {
     EXPECT_THAT(result.out, HasSubstr("screen: 4.00 x 3.00 m"));
     EXPECT_EQ(isochron({"config", "import", "cave.pvx"}).out.substr(0, 1), "#");
 
-    folder.write("bad.pvx", "<pvx>\n<Machine/>\n</pvx>");
+    // Without any corner it is a window on a desktop; some of them are a mistake.
+    folder.write("bad.pvx", "<pvx>\n<Machine LowerLeft=\"0 0 0\"/>\n</pvx>");
     result = isochron({"config", "import", "bad.pvx", "-o", "bad.toml"});
     EXPECT_EQ(result.status, 1);
-    EXPECT_EQ(result.err, "isochron: bad.pvx:2: Machine: LowerLeft is missing\n");
+    EXPECT_EQ(result.err, "isochron: bad.pvx:2: Machine: LowerRight is missing\n");
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "bad.toml"));
     EXPECT_EQ(isochron({"config", "import", "cave.pvx", "-o", "cave.pvx"}).status, 1);
     EXPECT_EQ(folder.read("cave.pvx"), kPvx);
+}
+
+TEST_F(InstallationCommand, AnImportThatItsOwnCheckRejectsIsNotWritten) {
+    // A corner that is not square, and one that no room holds.
+    for (const auto& [corner, what] :
+         {std::pair<std::string, std::string>{"3.5 0 -3", "has 94.8 degrees, expected 90"},
+          {"4 9223372036854775808 -3", "LowerRight: expected corners within 1000000"}}) {
+        std::string text = kPvx;
+        text.replace(text.find("4 0 -3\" Upper"), 6, corner);
+        folder.write("bad.pvx", text);
+        for (const std::vector<std::string>& out :
+             {std::vector<std::string>{}, {"-o", "bad.toml"}}) {
+            std::vector<std::string> import{"config", "import", "bad.pvx"};
+            import.insert(import.end(), out.begin(), out.end());
+            const ChildResult result = isochron(import);
+            EXPECT_EQ(result.status, 1);
+            EXPECT_EQ(result.out, "");
+            EXPECT_THAT(result.err, testing::StartsWith("isochron: bad.pvx"));
+            EXPECT_THAT(result.err, HasSubstr(what));
+            EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        }
+        EXPECT_THAT(folder.names(), ElementsAre("bad.pvx"));
+    }
+}
+
+TEST_F(InstallationCommand, OnlyRegularFilesAreRead) {
+    ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+    for (const std::string file : {"pipe", "/dev/zero"})
+        for (const std::vector<std::string>& arguments :
+             std::vector<std::vector<std::string>>{{"explore", "--check-config", file},
+                                                   {"explore", "--list-devices", "--config", file},
+                                                   {"config", "import", file},
+                                                   {"replay", file, "--out", ".", "--stamps"},
+                                                   {"info", file},
+                                                   {"build", file, "-o", "a.isochron"}}) {
+            const ChildResult result = isochron(arguments);
+            EXPECT_EQ(result.status, 1) << arguments[0];
+            EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+            EXPECT_THAT(result.err, HasSubstr(file + ": not a regular file"));
+        }
+}
+
+TEST_F(InstallationCommand, AMessageIsOneLineWhateverItQuotes) {
+    folder.write("lab.toml", "\"a\\nb\\u001b[31m" + std::string(100'000, 'x') + "\" = 1\n");
+    const ChildResult result = isochron({"explore", "--check-config", "lab.toml"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("unknown key 'a\\nb\\x1b[31mxxx"));
+    EXPECT_LT(result.err.size(), 3000u);
 }
 
 TEST_F(InstallationCommand, AReplayNamesPicturesByWindowViewportAndEye) {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <sstream>
 
 namespace isochron::app {
 namespace {
@@ -76,6 +78,23 @@ TEST_F(MpiBuild, GivesTheSameBytesWhateverTheNumberOfProcesses) {
     EXPECT_EQ(folder.read("job"), folder.read("alone"));
 }
 
+TEST_F(MpiBuild, ReadsInAReaderOfEveryProcess) {
+    const auto vti = std::filesystem::path(test_support::test_data()) / "vti" / "raw_zlib64.vti";
+    for (const char* name : {"s0.vti", "s1.vti", "s2.vti"})
+        std::filesystem::copy_file(vti, folder.path() / name);
+    const auto build_vti = [&](std::vector<std::string> arguments, const std::string& out) {
+        arguments.insert(arguments.end(), {test_support::binary_root() + "/isochron", "build",
+                                           "s?.vti", "--time-step", "1", "-o", out});
+        return run_child("/usr/bin/env", arguments, folder.path());
+    };
+    ASSERT_EQ(build_vti({}, "alone").status, 0);
+    const ChildResult job = build_vti({"ASAN_OPTIONS=detect_leaks=0", "mpirun",
+                                       "--allow-run-as-root", "--oversubscribe", "-n", "2"},
+                                      "job");
+    ASSERT_EQ(job.status, 0) << job.err;
+    EXPECT_EQ(folder.read("job"), folder.read("alone"));
+}
+
 TEST_F(MpiBuild, AFailureOfOneProcessEndsTheJobInOneLineAndLeavesNothing) {
     // Read by the last process only.
     std::filesystem::resize_file(folder.path() / "u4.raw", 100);
@@ -88,6 +107,59 @@ TEST_F(MpiBuild, AFailureOfOneProcessEndsTheJobInOneLineAndLeavesNothing) {
     EXPECT_EQ(lines, 1u) << result.err;
     EXPECT_THAT(result.err, HasSubstr("u4.raw"));
     EXPECT_THAT(folder.names(), ElementsAreArray(before));
+}
+
+/// A job of two processes that takes long, the second of which gets a signal in its midst.
+ChildResult struck_job(TestFolder& folder, const std::string& signal) {
+    const std::string build = test_support::binary_root() +
+                              "/isochron build n?.raw --dims 96 96 96 --type u8 --lattice 256 "
+                              "--timeout 1 -o job";
+    const std::string when_under_way =
+        "(while kill -0 $$ && ! ls .job.????.tmp; do sleep 0.02; done; kill -" + signal +
+        " $$) >/dev/null 2>&1 & exec " + build;
+    for (int step = 0; step < 6; ++step) {
+        std::string noise(std::size_t{96} * 96 * 96, '\0');
+        std::mt19937 random(static_cast<unsigned>(step));
+        std::ranges::generate(noise, [&] { return static_cast<char>(random()); });
+        folder.write("n" + std::to_string(step) + ".raw", noise);
+    }
+    return run_child("/usr/bin/env",
+                     {"ASAN_OPTIONS=detect_leaks=0", "mpirun", "--allow-run-as-root",
+                      "--oversubscribe", "-n", "1", "/bin/sh", "-c", "exec " + build, ":", "-n",
+                      "1", "/bin/sh", "-c", when_under_way},
+                     folder.path());
+}
+
+std::vector<std::string> lines_of_ours(const ChildResult& result) {
+    std::vector<std::string> lines;
+    std::istringstream all(result.err);
+    for (std::string line; std::getline(all, line);)
+        if (line.starts_with("isochron: "))
+            lines.push_back(line);
+    return lines;
+}
+
+TEST_F(MpiBuild, AStoppedProcessEndsTheJobWithItsNameAndLeavesNothing) {
+    const ChildResult result = struck_job(folder, "STOP");
+    EXPECT_NE(result.status, 0);
+    const auto lines = lines_of_ours(result);
+    ASSERT_EQ(lines.size(), 1u) << result.err;
+    EXPECT_THAT(lines.front(), testing::StartsWith("isochron: process 1 on "));
+    EXPECT_THAT(lines.front(), HasSubstr("no sign of life for "));
+    for (const std::string& name : folder.names())
+        EXPECT_EQ(name.find("job"), std::string::npos) << name;
+}
+
+TEST_F(MpiBuild, AKilledProcessEndsTheJobInOneLineAndLeavesNothing) {
+    const ChildResult result = struck_job(folder, "KILL");
+    EXPECT_NE(result.status, 0);
+    const auto lines = lines_of_ours(result);
+    ASSERT_EQ(lines.size(), 1u) << result.err;
+    // Whoever is quicker says so: mpirun, or the one who waits.
+    EXPECT_THAT(lines.front(), testing::AnyOf(HasSubstr("another process of the job has ended"),
+                                              HasSubstr("process 1 on ")));
+    for (const std::string& name : folder.names())
+        EXPECT_EQ(name.find("job"), std::string::npos) << name;
 }
 
 } // namespace

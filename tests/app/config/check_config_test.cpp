@@ -123,6 +123,60 @@ TEST(CheckConfig, WhatTwoCannotShareIsWrong) {
     EXPECT_THAT(lines_of("[rendering]\nnear = 5\nfar = 2\n"), ElementsAre(HasSubstr("rendering")));
 }
 
+TEST(CheckConfig, WallsInOnePlaceAreAPairForTwoEyesOrAMistake) {
+    const auto pair = [](const std::string& first, const std::string& second) {
+        return lines_of(window_with(kSquare, first) +
+                        "[[windows]]\nname = \"twin\"\nsize = "
+                        "[1000, 1000]\n" +
+                        second + "[[windows.viewports]]\n[windows.viewports.projection]\n" +
+                        kSquare);
+    };
+    const std::string left = "stereo = \"left\"\n", right = "stereo = \"right\"\n";
+    EXPECT_THAT(pair(left, right), IsEmpty());
+    EXPECT_THAT(pair(left, left),
+                ElementsAre("lab.toml:15: windows.stereo: window west and window twin have the "
+                            "same corners, and both show the left eye"));
+    EXPECT_THAT(pair("", ""), ElementsAre(HasSubstr("warning: windows.viewports.projection: window "
+                                                    "twin has the same corners as window west")));
+}
+
+TEST(CheckConfig, AFloorThatLiesTheWrongWayRoundIsWarnedOf) {
+    EXPECT_THAT(lines_of(window_with("lower_left = [1, 0, -1]\nupper_left = [1, 0, 1]\n"
+                                     "upper_right = [-1, 0, 1]\n")),
+                ElementsAre(HasSubstr("upper edge is at the back")));
+    EXPECT_THAT(lines_of(window_with("lower_left = [-1, 0, 1]\nupper_left = [-1, 0, -1]\n"
+                                     "upper_right = [1, 0, -1]\n")),
+                IsEmpty());
+}
+
+TEST(CheckConfig, PlacedWindowsOnTopOfEachOtherAreWarnedOf) {
+    const auto placed = [](int x) {
+        return lines_of(fmt::format("[[windows]]\nsize = [800, 600]\nposition = [0, 0]\n"
+                                    "[[windows]]\nsize = [800, 600]\nposition = [{}, 0]\n",
+                                    x));
+    };
+    EXPECT_THAT(placed(700),
+                testing::Contains("lab.toml:4: warning: windows.position: window window 2 covers "
+                                  "100 x 600 pixels of window window"));
+    EXPECT_THAT(placed(800), testing::Not(testing::Contains(HasSubstr("windows.position"))));
+}
+
+TEST(CheckConfig, DevicesThatCannotBeAreNamed) {
+    EXPECT_THAT(lines_of("[viewer]\nhead = \"hat\"\n[dtrack]\nport = 5000\n"
+                         "[[dtrack.devices]]\nname = \"cap\"\nbody = 0\n"),
+                ElementsAre("lab.toml:1: viewers.head: no tracker provides device hat, which "
+                            "tracks viewer viewer"));
+    EXPECT_THAT(lines_of("[dtrack]\nport = 5000\n[[dtrack.devices]]\nname = \"head\"\nbody = 0\n"
+                         "[[dtrack.devices]]\nname = \"cap\"\nbody = 0\n"),
+                ElementsAre("lab.toml:1: warning: dtrack.devices: head and cap are both body 0 of "
+                            "127.0.0.1:5000"));
+    EXPECT_THAT(lines_of("[[dtrack]]\nport = 5000\n[[dtrack.devices]]\nname = \"head\"\nbody = 0\n"
+                         "[[dtrack]]\naddress = \"0.0.0.0\"\nport = 5000\n[[dtrack.devices]]\nname "
+                         "= \"wand\"\nbody = 1\n"),
+                ElementsAre("lab.toml:6: dtrack.port: 0.0.0.0:5000 is the dtrack tracker's of line "
+                            "1 already"));
+}
+
 TEST(CheckConfig, TheDescriptionHoldsEveryPartAndItsMeasures) {
     const std::string text = describe(read_config("cave4"));
     for (const char* part :

@@ -4,6 +4,7 @@
 #include "interaction/recording/recording.h"
 #include "tests/app/config/config_error.h"
 
+#include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -135,6 +136,9 @@ TEST(DeviceConfig, WhatIsWrongIsNamedWithItsPlace) {
     expect(dtrack + body + "held_after_ms = 2000\n", "expected 0 < held_after_ms <= lost_after_ms");
     expect("[dtrack]\nport = 70000\n" + body, "lab.toml:2: dtrack.port");
     expect("[dtrack]\naddress = \"tracker.lab\"\n" + body, "expected a numeric IPv4 or IPv6");
+    expect("[dtrack]\nfrom = \"tracker.lab\"\n" + body,
+           "lab.toml:2: dtrack.from: expected a numeric address such as 192.168.0.10 or "
+           "192.168.0.10:5000, got 'tracker.lab'");
     expect("[dtrack]\nposition = [0, 2000, 0]\n" + body, "expected meters in the room, got 2000 m");
     expect("[dtrack]\nscale = 0\n" + body, "lab.toml:2: dtrack.scale");
     expect("[osc]\nprefix = \"isochron\"\n[[osc.devices]]\nname = \"head\"\n",
@@ -175,15 +179,18 @@ TEST(DeviceConfig, AHeadThatNobodyTracksIsWarnedOf) {
 
 TEST(DeviceConfig, APortThatIsTakenIsNamed) {
     UdpSocket taken({"127.0.0.1", 0});
-    DeviceConfig devices;
-    devices.dtrack.push_back({taken.endpoint(), {}});
+    const Config config =
+        parse_config(fmt::format("version = 1\n[dtrack]\nport = {}\n[[dtrack.devices]]\nname = "
+                                 "\"head\"\nbody = 0\n",
+                                 taken.endpoint().port),
+                     "lab.toml");
     CompositeInput input;
     try {
-        open_trackers(devices, input);
+        open_trackers(config, input);
         ADD_FAILURE();
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(),
-                    HasSubstr(to_string(taken.endpoint()) + ": Address already in use"));
+        EXPECT_EQ(error.what(), "lab.toml:2: dtrack: udp " + to_string(taken.endpoint()) +
+                                    ": Address already in use");
     }
 }
 

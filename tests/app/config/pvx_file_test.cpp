@@ -78,6 +78,32 @@ TEST_F(PvxFile, MachinesViewersAndCornersArrive) {
                                                     "UseOffAxisProjection")));
 }
 
+TEST_F(PvxFile, EveryMachineIsANodeInItsPlace) {
+    const stereo::Installation cave = read(kCavePvx).installation;
+    EXPECT_EQ(cave.windows[0].node, 0);
+    EXPECT_EQ(cave.windows[1].node, 1);
+    EXPECT_EQ(parse_config(display_config_text(cave), "cave.toml").installation.windows[1].node, 1);
+}
+
+TEST_F(PvxFile, AMachineWithoutCornersIsAWindowOnADesktop) {
+    const PvxImport import = read(
+        "<pvx>\n<Machine Name=\"localhost\"/>\n<UseOffAxisProjection Value=\"false\"/>\n</pvx>");
+    const stereo::Screen& screen = import.installation.windows[0].viewports[0].screen;
+    EXPECT_TRUE(screen.carried_by_head);
+    EXPECT_TRUE(screen.fit_aspect);
+    EXPECT_THAT(import.notes, testing::Contains(HasSubstr("cave.pvx:2: localhost: no corners")));
+    const Config config = parse_config(display_config_text(import.installation), "imported.toml");
+    EXPECT_THAT(problems_of(config), testing::IsEmpty());
+}
+
+TEST_F(PvxFile, TheThirdCornerMayBeTheUpperLeftOne) {
+    const PvxImport import = read("<pvx><Machine LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\" "
+                                  "UpperLeft=\"-1 0.5 -1\"/></pvx>");
+    const stereo::Screen& screen = import.installation.windows[0].viewports[0].screen;
+    EXPECT_EQ(screen.upper_left, glm::vec3(-1, 0.5f, -1));
+    EXPECT_EQ(screen.upper_right, glm::vec3(1, 0.5f, -1));
+}
+
 TEST_F(PvxFile, UnitAndOriginPutTheCornersIntoTheRoom) {
     const PvxImport import =
         read("<pvx><EyeSeparation Value=\"0.2\"/><Machine LowerLeft=\"-5 0 -5\" LowerRight=\"5 0 "
@@ -128,7 +154,10 @@ TEST_F(PvxFile, WhatIsWrongIsOneLineWithItsPlace) {
               "cave.pvx:2: not well-formed XML (XML_ERROR_MISMATCHED_ELEMENT)");
     EXPECT_EQ(error_of("<html/>"), "cave.pvx: expected <pvx>, got <html>");
     EXPECT_EQ(error_of("<pvx/>"), "cave.pvx:1: pvx: it has no Machine");
-    EXPECT_EQ(error_of("<pvx><Machine/></pvx>"), "cave.pvx:1: Machine: LowerLeft is missing");
+    EXPECT_EQ(error_of("<pvx><Machine LowerRight=\"1 -1 -1\"/></pvx>"),
+              "cave.pvx:1: Machine: LowerLeft is missing");
+    EXPECT_EQ(error_of("<pvx><Machine LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\"/></pvx>"),
+              "cave.pvx:1: Machine: UpperRight is missing");
     EXPECT_EQ(error_of("<pvx><Machine LowerLeft=\"1 2\"/></pvx>"),
               "cave.pvx:1: Machine: LowerLeft: expected 3 numbers, got '1 2'");
     EXPECT_THAT(error_of("<pvx><Machine LowerLeft=\"1 2 x\"/></pvx>"), HasSubstr("got '1 2 x'"));

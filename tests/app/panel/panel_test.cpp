@@ -49,7 +49,7 @@ class PanelTest : public testing::Test {
     }
 
     /// Presses on the first control from the top, the histogram, in the middle of the panel.
-    interaction::Commands press_on_histogram() { return press(12.0f + 190.0f, 12.0f + 50.0f); }
+    interaction::Commands press_on_histogram() { return press(144.0f, 62.0f); }
 
     ImGuiContext* imgui_;
     index::SeriesInfo info_;

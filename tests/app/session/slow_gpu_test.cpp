@@ -1,96 +1,133 @@
-// Behind a slow driver: fences passed 50 ms late, times that come ten frames late. Frames go on, every
-// set lands once and whole.
+// Behind a slow driver: fences passed 50 ms late, times that come ten frames late, maps that wait.
+// Frames go on, every set lands once and whole, and nothing is sent twice.
 #include "tests/support/context_in_between.h"
+#include "tests/support/late_fences.h"
 #include "tests/support/session_fixture.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
+#include <set>
 #include <thread>
 
 namespace isochron::app {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::steady_clock;
-
-/// GL's functions have no room for state.
-struct SlowDriver {
-    static constexpr milliseconds kFenceLate{50};
+/// What is counted and delayed between the program and the driver. GL's functions have no room for
+/// state.
+struct Between {
     static constexpr int kTimesLate = 10; ///< frames
-    PFNGLFENCESYNCPROC fence = nullptr;
-    PFNGLCLIENTWAITSYNCPROC wait = nullptr;
     PFNGLGETQUERYOBJECTIVPROC query = nullptr;
-    std::map<GLsync, steady_clock::time_point> made;
-    std::map<GLuint, int>
-        asked; ///< how often for a query's result, which is to be asked once a frame
-} slow;
+    PFNGLMAPNAMEDBUFFERRANGEPROC map = nullptr;
+    PFNGLCOPYNAMEDBUFFERSUBDATAPROC copy = nullptr;
+    std::map<GLuint, int> asked; ///< how often for a query's result, once a frame
+    std::set<GLuint> mapped;
+    std::uint64_t staged = 0; ///< bytes copied from mapped buffers
+    bool slow = false;
+} between;
 
-GLsync APIENTRY make_slow_fence(GLenum condition, GLbitfield flags) {
-    const GLsync sync = slow.fence(condition, flags);
-    slow.made[sync] = steady_clock::now();
-    return sync;
-}
-GLenum APIENTRY wait_for_slow_fence(GLsync sync, GLbitfield flags, GLuint64 timeout) {
-    const auto left = slow.made[sync] + SlowDriver::kFenceLate - steady_clock::now();
-    const auto most = std::chrono::nanoseconds(timeout);
-    std::this_thread::sleep_for(std::min<steady_clock::duration>(left, most));
-    return left > most ? GLenum{GL_TIMEOUT_EXPIRED} : slow.wait(sync, flags, timeout);
-}
 void APIENTRY ask_late(GLuint query, GLenum name, GLint* value) {
-    slow.query(query, name, value);
-    if (name == GL_QUERY_RESULT_AVAILABLE && ++slow.asked[query] < SlowDriver::kTimesLate)
+    between.query(query, name, value);
+    if (name == GL_QUERY_RESULT_AVAILABLE && ++between.asked[query] < Between::kTimesLate)
         *value = GL_FALSE;
     else
-        slow.asked[query] = 0;
+        between.asked[query] = 0;
 }
+
+void* APIENTRY map_late(GLuint buffer, GLintptr offset, GLsizeiptr length, GLbitfield access) {
+    if (between.slow)
+        std::this_thread::sleep_for(render::LateFences::kLate);
+    between.mapped.insert(buffer);
+    return between.map(buffer, offset, length, access);
+}
+
+void APIENTRY count_copy(GLuint from, GLuint to, GLintptr read, GLintptr write, GLsizeiptr size) {
+    if (between.mapped.contains(from))
+        between.staged += static_cast<std::uint64_t>(size);
+    between.copy(from, to, read, write, size);
+}
+
+/// What a walk through the steps sent and showed.
+struct Walk {
+    std::vector<std::uint64_t> staged; ///< bytes for each step
+    std::uint64_t sets = 0;
+    std::size_t maps_later = 0; ///< mapped after the first frame
+    bool timed = false;         ///< times of the GPU reached the report
+};
 
 class SlowGpu : public SessionTest {
   protected:
-    int frame_ = 0;
-
-    stereo::ContextInBetween context_of_slow_driver() const {
-        slow = {};
-        return {GetParam(), {160, 90}, [](std::string_view wanted, void* found) {
-                    if (wanted == "glFenceSync")
-                        return stereo::before(found, slow.fence, &make_slow_fence);
-                    if (wanted == "glClientWaitSync")
-                        return stereo::before(found, slow.wait, &wait_for_slow_fence);
-                    if (wanted == "glGetQueryObjectiv")
-                        return stereo::before(found, slow.query, &ask_late);
+    static stereo::ContextInBetween context_of_driver(bool slow) {
+        between = {};
+        between.slow = slow;
+        render::late_fences = {};
+        return {GetParam(), {160, 90}, [slow](std::string_view wanted, void* found) {
+                    if (wanted == "glMapNamedBufferRange")
+                        return stereo::before(found, between.map, &map_late);
+                    if (wanted == "glCopyNamedBufferSubData")
+                        return stereo::before(found, between.copy, &count_copy);
+                    if (slow && wanted == "glFenceSync")
+                        return stereo::before(found, render::late_fences.fence,
+                                              &render::make_late_fence);
+                    if (slow && wanted == "glClientWaitSync")
+                        return stereo::before(found, render::late_fences.wait,
+                                              &render::wait_for_late_fence);
+                    if (slow && wanted == "glGetQueryObjectiv")
+                        return stereo::before(found, between.query, &ask_late);
                     return found;
                 }};
+    }
+
+    /// To each of the first steps, one after the other; all of it is sent before the next.
+    Walk walk(bool slow, render::DrawnBy drawn_by) const {
+        stereo::ContextInBetween context = context_of_driver(slow);
+        Config config = small_config();
+        config.drawn_by = drawn_by;
+        config.upload_kilobytes_per_frame = 16; // several frames for each
+        Session session(config, file_, context);
+        Walk walk;
+        std::size_t maps_at_start = 0;
+        int frame = 0;
+        for (std::uint32_t step = 0; step < std::min<std::size_t>(file_->info().steps(), 4u);
+             ++step) {
+            interaction::Commands to;
+            to.step = step;
+            const std::uint64_t before = between.staged;
+            // What follows a set that is shown already, such as its volume, has come after these.
+            int frames = 0, left = 30;
+            while (left > 0) {
+                if (++frames > 800) {
+                    ADD_FAILURE() << "step " << step << " never lands";
+                    return walk;
+                }
+                const FrameReport& report =
+                    session.frame(head_at_rest(frame++ / 60.0),
+                                  frames == 1 ? to : interaction::Commands{}, Waiting::never);
+                walk.sets += report.uploaded.sets;
+                const bool sent = report.uploaded.id_bytes + report.uploaded.brick_bytes > 0;
+                if (!report.shown || report.shown->step != step || sent)
+                    left = 30;
+                else
+                    --left;
+                if (frame == 1)
+                    maps_at_start = between.mapped.size();
+            }
+            walk.staged.push_back(between.staged - before);
+        }
+        walk.timed = std::ranges::any_of(session.log().frames(),
+                                         [](const auto& each) { return each.gpu.has_value(); });
+        walk.maps_later = between.mapped.size() - maps_at_start;
+        return walk;
     }
 };
 
 TEST_P(SlowGpu, HoldsUpNoFrameForGoodAndEverySetLandsOnce) {
     for (const auto drawn_by : {render::DrawnBy::gpu, render::DrawnBy::processor}) {
-        stereo::ContextInBetween context = context_of_slow_driver();
-        Config config = small_config();
-        config.drawn_by = drawn_by;
-        config.upload_kilobytes_per_frame = 16; // several frames for each
-        Session session(config, file_, context);
-        const auto steps = static_cast<std::uint32_t>(file_->info().steps());
-        std::uint64_t sets = 0;
-        for (std::uint32_t step = 0; step < std::min(steps, 4u); ++step) {
-            interaction::Commands to;
-            to.step = step;
-            int frames = 0;
-            do {
-                ASSERT_LT(++frames, 400) << "step " << step << " never lands";
-                const auto& report =
-                    session.frame(head_at_rest(frame_++ / 60.0),
-                                  frames == 1 ? to : interaction::Commands{}, Waiting::never);
-                sets += report.uploaded.sets;
-            } while (!session.log().frames().back().shown ||
-                     session.log().frames().back().shown->step != step);
-        }
-        EXPECT_GE(sets, std::min(steps, 4u));
-        EXPECT_LE(sets, std::min(steps, 4u) + 1); // what was asked for at the start
-        const auto& frames = session.log().frames();
-        EXPECT_TRUE(
-            std::ranges::any_of(frames, [](const auto& frame) { return frame.gpu.has_value(); }) ||
-            frames.size() < 30);
+        const Walk late = walk(true, drawn_by), on_time = walk(false, drawn_by);
+        EXPECT_EQ(late.staged, on_time.staged) << "bytes sent twice, or never";
+        EXPECT_GT(late.staged.front(), 0u);
+        EXPECT_EQ(late.sets, on_time.sets);
+        EXPECT_EQ(late.maps_later, 0u) << "a map may wait, so none is made once pictures are shown";
+        EXPECT_TRUE(late.timed) << "times that come late come all the same";
     }
 }
 

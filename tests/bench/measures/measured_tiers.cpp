@@ -57,8 +57,8 @@ Recipe bricks_of(const FilePtr& file) {
                 structure.bytes = bytes_without(*file, {Tier::cells, Tier::deltas, Tier::tree});
                 structure.build_seconds = seconds_for_bricks(*file);
                 structure.ids = [file](const Query& query, Ids& out) {
-                    index::search_bricks(file->values(), file->levels(), file->bricks(query.step),
-                                         query, out);
+                    const index::LoadedStep step = file->load(query.step);
+                    index::search_bricks(step.values, file->levels(), step.bricks, query, out);
                 };
                 return structure;
             }};

@@ -66,6 +66,27 @@ TEST_F(IndexBuildTest, AStepThatCannotBeReadLeavesNothingBehind) {
     EXPECT_THAT(names_in(folder.path()), IsEmpty());
 }
 
+TEST_F(IndexBuildTest, ASourceThatChangesMeanwhileLeavesTheOldIndexAsItWas) {
+    const auto source = folder.write("t.raw", std::string(4 * 27, 'a'));
+    ReadOptions read;
+    read.dims = {{3, 3, 3}};
+    read.type = ValueType::u8;
+    build_index(*open_series({source}, read), folder.path() / "a", {});
+    const std::string old = read_file(folder.path() / "a");
+    for (const std::size_t size : {std::size_t{4 * 27 + 1}, std::size_t{27}}) {
+        folder.write("t.raw", std::string(4 * 27, 'b'));
+        const auto changing = open_series({source}, read);
+        EXPECT_THAT(build_error(*changing, folder.path() / "a",
+                                [&](std::string_view phase, double done) {
+                                    if (phase == "reading" && done > 0)
+                                        std::filesystem::resize_file(source, size);
+                                }),
+                    HasSubstr("t.raw: changed while it was read: "));
+        EXPECT_EQ(read_file(folder.path() / "a"), old);
+        EXPECT_THAT(names_in(folder.path()), ElementsAre("a", "t.raw"));
+    }
+}
+
 TEST_F(IndexBuildTest, CancelingInAnyPhaseLeavesTheOldIndexAsItWas) {
     build_index(series, folder.path() / "a", {});
     const std::string old = read_file(folder.path() / "a");

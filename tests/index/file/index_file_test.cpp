@@ -86,7 +86,7 @@ TEST_F(IndexFileTest, EveryTypeGoesInAndComesOutUnchanged) {
             // 180 values at most: every type has its levels.
             EXPECT_TRUE(file->levels().lossless());
             EXPECT_NE(file->cells(), nullptr);
-            EXPECT_FALSE(file->bricks(0).empty());
+            EXPECT_FALSE(file->load(0).bricks.empty());
             EXPECT_EQ(file->stats().file_bytes,
                       std::filesystem::file_size(folder.path() / "a.isochron"));
             EXPECT_NO_THROW(file->verify());
@@ -180,8 +180,8 @@ TEST_F(IndexFileTest, TheContentHashDependsOnValuesAndGridAlone) {
 }
 
 TEST_F(IndexFileTest, OtherFilesAreRefusedInOneLine) {
-    EXPECT_THAT(open_error(folder.path() / "missing"), HasSubstr("No such file"));
-    EXPECT_THAT(open_error(folder.path()), HasSubstr("not a regular file"));
+    EXPECT_THAT(open_error(folder.path() / "missing"), HasSubstr("no such file"));
+    EXPECT_THAT(open_error(folder.path()), HasSubstr("a folder, expected a file"));
     put(folder.path() / "empty", "");
     EXPECT_THAT(open_error(folder.path() / "empty"), HasSubstr("not an isochron index"));
     put(folder.path() / "text", "# vtk DataFile Version 3.0\n");
@@ -206,7 +206,13 @@ TEST_F(IndexFileTest, EveryKindOfHeaderDamageHasItsOwnLine) {
     newer.version = kFileVersion + 1;
     std::string bytes = good;
     reseal(bytes, newer);
-    EXPECT_THAT(message_of(bytes), HasSubstr("file version 3, this program reads version 2"));
+    EXPECT_THAT(message_of(bytes), HasSubstr("file version 4, this program reads version 3"));
+    FileHeader older = header_of(good);
+    older.version = 2;
+    bytes = good;
+    reseal(bytes, older);
+    EXPECT_THAT(message_of(bytes), HasSubstr("file version 2, this program reads version 3; "
+                                             "isochron build"));
 
     FileHeader foreign = header_of(good);
     foreign.byte_order = 0x04030201;
@@ -296,7 +302,6 @@ TEST_F(IndexFileTest, DamagedMetadataWithMatchingChecksumsIsRefusedOrUsable) {
         try {
             const auto file = IndexFile::open(folder.path() / "b.isochron");
             const StepValues& values = file->values();
-            ASSERT_EQ(values.stride * values.steps, file->stats().volume_bytes);
             double sum = 0;
             for (std::size_t t = 0; t < values.steps; ++t)
                 for (std::size_t v = 0; v < values.grid.vertex_count(); ++v)

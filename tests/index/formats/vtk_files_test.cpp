@@ -38,6 +38,8 @@ TEST_P(Vti, HasTheSameContentInEveryEncoding) {
     EXPECT_EQ(info.times, std::vector<double>{2.5});
     EXPECT_EQ(info.array, "p");
     EXPECT_EQ(values_of<std::int16_t>(*series, 0), expected_values());
+    const bool lz4 = std::string_view(GetParam()).find("lz4") != std::string_view::npos;
+    EXPECT_EQ(testing::Value(info.notes, testing::Contains(HasSubstr("LZ4 data"))), lz4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Encodings, Vti,

@@ -56,6 +56,12 @@ struct RandomValue {
     }
     void operator()(const Field&, Pose& into) { into = {{1e-30f, 2, -3}, random_rotation(random)}; }
     void operator()(const Field&, Similarity& into) { into = random_similarity(random); }
+    void operator()(const Field&, ClipPlane& into) {
+        into = {random() % 2 == 0,
+                {uniform(random, -9, 9), uniform(random, -9, 9), uniform(random, -9, 9)},
+                glm::dvec3(random_rotation(random) * glm::vec3(0, 0, 1))};
+        into.normal = glm::normalize(into.normal);
+    }
     void operator()(const Field& field, Mark& into) {
         into = {};
         if (!sometimes())

@@ -2,9 +2,9 @@
 #include "interaction/controls.h"
 #include "interaction/desktop_emulation.h"
 #include "interaction/motion_gate.h"
-#include "interaction/recording/recording.h"
 
 #include "tests/interaction/input_builders.h"
+#include "tests/interaction/recording/recording_in.h"
 
 #include <gtest/gtest.h>
 
@@ -121,7 +121,7 @@ TEST(Recompute, DevicesExplainEveryCommandThatThePanelDoesNot) {
         EXPECT_GT(navigated, 100u);
         EXPECT_GT(stepped, 20u);
 
-        const Recording recording = read_recording(path);
+        const Recording recording = recording_in(path);
         ASSERT_EQ(recording.frames.size(), 1000u);
         SimulatedSession session;
         Controls controls;

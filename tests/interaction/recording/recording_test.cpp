@@ -3,6 +3,7 @@
 
 #include "tests/interaction/input_builders.h"
 #include "tests/interaction/recording/random_commands.h"
+#include "tests/interaction/recording/recording_in.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ class RecordingFile : public testing::Test {
     }
     std::string complaint() {
         try {
-            read_recording(path_);
+            recording_in(path_);
         } catch (const Error& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
             return error.what();
@@ -119,7 +120,7 @@ TEST_F(RecordingFile, EverythingComesBackBitForBit) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         const Recording recording = random_recording(seed, 50);
         write_recording(path_, recording);
-        const Recording back = read_recording(path_);
+        const Recording back = recording_in(path_);
         EXPECT_EQ(back.header, recording.header);
         ASSERT_EQ(back.frames.size(), recording.frames.size());
         for (std::size_t i = 0; i < back.frames.size(); ++i)
@@ -130,7 +131,7 @@ TEST_F(RecordingFile, EverythingComesBackBitForBit) {
 
 TEST_F(RecordingFile, WritingAgainWhatWasReadGivesTheSameBytes) {
     write_recording(path_, random_recording(7, 100));
-    write_recording(folder_ / "copy.jsonl", read_recording(path_));
+    write_recording(folder_ / "copy.jsonl", recording_in(path_));
     EXPECT_EQ(content_of(path_), content_of(folder_ / "copy.jsonl"));
 }
 
@@ -157,14 +158,14 @@ TEST_F(RecordingFile, AppearsUnderItsNameOnlyWhenFinished) {
         EXPECT_TRUE(fs::exists(path_.string() + ".part"));
     }
     EXPECT_FALSE(fs::exists(path_.string() + ".part"));
-    EXPECT_EQ(read_recording(path_).frames.size(), 10u);
+    EXPECT_EQ(recording_in(path_).frames.size(), 10u);
 }
 
 TEST_F(RecordingFile, ACrashLosesAtMostASecond) {
     RecordingWriter writer(path_, {});
     for (int i = 0; i <= 600; ++i)
         writer.append({{Seconds(i / 60.0), {head_at(kStanding)}}, {}, {}});
-    const Recording left = read_recording(path_.string() + ".part");
+    const Recording left = recording_in(path_.string() + ".part");
     ASSERT_FALSE(left.frames.empty());
     EXPECT_GE(left.frames.back().input.time, Seconds(9.0));
 }
@@ -176,12 +177,12 @@ TEST_F(RecordingFile, ACutLastLineIsLeftOutWithANote) {
     const std::size_t last = whole.rfind('\n', whole.size() - 2) + 1;
     for (std::size_t size = last + 1; size < whole.size() - 1; ++size) {
         write(whole.substr(0, size));
-        const Recording back = read_recording(path_);
+        const Recording back = recording_in(path_);
         EXPECT_EQ(back.frames.size(), 19u);
         EXPECT_EQ(back.note, "walk.jsonl:21: incomplete last line left out");
     }
     write(whole.substr(0, whole.size() - 1)); // complete but for the line end
-    EXPECT_EQ(read_recording(path_).frames.size(), 20u);
+    EXPECT_EQ(recording_in(path_).frames.size(), 20u);
 }
 
 TEST_F(RecordingFile, ComplaintsNameFileAndLine) {
@@ -237,8 +238,6 @@ TEST_F(RecordingFile, OtherFilesAndNewerVersionsAreRefused) {
     newer.replace(newer.find("\"version\":1"), 11, "\"version\":2");
     write(newer);
     EXPECT_EQ(complaint(), "walk.jsonl:1: version: this program reads 1, the recording has 2");
-    EXPECT_THROW(read_recording(folder_), Error);
-    EXPECT_THROW(read_recording(folder_ / "missing.jsonl"), Error);
 }
 
 TEST_F(RecordingFile, AbsurdSizesAreRefused) {
@@ -276,7 +275,7 @@ TEST_F(RecordingFile, RandomDamageNeverDoesMoreThanComplain) {
         }
         write(damaged);
         try {
-            const Recording back = read_recording(path_);
+            const Recording back = recording_in(path_);
             for (std::size_t i = 1; i < back.frames.size(); ++i)
                 ASSERT_GE(back.frames[i].input.time, back.frames[i - 1].input.time);
         } catch (const Error& error) {
@@ -300,7 +299,7 @@ TEST_F(RecordingFile, WhatCannotBeReadBackIsNotWritten) {
     frame.input.time = Seconds(0.5);
     EXPECT_THROW(writer.append(frame), Error);
     writer.finish();
-    EXPECT_EQ(read_recording(path_).frames.size(), 1u);
+    EXPECT_EQ(recording_in(path_).frames.size(), 1u);
 }
 
 TEST_F(RecordingFile, AFolderThatDoesNotExistIsNamed) {

@@ -270,6 +270,70 @@ TEST_P(DTrackTest, GarbageMovesTheHeadNoFartherThanItCanHaveGone) {
     EXPECT_EQ(status().find(" 0 malformed"), std::string::npos) << status();
 }
 
+/// Frame numbers a little ahead would otherwise make the tracker's own frames late.
+TEST_P(DTrackTest, AnotherSenderCannotPushTheTrackerAside) {
+    const auto head_at = [](std::uint32_t counter, double x) {
+        return dtrack_datagram(counter, std::nullopt, {{0, {x, 1.7, 0}}});
+    };
+    const UdpSender other(input.endpoint());
+    for (std::uint32_t frame = 0; frame < 300; ++frame) {
+        send(head_at(frame, 0.001 * frame));
+        for (std::uint32_t ahead : {1u, 500u, 999u, 5000u})
+            for (int copy = 0; copy < 20; ++copy) // more than one poll keeps
+                other.send(head_at(frame + ahead, -1));
+        expect_near(input.poll(Seconds(frame / 60.0)).find("head")->pose->position,
+                    {0.001 * frame, 1.7, 0}, 0.05); // one that waited long may count as old
+    }
+    EXPECT_THAT(status(), testing::HasSubstr("300 frames, 0 missing, 0 late"));
+    EXPECT_THAT(status(), testing::HasSubstr(", 24000 from others ("));
+}
+
+TEST_P(DTrackTest, NoiseThatComesFirstIsNotTakenForTheTracker) {
+    const UdpSender noise(input.endpoint());
+    for (std::uint32_t frame = 0; frame < 100; ++frame) {
+        for (int copy = 0; copy < 50; ++copy)
+            noise.send("no frame");
+        send(dtrack_datagram(frame, std::nullopt, {{0, {0, 1.7, 0}}}));
+        EXPECT_EQ(input.poll(Seconds(frame / 60.0)).find("head")->pose.has_value(), frame > 0);
+    }
+}
+
+TEST_P(DTrackTest, ATrackerThatStartsAgainIsTakenUpAfterASecond) {
+    send(dtrack_datagram(7000, std::nullopt, {{0, {0, 1.7, 0}}}));
+    input.poll(Seconds(0));
+    const UdpSender again(input.endpoint());
+    again.send(dtrack_datagram(1, std::nullopt, {{0, {0.1, 1.7, 0}}}));
+    expect_near(input.poll(Seconds(0.5)).find("head")->pose->position, {0, 1.7, 0}, 1e-6);
+    again.send(dtrack_datagram(2, std::nullopt, {{0, {0.1, 1.7, 0}}}));
+    expect_near(input.poll(Seconds(2)).find("head")->pose->position, {0.1, 1.7, 0}, 1e-6);
+}
+
+TEST_P(DTrackTest, OnlyTheConfiguredSenderCounts) {
+    DTrackOptions narrow = options(GetParam());
+    const UdpSocket nobody({GetParam(), 0});
+    narrow.from = nobody.endpoint();
+    DTrackInput deaf(narrow);
+    const UdpSender stranger(deaf.endpoint());
+    stranger.send(dtrack_datagram(1, std::nullopt, {{0, {0, 1.7, 0}}}));
+    EXPECT_FALSE(deaf.poll(Seconds(0)).find("head")->pose);
+    narrow.from->port = 0; // any of this machine
+    DTrackInput hearing(narrow);
+    const UdpSender tracker(hearing.endpoint());
+    tracker.send(dtrack_datagram(1, std::nullopt, {{0, {0, 1.7, 0}}}));
+    EXPECT_TRUE(hearing.poll(Seconds(0)).find("head")->pose);
+}
+
+TEST(Endpoints, AreReadInEverySpelling) {
+    EXPECT_EQ(endpoint_from("192.168.0.10"), (Endpoint{"192.168.0.10", 0}));
+    EXPECT_EQ(endpoint_from("192.168.0.10:5000"), (Endpoint{"192.168.0.10", 5000}));
+    EXPECT_EQ(endpoint_from("0:0:0::1"), (Endpoint{"::1", 0}));
+    EXPECT_EQ(endpoint_from("[::1]"), (Endpoint{"::1", 0}));
+    EXPECT_EQ(endpoint_from("[::1]:5000"), (Endpoint{"::1", 5000}));
+    for (const char* bad : {"", ":", ":5000", "[]", "[::1", "[::1]5", "tracker.lab", "10.0.0.1:",
+                            "10.0.0.1:x", "10.0.0.1:65536", "10.0.0.1:-1", "10.0.0.1:5 "})
+        EXPECT_FALSE(endpoint_from(bad)) << bad;
+}
+
 TEST(DTrackInput, AnAddressThatCannotBeBoundIsNamed) {
     UdpSocket taken({"127.0.0.1", 0});
     const auto message = [](const Endpoint& endpoint) -> std::string {

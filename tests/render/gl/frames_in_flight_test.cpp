@@ -2,12 +2,11 @@
 #include "render/gl/driver.h"
 #include "render/gl/frames_in_flight.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/late_fences.h"
 
 #include <gmock/gmock.h>
 
 #include <chrono>
-#include <map>
-#include <thread>
 
 namespace isochron::render {
 namespace {
@@ -15,35 +14,12 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-/// A driver whose fences are passed 50 ms late, and not at all while it hangs.
-struct LateFences {
-    static constexpr milliseconds kLate{50};
-    PFNGLFENCESYNCPROC fence = nullptr;
-    PFNGLCLIENTWAITSYNCPROC wait = nullptr;
-    std::map<GLsync, steady_clock::time_point> made;
-    bool hangs = false;
-} late;
-
-GLsync APIENTRY make_fence(GLenum condition, GLbitfield flags) {
-    const GLsync sync = late.fence(condition, flags);
-    late.made[sync] = steady_clock::now();
-    return sync;
-}
-GLenum APIENTRY wait_late(GLsync sync, GLbitfield flags, GLuint64 timeout) {
-    const auto left = late.made[sync] + LateFences::kLate - steady_clock::now();
-    const auto most = std::chrono::nanoseconds(timeout);
-    std::this_thread::sleep_for(late.hangs ? most : std::min<steady_clock::duration>(left, most));
-    if (late.hangs || left > most)
-        return GL_TIMEOUT_EXPIRED;
-    return late.wait(sync, flags, timeout);
-}
-
 class FramesInFlightTest : public GlTest {
   protected:
     FramesInFlightTest() {
-        late = {.fence = gl_.FenceSync, .wait = gl_.ClientWaitSync, .made = {}};
-        gl_.FenceSync = make_fence;
-        gl_.ClientWaitSync = wait_late;
+        late_fences = {.fence = gl_.FenceSync, .wait = gl_.ClientWaitSync};
+        gl_.FenceSync = make_late_fence;
+        gl_.ClientWaitSync = wait_for_late_fence;
     }
 };
 
@@ -58,12 +34,12 @@ TEST_P(FramesInFlightTest, GoOnAsFastAsAGpuThatIsLateDraws) {
 
 TEST_P(FramesInFlightTest, AreNotHeldBackForGoodByAGpuThatHangs) {
     FramesInFlight frames(gl_);
-    late.hangs = true;
+    late_fences.hangs = true;
     const auto start = steady_clock::now();
     for (int frame = 0; frame < 4; ++frame)
         frames.end_frame();
     EXPECT_GE(steady_clock::now() - start, milliseconds(2 * 250));
-    late.hangs = false;
+    late_fences.hangs = false;
     frames.end_frame();
 }
 

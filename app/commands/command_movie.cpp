@@ -1,0 +1,173 @@
+// `isochron movie`: a recording becomes a movie.
+#include "app/commands/cancel.h"
+#include "app/commands/file_patterns.h"
+#include "app/commands/progress_bar.h"
+#include "app/commands/replay_source.h"
+#include "app/commands/subcommands.h"
+#include "app/output/movie_file.h"
+#include "app/output/picture_names.h"
+#include "app/session/recording_file.h"
+#include "index/error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MovieOptions : ReplaySource {
+    std::string out, eyes = "window";
+    double rate = 30;
+    bool force = false;
+};
+
+/// One movie for the window, or one for each eye and viewport; written behind the drawing.
+class Movies {
+  public:
+    Movies(const MovieOptions& options, const PictureNames& names, BackgroundWork& writing)
+        : options_(options), names_(names), writing_(writing) {}
+
+    /// What the frame drawn last shows, for so many frames of the movie.
+    void add(Outputs& outputs, std::size_t times) {
+        if (outputs.room())
+            return add("", outputs.kept_pictures().of_room(), times);
+        outputs.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
+            const std::size_t number = outputs.windows().number(i);
+            const PictureNames::Window& named = names_.windows.at(number);
+            if (options_.eyes == "window")
+                return add(named.suffix, display.read_window(), times);
+            for (std::size_t v = 0; v < named.viewports.size(); ++v)
+                for (const stereo::Eye eye : stereo::eyes_of(display.mode()))
+                    add(fmt::format("{}_{}", named.viewports[v], name_of(eye)),
+                        display.read_eye(eye, v), times);
+        });
+    }
+
+    /// Completes them. @return a line for each
+    std::vector<std::string> finish() {
+        writing_.finish();
+        std::vector<std::string> lines;
+        for (auto& [path, movie] : movies_) {
+            movie->finish();
+            lines.push_back(fmt::format("wrote {}: {} frames at {:g} per second", path.string(),
+                                        movie->frames(), options_.rate));
+        }
+        return lines;
+    }
+
+  private:
+    fs::path path_with(const std::string& suffix) const {
+        const fs::path out(options_.out);
+        return out.parent_path() / (out.stem().string() + suffix + out.extension().string());
+    }
+
+    void add(const std::string& suffix, render::Image image, std::size_t times) {
+        const fs::path path = path_with(suffix);
+        auto& movie = movies_[path];
+        if (!movie) {
+            if (fs::exists(path) && !options_.force)
+                throw index::Error(
+                    fmt::format("{}: exists already; --force replaces it", path.string()));
+            movie = std::make_shared<MovieFile>(path, glm::ivec2(image.width, image.height),
+                                                options_.rate);
+        }
+        writing_.wait_for_room();
+        writing_.post([movie = movie, image = std::move(image), times] {
+            for (std::size_t i = 0; i < times; ++i)
+                movie->add(image);
+            return std::string();
+        });
+    }
+
+    const MovieOptions& options_;
+    const PictureNames& names_;
+    BackgroundWork& writing_;
+    std::map<fs::path, std::shared_ptr<MovieFile>> movies_;
+};
+
+/// How many frames of the movie show a recorded one: those whose times come before the next one.
+class Clock {
+  public:
+    Clock(const interaction::Recording& recording, double rate)
+        : recording_(recording), rate_(rate) {}
+    std::size_t frames_of(std::size_t number) {
+        const auto& frames = recording_.frames;
+        const double start = frames.front().input.time.count();
+        // The last one is shown for one frame.
+        const double end = number + 1 < frames.size()
+                               ? frames[number + 1].input.time.count() - start
+                               : (static_cast<double>(next_) + 0.5) / rate_;
+        std::size_t count = 0;
+        for (; static_cast<double>(next_) / rate_ < end; ++next_)
+            ++count;
+        return count;
+    }
+
+  private:
+    const interaction::Recording& recording_;
+    double rate_;
+    std::uint64_t next_ = 0; ///< frame of the movie
+};
+
+void make_movie(const MovieOptions& options, ClusterJob& job) {
+    if (job.size() > 1)
+        throw UsageError("a movie is made by one process, without mpirun");
+    refuse_input_as_output({options.recording}, options.out);
+    const interaction::Recording recording = read_recording(options.recording);
+    if (recording.frames.empty())
+        throw interaction::Error(options.recording + ": it has no frames");
+    const Config config = config_of(options, recording.header);
+    const auto file = data_of(options, recording.header);
+    Session session(config, file, windows_of(options, config, recording.header, job));
+    const ReplayOptions replay = replay_options(options);
+    session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
+    const PictureNames names = picture_names(config.installation);
+    BackgroundWork writing;
+    Movies movies(options, names, writing);
+    Clock clock(recording, options.rate);
+    {
+        const CancelOnSignal signals;
+        ProgressBar bar;
+        replay_fixed_step(
+            session, recording, replay, [&](std::size_t number, const interaction::RecordedFrame&) {
+                signals.check();
+                if (const std::size_t times = clock.frames_of(number))
+                    movies.add(session.outputs(), times);
+                bar.show("making the movie", static_cast<double>(number + 1) /
+                                                 static_cast<double>(recording.frames.size()));
+            });
+    }
+    for (const std::string& line : movies.finish())
+        fmt::print("{}\n", line);
+}
+
+} // namespace
+
+void add_movie(Command& program) {
+    auto options = std::make_shared<MovieOptions>();
+    Command command =
+        program.subcommand("movie", "Make a movie of a recording (needs the program ffmpeg).");
+    add_replay_source(command, *options);
+    command.option("-o,--out", options->out, "Movie to write: .mp4, .mkv or .mov (H.264), or .gif")
+        .required();
+    command.option("--rate", options->rate, "Frames per second").positive().shows_default();
+    command
+        .option("--eyes", options->eyes,
+                "window: as the stereo mode composes it; each: a movie for each eye and viewport")
+        .one_of({"window", "each"})
+        .shows_default();
+    command.flag("--force", options->force, "Replace a movie that is there");
+    command.footer("Each frame of the movie shows what the recording shows at its time; `replay "
+                   "--every` writes single pictures.\nExit status: 0 done, 1 bad input, 2 bad "
+                   "usage.");
+    command.on_run(
+        [options] { run_in_cluster([&](ClusterJob& job) { make_movie(*options, job); }); });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,18 @@
+// An index that a command is given, and what is said when something else was meant.
+#pragma once
+
+#include "index/file/index_file.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace isochron::app {
+
+/// @throws index::Error as IndexFile::open; where the file is there and has another suffix, with
+/// how an index is made of it
+std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path);
+
+/// Says on stderr when an isovalue lies beyond the data, where no surface is; the range is told.
+void warn_beyond(double isovalue, const index::IndexFile& file);
+
+} // namespace isochron::app

@@ -1,0 +1,127 @@
+// What is replayed, on which data, and in what pictures.
+#include "app/commands/replay_source.h"
+
+#include "app/commands/kept_session.h"
+#include "app/commands/open_index.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace isochron::app {
+
+namespace fs = std::filesystem;
+
+void add_replay_source(Command& command, ReplaySource& source) {
+    command.option("recording", source.recording, "Recording made by `explore --record`")
+        .required();
+    command.option("--data", source.data,
+                   "Index to use instead of the recorded path (which may also be relative "
+                   "to the recording)");
+    command.flag("--any-data", source.any_data,
+                 "Accept data other than the recorded (another hash)");
+    command
+        .option(
+            "--size", source.size,
+            "Size of every window's pictures, or of the room's, in pixels (default: as recorded)")
+        .values(2)
+        .between(16, 16384);
+    command
+        .option("--samples", source.samples,
+                "Samples of each pixel of the pictures (default: as configured, 4 where "
+                "nothing is)")
+        .between(1, 64);
+    command.flag("--emulate", source.emulate,
+                 "Show the room from outside, with what every wall shows, instead");
+    command.option("--stereo", source.stereo, "Stereo mode instead of the recorded one")
+        .one_of(stereo_mode_names());
+    command.option("--quality", source.quality, "Quality mode instead of the recorded one")
+        .one_of(interaction::all_names<interaction::QualityMode>());
+    command
+        .option("--footprint", source.footprint,
+                "What a settled picture is drawn with, instead of the configured: auto (the "
+                "best there is; with --live the best that fits the frame budget), gaussian or "
+                "surface")
+        .one_of(settled_footprint_names());
+    command.option("--config", source.config,
+                   "TOML file or shipped name instead of the recorded configuration");
+    command
+        .option("--context", source.context,
+                "GL context: egl (default), osmesa, glfw (default with --live)")
+        .one_of({"glfw", "egl", "osmesa"});
+}
+
+Config config_of(const ReplaySource& options, const interaction::RecordingHeader& header) {
+    Config config =
+        options.config ? read_config(*options.config)
+                       : parse_config(header.configuration, options.recording + " (configuration)");
+    // A recording made in a window replays without one unless a window is asked for.
+    config.context = options.live ? stereo::ContextKind::glfw : stereo::ContextKind::egl;
+    if (options.context)
+        config.context = *stereo::context_kind_from_name(*options.context);
+    if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
+        config.installation.windows.front().size = {header.window[0], header.window[1]};
+    if (options.footprint)
+        config.settled_footprint = settled_footprint_from_name(*options.footprint);
+    config.picture_samples = options.samples.value_or(config.picture_samples);
+    for (stereo::Window& window : config.installation.windows) {
+        if (!options.size.empty() && !options.emulate)
+            window.size = {options.size[0], options.size[1]};
+        window.fullscreen = false; // a replay looks on, it does not take the displays over
+    }
+    return config;
+}
+
+std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
+                                                const interaction::RecordingHeader& header) {
+    std::string path = options.data.value_or(header.data);
+    std::error_code ignored;
+    if (!options.data && !fs::exists(path, ignored)) {
+        // A relative name is from where the session was started; the data may lie beside the
+        // recording.
+        path = (fs::path(options.recording).parent_path() / header.data).string();
+        if (!fs::exists(path, ignored))
+            throw interaction::Error(
+                fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
+                            options.recording, header.data));
+    }
+    auto file = open_index(path);
+    const std::string hash = data_hash_of(*file);
+    // A recording without a hash is not bound to one data set: demonstrations are like that.
+    if (!options.any_data && !header.data_hash.empty() && header.data_hash != hash)
+        throw interaction::Error(
+            fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
+                        "(--any-data replays all the same)",
+                        options.recording, header.data_hash, path, hash));
+    return file;
+}
+
+stereo::Windows windows_of(const ReplaySource& options, const Config& config,
+                           const interaction::RecordingHeader& header, const ClusterJob& job) {
+    const std::string title = "Isochron: " + options.recording;
+    if (options.emulate) {
+        stereo::ContextOptions room{.title = title};
+        if (!options.size.empty())
+            room.size = {options.size[0], options.size[1]};
+        return open_room(config.context, config.installation, room);
+    }
+    const std::string mode = options.stereo.value_or(header.start.stereo.value_or(""));
+    return open_windows(config.context, config.installation,
+                        {.title = title,
+                         .vsync = config.vsync,
+                         .stereo = stereo::stereo_mode_from_name(mode).value_or(
+                             config.installation.windows.front().stereo),
+                         .rank = job.rank(),
+                         .ranks = job.size()});
+}
+
+ReplayOptions replay_options(const ReplaySource& options) {
+    ReplayOptions replay;
+    if (options.stereo)
+        replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
+    if (options.quality)
+        replay.quality = quality_mode_from_name(*options.quality);
+    return replay;
+}
+
+} // namespace isochron::app

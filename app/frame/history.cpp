@@ -1,0 +1,100 @@
+// Steps of undo and redo.
+#include "app/frame/history.h"
+
+#include "interaction/command_fields.h"
+
+#include <algorithm>
+
+namespace isochron::app {
+namespace {
+
+constexpr interaction::Seconds kPause{0.4}; ///< ends a drag that no button tells of
+
+/// Settings in which two states differ, a bit each, and those of them that drags change. The steps
+/// that playing goes through are nobody's change.
+struct Changed {
+    std::uint64_t all = 0, dragged = 0;
+};
+
+Changed changed(const ExplorerState& a, const ExplorerState& b) {
+    Changed result;
+    std::uint64_t bit = 1;
+    interaction::each_setting(
+        [&](const interaction::Field& field, const auto& left, const auto& right) {
+            const bool played = a.playback.playing && static_cast<const void*>(&left) == &a.step;
+            if (field.undone && !played && !(left == right)) {
+                result.all |= bit;
+                if (field.dragged)
+                    result.dragged |= bit;
+            }
+            bit <<= 1;
+        },
+        a, b);
+    return result;
+}
+
+bool holds_something(const interaction::InputState& input) {
+    return std::ranges::any_of(
+        input.devices, [](const interaction::DeviceState& device) { return device.buttons != 0; });
+}
+
+interaction::Commands way_to(const ExplorerState& target, const ExplorerState& from) {
+    interaction::Commands way = from.commands_to(target);
+    if (from.playback.playing && target.playback.playing)
+        way.step.reset(); // time goes on
+    return way;
+}
+
+} // namespace
+
+bool History::continues(std::uint64_t fields, const interaction::InputState& input) const {
+    return !past_.empty() && fields_ != 0 && fields == fields_ &&
+           (held_ || input.time - changed_ <= kPause);
+}
+
+void History::add_change(const ExplorerState& before, const ExplorerState& after,
+                         const interaction::InputState& input) {
+    const Changed what = changed(before, after);
+    if (what.all == 0)
+        return;
+    const std::uint64_t fields = what.all == what.dragged ? what.all : 0;
+    if (!continues(fields, input)) {
+        past_.push_back(before);
+        if (past_.size() > kMost)
+            past_.pop_front();
+    }
+    fields_ = fields;
+    changed_ = input.time;
+    held_ = true;
+    future_.clear();
+}
+
+void History::add(const ExplorerState& before, const ExplorerState& after,
+                  const interaction::Commands& commands, const interaction::InputState& input) {
+    if (commands.undo && !past_.empty()) {
+        future_.push_back(before);
+        past_.pop_back();
+        fields_ = 0;
+    } else if (commands.redo && !future_.empty()) {
+        past_.push_back(before);
+        future_.pop_back();
+        fields_ = 0;
+    } else {
+        add_change(before, after, input);
+    }
+    held_ = held_ && holds_something(input);
+    if (before == after && !commands.undo && !commands.redo)
+        return;
+    undo_.reset();
+    redo_.reset();
+    if (!past_.empty()) {
+        undo_ = way_to(past_.back(), after);
+        undo_->undo = true;
+    }
+    if (!future_.empty()) {
+        redo_ = way_to(future_.back(), after);
+        redo_->redo = true;
+    }
+}
+
+} // namespace isochron::app

@@ -1,0 +1,173 @@
+// Pictures through a pipe to ffmpeg.
+#include "app/output/movie_file.h"
+
+#include "index/error.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In the same folder, with the suffix by which ffmpeg knows the format.
+fs::path temporary_of(const fs::path& path) {
+    return path.parent_path() /
+           fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string());
+}
+
+std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, double rate) {
+    std::vector<std::string> all{"ffmpeg",    "-hide_banner",
+                                 "-nostdin",  "-y",
+                                 "-loglevel", "error",
+                                 "-f",        "rawvideo",
+                                 "-pix_fmt",  "rgba",
+                                 "-s",        fmt::format("{}x{}", size.x, size.y),
+                                 "-r",        fmt::format("{}", rate),
+                                 "-i",        "pipe:0"};
+    const auto add = [&](std::initializer_list<const char*> more) {
+        all.insert(all.end(), more.begin(), more.end());
+    };
+    if (out.extension() == ".gif")
+        add({"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"});
+    else // players want even sides and halved color
+        add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast",
+             "-crf", "16", "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
+    all.push_back(out.string());
+    return all;
+}
+
+} // namespace
+
+/// Both ends of a pipe; those that are still open are closed.
+struct FfmpegPipe {
+    int ends[2]{-1, -1};
+    FfmpegPipe() {
+        if (pipe2(ends, O_CLOEXEC) != 0)
+            throw index::Error(fmt::format("a pipe to ffmpeg: {}", std::strerror(errno)));
+    }
+    ~FfmpegPipe() {
+        close_end(0);
+        close_end(1);
+    }
+    FfmpegPipe(const FfmpegPipe&) = delete;
+    FfmpegPipe& operator=(const FfmpegPipe&) = delete;
+    void close_end(int end) {
+        if (const int open = std::exchange(ends[end], -1); open >= 0)
+            close(open);
+    }
+};
+
+struct MovieFile::State {
+    fs::path path, temporary;
+    glm::ivec2 size;
+    FfmpegPipe pictures, complaints;
+    pid_t ffmpeg = -1;
+    std::size_t frames = 0;
+    bool whole = false;
+
+    State(fs::path target, glm::ivec2 pixels, double rate)
+        : path(std::move(target)), temporary(temporary_of(path)), size(pixels) {
+        std::signal(SIGPIPE, SIG_IGN); // an ffmpeg that is gone is told as an error
+        std::vector<std::string> words = arguments_for(temporary, size, rate);
+        std::vector<char*> arguments;
+        for (std::string& word : words)
+            arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        posix_spawn_file_actions_t files;
+        posix_spawn_file_actions_init(&files);
+        posix_spawn_file_actions_adddup2(&files, pictures.ends[0], STDIN_FILENO);
+        posix_spawn_file_actions_adddup2(&files, complaints.ends[1], STDERR_FILENO);
+        const int error =
+            posix_spawnp(&ffmpeg, "ffmpeg", &files, nullptr, arguments.data(), environ);
+        posix_spawn_file_actions_destroy(&files);
+        if (error != 0)
+            throw index::Error(fmt::format("{}: movies are written by ffmpeg, which cannot be "
+                                           "started: {} (Debian: apt install ffmpeg)",
+                                           path.string(), std::strerror(error)));
+        pictures.close_end(0);
+        complaints.close_end(1);
+    }
+    ~State() {
+        if (ffmpeg > 0) {
+            kill(ffmpeg, SIGKILL);
+            waitpid(ffmpeg, nullptr, 0);
+        }
+        std::error_code ignored;
+        if (!whole)
+            fs::remove(temporary, ignored);
+    }
+
+    /// Waits until ffmpeg ends. @return what it said, in one line; empty: all is well
+    std::string wait() {
+        pictures.close_end(1);
+        std::string said;
+        char bytes[512];
+        for (ssize_t count; (count = read(complaints.ends[0], bytes, sizeof bytes)) > 0;)
+            said.append(bytes, static_cast<std::size_t>(count));
+        int status = 0;
+        waitpid(std::exchange(ffmpeg, -1), &status, 0);
+        if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+            return {};
+        return said.empty() ? "it ended without a word" : said.substr(0, said.find('\n'));
+    }
+    [[noreturn]] void fail() {
+        const std::string said = ffmpeg > 0 ? wait() : std::string();
+        throw index::Error(fmt::format("{}: ffmpeg: {}", path.string(),
+                                       said.empty() ? "it took no more pictures" : said));
+    }
+};
+
+MovieFile::MovieFile(fs::path path, glm::ivec2 size, double rate)
+    : state_(std::make_unique<State>(std::move(path), size, rate)) {}
+MovieFile::~MovieFile() = default;
+
+void MovieFile::add(const render::Image& image) {
+    State& s = *state_;
+    if (image.width != s.size.x || image.height != s.size.y)
+        throw index::Error(fmt::format("{}: a picture of {} x {}, the movie has {} x {}",
+                                       s.path.string(), image.width, image.height, s.size.x,
+                                       s.size.y));
+    for (std::size_t done = 0; done < image.rgba.size();) {
+        const ssize_t count =
+            write(s.pictures.ends[1], image.rgba.data() + done, image.rgba.size() - done);
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            s.fail();
+        done += static_cast<std::size_t>(count);
+    }
+    ++s.frames;
+}
+
+std::size_t MovieFile::frames() const {
+    return state_->frames;
+}
+
+void MovieFile::finish() {
+    State& s = *state_;
+    const std::string said = s.wait();
+    if (!said.empty())
+        throw index::Error(fmt::format("{}: ffmpeg: {}", s.path.string(), said));
+    std::error_code error;
+    fs::rename(s.temporary, s.path, error);
+    if (error)
+        throw index::Error(fmt::format("{}: {}", s.path.string(), error.message()));
+    s.whole = true;
+}
+
+} // namespace isochron::app

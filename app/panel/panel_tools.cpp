@@ -1,0 +1,116 @@
+// The panel's sections on tools, undo and leaving.
+#include "app/panel/panel_tools.h"
+
+#include "interaction/clip_tool.h"
+#include "interaction/tool_table.h"
+
+#include <imgui.h>
+
+#include <array>
+#include <string>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::ToolKind;
+
+void step_button(const char* words, const Commands* change, Commands& commands) {
+    ImGui::BeginDisabled(!change);
+    if (ImGui::Button(words) && change)
+        commands = *change;
+    ImGui::EndDisabled();
+}
+
+/// @return whether another one was chosen
+bool tool_choice(const char* hand, ToolKind& tool) {
+    const auto& table = interaction::tool_table();
+    const ToolKind before = tool;
+    ImGui::SetNextItemWidth(-90.0f);
+    if (ImGui::BeginCombo(hand, std::string(table[static_cast<std::size_t>(tool)].words).c_str())) {
+        for (const interaction::ToolRow& row : table) {
+            if (ImGui::Selectable(std::string(row.words).c_str(), row.kind == before))
+                tool = row.kind;
+            if (ImGui::IsItemHovered())
+                ImGui::SetTooltip("%s", std::string(row.effect).c_str());
+        }
+        ImGui::EndCombo();
+    }
+    return tool != before;
+}
+
+void clip_buttons(const PanelModel& model, Commands& commands) {
+    constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+        ImGui::PushID(axis);
+        if (ImGui::SmallButton(kAxes[static_cast<std::size_t>(axis)]))
+            commands.clip = snapped(model.asked.clip, axis, model.data);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("clip plane across this axis; again: the other side");
+        ImGui::PopID();
+        ImGui::SameLine();
+    }
+    ImGui::BeginDisabled(!model.asked.clip.shown);
+    if (ImGui::SmallButton("no clip plane"))
+        commands.clip = interaction::ClipPlane{};
+    ImGui::EndDisabled();
+}
+
+} // namespace
+
+void history_section(const PanelModel& model, Commands& commands) {
+    step_button("Undo", model.undo, commands);
+    ImGui::SameLine();
+    step_button("Redo", model.redo, commands);
+}
+
+void tools_section(const PanelModel& model, Commands& commands) {
+    interaction::Tools tools = model.asked.tools;
+    bool changed = tool_choice("mouse", tools.mouse);
+    changed = tool_choice("right hand", tools.wand) || changed;
+    changed = tool_choice("left hand", tools.other) || changed;
+    if (changed)
+        commands.tools = tools;
+    clip_buttons(model, commands);
+    if (!model.asked.ruler.places.empty()) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton("no ruler"))
+            commands.ruler = interaction::Ruler{};
+    }
+}
+
+void message_window(const std::string& message, interaction::Seconds age) {
+    constexpr interaction::Seconds kShown{4.0};
+    if (message.empty() || age > kShown)
+        return;
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({picture.x / 2, picture.y - 12.0f}, ImGuiCond_Always, {0.5f, 1.0f});
+    ImGui::SetNextWindowBgAlpha(0.86f);
+    ImGui::Begin("###message", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::TextUnformatted(message.c_str());
+    ImGui::End();
+}
+
+void leaving_window(const PanelModel& model, Commands& commands) {
+    if (!model.asked.leaving)
+        return;
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowFocus();
+    ImGui::Begin("Leave Isochron?###leaving", nullptr,
+                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    if (model.recording)
+        ImGui::TextUnformatted("The recording ends and is kept.");
+    if (ImGui::Button("Leave (Enter)"))
+        commands.quit = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Stay (Escape)"))
+        commands.leaving = false;
+    ImGui::End();
+}
+
+} // namespace isochron::app

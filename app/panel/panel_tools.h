@@ -1,0 +1,22 @@
+// The panel's sections on tools, undo and leaving.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "interaction/commands.h"
+#include "interaction/pose.h"
+
+#include <string>
+
+namespace isochron::app {
+
+/// Undo and redo.
+void history_section(const PanelModel& model, interaction::Commands& commands);
+/// The tools of mouse and hands, and what they have made.
+void tools_section(const PanelModel& model, interaction::Commands& commands);
+/// The newest message, for a while, at the bottom of the picture.
+/// @param age of the message
+void message_window(const std::string& message, interaction::Seconds age);
+/// The question whether to leave, in the middle of the picture.
+void leaving_window(const PanelModel& model, interaction::Commands& commands);
+
+} // namespace isochron::app

@@ -1,0 +1,65 @@
+// Parts of a section, written side by side.
+#include "index/build/part_writer.h"
+
+#include "index/file/file_layout.h"
+#include "index/system/mapped_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace isochron::index {
+namespace {
+
+/// Copies what a member has spilled to its place, a piece at a time.
+void copy_spilled(const std::filesystem::path& from, std::uint64_t bytes, NewFile& to,
+                  std::uint64_t offset) {
+    if (bytes == 0)
+        return;
+    const MappedFile spilled(from);
+    constexpr std::uint64_t kPiece = 16 << 20;
+    for (std::uint64_t at = 0; at < spilled.bytes().size(); at += kPiece) {
+        const auto piece =
+            spilled.bytes().subspan(at, std::min(kPiece, spilled.bytes().size() - at));
+        to.write_at(offset + at, piece);
+        spilled.let_go(piece);
+    }
+}
+
+} // namespace
+
+PartWriter::PartWriter(NewFile& file, std::uint64_t offset, const std::filesystem::path& spill,
+                       const Team& team)
+    : file_(file), offset_(offset) {
+    if (team.rank() > 0)
+        spilled_.emplace(spill.string() + fmt::format("{}", team.rank()));
+}
+
+std::uint64_t PartWriter::append(std::span<const std::byte> bytes) {
+    const std::uint64_t at = end_;
+    (spilled_ ? *spilled_ : file_).write_at(spilled_ ? at : offset_ + at, bytes);
+    end_ += bytes.size();
+    return at;
+}
+
+std::uint64_t PartWriter::align(std::uint64_t alignment) {
+    return end_ = align_up(end_, alignment);
+}
+
+PartWriter::Placed PartWriter::place(Team& team) {
+    const std::vector<std::uint64_t> sizes = team.gather_values(align_up(end_, kPartAlignment));
+    Placed placed;
+    for (unsigned member = 0; member < sizes.size(); ++member) {
+        if (member < team.rank())
+            placed.start += sizes[member];
+        placed.bytes += sizes[member];
+    }
+    team.together([&] {
+        if (spilled_)
+            copy_spilled(spilled_->temporary(), end_, file_, offset_ + placed.start);
+    });
+    return placed;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,27 @@
+// The formats that libraries decode: one function each, in a file of its own.
+#pragma once
+
+#include "index/decoders/decoded_file.h"
+
+#include <utility>
+#include <vector>
+
+namespace isochron::index {
+
+/// VTK XML image data (.vti), all its encodings and compressors.
+std::unique_ptr<DecodedFile> decode_vti(const std::filesystem::path& path,
+                                        const ReadOptions& options);
+
+/// Legacy VTK structured points (.vtk).
+std::unique_ptr<DecodedFile> decode_vtk(const std::filesystem::path& path,
+                                        const ReadOptions& options);
+
+/// NetCDF, classic and 4.
+std::unique_ptr<DecodedFile> decode_netcdf(const std::filesystem::path& path,
+                                           const ReadOptions& options);
+
+/// The files and times of a ParaView collection (.pvd), in the order of their times, paths made
+/// relative to where the program runs. @throws Error naming the file
+std::vector<std::pair<std::filesystem::path, double>> decode_pvd(const std::filesystem::path& path);
+
+} // namespace isochron::index

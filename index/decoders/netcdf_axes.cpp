@@ -1,0 +1,233 @@
+// Dimensions, coordinates and times of a NetCDF variable.
+#include "index/decoders/netcdf_axes.h"
+
+#include "index/decoders/netcdf_roles.h"
+#include "index/error.h"
+#include "index/formats/stored_file.h"
+#include "index/formats/text_header.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::index {
+namespace {
+
+/// Where the vertices along a dimension lie, in its own unit.
+struct Positions {
+    std::string label;          ///< `z (lev)`
+    double first = 0, step = 1; ///< the step may be negative
+    std::string unit;           ///< tidy; empty: none
+    bool downwards = false;
+};
+
+struct Role {
+    std::optional<AxisRole> role;
+    bool told = false; ///< by more than the letter of its name
+};
+
+Role role_of(const NetcdfFile& file, const NetcdfVariable& variable,
+             const NetcdfDimension& dimension) {
+    if (const NetcdfVariable* coordinate = file.coordinate(variable, dimension))
+        if (const auto role = role_by_attributes(file, *coordinate))
+            return {role, true};
+    return {role_by_name(dimension.name), dimension.name.size() > 1};
+}
+
+// Each physical axis once: what is told first, the others in their order, x fastest.
+void assign_axes(const std::array<Role, 3>& roles, NetcdfLayout& layout) {
+    std::array<bool, 3> known{}, taken{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (!roles[a].role || *roles[a].role == AxisRole::time)
+            continue;
+        const auto physical = static_cast<std::size_t>(*roles[a].role);
+        if (taken[physical])
+            continue;
+        known[a] = taken[physical] = true;
+        layout.physical[a] = static_cast<int>(physical);
+        layout.upright = layout.upright || (*roles[a].role == AxisRole::z && roles[a].told);
+    }
+    for (std::size_t a = 0; a < 3; ++a)
+        if (!known[a]) {
+            const auto free = std::ranges::find(taken, false);
+            *free = true;
+            layout.physical[a] = static_cast<int>(free - taken.begin());
+        }
+}
+
+// Longitudes that pass 360 degrees go on.
+void unwrap(std::vector<double>& degrees) {
+    for (std::size_t i = 1; i < degrees.size(); ++i)
+        if (std::abs(degrees[i] - degrees[i - 1]) > 180)
+            degrees[i] = degrees[i - 1] + std::remainder(degrees[i] - degrees[i - 1], 360.0);
+}
+
+std::string with_blank(const std::string& unit) {
+    return unit.empty() ? "" : " " + unit;
+}
+
+// An even spread from the first vertex to the last, in their order.
+void spread(const std::vector<double>& at, const std::string& file, Positions& positions,
+            std::vector<std::string>& notes) {
+    const auto last = static_cast<double>(at.size() - 1);
+    const double first = at.front(), step = (at.back() - first) / last;
+    double least = HUGE_VAL, most = 0, off = 0;
+    for (std::size_t i = 1; i < at.size(); ++i) {
+        const double gap = (at[i] - at[i - 1]) * (step < 0 ? -1 : 1);
+        if (!(gap > 0) || !std::isfinite(gap))
+            throw Error(
+                fmt::format("{}: {}: {} after {}, expected coordinates that all increase or "
+                            "all decrease (--spacing does without them)",
+                            file, positions.label, at[i], at[i - 1]));
+        least = std::min(least, gap);
+        most = std::max(most, gap);
+        off = std::max(off, std::abs(at[i] - first - static_cast<double>(i) * step));
+    }
+    positions.first = first;
+    positions.step = step;
+    constexpr double kEven = 0.02; // of the spacing: Gaussian latitudes, coordinates in f32
+    if (off > kEven * std::abs(step))
+        notes.push_back(fmt::format("{} is not uniform: vertices {:.4g} to {:.4g}{} apart are "
+                                    "spread evenly, {:.4g}{} apart",
+                                    positions.label, least, most, with_blank(positions.unit),
+                                    std::abs(step), with_blank(positions.unit)));
+}
+
+Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable,
+                          const NetcdfDimension& dimension, int physical,
+                          const ReadOptions& options, std::vector<std::string>& notes) {
+    Positions positions;
+    positions.label = fmt::format("{} ({})", "xyz"[physical], dimension.name);
+    const NetcdfVariable* coordinate = file.coordinate(variable, dimension);
+    if (!coordinate)
+        return positions;
+    positions.unit = tidy_unit(file.text(*coordinate, "units"));
+    positions.downwards = physical == 2 && counts_downwards(file, *coordinate);
+    std::vector<double> at = file.values(*coordinate);
+    if (physical == 0 && positions.unit == "degrees")
+        unwrap(at);
+    try {
+        spread(at, file.name(), positions, notes);
+    } catch (const Error&) {
+        if (!options.spacing)
+            throw;
+    }
+    if (positions.downwards)
+        notes.push_back(fmt::format("{} counts downwards: up is its negative", positions.label));
+    return positions;
+}
+
+/// What to multiply coordinates with so that they go with those along x.
+double to_go_with(const Positions& x, const Positions& other) {
+    if (x.unit == other.unit)
+        return 1;
+    const auto meters_of_x = meters(x.unit), meters_of_other = meters(other.unit);
+    if (meters_of_x && meters_of_other)
+        return *meters_of_other / *meters_of_x;
+    return std::pow(10.0, std::round(std::log10(std::abs(x.step / other.step))));
+}
+
+bool in_one_unit(const std::array<Positions, 3>& axes) {
+    return std::ranges::all_of(axes, [&](const Positions& axis) {
+        return axis.unit == axes[0].unit || (meters(axis.unit) && meters(axes[0].unit));
+    });
+}
+
+const NetcdfVariable* time_variable(const NetcdfFile& file, const NetcdfVariable& variable,
+                                    const NetcdfLayout& layout) {
+    std::vector<NetcdfDimension> dimensions;
+    if (layout.time) {
+        dimensions = {variable.dimensions[*layout.time]};
+        if (const NetcdfVariable* coordinate = file.coordinate(variable, dimensions.front()))
+            return coordinate;
+    }
+    for (const NetcdfVariable& other : file.variables())
+        if (other.type && other.dimensions == dimensions &&
+            role_by_attributes(file, other) == AxisRole::time &&
+            (layout.time || file.text(other, "standard_name") == "time" ||
+             role_by_name(other.name) == AxisRole::time))
+            return &other;
+    return nullptr;
+}
+
+} // namespace
+
+std::optional<NetcdfLayout> layout_of(const NetcdfFile& file, const NetcdfVariable& variable) {
+    const std::size_t count = variable.dimensions.size();
+    std::vector<Role> roles;
+    std::vector<std::size_t> long_ones; // slowest first
+    NetcdfLayout layout;
+    for (std::size_t i = 0; i < count; ++i) {
+        roles.push_back(role_of(file, variable, variable.dimensions[i]));
+        if (!layout.time && roles[i].role == AxisRole::time)
+            layout.time = i;
+        else if (variable.dimensions[i].length != 1)
+            long_ones.push_back(i);
+    }
+    // Nothing says what the slowest of four is, so it is time.
+    if (!layout.time && long_ones.size() == 4 && !roles[long_ones.front()].role) {
+        layout.time = long_ones.front();
+        long_ones.erase(long_ones.begin());
+    }
+    if (long_ones.size() != 3)
+        return std::nullopt;
+    std::array<Role, 3> of_space;
+    for (std::size_t a = 0; a < 3; ++a) {
+        layout.space[a] = long_ones[2 - a];
+        of_space[a] = roles[layout.space[a]];
+    }
+    assign_axes(of_space, layout);
+    return layout;
+}
+
+void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,
+                const ReadOptions& options, SeriesInfo& info) {
+    std::array<Positions, 3> axes; // of physical space
+    for (std::size_t a = 0; a < 3; ++a) {
+        const int physical = layout.physical[a];
+        axes[static_cast<std::size_t>(physical)] = positions_along(
+            file, variable, variable.dimensions[layout.space[a]], physical, options, info.notes);
+    }
+    glm::dmat3 steps(0.0);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const int physical = layout.physical[a];
+        const Positions& axis = axes[static_cast<std::size_t>(physical)];
+        const double factor = to_go_with(axes[0], axis) * (axis.downwards ? -1 : 1);
+        steps[static_cast<int>(a)][physical] = axis.step * factor;
+        info.grid.origin[physical] = axis.first * factor + 0.0; // no -0
+    }
+    set_axes(info.grid, steps, file.name());
+    if (in_one_unit(axes)) {
+        info.length_unit = axes[0].unit;
+    } else if (!options.spacing) {
+        std::vector<std::string> units;
+        for (const Positions& axis : axes) {
+            const double factor = to_go_with(axes[0], axis);
+            units.push_back(axis.label + with_blank(axis.unit));
+            if (factor != 1)
+                units.back() += factor < 1 ? fmt::format(" / {:g}", 1 / factor)
+                                           : fmt::format(" * {:g}", factor);
+        }
+        info.notes.push_back(fmt::format("units differ: {}; --spacing sets other proportions",
+                                         fmt::join(units, ", ")));
+    }
+    if (layout.upright)
+        info.anatomy = Anatomy::enu;
+}
+
+void place_steps(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,
+                 SeriesInfo& info) {
+    const NetcdfVariable* time = time_variable(file, variable, layout);
+    if (!time)
+        return;
+    info.times = file.values(*time);
+    info.time_unit = file.text(*time, "units");
+    const std::string calendar = lower_case(file.text(*time, "calendar"));
+    if (!calendar.empty() && calendar != "standard" && calendar != "gregorian" &&
+        calendar != "proleptic_gregorian")
+        info.time_unit += fmt::format(" ({})", calendar);
+}
+
+} // namespace isochron::index

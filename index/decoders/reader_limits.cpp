@@ -1,0 +1,87 @@
+// Limits by setrlimit(2).
+#include "index/decoders/reader_limits.h"
+
+#include "index/reader/reader_start.h"
+
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace isochron::index {
+namespace {
+
+void limit(decltype(RLIMIT_DATA) resource, std::uint64_t most) {
+    struct rlimit limits {};
+    ::getrlimit(resource, &limits);
+    limits.rlim_cur = std::min<rlim_t>(most, limits.rlim_max);
+    ::setrlimit(resource, &limits);
+}
+
+/// [bytes] of this process's own that can be written to, which is what RLIMIT_DATA counts.
+std::uint64_t taken_memory() {
+    std::ifstream statm("/proc/self/statm"); // size, resident, shared, text, 0, data: in pages
+    std::uint64_t pages = 0;
+    for (int field = 0; field < 6; ++field)
+        statm >> pages;
+    return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// When it is asked first: reading it takes as long as opening a small file.
+std::uint64_t free_memory() {
+    static std::uint64_t found = 0;
+    if (found > 0)
+        return found;
+    std::ifstream info("/proc/meminfo");
+    std::uint64_t kilobytes = 0;
+    for (std::string key, line; info >> key && std::getline(info, line);)
+        if (key == "MemAvailable:")
+            kilobytes = std::stoull(line);
+    found = kilobytes > 0 ? kilobytes * 1024 : std::numeric_limits<std::int64_t>::max();
+    return found;
+}
+
+/// Slower than any library is: a second for each megabyte, and a minute for whatever it does.
+std::uint64_t seconds_for(std::uint64_t bytes) {
+    return 60 + bytes / 1'000'000;
+}
+
+} // namespace
+
+ReaderBudget::ReaderBudget(const std::filesystem::path& file, std::uint64_t most)
+    : before_(taken_memory()), most_(most > 0 ? most : free_memory()) {
+    std::error_code ignored;
+    const auto bytes = std::filesystem::file_size(file, ignored);
+    file_bytes_ = ignored ? 0 : bytes;
+    expect(0);
+    renew_time();
+}
+
+void ReaderBudget::expect(std::uint64_t decoded_bytes) {
+    // What libraries take for themselves; text that becomes numbers of eight bytes; a copy or two.
+    constexpr std::uint64_t kAny = std::uint64_t{1} << 30, kOfFile = 8, kOfValues = 4;
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 56;
+    memory_ = std::min(most_, kAny + kOfFile * std::min(file_bytes_, kMost) +
+                                  kOfValues * std::min(decoded_bytes, kMost));
+    if (!kReaderIsWatched)
+        limit(RLIMIT_DATA, before_ + memory_);
+}
+
+void ReaderBudget::renew_time() const {
+    struct rusage used {};
+    ::getrusage(RUSAGE_SELF, &used);
+    if (!kReaderIsWatched)
+        limit(RLIMIT_CPU, static_cast<std::uint64_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                              1 + seconds_for(file_bytes_));
+}
+
+std::string ReaderBudget::text() const {
+    return fmt::format("at most {:.1f} GB for it", static_cast<double>(memory_) / 1e9);
+}
+
+} // namespace isochron::index

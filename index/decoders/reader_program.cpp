@@ -1,0 +1,73 @@
+// A reader as a process: what it needs, what it gives up, and how it ends.
+#include "index/decoders/reader_program.h"
+
+#include "index/decoders/fence.h"
+#include "index/error.h"
+#include "index/reader/reader_start.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+constexpr int kNotStartedByTheProgram = 2;
+
+bool nobody_is_there() {
+    pollfd end{kReaderSocket, POLLRDHUP, 0};
+    return ::poll(&end, 1, 0) > 0 && (end.revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0;
+}
+
+/// However long a library works on a file, nobody may want it any more.
+void end_with_the_program() {
+    struct sigaction action {};
+    action.sa_handler = [](int) {
+        if (nobody_is_there())
+            ::_exit(0);
+    };
+    action.sa_flags = SA_RESTART;
+    ::sigaction(SIGIO, &action, nullptr);
+    ::fcntl(kReaderSocket, F_SETOWN, ::getpid());
+    ::fcntl(kReaderSocket, F_SETFL, ::fcntl(kReaderSocket, F_GETFL) | O_ASYNC);
+}
+
+/// When memory runs out, the system ends this process rather than the program.
+void go_first() {
+    const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+    if (file < 0)
+        return;
+    constexpr const char* kFirst = "1000";
+    [[maybe_unused]] const auto ignored = ::write(file, kFirst, std::strlen(kFirst));
+    ::close(file);
+}
+
+} // namespace
+
+int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection) {
+    int type = 0;
+    socklen_t size = sizeof type;
+    if (::getsockopt(kReaderSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
+        std::fputs("isochron starts this program where it reads files that a library decodes\n",
+                   stderr);
+        return kNotStartedByTheProgram;
+    }
+    end_with_the_program();
+    go_first();
+    if (!kReaderIsWatched)
+        fence_in();
+    try {
+        MessageSocket socket{Descriptor(kReaderSocket)};
+        serve(socket, decoders, collection);
+    } catch (const Error&) {
+        ::_exit(1); // the program knows what it said
+    }
+    ::_exit(0); // what libraries clean up at their end is gone anyway
+}
+
+} // namespace isochron::index

@@ -1,0 +1,194 @@
+// VTK XML image data (.vti), through vtkXMLImageDataReader: all its encodings and compressors.
+#include "index/decoders/decoders.h"
+#include "index/decoders/vtk_session.h"
+#include "index/decoders/xml_markup.h"
+#include "index/error.h"
+#include "index/formats/data_stream.h"
+#include "index/formats/stored_file.h"
+#include "index/system/mapped_file.h"
+
+#include <fmt/format.h>
+
+#include <vtkDataArraySelection.h>
+#include <vtkDataObject.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkXMLImageDataReader.h>
+
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The text of a file up to its appended data, which the mapping gives without reading the rest.
+std::string_view markup_of(const MappedFile& file) {
+    const std::string_view all(reinterpret_cast<const char*>(file.bytes().data()),
+                               file.bytes().size());
+    return all.substr(0, std::min(all.find("<AppendedData"), all.size()));
+}
+
+// Of appended values that end too early VTK leaves the rest as they were in memory. Whatever was
+// cut off, the end of the markup is gone as well.
+void expect_end(const MappedFile& file, const std::string& name) {
+    constexpr std::size_t kTail = 4096; // some writers leave blanks or a comment after it
+    const std::span<const std::byte> bytes = file.bytes();
+    const std::span<const std::byte> tail = bytes.last(std::min(bytes.size(), kTail));
+    if (std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size())
+            .find("</VTKFile") == std::string_view::npos)
+        throw Error(fmt::format("{}: truncated: it does not end with </VTKFile>", name));
+}
+
+// Every piece gives its part of the vertices; where one is missing VTK would leave zeros. Pieces
+// may overlap.
+void expect_whole(std::string_view markup, const Grid& grid, const std::string& file) {
+    std::uint64_t cells = 0;
+    for (std::size_t at = markup.find("<Piece"); at != std::string_view::npos;
+         at = markup.find("<Piece", at + 1)) {
+        const std::string_view tag = markup.substr(at, markup.find('>', at) - at);
+        const std::size_t key = tag.find("Extent");
+        const std::size_t quote = key == tag.npos ? tag.npos : tag.find_first_of("\"'", key);
+        if (quote == tag.npos)
+            continue;
+        std::istringstream numbers{std::string(tag.substr(quote + 1))};
+        std::int64_t e[6]{};
+        for (std::int64_t& number : e)
+            numbers >> number;
+        std::uint64_t piece = 1;
+        for (int axis = 0; axis < 3; ++axis)
+            piece *= static_cast<std::uint64_t>(
+                std::max<std::int64_t>(e[2 * axis + 1] - e[2 * axis], 0));
+        cells += piece;
+    }
+    if (cells < grid.cell_count())
+        throw Error(fmt::format("{}: its pieces hold {} cells, the whole extent has {}", file,
+                                cells, grid.cell_count()));
+}
+
+// A value takes a digit and a blank as text, 4/3 of its size in base64; the best that a compressor
+// of VTK reaches is below 1:10,000 (LZMA), 1:1,032 (zlib), 1:255 (LZ4).
+void expect_bytes(std::string_view markup, const ChosenScalar& chosen, const Grid& grid,
+                  std::uint64_t size, const std::string& file) {
+    std::uint64_t best = 1;
+    if (markup.find("compressor") != markup.npos)
+        best = markup.find("LZMA") != markup.npos ? 10'000 : 1'032;
+    const std::uint64_t tuples = chosen.array.on_cells ? grid.cell_count() : grid.vertex_count();
+    const std::uint64_t stored = tuples * chosen.array.components;
+    // The time may be text beside compressed values.
+    const bool text = best == 1 && markup.find("ascii") != markup.npos;
+    const std::uint64_t least = text ? stored : stored * size_of(*chosen.array.type) / best;
+    if (least > size)
+        throw Error(
+            fmt::format("{}: truncated: {} vertices in {} bytes", file, grid.vertex_count(), size));
+}
+
+void select_only(vtkDataArraySelection* selection, const std::string& name) {
+    selection->DisableAllArrays();
+    if (!name.empty())
+        selection->EnableArray(name.c_str());
+}
+
+class VtiFile final : public DecodedFile {
+  public:
+    VtiFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
+        const std::string name = path_.string();
+        const MappedFile file(path_);
+        const std::string_view markup = markup_of(file);
+        if (markup.find("<VTKFile") == markup.npos || markup.find("ImageData") == markup.npos)
+            throw Error(fmt::format("{}: not VTK XML image data", name));
+        expect_end(file, name);
+        expect_shallow(markup, name);
+        with_vtk(path_, [&] {
+            reader_->SetFileName(path_.c_str());
+            reader_->UpdateInformation();
+        });
+        // Only where VTK found nothing wrong has it told all that is asked for here.
+        with_vtk(path_, [&] { describe(options); });
+        if (markup.find("vtkLZ4DataCompressor") != markup.npos)
+            info_.notes.push_back(
+                "LZ4 data of VTK carry no check: damage to them may go unnoticed");
+        expect_whole(markup, info_.grid, name);
+        expect_bytes(markup, chosen_, info_.grid, file.bytes().size(), name);
+        with_vtk(path_, [&] {
+            // Without arrays only the time is read.
+            select({});
+            reader_->Update();
+            info_.times = time_of_vtk(reader_->GetOutput()->GetFieldData());
+        });
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    std::size_t steps() const override { return 1; }
+
+    std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
+    std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
+
+    void read(std::size_t, Slices slices, std::span<std::byte> out) override {
+        with_vtk(path_, [&] {
+            if (!std::exchange(decoded_, true)) { // choosing again would have VTK read again
+                select(chosen_.array);
+                reader_->Update();
+            }
+            values_of_vtk(*reader_->GetOutput(), chosen_, info_.grid, slices, out, path_.string());
+        });
+    }
+
+  private:
+    void describe(const ReadOptions& options) {
+        const std::string name = path_.string();
+        vtkInformation* out = reader_->GetOutputInformation(0);
+        if (!out->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+            throw Error(fmt::format("{}: not VTK XML image data", name));
+        int extent[6];
+        out->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+        constexpr double kIdentity[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
+        info_.grid = grid_of_vtk(
+            extent, out->Get(vtkDataObject::ORIGIN()), out->Get(vtkDataObject::SPACING()),
+            out->Has(vtkDataObject::DIRECTION()) ? out->Get(vtkDataObject::DIRECTION()) : kIdentity,
+            name);
+        std::vector<StoredArray> arrays;
+        add_arrays(out->Get(vtkDataObject::POINT_DATA_VECTOR()), false, arrays);
+        add_arrays(out->Get(vtkDataObject::CELL_DATA_VECTOR()), true, arrays);
+        chosen_ = choose_scalar(arrays, options, name);
+        info_.array = chosen_.label();
+        info_.type = chosen_.value_type();
+        info_.notes = chosen_.notes();
+    }
+
+    static void add_arrays(vtkInformationVector* listed, bool on_cells,
+                           std::vector<StoredArray>& arrays) {
+        for (int i = 0; listed && i < listed->GetNumberOfInformationObjects(); ++i) {
+            vtkInformation* array = listed->GetInformationObject(i);
+            arrays.push_back({array->Get(vtkDataObject::FIELD_NAME()),
+                              stored_type_of_vtk(array->Get(vtkDataObject::FIELD_ARRAY_TYPE())),
+                              static_cast<std::uint32_t>(
+                                  array->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS())),
+                              on_cells});
+        }
+    }
+
+    void select(const StoredArray& array) {
+        select_only(reader_->GetPointDataArraySelection(), array.on_cells ? "" : array.name);
+        select_only(reader_->GetCellDataArraySelection(), array.on_cells ? array.name : "");
+    }
+
+    fs::path path_;
+    SeriesInfo info_;
+    ChosenScalar chosen_;
+    bool decoded_ = false; ///< all of it, or as far as it went
+    vtkNew<vtkXMLImageDataReader> reader_;
+};
+
+} // namespace
+
+std::unique_ptr<DecodedFile> decode_vti(const fs::path& path, const ReadOptions& options) {
+    return std::make_unique<VtiFile>(path, options);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,12 @@
+// `isochron-reader-vtk`: what VTK decodes.
+#include "index/decoders/decoders.h"
+#include "index/decoders/reader_program.h"
+
+#include <array>
+
+int main() {
+    using namespace isochron::index;
+    constexpr std::array kDecoders{Decoder{ForeignFormat::vti, decode_vti},
+                                   Decoder{ForeignFormat::vtk, decode_vtk}};
+    return run_reader(kDecoders, decode_pvd);
+}

@@ -1,0 +1,45 @@
+// Search, test and shading of a step by its chunks: all cores, layer by layer, reading little.
+#pragma once
+
+#include "index/extraction/cell_set.h"
+#include "index/extraction/step_slab.h"
+#include "index/file/index_file.h"
+#include "index/volume/query.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Does what the functions of the same names do with a whole step, of an index that carries its
+/// values. Every function throws Error as ChunkStore does, and gives false when it was stopped and
+/// the results are incomplete. Not thread-safe: keeps its work space.
+class LayerSearch {
+  public:
+    explicit LayerSearch(std::shared_ptr<const IndexFile> file);
+
+    /// Finds the active cells, ascending: by bricks where the index has them, else by a scan.
+    /// @param candidates number of cells that were tested
+    bool search(const Query& query, bool by_bricks, std::vector<CellId>& out,
+                std::uint64_t& candidates, const std::stop_token& stop);
+    /// @param ids ascending
+    bool keep_active(const Query& query, std::vector<CellId>& ids, const std::stop_token& stop);
+    bool shade_cells(CellSet& set, const std::stop_token& stop);
+    /// With the array to color by, which the index must carry.
+    bool color_cells(const Query& query, std::span<const CellId> cells,
+                     std::span<std::uint16_t> out, const std::stop_token& stop);
+
+  private:
+    using Work = std::function<void(StepSlab& slab, std::uint32_t layer)>;
+    bool for_each_layer(std::uint32_t step, const Work& work, const std::stop_token& stop);
+    std::span<const CellId> of_layer(std::span<const CellId> ids, std::uint32_t layer) const;
+
+    std::shared_ptr<const IndexFile> file_;
+    std::vector<std::unique_ptr<StepSlab>> slabs_; ///< by thread
+};
+
+} // namespace isochron::index

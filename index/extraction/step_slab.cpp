@@ -1,0 +1,216 @@
+// Filling of slabs with chunks.
+#include "index/extraction/step_slab.h"
+
+#include "index/scan/bricks.h"
+#include "index/volume/cell_walk.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+/// Planes of a slab: a chunk's, one below, and what cells and normals reach above.
+constexpr std::uint32_t kMostPlanes = kChunkEdge + 3;
+
+/// Which neighbors hold vertices of a chunk's brick: bit d is that with d's bits along x, y and z.
+constexpr std::array<std::uint8_t, kBricksOfChunk> kReach = [] {
+    std::array<std::uint8_t, kBricksOfChunk> reach{};
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
+        const std::array<std::uint32_t, 3> at{i % kChunkBricks[0],
+                                              i / kChunkBricks[0] % kChunkBricks[1],
+                                              i / kChunkBricks[0] / kChunkBricks[1]};
+        unsigned axes = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            axes |= (at[axis] + 1 == kChunkBricks[axis] ? 1u : 0u) << axis;
+        for (unsigned d = 0; d < 8; ++d)
+            if ((d & ~axes) == 0)
+                reach[i] |= static_cast<std::uint8_t>(1u << d);
+    }
+    return reach;
+}();
+
+/// Whether there may be active cells between these ranks.
+bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
+    return low + (cut.exact ? 1 : 0) <= cut.level && high >= cut.level;
+}
+
+/// Bits of a chunk's bricks.
+std::uint32_t candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
+        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
+    return bits;
+}
+
+} // namespace
+
+StepSlab::StepSlab(const ChunkStore& store)
+    : store_(store), chunks_(store.grid()), grid_(store.info().grid),
+      plane_cells_(grid_.cells()[0] * grid_.cells()[1]),
+      words_((bytes(store.info()) + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t)) {
+    for (auto& layer : needed_)
+        layer.resize(chunks_.chunks_of_layer());
+}
+
+std::uint64_t StepSlab::bytes(const SeriesInfo& info) {
+    const auto& n = info.grid.vertices;
+    return std::uint64_t{n[0]} * n[1] * std::min(n[2], kMostPlanes) * size_of(info.type);
+}
+
+void StepSlab::begin(std::uint32_t step, std::uint32_t layer) {
+    step_ = step;
+    layer_ = layer;
+    const std::uint32_t first = layer * kChunkEdge;
+    first_plane_ = first - (layer > 0 ? 1 : 0);
+    end_plane_ = std::min(first + kChunkEdge + 2, grid_.vertices[2]);
+}
+
+StepValues StepSlab::planes(std::uint32_t first, std::uint32_t end) const {
+    StepValues values{.grid = grid_,
+                      .type = store_.info().type,
+                      .scaling = store_.info().scaling,
+                      .steps = store_.info().steps(),
+                      .first_step = step_};
+    const std::uint64_t plane =
+        std::uint64_t{grid_.vertices[0]} * grid_.vertices[1] * size_of(values.type);
+    values.first =
+        reinterpret_cast<const std::byte*>(words_.data()) + (first - first_plane_) * plane;
+    values.stride = (end - first) * plane;
+    values.grid.vertices[2] = end - first;
+    return values;
+}
+
+StepValues StepSlab::cells() const {
+    const std::uint32_t first = layer_ * kChunkEdge;
+    return planes(first, std::min(first + kChunkEdge + 1, grid_.vertices[2]));
+}
+StepValues StepSlab::around() const {
+    return planes(first_plane_, end_plane_);
+}
+
+void StepSlab::set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y,
+                          std::uint32_t candidates) {
+    const BrickGrid grid(cells().grid);
+    const auto& n = grid.bricks();
+    for (; candidates; candidates &= candidates - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(candidates));
+        const std::uint32_t bx = x * kChunkBricks[0] + i % kChunkBricks[0];
+        const std::uint32_t by = y * kChunkBricks[1] + i / kChunkBricks[0] % kChunkBricks[1];
+        const std::uint32_t bz = i / kChunkBricks[0] / kChunkBricks[1];
+        if (bx >= n[0] || by >= n[1] || bz >= n[2])
+            continue; // only damage says that there are cells
+        const std::size_t brick = (std::size_t{bz} * n[1] + by) * n[0] + bx;
+        bricks_[brick] = chunk.bricks[i];
+        bricks_[grid.count() + brick] = chunk.bricks[kBricksOfChunk + i];
+    }
+}
+
+bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
+    const ChunkLayerPtr table = store_.layer(step_, layer_);
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t place = 0; place < table->low.size(); ++place)
+        if (may_hold(table->low[place], table->high[place], cut))
+            places.push_back(place);
+    if (places.empty())
+        return false;
+    const BrickGrid grid(cells().grid);
+    bricks_.assign(grid.bytes_per_step(), 0);
+    std::fill_n(bricks_.begin(), grid.count(), std::uint8_t{255});
+    const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer_, places);
+    bool any = false;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::uint32_t candidates = candidates_of(chunks[i]->bricks, cut);
+        if (candidates == 0)
+            continue;
+        any = true;
+        const auto [x, y] = chunks_.at(places[i]);
+        set_bricks(*chunks[i], x, y, candidates);
+        unsigned reach = 0;
+        for (std::uint32_t bits = candidates; bits; bits &= bits - 1)
+            reach |= kReach[static_cast<std::size_t>(std::countr_zero(bits))];
+        for (unsigned d = 0; d < 8; ++d) {
+            const std::array<std::uint32_t, 3> at{x + (d & 1), y + (d >> 1 & 1), layer_ + (d >> 2)};
+            const auto& n = chunks_.counts();
+            if (reach >> d & 1 && at[0] < n[0] && at[1] < n[1] && at[2] < n[2])
+                need(at[0], at[1], at[2]);
+        }
+    }
+    fill();
+    return any;
+}
+
+void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
+    struct Range {
+        std::uint32_t first, last; ///< chunks
+    };
+    const auto& n = grid_.vertices;
+    const auto inner = [](std::uint32_t cell) {
+        return Range{cell / kChunkEdge, (cell + 1) / kChunkEdge};
+    };
+    const auto outer = [&](std::uint32_t cell, std::size_t axis) {
+        return Range{(cell - std::min(cell, 1u)) / kChunkEdge,
+                     std::min(cell + 2, n[axis] - 1) / kChunkEdge};
+    };
+    const auto need_all = [&](Range x, Range y, Range z) {
+        for (std::uint32_t cz = z.first; cz <= z.last; ++cz)
+            for (std::uint32_t cy = y.first; cy <= y.last; ++cy)
+                for (std::uint32_t cx = x.first; cx <= x.last; ++cx)
+                    need(cx, cy, cz);
+    };
+    CellWalk walk(around().grid);
+    for (const CellId id : cells) {
+        walk.to(id);
+        const std::uint32_t x = walk.x(), y = walk.y(), z = walk.z() + first_plane_;
+        need_all(inner(x), inner(y), inner(z));
+        if (!normals)
+            continue;
+        need_all(outer(x, 0), inner(y), inner(z));
+        need_all(inner(x), outer(y, 1), inner(z));
+        need_all(inner(x), inner(y), outer(z, 2));
+    }
+    fill();
+}
+
+void StepSlab::fill_all() {
+    std::ranges::fill(needed_[1], std::uint8_t{1});
+    if (layer_ + 1 < chunks_.layers())
+        std::ranges::fill(needed_[2], std::uint8_t{1});
+    fill();
+}
+
+/// Copies the chunks that are needed to their places, as far as the slab reaches.
+void StepSlab::fill() {
+    const std::size_t size = size_of(store_.info().type);
+    const std::size_t row = grid_.vertices[0] * size, plane = grid_.vertices[1] * row;
+    auto* const out = reinterpret_cast<std::byte*>(words_.data());
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t i = 0; i < needed_.size(); ++i) {
+        places.clear();
+        for (std::uint32_t place = 0; place < needed_[i].size(); ++place)
+            if (needed_[i][place])
+                places.push_back(place);
+        if (places.empty())
+            continue;
+        std::ranges::fill(needed_[i], std::uint8_t{0});
+        const std::uint32_t layer = layer_ + i - 1;
+        const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer, places);
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const Chunk& chunk = *chunks[k];
+            const auto [x, y] = chunks_.at(places[k]);
+            const std::uint32_t bottom = layer * kChunkEdge;
+            const std::size_t width = chunk.size[0] * size;
+            const std::uint32_t first = std::max(bottom, first_plane_);
+            const std::uint32_t end = std::min(bottom + chunk.size[2], end_plane_);
+            for (std::uint32_t z = first; z < end; ++z) {
+                const std::byte* from = chunk.values.data() + (z - bottom) * chunk.size[1] * width;
+                std::byte* to =
+                    out + (z - first_plane_) * plane + y * kChunkEdge * row + x * kChunkEdge * size;
+                for (std::uint32_t dy = 0; dy < chunk.size[1]; ++dy, from += width, to += row)
+                    std::memcpy(to, from, width);
+            }
+        }
+    }
+}
+
+} // namespace isochron::index

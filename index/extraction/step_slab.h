@@ -1,0 +1,68 @@
+// A layer of chunks of one step and what lies around it: dense, but filled where it is needed.
+#pragma once
+
+#include "index/file/chunk_store.h"
+#include "index/volume/level_map.h"
+#include "index/volume/step_values.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// The cells whose lowest vertex lies in one layer of chunks, and the vertices that they and their
+/// normals need. What was not filled has values of no meaning. Keeps its memory: one for each
+/// thread. Every function that fills throws Error as ChunkStore does.
+class StepSlab {
+  public:
+    /// @param store outlives this
+    explicit StepSlab(const ChunkStore& store);
+
+    /// Layers that hold cells.
+    static std::uint32_t layers(const Grid& grid) {
+        return (grid.cells()[2] + kChunkEdge - 1) / kChunkEdge;
+    }
+    /// Memory that a slab of this grid takes.
+    static std::uint64_t bytes(const SeriesInfo& info);
+
+    void begin(std::uint32_t step, std::uint32_t layer);
+
+    /// Fills what a search in bricks needs. @return whether any brick may hold active cells
+    bool fill_candidates(const LevelMap::Cut& cut);
+    /// Of `cells()`, as from `build_bricks`; none but those that may hold active cells.
+    std::span<const std::uint8_t> bricks() const { return bricks_; }
+    /// Fills the vertices of cells, and with normals their neighbors along each axis.
+    /// @param cells ids within `around()`, ascending
+    void fill_around(std::span<const CellId> cells, bool normals);
+    void fill_all();
+
+    /// The layer's cells and their vertices; ids count from `first_cell()`.
+    StepValues cells() const;
+    CellId first_cell() const { return plane_cells_ * layer_ * kChunkEdge; }
+    /// One more plane below and above, where the grid has them; ids count from `first_around()`.
+    StepValues around() const;
+    CellId first_around() const { return plane_cells_ * first_plane_; }
+    std::uint32_t first_plane() const { return first_plane_; }
+
+  private:
+    StepValues planes(std::uint32_t first, std::uint32_t end) const;
+    void need(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
+        needed_[layer + 1 - layer_][chunks_.place(x, y)] = 1;
+    }
+    void set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y, std::uint32_t candidates);
+    void fill();
+
+    const ChunkStore& store_;
+    const ChunkGrid& chunks_;
+    Grid grid_;
+    CellId plane_cells_;
+    std::uint32_t step_ = 0, layer_ = 0, first_plane_ = 0, end_plane_ = 0;
+    std::vector<std::uint64_t> words_; ///< the values
+    std::vector<std::uint8_t> bricks_;
+    std::array<std::vector<std::uint8_t>, 3> needed_; ///< by layer (below, this, above) and place
+};
+
+} // namespace isochron::index

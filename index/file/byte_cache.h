@@ -1,0 +1,54 @@
+// What has been read and decoded, as long as it fits a number of bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+namespace isochron::index {
+
+/// What was used last stays; what somebody still holds lives on outside. Thread-safe.
+class ByteCache {
+  public:
+    struct Key {
+        std::uint64_t high = 0, low = 0;
+        bool operator==(const Key&) const = default;
+    };
+    struct Use {
+        std::uint64_t budget = 0, held = 0; ///< bytes
+        std::uint64_t hits = 0, misses = 0;
+    };
+
+    explicit ByteCache(std::uint64_t budget) : use_{.budget = budget} {}
+
+    /// Null where it is not held. What is under a key is always of the same type.
+    template <class T>
+    std::shared_ptr<const T> find(const Key& key) {
+        return std::static_pointer_cast<const T>(find_any(key));
+    }
+    void add(const Key& key, std::shared_ptr<const void> value, std::uint64_t bytes);
+    Use use() const;
+
+  private:
+    struct Entry {
+        Key key;
+        std::shared_ptr<const void> value;
+        std::uint64_t bytes;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& key) const {
+            return (key.high * 0x9e3779b97f4a7c15u) ^ (key.low * 0xc2b2ae3d27d4eb4fu);
+        }
+    };
+    std::shared_ptr<const void> find_any(const Key& key);
+
+    mutable std::mutex mutex_;
+    Use use_;
+    std::list<Entry> entries_; ///< the last used first
+    std::unordered_map<Key, std::list<Entry>::iterator, Hash> by_key_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,252 @@
+// Packing of chunks: differences of neighbors, bytes of equal weight together, then a library.
+#include "index/file/chunk_codec.h"
+
+#include <lz4.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+enum class Form : unsigned { constant, stored, lz4, zstd };
+
+constexpr unsigned kFormMask = 3, kShuffled = 32, kKnownBits = 63;
+/// Bits for differences along x, y and z.
+constexpr std::array<unsigned, 3> kAlong{4, 8, 16};
+/// Differences that `fitting` tries: along x; x and y; all.
+constexpr std::array<unsigned, 3> kTried{4, 4 | 8, 4 | 8 | 16};
+constexpr int kZstdLevel = 1;
+/// A chunk that shrinks by less than this share is stored as it is: it is read faster.
+constexpr std::size_t kLeastGain = 16;
+
+using Size = std::array<std::uint32_t, 3>;
+
+/// Calls `f` with the unsigned type of a value's size.
+template <class F>
+decltype(auto) visit_words(ValueType type, F&& f) {
+    switch (size_of(type)) {
+    case 1: return f(std::type_identity<std::uint8_t>{});
+    case 2: return f(std::type_identity<std::uint16_t>{});
+    case 4: return f(std::type_identity<std::uint32_t>{});
+    default: break;
+    }
+    return f(std::type_identity<std::uint64_t>{});
+}
+
+/// Replaces values by their differences along an axis, the first ones staying.
+template <class T>
+void to_differences(T* values, const Size& size, std::size_t axis) {
+    const std::size_t row = size[0], plane = row * size[1], count = plane * size[2];
+    if (axis == 2) {
+        for (std::size_t i = count; i-- > plane;)
+            values[i] = static_cast<T>(values[i] - values[i - plane]);
+        return;
+    }
+    const std::size_t block = axis == 0 ? row : plane, step = axis == 0 ? 1 : row;
+    for (std::size_t first = 0; first < count; first += block)
+        for (std::size_t i = block; i-- > step;)
+            values[first + i] = static_cast<T>(values[first + i] - values[first + i - step]);
+}
+
+template <class T>
+void from_differences(T* values, const Size& size, std::size_t axis) {
+    const std::size_t row = size[0], plane = row * size[1], count = plane * size[2];
+    if (axis == 2) {
+        for (std::size_t at = plane; at < count; at += plane)
+            for (std::size_t i = at; i < at + plane; ++i) // no two of a plane depend on each other
+                values[i] = static_cast<T>(values[i] + values[i - plane]);
+        return;
+    }
+    if (axis == 1) {
+        for (std::size_t first = 0; first < count; first += plane)
+            for (std::size_t at = first + row; at < first + plane; at += row)
+                for (std::size_t i = at; i < at + row; ++i)
+                    values[i] = static_cast<T>(values[i] + values[i - row]);
+        return;
+    }
+    for (std::size_t first = 0; first < count; first += row) {
+        T sum = 0;
+        for (std::size_t i = first; i < first + row; ++i)
+            values[i] = sum = static_cast<T>(sum + values[i]);
+    }
+}
+
+/// About the bits that the differences take.
+template <class T>
+std::uint64_t cost(std::span<const T> differences) {
+    std::uint64_t sum = 0;
+    for (const T d : differences) {
+        const auto folded = static_cast<T>((d << 1) ^ (d >> (8 * sizeof(T) - 1) ? ~T{0} : T{0}));
+        if constexpr (sizeof(T) == 1)
+            sum += folded; // small numbers: their sum tells as much, and takes less time
+        else
+            sum += static_cast<std::uint64_t>(std::bit_width(folded));
+    }
+    return sum;
+}
+
+template <class T>
+void shuffle(std::span<const T> values, std::byte* out) {
+    const auto* bytes = reinterpret_cast<const std::byte*>(values.data());
+    for (std::size_t byte = 0; byte < sizeof(T); ++byte)
+        for (std::size_t i = 0; i < values.size(); ++i)
+            *out++ = bytes[i * sizeof(T) + byte];
+}
+
+void unshuffle(std::span<const std::byte> shuffled, std::size_t size, std::byte* out) {
+    const std::size_t count = shuffled.size() / size;
+    for (std::size_t byte = 0; byte < size; ++byte)
+        for (std::size_t i = 0; i < count; ++i)
+            out[i * size + byte] = shuffled[byte * count + i];
+}
+
+bool all_equal(std::span<const std::byte> values, std::size_t size) {
+    return std::memcmp(values.data(), values.data() + size, values.size() - size) == 0;
+}
+
+struct FreeUnpacker {
+    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+};
+
+} // namespace
+
+std::optional<Codec> codec_from_name(std::string_view name) {
+    for (std::size_t i = 0; i < kCodecNames.size(); ++i)
+        if (kCodecNames[i] == name)
+            return static_cast<Codec>(i);
+    return std::nullopt;
+}
+
+struct ChunkPacker::State {
+    struct Free {
+        void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+    };
+
+    Codec codec;
+    std::unique_ptr<ZSTD_CCtx, Free> zstd{ZSTD_createCCtx()};
+    std::vector<std::byte> best, tried, shuffled, packed; // kept for their memory
+
+    /// Leaves the differences that cost least in `best`. @return their bits
+    template <class T>
+    unsigned differences(const Size& size, std::span<const std::byte> values) {
+        tried.assign(values.begin(), values.end());
+        T* words = reinterpret_cast<T*>(tried.data());
+        const std::span<const T> all(words, values.size() / sizeof(T));
+        std::uint64_t least = ~std::uint64_t{0};
+        unsigned bits = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            to_differences(words, size, axis);
+            if (const std::uint64_t found = cost(all); found < least) {
+                least = found;
+                bits = kTried[axis];
+                best = tried;
+            }
+        }
+        return bits;
+    }
+
+    /// @return its length; 0 where it does not get shorter
+    std::size_t press(Form form, std::span<const std::byte> bytes) {
+        const std::size_t limit = bytes.size() - bytes.size() / kLeastGain;
+        packed.resize(limit);
+        if (form == Form::lz4) {
+            const int size = LZ4_compress_default(
+                reinterpret_cast<const char*>(bytes.data()), reinterpret_cast<char*>(packed.data()),
+                static_cast<int>(bytes.size()), static_cast<int>(limit));
+            return size > 0 ? static_cast<std::size_t>(size) : 0;
+        }
+        const std::size_t size = ZSTD_compressCCtx(zstd.get(), packed.data(), limit, bytes.data(),
+                                                   bytes.size(), kZstdLevel);
+        return ZSTD_isError(size) ? 0 : size;
+    }
+};
+
+ChunkPacker::ChunkPacker(Codec codec) : state_(std::make_unique<State>()) {
+    state_->codec = codec;
+}
+ChunkPacker::~ChunkPacker() = default;
+ChunkPacker::ChunkPacker(ChunkPacker&&) noexcept = default;
+
+void ChunkPacker::pack(ValueType type, const Size& size, std::span<const std::byte> values,
+                       std::vector<std::byte>& out) {
+    const auto put = [&](unsigned head, std::span<const std::byte> bytes) {
+        out.push_back(static_cast<std::byte>(head));
+        out.insert(out.end(), bytes.begin(), bytes.end());
+    };
+    const std::size_t word = size_of(type);
+    if (all_equal(values, word))
+        return put(static_cast<unsigned>(Form::constant), values.first(word));
+    if (state_->codec != Codec::none) {
+        const Form form = state_->codec == Codec::lz4 ? Form::lz4 : Form::zstd;
+        unsigned head = static_cast<unsigned>(form);
+        visit_words(type, [&]<class T>(std::type_identity<T>) {
+            head |= state_->differences<T>(size, values);
+            if constexpr (sizeof(T) > 1) {
+                head |= kShuffled;
+                state_->shuffled.resize(values.size());
+                shuffle(std::span(reinterpret_cast<const T*>(state_->best.data()),
+                                  values.size() / sizeof(T)),
+                        state_->shuffled.data());
+            }
+        });
+        const auto& bytes = head & kShuffled ? state_->shuffled : state_->best;
+        if (const std::size_t length = state_->press(form, bytes))
+            return put(head, std::span(state_->packed).first(length));
+    }
+    put(static_cast<unsigned>(Form::stored), values);
+}
+
+bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> packed,
+                  std::span<std::byte> out) {
+    if (packed.empty())
+        return false;
+    const auto head = std::to_integer<unsigned>(packed[0]);
+    const std::span<const std::byte> body = packed.subspan(1);
+    const std::size_t word = size_of(type);
+    const Form form = static_cast<Form>(head & kFormMask);
+    if (head & ~kKnownBits || (form <= Form::stored && head & ~kFormMask))
+        return false;
+    if (form == Form::constant) {
+        if (body.size() != word)
+            return false;
+        for (std::size_t at = 0; at < out.size(); at += word)
+            std::memcpy(out.data() + at, body.data(), word);
+        return true;
+    }
+    if (form == Form::stored) {
+        if (body.size() != out.size())
+            return false;
+        std::memcpy(out.data(), body.data(), out.size());
+        return true;
+    }
+    thread_local std::vector<std::byte> shuffled;
+    thread_local const std::unique_ptr<ZSTD_DCtx, FreeUnpacker> zstd(ZSTD_createDCtx());
+    std::span<std::byte> plain = out;
+    if (head & kShuffled) {
+        shuffled.resize(out.size());
+        plain = shuffled;
+    }
+    if (form == Form::lz4) {
+        const int length = LZ4_decompress_safe(
+            reinterpret_cast<const char*>(body.data()), reinterpret_cast<char*>(plain.data()),
+            static_cast<int>(body.size()), static_cast<int>(plain.size()));
+        if (length < 0 || static_cast<std::size_t>(length) != plain.size())
+            return false;
+    } else if (ZSTD_decompressDCtx(zstd.get(), plain.data(), plain.size(), body.data(),
+                                   body.size()) != plain.size()) {
+        return false;
+    }
+    if (head & kShuffled)
+        unshuffle(plain, word, out.data());
+    visit_words(type, [&]<class T>(std::type_identity<T>) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (head & kAlong[axis])
+                from_differences(reinterpret_cast<T*>(out.data()), size, axis);
+    });
+    return true;
+}
+
+} // namespace isochron::index

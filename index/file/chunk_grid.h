@@ -1,0 +1,62 @@
+// How the vertices of a step are cut into the chunks of the file.
+#pragma once
+
+#include "index/scan/bricks.h"
+#include "index/volume/grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace isochron::index {
+
+/// Vertices along each side of a chunk; those at the upper borders are clipped.
+constexpr std::uint32_t kChunkEdge = 16;
+
+/// Bricks of the cells whose lowest vertex a chunk holds, along x, y and z: x fastest.
+constexpr std::array<std::uint32_t, 3> kChunkBricks{kChunkEdge / BrickGrid::kCells[0],
+                                                    kChunkEdge / BrickGrid::kCells[1],
+                                                    kChunkEdge / BrickGrid::kCells[2]};
+constexpr std::size_t kBricksOfChunk =
+    std::size_t{kChunkBricks[0]} * kChunkBricks[1] * kChunkBricks[2];
+
+/// Lowest ranks of a chunk's bricks, then the highest; 255 and 0 where the grid has no brick.
+using ChunkBricks = std::array<std::uint8_t, 2 * kBricksOfChunk>;
+
+/// Chunks lie layer after layer along z, within a layer in Morton order of x and y, so that chunks
+/// that are near in space are mostly near in the file. A chunk is known by its layer and its place
+/// in it.
+class ChunkGrid {
+  public:
+    explicit ChunkGrid(const Grid& grid);
+
+    std::uint32_t layers() const { return counts_[2]; }
+    std::uint32_t chunks_of_layer() const { return counts_[0] * counts_[1]; }
+    std::uint64_t count() const { return std::uint64_t{layers()} * chunks_of_layer(); }
+    /// Chunks along x, y and z.
+    const std::array<std::uint32_t, 3>& counts() const { return counts_; }
+
+    std::uint32_t place(std::uint32_t x, std::uint32_t y) const {
+        return place_[std::size_t{y} * counts_[0] + x];
+    }
+    /// Chunk coordinates x and y.
+    std::array<std::uint32_t, 2> at(std::uint32_t place) const {
+        return {at_[place] % counts_[0], at_[place] / counts_[0]};
+    }
+    /// Vertices along x, y and z.
+    std::array<std::uint32_t, 3> size(std::uint32_t layer, std::uint32_t place) const {
+        const auto [x, y] = at(place);
+        return {extent(0, x), extent(1, y), extent(2, layer)};
+    }
+
+  private:
+    std::uint32_t extent(std::size_t axis, std::uint32_t chunk) const {
+        return std::min(kChunkEdge, vertices_[axis] - chunk * kChunkEdge);
+    }
+
+    std::array<std::uint32_t, 3> vertices_, counts_;
+    std::vector<std::uint32_t> place_, at_; ///< by y and x; by place
+};
+
+} // namespace isochron::index

@@ -1,0 +1,240 @@
+// Reading and decoding of chunks.
+#include "index/file/chunk_store.h"
+
+#include "index/error.h"
+#include "index/file/chunk_codec.h"
+#include "index/file/metadata.h"
+#include "index/system/parallel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+enum Kind : unsigned { kChunk, kLayer, kWhole };
+
+/// Records with less than this between them touch the same pages of the disk: read together.
+constexpr std::uint64_t kSamePages = 4096;
+/// A step up to this size is decoded as a whole: less time than it takes to choose.
+constexpr std::uint64_t kSmallStep = 4 << 20;
+/// And up to this one when it is visited again: searching it is then faster than by chunks.
+constexpr std::uint64_t kModerateStep = 64 << 20;
+
+struct WholeStep {
+    std::vector<std::uint64_t> words; ///< the values; their padding is zero
+    std::vector<std::uint8_t> bricks;
+};
+
+/// Puts a chunk's bricks where they are in the order of `build_bricks`.
+void place_bricks(const Chunk& chunk, const BrickGrid& grid, const std::array<std::uint32_t, 3>& at,
+                  std::span<std::uint8_t> bricks) {
+    const auto& n = grid.bricks();
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
+        const std::uint32_t x = at[0] * kChunkBricks[0] + i % kChunkBricks[0];
+        const std::uint32_t y = at[1] * kChunkBricks[1] + i / kChunkBricks[0] % kChunkBricks[1];
+        const std::uint32_t z = at[2] * kChunkBricks[2] + i / kChunkBricks[0] / kChunkBricks[1];
+        if (x >= n[0] || y >= n[1] || z >= n[2])
+            continue;
+        const std::size_t brick = (std::size_t{z} * n[1] + y) * n[0] + x;
+        bricks[brick] = chunk.bricks[i];
+        bricks[grid.count() + brick] = chunk.bricks[kBricksOfChunk + i];
+    }
+}
+
+} // namespace
+
+ChunkStore::ChunkStore(const ByteSource& source, ByteCache& cache, ChunkArray array)
+    : source_(source), cache_(cache), array_(std::move(array)), grid_(array_.info.grid),
+      visited_(array_.info.steps()) {}
+
+ByteCache::Key ChunkStore::key(unsigned kind, std::uint32_t step, std::uint32_t layer,
+                               std::uint32_t place) const {
+    return {std::uint64_t{array_.number * 4 + kind} << 32 | step,
+            std::uint64_t{layer} << 32 | place};
+}
+
+void ChunkStore::damaged(std::uint32_t step, const std::string& what) const {
+    throw Error(
+        fmt::format("{}: damaged: {}, step {}: {}", source_.name(), array_.called, step, what));
+}
+
+ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
+    const ByteCache::Key at = key(kLayer, step, layer);
+    if (auto known = cache_.find<ChunkLayer>(at))
+        return known;
+    const StepEntry& entry = array_.steps[step];
+    const std::uint32_t count = grid_.chunks_of_layer();
+    std::vector<std::byte> bytes(layer_table_bytes(count));
+    const std::uint64_t begin = array_.section + entry.offset;
+    source_.read(begin + entry.tables + layer * bytes.size(), bytes);
+    LayerHead head;
+    std::memcpy(&head, bytes.data(), sizeof head);
+    if (checksum_of(std::span(bytes).subspan(sizeof head.checksum)) != head.checksum)
+        damaged(step, fmt::format("the checksum of the table of layer {} does not match", layer));
+    auto table = std::make_shared<ChunkLayer>();
+    std::uint64_t end = head.records;
+    for (std::uint32_t place = 0; place < count; ++place) {
+        ChunkEntry chunk;
+        std::memcpy(&chunk, bytes.data() + sizeof head + place * sizeof chunk, sizeof chunk);
+        table->offsets.push_back(begin + end);
+        table->low.push_back(chunk.low);
+        table->high.push_back(chunk.high);
+        end += chunk.bytes;
+    }
+    table->offsets.push_back(begin + end);
+    if (head.records > entry.tables || end > entry.tables)
+        damaged(step, fmt::format("layer {} lies outside its step", layer));
+    cache_.add(at, table, count * (sizeof(std::uint64_t) + 2));
+    return table;
+}
+
+/// Calls `f(i, record)` for every place, `i` counting from 0.
+template <class F>
+void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
+                              F&& f) const {
+    struct Run {
+        std::size_t first, last; ///< of `places`
+        std::uint64_t begin, end;
+    };
+    std::vector<Run> runs;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::uint64_t begin = table.offsets[places[i]], end = table.offsets[places[i] + 1];
+        if (!runs.empty() && begin - runs.back().end < kSamePages) {
+            runs.back().last = i;
+            runs.back().end = end;
+        } else {
+            runs.push_back({i, i, begin, end});
+        }
+    }
+    for (const Run& run : runs)
+        source_.expect(run.begin, run.end - run.begin);
+    std::vector<std::byte> bytes;
+    for (const Run& run : runs) {
+        bytes.resize(run.end - run.begin);
+        source_.read(run.begin, bytes);
+        for (std::size_t i = run.first; i <= run.last; ++i) {
+            const std::uint64_t begin = table.offsets[places[i]];
+            f(i, std::span<const std::byte>(bytes).subspan(begin - run.begin,
+                                                           table.offsets[places[i] + 1] - begin));
+        }
+    }
+}
+
+ChunkPtr ChunkStore::decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
+                             std::span<const std::byte> record) const {
+    const auto refuse = [&](const char* what) {
+        const auto [x, y] = grid_.at(place);
+        damaged(step, fmt::format("chunk {} {} {}: {}", x, y, layer, what));
+    };
+    RecordChecksum checksum = 0;
+    const std::size_t head = sizeof checksum + (array_.has_bricks ? sizeof(ChunkBricks) : 0);
+    if (record.size() < head)
+        refuse("too short");
+    std::memcpy(&checksum, record.data(), sizeof checksum);
+    if (record_checksum(record.subspan(sizeof checksum)) != checksum)
+        refuse("its checksum does not match");
+    auto chunk = std::make_shared<Chunk>();
+    chunk->size = grid_.size(layer, place);
+    if (array_.has_bricks)
+        std::memcpy(chunk->bricks.data(), record.data() + sizeof checksum, sizeof(ChunkBricks));
+    if (!array_.has_values)
+        return chunk;
+    const auto& size = chunk->size;
+    chunk->values.resize(std::size_t{size[0]} * size[1] * size[2] * size_of(array_.info.type));
+    if (!unpack_chunk(array_.info.type, size, record.subspan(head), chunk->values))
+        refuse("it cannot be unpacked");
+    return chunk;
+}
+
+std::vector<ChunkPtr> ChunkStore::chunks(std::uint32_t step, std::uint32_t layer,
+                                         std::span<const std::uint32_t> places) const {
+    std::vector<ChunkPtr> found(places.size());
+    std::vector<std::uint32_t> missing;
+    std::vector<std::size_t> where;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        found[i] = cache_.find<Chunk>(key(kChunk, step, layer, places[i]));
+        if (!found[i]) {
+            missing.push_back(places[i]);
+            where.push_back(i);
+        }
+    }
+    if (missing.empty())
+        return found;
+    const ChunkLayerPtr table = this->layer(step, layer);
+    read_records(*table, missing, [&](std::size_t i, std::span<const std::byte> record) {
+        const ChunkPtr chunk = decoded(step, layer, missing[i], record);
+        cache_.add(key(kChunk, step, layer, missing[i]), chunk,
+                   sizeof(Chunk) + chunk->values.size());
+        found[where[i]] = chunk;
+    });
+    return found;
+}
+
+LoadedStep ChunkStore::whole(std::uint32_t step) const {
+    const SeriesInfo& info = array_.info;
+    const std::size_t stride = step_stride(info.step_bytes());
+    auto held = cache_.find<WholeStep>(key(kWhole, step));
+    if (!held) {
+        const BrickGrid bricks(info.grid);
+        auto all = std::make_shared<WholeStep>();
+        if (array_.has_values)
+            all->words.resize(stride / sizeof(std::uint64_t));
+        if (array_.has_bricks)
+            all->bricks.resize(bricks.bytes_per_step());
+        const std::size_t size = size_of(info.type), row = info.grid.vertices[0] * size;
+        const std::size_t plane = info.grid.vertices[1] * row;
+        auto* out = reinterpret_cast<std::byte*>(all->words.data());
+        std::vector<std::uint32_t> places(grid_.chunks_of_layer());
+        for (std::uint32_t place = 0; place < places.size(); ++place)
+            places[place] = place;
+        const auto take = [&](std::size_t at, unsigned) {
+            const auto layer = static_cast<std::uint32_t>(at);
+            const ChunkLayerPtr table = this->layer(step, layer);
+            read_records(*table, places, [&](std::size_t i, std::span<const std::byte> record) {
+                const ChunkPtr chunk = decoded(step, layer, places[i], record);
+                const auto [x, y] = grid_.at(places[i]);
+                if (array_.has_bricks)
+                    place_bricks(*chunk, bricks, {x, y, layer}, all->bricks);
+                const std::byte* from = chunk->values.data();
+                for (std::uint32_t dz = 0; array_.has_values && dz < chunk->size[2]; ++dz)
+                    for (std::uint32_t dy = 0; dy < chunk->size[1]; ++dy) {
+                        std::memcpy(out + (layer * kChunkEdge + dz) * plane +
+                                        (y * kChunkEdge + dy) * row + x * kChunkEdge * size,
+                                    from, chunk->size[0] * size);
+                        from += chunk->size[0] * size;
+                    }
+            });
+        };
+        // Threads take time to start: not for the smallest steps.
+        parallel_for(grid_.layers(), stride > kSmallStep ? thread_count(0) : 1, take, {});
+        cache_.add(key(kWhole, step), all, stride + all->bricks.size());
+        held = all;
+    }
+    return {.values = {.grid = info.grid,
+                       .type = info.type,
+                       .scaling = info.scaling,
+                       .steps = info.steps(),
+                       .first = reinterpret_cast<const std::byte*>(held->words.data()),
+                       .stride = stride,
+                       .first_step = step},
+            .bricks = held->bricks,
+            .owner = held};
+}
+
+bool ChunkStore::better_whole(std::uint32_t step) const {
+    const std::uint64_t bytes = array_.info.step_bytes();
+    if (bytes > cache_.use().budget / 4)
+        return false;
+    const std::scoped_lock lock(visits_mutex_);
+    return bytes <= (visited_[step] ? kModerateStep : kSmallStep);
+}
+
+void ChunkStore::worked_on(std::uint32_t step) const {
+    const std::scoped_lock lock(visits_mutex_);
+    visited_[step] = true;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,174 @@
+// Reading of whole indices, of version 2 and of this one, step by step.
+#include "index/file/index_series.h"
+
+#include "index/error.h"
+#include "index/file/index_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+/// The header of version 2: sections in another order, and that of the colors behind the checksum.
+/// Steps lie one behind the other as they are, each padded to 64 bytes; those of the colors follow
+/// a table of their checksums.
+struct OldHeader {
+    static constexpr std::uint32_t kVersion = 2;
+    std::array<char, 8> magic;
+    std::uint32_t version, byte_order;
+    std::uint64_t file_bytes, content_hash;
+    Section volume, bricks, units, tree, directory, checksums, metadata;
+    std::uint64_t checksum;
+    Section colors;
+};
+static_assert(sizeof(OldHeader) == 232);
+
+OldHeader header_of(const ByteSource& bytes) {
+    OldHeader header{};
+    if (bytes.size() >= sizeof header)
+        bytes.read(0, std::as_writable_bytes(std::span(&header, 1)));
+    return header;
+}
+
+/// What may be said of any series.
+SeriesInfo with_overrides(SeriesInfo info, const ReadOptions& options) {
+    info.grid.spacing = options.spacing.value_or(info.grid.spacing);
+    info.grid.origin = options.origin.value_or(info.grid.origin);
+    info.length_unit = options.length_unit.value_or(info.length_unit);
+    info.time_unit = options.time_unit.value_or(info.time_unit);
+    info.value_unit = options.value_unit.value_or(info.value_unit);
+    for (std::size_t t = 0; options.time_step && t < info.steps(); ++t)
+        info.times[t] = static_cast<double>(t) * *options.time_step;
+    return info;
+}
+
+/// What an index of either version knows, and where its stored values come from.
+class IndexSeries final : public VolumeSeries {
+  public:
+    explicit IndexSeries(const std::filesystem::path& path) : name_(path.string()) {
+        auto bytes = open_bytes(path);
+        const OldHeader header = header_of(*bytes);
+        if (header.version != OldHeader::kVersion) {
+            file_ = IndexFile::open(std::move(bytes));
+            info_ = file_->info();
+            if (file_->color())
+                color_ = *file_->color();
+            if (file_->referral())
+                refuse("refers to its sources: build from these");
+            return;
+        }
+        bytes_ = std::move(bytes);
+        open_old(header);
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    const std::optional<ColorArray>& color() const { return color_; }
+
+    /// Chooses between the volume and the colors.
+    void choose(const ReadOptions& options) {
+        if (options.array && color_ && *options.array == color_->array) {
+            as_colors_ = true;
+            info_.array = color_->array;
+            info_.value_unit = color_->value_unit;
+            info_.type = color_->type;
+            info_.scaling = color_->scaling;
+        } else if (options.array && *options.array != info_.array) {
+            refuse(fmt::format("has no array {}, only {}{}", *options.array, info_.array,
+                               color_ ? " and " + color_->array : ""));
+        }
+        info_ = with_overrides(std::move(info_), options);
+    }
+
+    void read(std::size_t step, std::span<std::byte> out) override {
+        if (file_) {
+            const auto t = static_cast<std::uint32_t>(step);
+            const LoadedStep loaded = as_colors_ ? file_->load_color(t) : file_->load(t);
+            std::memcpy(out.data(), loaded.values.step_bytes(step).data(), out.size());
+            return;
+        }
+        const auto& sums = as_colors_ ? color_checksums_ : checksums_;
+        bytes_->read((as_colors_ ? colors_ : volume_) + step * step_stride(out.size()), out);
+        if (checksum_of(out) != sums[step])
+            refuse(fmt::format("damaged: the checksum of step {} does not match", step));
+    }
+
+  private:
+    [[noreturn]] void refuse(const std::string& what) const {
+        throw Error(fmt::format("{}: {}", name_, what));
+    }
+
+    template <class T>
+    std::vector<T> section(const Section& where, std::uint64_t count) const {
+        if (where.offset > bytes_->size() || where.bytes > bytes_->size() - where.offset ||
+            count > where.bytes / sizeof(T))
+            refuse("damaged or truncated");
+        std::vector<T> items(count);
+        bytes_->read(where.offset, std::as_writable_bytes(std::span(items)));
+        return items;
+    }
+
+    void open_old(const OldHeader& header) {
+        const auto text = section<char>(header.metadata, header.metadata.bytes);
+        if (checksum_of(std::as_bytes(std::span(text))) != header.metadata.checksum)
+            refuse("damaged: the checksum of section metadata does not match");
+        const Metadata metadata = [&] {
+            try {
+                return metadata_from_json({text.data(), text.size()});
+            } catch (const Error& error) {
+                refuse(fmt::format("damaged: metadata: {}", error.what()));
+            }
+        }();
+        if (metadata.referral)
+            refuse("refers to its sources: build from these");
+        info_ = metadata.info;
+        color_ = metadata.color;
+        checksums_ = section<std::uint64_t>(header.checksums, info_.steps());
+        volume_ = header.volume.offset;
+        if (header.volume.bytes / step_stride(info_.step_bytes()) < info_.steps())
+            refuse("damaged: the volume is too short");
+        if (!color_)
+            return;
+        color_checksums_ = section<std::uint64_t>(header.colors, info_.steps());
+        colors_ =
+            header.colors.offset + align_up(info_.steps() * sizeof(std::uint64_t), kPartAlignment);
+    }
+
+    std::string name_;
+    SeriesInfo info_;
+    std::optional<ColorArray> color_;
+    bool as_colors_ = false;
+    std::shared_ptr<const IndexFile> file_; ///< of this version
+    std::unique_ptr<ByteSource> bytes_;     ///< of version 2
+    std::uint64_t volume_ = 0, colors_ = 0; ///< where the steps begin
+    std::vector<std::uint64_t> checksums_, color_checksums_;
+};
+
+} // namespace
+
+bool is_index(const std::filesystem::path& path) {
+    if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
+        return false;
+    const auto bytes = open_bytes(path);
+    std::array<char, 8> magic{};
+    if (bytes->size() < magic.size())
+        return false;
+    bytes->read(0, std::as_writable_bytes(std::span(magic)));
+    return magic == FileHeader{}.magic;
+}
+
+std::optional<std::string> color_of_index(const std::filesystem::path& path) {
+    const auto color = IndexSeries(path).color();
+    return color ? std::optional(color->array) : std::nullopt;
+}
+
+std::unique_ptr<VolumeSeries> open_index_series(const std::filesystem::path& path,
+                                                const ReadOptions& options) {
+    auto series = std::make_unique<IndexSeries>(path);
+    series->choose(options);
+    return series;
+}
+
+} // namespace isochron::index

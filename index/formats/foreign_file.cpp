@@ -1,0 +1,214 @@
+// Files in readers, and what becomes of them when a reader ends.
+#include "index/formats/foreign_file.h"
+
+#include "index/error.h"
+#include "index/formats/readers.h"
+#include "index/formats/stored_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One reader for the files of a task. Whatever happens in it is an Error that names the file.
+class ReaderLease {
+  public:
+    ReaderLease(ReaderPool& pool, std::string program, fs::path path)
+        : pool_(pool), program_(std::move(program)), path_(std::move(path)) {}
+    ~ReaderLease() {
+        if (!reader_)
+            return;
+        try {
+            reader_->ask(CloseFile{});
+            reader_->reply();
+            pool_.give_back(std::move(reader_));
+        } catch (const Error&) { // it has gone
+        }
+    }
+    ReaderLease(const ReaderLease&) = delete;
+    ReaderLease& operator=(const ReaderLease&) = delete;
+
+    ReaderProcess& reader() { return *reader_; }
+
+    /// Does work with a reader, for which `prepare` readies a new one. An earlier file may have
+    /// damaged a reader: only one that has seen no other is to blame on this file.
+    template <class Prepare, class Work>
+    void work(const Prepare& prepare, const Work& work) {
+        bool again = false;
+        while (true) {
+            try {
+                if (!reader_) {
+                    start(again);
+                    prepare();
+                }
+                return work();
+            } catch (const ReaderEnded& ended) {
+                const bool only_this = !reader_ || reader_->files() <= 1;
+                reader_.reset();
+                if (again || only_this || ended.how() == ReaderEnded::How::by_our_hand)
+                    fail(ended.what());
+                again = true;
+            }
+        }
+    }
+
+    /// The next reply, which must be of this kind. @throws Error with what the reader says instead
+    template <class Kind>
+    Kind expect() {
+        ReaderReply reply = reader_->reply();
+        if (auto* kind = std::get_if<Kind>(&reply))
+            return std::move(*kind);
+        const auto* refused = std::get_if<Refused>(&reply);
+        if (!refused)
+            throw ReaderEnded("its reader sent another reply than was asked for",
+                              ReaderEnded::How::by_our_hand);
+        std::string line = refused->message;
+        std::ranges::replace_if(
+            line, [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+        throw Error(line);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& why) const {
+        throw Error(fmt::format("{}: cannot be read: {}", path_.string(), why));
+    }
+
+    void start(bool again) {
+        try {
+            reader_ = again ? pool_.take_new(program_) : pool_.take(program_);
+        } catch (const Error& error) {
+            fail(error.what());
+        }
+    }
+
+    ReaderPool& pool_;
+    std::string program_;
+    fs::path path_;
+    std::unique_ptr<ReaderProcess> reader_;
+};
+
+/// The reader's word counts for nothing that could do harm.
+void check(const Described& described, const std::string& name) {
+    const SeriesInfo& info = described.info;
+    check_grid(info.grid, name);
+    glm::dmat3 axes = info.grid.direction;
+    Grid grid;
+    for (int axis = 0; axis < 3; ++axis)
+        axes[axis] *= std::max(info.grid.spacing[axis], 0.0);
+    set_axes(grid, axes, name);
+    if (described.steps == 0 || (!info.times.empty() && info.times.size() != described.steps) ||
+        described.slices_at_once == 0 || described.slices_at_once > info.grid.vertices[2] ||
+        info.scaling.slope == 0 || !std::isfinite(info.scaling.slope) ||
+        !std::isfinite(info.scaling.intercept))
+        throw Error(fmt::format("{}: cannot be read: its reader describes no volume", name));
+}
+
+class ForeignFile final : public VolumeFile {
+  public:
+    ForeignFile(ReaderPool& readers, ForeignFormat format, const fs::path& path,
+                const ReadOptions& options)
+        : name_(path.string()), open_{.format = format,
+                                      .path = path,
+                                      .options = options,
+                                      .most_memory = readers.limits().memory},
+          lease_(readers, program_of(format), path) {
+        lease_.work([] {}, [this] { described_ = open(); });
+        check(described_, name_);
+    }
+
+    const SeriesInfo& info() const override { return described_.info; }
+    std::size_t steps() const override { return described_.steps; }
+
+    void read(std::size_t step, std::span<std::byte> out) override {
+        lease_.work([this] { open_again(); }, [&] { read_slabs(step, out); });
+    }
+
+  private:
+    Described open() {
+        lease_.reader().ask(open_);
+        return lease_.expect<Described>();
+    }
+
+    void open_again() {
+        const Described now = open();
+        if (now.info.step_bytes() != described_.info.step_bytes() ||
+            now.info.type != described_.info.type || now.steps != described_.steps ||
+            now.slices_at_once != described_.slices_at_once)
+            throw Error(fmt::format("{}: has changed since it was opened", name_));
+    }
+
+    // While this copies a slab, the reader makes the next one.
+    void read_slabs(std::size_t step, std::span<std::byte> out) {
+        const std::uint32_t all = described_.info.grid.vertices[2],
+                            at_once = described_.slices_at_once;
+        const std::size_t slice = out.size() / all, slab_bytes = slice * at_once;
+        const std::size_t slabs = (std::size_t{all} + at_once - 1) / at_once;
+        const std::size_t places = std::min<std::size_t>(slabs, 2);
+        const auto memory = lease_.reader().memory(places * slab_bytes);
+        const auto slices_of = [&](std::size_t slab) {
+            const auto first = static_cast<std::uint32_t>(slab * at_once);
+            return Slices{first, std::min(at_once, all - first)};
+        };
+        std::size_t asked = 0;
+        for (std::size_t taken = 0; taken < slabs; ++taken) {
+            for (; asked < std::min(slabs, taken + places); ++asked)
+                lease_.reader().ask(ReadSlab{step, slices_of(asked), asked % places * slab_bytes});
+            try {
+                lease_.expect<SlabRead>();
+            } catch (const ReaderEnded&) {
+                throw;
+            } catch (const Error&) {
+                for (std::size_t owed = taken + 1; owed < asked; ++owed)
+                    lease_.reader().reply();
+                throw;
+            }
+            std::memcpy(out.data() + taken * slab_bytes,
+                        memory.data() + taken % places * slab_bytes,
+                        slices_of(taken).count * slice);
+        }
+    }
+
+    std::string name_;
+    OpenFile open_;
+    ReaderLease lease_;
+    Described described_;
+};
+
+} // namespace
+
+std::unique_ptr<VolumeFile> open_foreign(ReaderPool& readers, ForeignFormat format,
+                                         const fs::path& path, const ReadOptions& options) {
+    return std::make_unique<ForeignFile>(readers, format, path, options);
+}
+
+std::unique_ptr<VolumeFile> open_vti(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::vti, path, options);
+}
+
+std::unique_ptr<VolumeFile> open_vtk(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::vtk, path, options);
+}
+
+std::unique_ptr<VolumeFile> open_netcdf(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::netcdf, path, options);
+}
+
+std::vector<std::pair<fs::path, double>> read_pvd(const fs::path& path) {
+    ReaderLease lease(readers_of_this_process(), kCollectionProgram, path);
+    std::vector<std::pair<fs::path, double>> files;
+    lease.work([] {},
+               [&] {
+                   lease.reader().ask(ReadCollection{path});
+                   files = lease.expect<Collected>().files;
+               });
+    return files;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,164 @@
+// Values as the bytes of a message, and back: of numbers, texts and what is made of them.
+#pragma once
+
+#include "index/error.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace isochron::index {
+
+/// The last value of an enumeration whose values count from 0: what is above it is no value.
+template <class Enum>
+constexpr Enum kLastValue = Enum{};
+
+template <class T>
+concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// Both ends are of one machine and one build: numbers stand as they lie in memory.
+class MessageWriter {
+  public:
+    template <class... Values>
+    void operator()(const Values&... values) {
+        (put(values), ...);
+    }
+    std::vector<std::byte> take() { return std::move(bytes_); }
+
+  private:
+    template <PlainValue T>
+    void put(T value) {
+        append(std::as_bytes(std::span(&value, 1)));
+    }
+    void put(const std::string& text) {
+        put(std::uint64_t{text.size()});
+        append(std::as_bytes(std::span(text)));
+    }
+    void put(const std::filesystem::path& path) { put(path.native()); }
+    void put(const glm::dvec3& v) { (*this)(v.x, v.y, v.z); }
+    void put(const glm::dmat3& m) { (*this)(m[0], m[1], m[2]); }
+    template <class T, std::size_t N>
+    void put(const std::array<T, N>& values) {
+        for (const T& value : values)
+            put(value);
+    }
+    template <class A, class B>
+    void put(const std::pair<A, B>& both) {
+        (*this)(both.first, both.second);
+    }
+    template <class T>
+    void put(const std::optional<T>& value) {
+        put(value.has_value());
+        if (value)
+            put(*value);
+    }
+    template <class T>
+    void put(const std::vector<T>& values) {
+        put(std::uint64_t{values.size()});
+        for (const T& value : values)
+            put(value);
+    }
+    void append(std::span<const std::byte> bytes) {
+        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    }
+
+    std::vector<std::byte> bytes_;
+};
+
+/// Takes nothing on trust: a count that lies costs no more memory than the message itself.
+class MessageReader {
+  public:
+    explicit MessageReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    /// @throws Error when the message ends before, or holds what no such value can be
+    template <class... Values>
+    void operator()(Values&... values) {
+        (get(values), ...);
+    }
+    /// @throws Error when something follows
+    void expect_end() const {
+        if (!bytes_.empty())
+            throw Error("a message that is longer than its content");
+    }
+
+  private:
+    template <PlainValue T>
+    void get(T& value) {
+        std::array<std::byte, sizeof(T)> stored;
+        const auto from = take(sizeof(T));
+        std::copy(from.begin(), from.end(), stored.begin());
+        if constexpr (std::is_same_v<T, bool>) {
+            value = stored[0] == std::byte{1};
+            if (!value && stored[0] != std::byte{0})
+                throw Error("a message with a truth value that is neither");
+        } else {
+            value = std::bit_cast<T>(stored);
+        }
+        if constexpr (std::is_enum_v<T>)
+            if (value > kLastValue<T>)
+                throw Error("a message with a value that is none of its enumeration");
+    }
+    void get(std::string& text) {
+        std::uint64_t size = 0;
+        get(size);
+        const auto from = take(size);
+        text.assign(reinterpret_cast<const char*>(from.data()), from.size());
+    }
+    void get(std::filesystem::path& path) {
+        std::string text;
+        get(text);
+        path = std::move(text);
+    }
+    void get(glm::dvec3& v) { (*this)(v.x, v.y, v.z); }
+    void get(glm::dmat3& m) { (*this)(m[0], m[1], m[2]); }
+    template <class T, std::size_t N>
+    void get(std::array<T, N>& values) {
+        for (T& value : values)
+            get(value);
+    }
+    template <class A, class B>
+    void get(std::pair<A, B>& both) {
+        (*this)(both.first, both.second);
+    }
+    template <class T>
+    void get(std::optional<T>& value) {
+        bool there = false;
+        get(there);
+        if (!there)
+            return;
+        T given{};
+        get(given);
+        value = std::move(given);
+    }
+    template <class T>
+    void get(std::vector<T>& values) {
+        std::uint64_t count = 0;
+        get(count);
+        values.clear();
+        for (; count > 0; --count) // of those that are not there, the first ends it
+            get(values.emplace_back());
+    }
+    std::span<const std::byte> take(std::uint64_t size) {
+        if (size > bytes_.size())
+            throw Error("a message that ends too early");
+        const auto first = bytes_.first(size);
+        bytes_ = bytes_.subspan(size);
+        return first;
+    }
+
+    std::span<const std::byte> bytes_;
+};
+
+} // namespace isochron::index

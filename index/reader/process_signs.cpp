@@ -1,0 +1,46 @@
+// /proc/PID/io and /proc/PID/stat, see proc(5).
+#include "index/reader/process_signs.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+namespace isochron::index {
+namespace {
+
+std::string contents(pid_t process, const char* name) {
+    std::ifstream file(fmt::format("/proc/{}/{}", process, name));
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+} // namespace
+
+std::optional<ProcessSigns> signs_of(pid_t process) {
+    ProcessSigns signs;
+    std::istringstream io(contents(process, "io"));
+    std::string word;
+    if (!(io >> word >> signs.read) || word != "rchar:")
+        return std::nullopt;
+    const std::string stat = contents(process, "stat");
+    const std::size_t name_end = stat.rfind(')'); // the name may hold any character
+    if (name_end == std::string::npos)
+        return std::nullopt;
+    std::istringstream fields(stat.substr(name_end + 1));
+    char state = 0;
+    std::int64_t skipped = 0;
+    std::uint64_t minor = 0, major = 0;
+    fields >> state;
+    for (int field = 4; field < 10; ++field)
+        fields >> skipped;
+    fields >> minor >> skipped >> major;
+    if (!fields)
+        return std::nullopt;
+    signs.touched = minor + major;
+    signs.waits_for_disk = state == 'D';
+    return signs;
+}
+
+} // namespace isochron::index

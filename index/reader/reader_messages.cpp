@@ -1,0 +1,126 @@
+// Requests and replies as bytes: the number of the kind, then its fields.
+#include "index/reader/reader_messages.h"
+
+#include "index/reader/message_bytes.h"
+
+#include <fmt/format.h>
+
+#include <type_traits>
+
+namespace isochron::index {
+
+template <>
+constexpr ValueType kLastValue<ValueType> = ValueType::f64;
+template <>
+constexpr Anatomy kLastValue<Anatomy> = Anatomy::enu;
+template <>
+constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::netcdf;
+
+namespace {
+
+// The fields of every kind, listed once for both directions.
+
+template <class Bytes, class T>
+concept Of = std::is_same_v<std::remove_const_t<Bytes>, T>;
+
+void each_field(auto& bytes, Of<Grid> auto& grid) {
+    bytes(grid.vertices, grid.origin, grid.spacing, grid.direction);
+}
+void each_field(auto& bytes, Of<SeriesInfo> auto& info) {
+    bytes(info.array, info.value_unit, info.length_unit, info.time_unit, info.anatomy, info.type,
+          info.scaling.slope, info.scaling.intercept, info.times, info.sources, info.notes);
+    each_field(bytes, info.grid);
+}
+void each_field(auto& bytes, Of<ReadOptions> auto& options) {
+    bytes(options.array, options.component, options.dims, options.type, options.big_endian,
+          options.allow_surplus, options.header_bytes, options.spacing, options.origin,
+          options.time_step, options.length_unit, options.time_unit, options.value_unit);
+}
+
+void each_field(auto& bytes, Of<OpenFile> auto& open) {
+    bytes(open.format, open.path, open.most_memory);
+    each_field(bytes, open.options);
+}
+void each_field(auto& bytes, Of<UseMemory> auto& use) {
+    bytes(use.bytes);
+}
+void each_field(auto& bytes, Of<ReadSlab> auto& slab) {
+    bytes(slab.step, slab.slices.first, slab.slices.count, slab.offset);
+}
+void each_field(auto& bytes, Of<ReadCollection> auto& collection) {
+    bytes(collection.path);
+}
+void each_field(auto&, Of<CloseFile> auto&) {}
+
+void each_field(auto& bytes, Of<Ready> auto& ready) {
+    bytes(ready.version);
+}
+void each_field(auto& bytes, Of<Described> auto& described) {
+    bytes(described.steps, described.slices_at_once);
+    each_field(bytes, described.info);
+}
+void each_field(auto&, Of<SlabRead> auto&) {}
+void each_field(auto& bytes, Of<Collected> auto& collected) {
+    bytes(collected.files);
+}
+void each_field(auto&, Of<Closed> auto&) {}
+void each_field(auto& bytes, Of<Refused> auto& refused) {
+    bytes(refused.message);
+}
+
+template <class... Kinds>
+std::vector<std::byte> bytes_of_kind(const std::variant<Kinds...>& message) {
+    MessageWriter bytes;
+    bytes(static_cast<std::uint8_t>(message.index()));
+    std::visit([&](const auto& kind) { each_field(bytes, kind); }, message);
+    return bytes.take();
+}
+
+template <class Message, std::size_t kind = 0>
+Message message_of_kind(std::uint8_t number, MessageReader& bytes) {
+    if constexpr (kind < std::variant_size_v<Message>) {
+        if (number != kind)
+            return message_of_kind<Message, kind + 1>(number, bytes);
+        Message message(std::in_place_index<kind>);
+        each_field(bytes, std::get<kind>(message));
+        bytes.expect_end();
+        return message;
+    } else {
+        throw Error(fmt::format("a message of kind {}, expected 0 to {}", number, kind - 1));
+    }
+}
+
+template <class Message>
+Message message_from(std::span<const std::byte> bytes) {
+    MessageReader reader(bytes);
+    std::uint8_t number = 0;
+    reader(number);
+    return message_of_kind<Message>(number, reader);
+}
+
+} // namespace
+
+const std::string kReaderVersion = ISOCHRON_VERSION " 1";
+const std::string kCollectionProgram = "isochron-reader-vtk";
+
+std::string program_of(ForeignFormat format) {
+    return format == ForeignFormat::netcdf ? "isochron-reader-netcdf" : "isochron-reader-vtk";
+}
+
+std::vector<std::byte> encoded(const ReaderRequest& request) {
+    return bytes_of_kind(request);
+}
+
+std::vector<std::byte> encoded(const ReaderReply& reply) {
+    return bytes_of_kind(reply);
+}
+
+ReaderRequest request_from(std::span<const std::byte> bytes) {
+    return message_from<ReaderRequest>(bytes);
+}
+
+ReaderReply reply_from(std::span<const std::byte> bytes) {
+    return message_from<ReaderReply>(bytes);
+}
+
+} // namespace isochron::index

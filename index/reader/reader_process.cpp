@@ -1,0 +1,180 @@
+// Starting of a reader, talking with it, and telling how it ended.
+#include "index/reader/reader_process.h"
+
+#include "index/reader/reader_start.h"
+#include "index/system/module.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+/// What a reader is started with: nothing open but its socket, no signal of the terminal.
+class SpawnSetup {
+  public:
+    explicit SpawnSetup(int socket) {
+        ::posix_spawn_file_actions_init(&files);
+        ::posix_spawn_file_actions_adddup2(&files, socket, kReaderSocket);
+        for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+            ::posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);
+        ::posix_spawn_file_actions_addclosefrom_np(&files, kReaderSocket + 1);
+        // Whoever ends this program ends its readers: they notice that nobody is there any more.
+        // Ctrl-C, which reaches all processes of a terminal, must not look like a crash.
+        sigset_t blocked, restored;
+        ::sigemptyset(&blocked);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
+            ::sigaddset(&blocked, signal);
+        ::sigfillset(&restored);
+        ::posix_spawnattr_init(&attributes);
+        ::posix_spawnattr_setsigmask(&attributes, &blocked);
+        ::posix_spawnattr_setsigdefault(&attributes, &restored);
+        ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    }
+    ~SpawnSetup() {
+        ::posix_spawn_file_actions_destroy(&files);
+        ::posix_spawnattr_destroy(&attributes);
+    }
+    SpawnSetup(const SpawnSetup&) = delete;
+    SpawnSetup& operator=(const SpawnSetup&) = delete;
+
+    posix_spawn_file_actions_t files{};
+    posix_spawnattr_t attributes{};
+};
+
+/// Waits for the end of a process that has closed its socket, which may be a step ahead of it.
+std::optional<int> status_at_end(pid_t process) {
+    constexpr std::chrono::milliseconds kPause{1};
+    constexpr int kPauses = 2000;
+    for (int i = 0; i < kPauses; ++i) {
+        int status = 0;
+        if (::waitpid(process, &status, WNOHANG) == process)
+            return status;
+        std::this_thread::sleep_for(kPause);
+    }
+    return std::nullopt;
+}
+
+std::string text_of_end(int status) {
+    if (WIFEXITED(status))
+        return fmt::format("its reader ended with status {}", WEXITSTATUS(status));
+    const int signal = WTERMSIG(status);
+    const char* name = ::sigabbrev_np(signal);
+    const std::string text = name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal);
+    if (signal == SIGKILL)
+        return fmt::format("its reader was killed ({}), as systems do when memory runs out", text);
+    if (signal == SIGXCPU)
+        return fmt::format("its reader took longer than any such file does ({})", text);
+    return fmt::format("its reader crashed on it ({}): it is damaged, or made to do so", text);
+}
+
+} // namespace
+
+ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits)
+    : program_(std::move(program)), limits_(limits) {
+    const std::string file = file_of_program(program_).string();
+    auto [ours, theirs] = MessageSocket::pair();
+    const SpawnSetup setup(theirs.number());
+    char* const arguments[]{program_.data(), nullptr};
+    const int failure = ::posix_spawn(&process_, file.c_str(), &setup.files, &setup.attributes,
+                                      arguments, environ);
+    if (failure != 0)
+        throw Error(fmt::format("{}: cannot be started: {}", file, std::strerror(failure)));
+    socket_.emplace(std::move(ours));
+}
+
+ReaderProcess::~ReaderProcess() {
+    if (process_ < 0)
+        return;
+    ::kill(process_, SIGKILL);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+}
+
+void ReaderProcess::ask(const ReaderRequest& request) {
+    if (std::holds_alternative<OpenFile>(request) ||
+        std::holds_alternative<ReadCollection>(request))
+        ++files_;
+    send(request);
+}
+
+void ReaderProcess::send(const ReaderRequest& request, int attached) {
+    if (!socket_->send(encoded(request), attached))
+        fail_as_it_ended();
+}
+
+ReaderReply ReaderProcess::reply() {
+    if (!ready_) {
+        const ReaderReply first = next_reply();
+        const auto* ready = std::get_if<Ready>(&first);
+        if (!ready || ready->version != kReaderVersion)
+            fail(fmt::format("{} is of another version, expected {}", program_, kReaderVersion));
+        ready_ = true;
+    }
+    return next_reply();
+}
+
+ReaderReply ReaderProcess::next_reply() {
+    silence_ = {};
+    try {
+        const auto message = socket_->receive([this] { watch(); });
+        if (message)
+            return reply_from(message->bytes);
+    } catch (const ReaderEnded&) {
+        throw;
+    } catch (const Error& error) {
+        fail(fmt::format("its reader sent {}", error.what()));
+    }
+    fail_as_it_ended();
+}
+
+// Called every `kAwait`, so that time in which this process itself was stopped does not count.
+void ReaderProcess::watch() {
+    const auto now = signs_of(process_);
+    const bool alive = now && (!signs_ || now->waits_for_disk || now->read != signs_->read ||
+                               now->touched != signs_->touched);
+    signs_ = now;
+    silence_ = alive ? std::chrono::milliseconds{0} : silence_ + MessageSocket::kAwait;
+    if (silence_ >= limits_.patience)
+        fail(fmt::format("its reader got nowhere for {} s and was ended",
+                         static_cast<double>(limits_.patience.count()) / 1000));
+}
+
+std::span<std::byte> ReaderProcess::memory(std::size_t bytes) {
+    if (!memory_ || memory_->bytes().size() < bytes) {
+        memory_.reset();
+        try {
+            memory_ = std::make_unique<SharedMemory>(bytes);
+        } catch (const Error& error) {
+            fail(error.what());
+        }
+        send(UseMemory{bytes}, memory_->descriptor());
+    }
+    return memory_->bytes();
+}
+
+void ReaderProcess::fail(const std::string& why) {
+    ::kill(process_, SIGKILL);
+    throw ReaderEnded(why, ReaderEnded::How::by_our_hand);
+}
+
+void ReaderProcess::fail_as_it_ended() {
+    const std::optional<int> status = status_at_end(process_);
+    if (!status)
+        fail("its reader no longer answers");
+    process_ = -1;
+    throw ReaderEnded((ready_ ? "" : "at the start: ") + text_of_end(*status),
+                      ReaderEnded::How::by_itself);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,36 @@
+// The one way to the bytes of an index: read by position, never mapped.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace isochron::index {
+
+/// A file that is read by position, by any number of threads at once. What goes wrong with the file
+/// or its disk is an Error in one line, never a signal.
+class ByteSource {
+  public:
+    virtual ~ByteSource() = default;
+    virtual const std::string& name() const = 0;
+    /// As it was when it was opened.
+    virtual std::uint64_t size() const = 0;
+    /// Reads the bytes from `offset` on, all of them.
+    /// @throws Error: what the system said, or that the file has become shorter
+    void read(std::uint64_t offset, std::span<std::byte> out) const;
+    /// Says that these bytes are wanted soon, so that the disk works on many requests at once.
+    virtual void expect(std::uint64_t /*offset*/, std::uint64_t /*bytes*/) const {}
+
+  protected:
+    /// Reads some of the bytes. @return how many; 0 at the end of the file
+    /// @throws Error naming the file
+    virtual std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const = 0;
+};
+
+/// @throws Error: missing, unreadable, not a regular file
+std::unique_ptr<ByteSource> open_bytes(const std::filesystem::path& path);
+
+} // namespace isochron::index

@@ -1,0 +1,110 @@
+// Opening of regular files.
+#include "index/system/input_file.h"
+
+#include "index/error.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, int error) {
+    const std::string name = path.string();
+    if (error == ENOENT)
+        throw Error(fmt::format("{}: there is no such file", name));
+    if (error == ENXIO) // a socket, or a device that is not there
+        throw Error(fmt::format("{}: not a regular file", name));
+    throw Error(fmt::format("{}: cannot be opened: {}", name, std::strerror(error)));
+}
+
+void expect_regular(const std::filesystem::path& path, const struct stat& status) {
+    if (S_ISDIR(status.st_mode))
+        throw Error(fmt::format("{}: a folder, expected a file", path.string()));
+    if (!S_ISREG(status.st_mode))
+        throw Error(fmt::format("{}: not a regular file", path.string()));
+}
+
+struct stat status_of(const std::filesystem::path& path, int file) {
+    struct stat status {};
+    if (::fstat(file, &status) != 0)
+        refuse(path, errno);
+    return status;
+}
+
+} // namespace
+
+FileState state_of(const std::filesystem::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0)
+        refuse(path, errno);
+    expect_regular(path, status);
+    return {.device = status.st_dev,
+            .inode = status.st_ino,
+            .size = static_cast<std::uint64_t>(status.st_size),
+            .written =
+                std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec};
+}
+
+int open_regular(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file < 0)
+        refuse(path, errno);
+    try {
+        expect_regular(path, status_of(path, file));
+    } catch (...) {
+        ::close(file);
+        throw;
+    }
+    return file;
+}
+
+InputFile::InputFile(std::filesystem::path path)
+    : path_(std::move(path)), file_(open_regular(path_)) {
+    size_ = static_cast<std::uint64_t>(status_of(path_, file_).st_size);
+}
+
+InputFile::~InputFile() {
+    ::close(file_);
+}
+
+std::size_t InputFile::read(std::uint64_t offset, std::span<std::byte> out) const {
+    std::size_t done = 0;
+    while (done < out.size()) {
+        const ssize_t got =
+            ::pread(file_, out.data() + done, out.size() - done, static_cast<off_t>(offset + done));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            throw Error(
+                fmt::format("{}: cannot be read: {}", path_.string(), std::strerror(errno)));
+        if (got == 0)
+            break;
+        done += static_cast<std::size_t>(got);
+    }
+    return done;
+}
+
+InputStream::InputStream(const std::filesystem::path& path)
+    : std::istream(nullptr), buffer_(open_regular(path), std::ios::in | std::ios::binary) {
+    rdbuf(&buffer_);
+}
+
+std::string read_text(const std::filesystem::path& path, std::uint64_t most) {
+    const InputFile file(path);
+    if (file.size() > most)
+        throw Error(
+            fmt::format("{}: {} bytes, expected at most {}", path.string(), file.size(), most));
+    std::string text(file.size(), '\0');
+    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
+    return text;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,65 @@
+// Regular files that are open for reading: the one place that opens an input.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <ext/stdio_filebuf.h>
+#include <filesystem>
+#include <istream>
+#include <span>
+#include <string>
+
+namespace isochron::index {
+
+/// What tells a file from the one that had its name before, and from what it was before it was
+/// written to.
+struct FileState {
+    std::uint64_t device = 0, inode = 0, size = 0; ///< size in bytes
+    std::int64_t written = 0;                      ///< [ns] since 1970
+    bool operator==(const FileState&) const = default;
+};
+
+/// @throws Error naming the file: missing, a folder, not a regular file
+FileState state_of(const std::filesystem::path& path);
+
+/// A descriptor, which the caller closes. Pipes, devices and sockets are refused without waiting
+/// for them. @throws Error naming the file: missing, a folder, not a regular file, unreadable
+int open_regular(const std::filesystem::path& path);
+
+/// A file read by position. Thread-safe.
+class InputFile {
+  public:
+    /// @throws Error as `open_regular`
+    explicit InputFile(std::filesystem::path path);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    std::uint64_t size() const { return size_; } ///< [bytes] when it was opened
+    int descriptor() const { return file_; }
+
+    /// Reads from `offset` until `out` is full or the file ends. @return bytes read
+    /// @throws Error naming the file when the system cannot read it
+    std::size_t read(std::uint64_t offset, std::span<std::byte> out) const;
+
+  private:
+    std::filesystem::path path_;
+    int file_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+/// A file read from its start to its end.
+class InputStream : public std::istream {
+  public:
+    /// @throws Error as `open_regular`
+    explicit InputStream(const std::filesystem::path& path);
+
+  private:
+    __gnu_cxx::stdio_filebuf<char> buffer_;
+};
+
+/// The whole of a file that is meant to be small.
+/// @throws Error as `open_regular`, and when it is larger than `most` bytes
+std::string read_text(const std::filesystem::path& path, std::uint64_t most);
+
+} // namespace isochron::index

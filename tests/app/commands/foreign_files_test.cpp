@@ -1,0 +1,103 @@
+// Files that libraries decode, as a user meets them: damaged ones, and a program that is started
+// from anywhere.
+#include "tests/app/commands/command_line.h"
+
+#include <set>
+
+namespace isochron::app {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+const fs::path kData = test_support::test_data();
+
+class ForeignFiles : public CommandLine {
+  protected:
+    ChildResult build(const std::string& file) {
+        return isochron({"build", file, "-o", "a.isochron"});
+    }
+};
+
+TEST_F(ForeignFiles, ThatAreDamagedCostOneLine) {
+    const auto before = folder.names();
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(kData / "damaged")) {
+        const ChildResult result = build(entry.path().string());
+        expect_failure(result, 1, entry.path().string() + ": ");
+        // In our words: neither a library's places nor a container's.
+        for (const char* dump : {"ERROR:", "In /", "vtk", "std::", "vector::", "0x"})
+            EXPECT_THAT(result.err.substr(result.err.find(": ", 20)), Not(HasSubstr(dump)));
+        EXPECT_EQ(folder.names(), before);
+        ++files;
+    }
+    EXPECT_EQ(files, 8);
+}
+
+TEST_F(ForeignFiles, OfElementsNestedWithoutEndCostOneLine) {
+    std::string nested;
+    for (int i = 0; i < 300'000; ++i)
+        nested += "<a>";
+    const std::string image = "<VTKFile type=\"ImageData\"><ImageData>";
+    folder.write("deep.vti", image + nested + "</VTKFile>");
+    folder.write("deep.pvd", "<VTKFile type=\"Collection\"><Collection>" + nested);
+    for (const std::string name : {"deep.vti", "deep.pvd"})
+        expect_failure(build(name), 1, name + ": elements nested more than 64 deep");
+}
+
+TEST_F(ForeignFiles, AreReadWhereverTheProgramIsStartedFrom) {
+    const std::string binary = test_support::binary_root();
+    const std::string vti = (kData / "vti" / "raw_zlib64.vti").string();
+    ASSERT_EQ(build(vti).status, 0);
+    const std::string expected = folder.read("a.isochron");
+    fs::create_symlink(binary + "/isochron", folder.path() / "linked");
+    fs::create_directory_symlink(binary, folder.path() / "there");
+    const std::string relative = fs::relative(binary + "/isochron", folder.path()).string();
+    for (const std::string program : {"./linked", "there/isochron", relative.c_str()}) {
+        fs::remove(folder.path() / "a.isochron");
+        const ChildResult result =
+            run_child(program, {"build", vti, "-o", "a.isochron"}, folder.path());
+        EXPECT_EQ(result.status, 0) << program << ": " << result.err;
+        EXPECT_EQ(folder.read("a.isochron"), expected) << program;
+    }
+    const ChildResult by_path = run_child(
+        "/usr/bin/env",
+        {"PATH=" + binary + ":/usr/bin:/bin", "isochron", "build", vti, "-o", "b.isochron"},
+        folder.path());
+    EXPECT_EQ(by_path.status, 0) << by_path.err;
+    EXPECT_EQ(folder.read("b.isochron"), expected);
+}
+
+TEST_F(ForeignFiles, WithoutAReaderAreRefusedAndOthersAreRead) {
+    // Neither the folder that it is started in nor the one above it is where a reader is looked for.
+    const fs::path program = folder.path() / "bin" / "isochron";
+    fs::create_directory(program.parent_path());
+    fs::copy_file(test_support::binary_root() + "/isochron", program);
+    fs::copy_file("/bin/true", folder.path() / "isochron-reader-vtk");
+    const auto run = [&](std::vector<std::string> arguments) {
+        return run_child(program.string(), arguments, folder.path());
+    };
+    const std::string vti = (kData / "vti" / "ascii.vti").string();
+    expect_failure(run({"build", vti, "-o", "b.isochron"}), 1,
+                   vti + ": cannot be read: isochron-reader-vtk: not found beside the program");
+    EXPECT_EQ(run(build_of("t*.raw", {"--quiet"})).status, 0);
+    // One that is no reader says so, too.
+    fs::copy_file("/bin/true", program.parent_path() / "isochron-reader-vtk");
+    expect_failure(run({"build", vti, "-o", "b.isochron"}), 1,
+                   vti + ": cannot be read: at the start: its reader ended with status 0");
+}
+
+TEST_F(ForeignFiles, AreDecodedByNoLibraryOfTheProgramItself) {
+    const ChildResult libraries = run_child(
+        "/usr/bin/env", {"LD_TRACE_LOADED_OBJECTS=1", test_support::binary_root() + "/isochron"},
+        folder.path());
+    EXPECT_THAT(libraries.out, HasSubstr("libstdc++"));
+    for (const char* library : {"vtk", "netcdf", "hdf5", "expat"})
+        EXPECT_THAT(libraries.out, Not(HasSubstr(library)));
+}
+
+} // namespace
+} // namespace isochron::app

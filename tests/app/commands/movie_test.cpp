@@ -1,0 +1,99 @@
+// A movie has exactly the frames that its rate and its recording's length ask for.
+#include "tests/support/session_fixture.h"
+
+#include "app/output/movie_file.h"
+#include "app/session/replay.h"
+#include "index/error.h"
+#include "interaction/recording/recording.h"
+#include "tests/support/child_process.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+namespace isochron::app {
+namespace {
+
+/// A stand-in for ffmpeg, which need not be there: it writes how many bytes came.
+class MovieTest : public testing::Test {
+  protected:
+    MovieTest() {
+        folder_.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\nwc -c > \"$last\"\n"
+                                "echo \"$@\" >> \"$last\"\n");
+        std::filesystem::permissions(folder_.path() / "ffmpeg", std::filesystem::perms::owner_all);
+        before_ = std::getenv("PATH");
+        setenv("PATH", (folder_.path().string() + ":" + before_).c_str(), 1);
+    }
+    ~MovieTest() override { setenv("PATH", before_.c_str(), 1); }
+
+    std::size_t bytes_of(const std::string& name) { return std::stoul(folder_.read(name)); }
+    static render::Image picture() { return {4, 2, std::vector<std::uint8_t>(32, 7)}; }
+
+    TestFolder folder_;
+    std::string before_;
+};
+
+TEST_F(MovieTest, EveryPictureReachesFfmpegAndTheFileAppearsWhole) {
+    const auto path = folder_.path() / "a.mp4";
+    {
+        MovieFile movie(path, {4, 2}, 25);
+        for (int i = 0; i < 7; ++i)
+            movie.add(picture());
+        EXPECT_FALSE(std::filesystem::exists(path));
+        movie.finish();
+        EXPECT_EQ(movie.frames(), 7u);
+    }
+    EXPECT_EQ(bytes_of("a.mp4"), 7u * 32);
+    EXPECT_THAT(folder_.read("a.mp4"), testing::HasSubstr("-s 4x2 -r 25 "));
+    EXPECT_THAT(folder_.read("a.mp4"), testing::HasSubstr("libx264"));
+}
+
+TEST_F(MovieTest, AnAbandonedMovieLeavesNothing) {
+    {
+        MovieFile movie(folder_.path() / "a.gif", {4, 2}, 25);
+        movie.add(picture());
+    }
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        files += entry.path().filename() != "ffmpeg";
+    EXPECT_EQ(files, 0u);
+}
+
+TEST_F(MovieTest, WhatFfmpegComplainsOfIsTold) {
+    folder_.write("ffmpeg", "#!/bin/sh\ncat > /dev/null\necho 'no such codec' >&2\nexit 1\n");
+    MovieFile movie(folder_.path() / "a.mp4", {4, 2}, 25);
+    movie.add(picture());
+    try {
+        movie.finish();
+        ADD_FAILURE();
+    } catch (const index::Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("a.mp4: ffmpeg: no such codec"));
+    }
+    setenv("PATH", folder_.path().c_str(), 1);
+    std::filesystem::remove(folder_.path() / "ffmpeg");
+    EXPECT_THROW(MovieFile(folder_.path() / "b.mp4", {4, 2}, 25), index::Error);
+}
+
+TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
+    build_sphere(folder_.path());
+    interaction::RecordingHeader header;
+    header.configuration = "[rendering]\ncontext = \"egl\"\n[[windows]]\nsize = [64, 48]\n";
+    header.data = (folder_.path() / "sphere.isochron").string();
+    {
+        interaction::RecordingWriter writer(folder_.path() / "walk.jsonl", header);
+        for (const double time : {0.0, 0.3, 0.301, 0.302, 0.75, 1.0}) // uneven, as real ones are
+            writer.append({.input = head_at_rest(time), .commands = {}, .from_panel = {}});
+        writer.finish();
+    }
+    const auto movie = (folder_.path() / "walk.mp4").string();
+    const auto recording = (folder_.path() / "walk.jsonl").string();
+    const auto program = [&](const std::vector<std::string>& arguments) {
+        return run_child(test_support::binary_root() + "/isochron", arguments, folder_.path());
+    };
+    EXPECT_EQ(program({"movie", recording, "-o", movie, "--rate", "20"}).status, 0);
+    EXPECT_EQ(bytes_of("walk.mp4"), 21u * 64 * 48 * 4) << "0, 0.05, ... 1 s";
+    EXPECT_EQ(program({"movie", recording, "-o", movie}).status, 1) << "it is there already";
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,172 @@
+// Undo and redo: any change comes back as it was, and a drag is one step.
+#include "app/frame/history.h"
+
+#include "interaction/command_fields.h"
+#include "tests/interaction/recording/random_commands.h"
+#include "tests/support/test_seed.h"
+
+#include <gtest/gtest.h>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::InputState;
+using interaction::Seconds;
+
+constexpr std::size_t kSteps = 5;
+
+/// A state that obeys, with its history.
+class Explorer {
+  public:
+    void obey(const Commands& commands, double time, bool button = false) {
+        InputState input{Seconds(time), {}};
+        input.devices.push_back({"mouse", std::nullopt, true, button ? 1u : 0u, {}});
+        const ExplorerState before = state;
+        state.apply(commands, kSteps);
+        history.add(before, state, commands, input);
+    }
+    bool undo(double time) {
+        if (!history.undo())
+            return false;
+        obey(*history.undo(), time);
+        return true;
+    }
+    bool redo(double time) {
+        if (!history.redo())
+            return false;
+        obey(*history.redo(), time);
+        return true;
+    }
+    ExplorerState state;
+    History history;
+};
+
+/// The settings whose changes can be undone.
+bool same_to_undo(const ExplorerState& a, const ExplorerState& b) {
+    return a.commands_to(b) == Commands{};
+}
+
+/// A change of one setting to anything that it may be.
+Commands one_change(interaction::Random& random) {
+    const Commands all = interaction::random_commands(random);
+    Commands one;
+    std::size_t settings = 0;
+    interaction::each_setting([&](const interaction::Field&, const auto&) { ++settings; }, all);
+    std::size_t chosen = random() % settings;
+    interaction::each_setting(
+        [&](const interaction::Field&, const auto& from, auto& to) {
+            if (chosen-- == 0)
+                to = from;
+        },
+        all, one);
+    return one;
+}
+
+TEST(History, AnySingleChangeIsUndoneAndRedone) {
+    interaction::Random random(test_seed());
+    Explorer explorer;
+    int changed = 0, wrong = 0;
+    double time = 0;
+    for (int round = 0; round < 10'000; ++round) {
+        explorer.state.playback.playing = false; // what plays is tried below
+        const ExplorerState before = explorer.state;
+        explorer.obey(one_change(random), time += 10);
+        const ExplorerState after = explorer.state;
+        if (same_to_undo(before, after))
+            continue;
+        ++changed;
+        ASSERT_TRUE(explorer.undo(time += 10));
+        wrong += !same_to_undo(explorer.state, before);
+        ASSERT_TRUE(explorer.redo(time += 10));
+        wrong += !same_to_undo(explorer.state, after);
+        if (round % 3 == 0)
+            explorer.undo(time += 10);
+    }
+    EXPECT_GT(changed, 1000);
+    EXPECT_EQ(wrong, 0) << "of " << changed;
+}
+
+TEST(History, ManyStepsComeBackInTheirOrder) {
+    interaction::Random random(test_seed());
+    Explorer explorer;
+    std::vector<ExplorerState> states{explorer.state};
+    double time = 0;
+    while (states.size() < 100) {
+        explorer.obey(one_change(random), time += 10);
+        explorer.state.playback.playing = false;
+        if (!same_to_undo(explorer.state, states.back()))
+            states.push_back(explorer.state);
+    }
+    for (std::size_t i = states.size() - 1; i > 0; --i) {
+        ASSERT_TRUE(explorer.undo(time += 10));
+        EXPECT_TRUE(same_to_undo(explorer.state, states[i - 1])) << i;
+    }
+    EXPECT_FALSE(explorer.undo(time += 10));
+    for (std::size_t i = 1; i < states.size(); ++i) {
+        ASSERT_TRUE(explorer.redo(time += 10));
+        EXPECT_TRUE(same_to_undo(explorer.state, states[i])) << i;
+    }
+    EXPECT_FALSE(explorer.redo(time += 10));
+}
+
+TEST(History, ADragIsOneStepHoweverLongItRests) {
+    Explorer explorer;
+    explorer.state.set_isovalue(1.0);
+    for (int i = 0; i < 10; ++i) {
+        Commands drag;
+        drag.isovalue = 2.0 + i;
+        explorer.obey(drag, i, true);
+        explorer.obey({}, i + 0.5, true);
+    }
+    explorer.obey({}, 11);
+    Commands another;
+    another.isovalue = 20;
+    explorer.obey(another, 11.1);
+    ASSERT_TRUE(explorer.undo(12));
+    EXPECT_EQ(explorer.state.isovalue(), 11.0) << "the button was let go between the two";
+    ASSERT_TRUE(explorer.undo(13));
+    EXPECT_EQ(explorer.state.isovalue(), 1.0);
+    EXPECT_FALSE(explorer.history.undo());
+}
+
+TEST(History, SwitchesAreStepsOfTheirOwnHoweverFastTheyCome) {
+    Explorer explorer;
+    for (int i = 0; i < 4; ++i) {
+        Commands toggle;
+        toggle.grid = i % 2 == 0;
+        explorer.obey(toggle, 0.01 * i);
+    }
+    ASSERT_TRUE(explorer.undo(1));
+    EXPECT_TRUE(explorer.state.grid);
+    ASSERT_TRUE(explorer.undo(2));
+    EXPECT_FALSE(explorer.state.grid);
+}
+
+TEST(History, WhatPlaysIsNotUndoneStepByStep) {
+    Explorer explorer;
+    Commands play;
+    play.playback = interaction::PlaybackState{.playing = true};
+    explorer.obey(play, 0);
+    for (std::uint32_t step = 1; step < kSteps; ++step) {
+        Commands next;
+        next.step = step;
+        explorer.obey(next, step);
+    }
+    ASSERT_TRUE(explorer.undo(10));
+    EXPECT_FALSE(explorer.state.playback.playing);
+    EXPECT_EQ(explorer.state.step, 0u);
+    EXPECT_FALSE(explorer.history.undo());
+}
+
+TEST(History, ThePanelAndTheQuestionWhetherToLeaveAreNoSteps) {
+    Explorer explorer;
+    Commands commands;
+    commands.panel = false;
+    commands.leaving = true;
+    explorer.obey(commands, 0);
+    EXPECT_FALSE(explorer.history.has_changes());
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,134 @@
+// A session that is kept and resumed is the one that was left, to the pixel.
+#include "app/session/session_file.h"
+#include "app/session/session_keeper.h"
+#include "tests/interaction/recording/random_commands.h"
+#include "tests/support/session_fixture.h"
+#include "tests/support/test_seed.h"
+
+#include <gmock/gmock.h>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+
+constexpr std::size_t kSteps = 6;
+
+SavedSession kept_of(const ExplorerState& state) {
+    return {"isochron test",
+            "/data/sphere.isochron",
+            "0123456789abcdef",
+            state.as_commands(),
+            {{0.1f, 1.6f, -0.3f}, 0.123456789f, -0.2f}};
+}
+
+ExplorerState back_from(const std::filesystem::path& path) {
+    return state_of(read_session(path), ExplorerState(), "0123456789abcdef", kSteps, "kept");
+}
+
+TEST(SessionFile, AnyStateComesBackAsItWas) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    interaction::Random random(test_seed());
+    ExplorerState state;
+    for (int round = 0; round < 300; ++round) {
+        state.apply(interaction::random_commands(random), kSteps);
+        state.leaving = false; // nobody is asked again
+        save_session(path, kept_of(state));
+        EXPECT_EQ(back_from(path), state);
+        EXPECT_EQ(read_session(path).head, kept_of(state).head);
+    }
+}
+
+TEST(SessionFile, WhatIsNoneIsRefusedInOneLine) {
+    TestFolder folder;
+    const auto complaint = [&](const std::string& text) {
+        try {
+            state_of(read_session(folder.write("a.isochron-session", text)), {}, "0123456789abcdef",
+                     kSteps, "a");
+        } catch (const interaction::Error& error) {
+            EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(complaint(""), HasSubstr("not a session"));
+    EXPECT_THAT(complaint("{"), HasSubstr("not JSON"));
+    EXPECT_THAT(complaint("{\"format\":\"x\"}"), HasSubstr("not a session"));
+    save_session(folder.path() / "good", kept_of({}));
+    std::string good = folder.read("good");
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string text = good;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    EXPECT_EQ(complaint(good), "no error");
+    EXPECT_THAT(complaint(with("\"version\": 1", "\"version\": 2")), HasSubstr("version"));
+    EXPECT_THAT(complaint(with("0123456789abcdef", "fedcba9876543210")), HasSubstr("other data"));
+    EXPECT_THAT(complaint(with("\"step\": 0", "\"step\": 6")), HasSubstr("does not fit the data"));
+    EXPECT_THAT(complaint(with("\"yaw\"", "\"jaw\"")), HasSubstr("yaw"));
+}
+
+TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
+    TestFolder folder;
+    const auto path = folder.path() / "deep" / "a.isochron-session";
+    ExplorerState state;
+    SavedSession start = kept_of(state);
+    const interaction::StandingPlace head = start.head;
+    {
+        SessionKeeper keeper(path, start, false);
+        keeper.update(state, head, interaction::Seconds(31));
+        keeper.finish(state, head);
+        EXPECT_FALSE(std::filesystem::exists(path)) << "nothing has changed";
+        state.grid = true;
+        keeper.update(state, head, interaction::Seconds(32));
+        keeper.finish(state, head);
+        EXPECT_TRUE(back_from(path).grid);
+    }
+    state.step = 3;
+    SessionKeeper second(path, start, false);
+    second.finish(state, head);
+    EXPECT_EQ(back_from(path).step, 3u);
+    EXPECT_EQ(back_from(path.string() + ".before").step, 0u);
+}
+
+TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {
+    TestFolder folder;
+    const auto file = build_sphere(folder.path(), kSteps);
+    const auto context = stereo::make_context(stereo::ContextKind::egl, {.size = {256, 128}});
+    const auto path = folder.path() / "a.isochron-session";
+    Config config = small_config();
+    config.quality = interaction::QualityMode::quality;
+    const auto settled = [](Session& session) {
+        for (int frame = 1; frame < 3; ++frame)
+            session.frame(head_at_rest(frame / 60.0), {}, Waiting::for_cells);
+        return session.outputs().display().read_window().rgba;
+    };
+    std::vector<std::uint8_t> left;
+    {
+        Session session(config, file, *context);
+        Commands commands;
+        commands.isosurfaces = {
+            {{5.5, {0.2f, 0.7f, 0.9f}, 0.4f}, {9.25, {0.9f, 0.3f, 0.1f}, 1.0f}}};
+        commands.step = 4;
+        commands.room_from_physical = interaction::Similarity{
+            {-0.31, 0.87, -1.9}, glm::normalize(glm::dquat(0.9, 0.1, 0.3, -0.2)), 0.041};
+        commands.clip = interaction::ClipPlane{true, {16, 15, 15}, {1, 0, 0}};
+        commands.ruler = interaction::Ruler{{{10, 10, 10}, {20, 20, 12}}};
+        commands.mark = interaction::Mark{interaction::MarkedPoint{{12, 14, 16}, 4, 9.25}};
+        commands.grid = true;
+        session.frame(head_at_rest(0), commands, Waiting::for_cells);
+        left = settled(session);
+        SavedSession kept = kept_of(session.state());
+        save_session(path, kept);
+    }
+    Session session(config, file, *context);
+    const auto before = settled(session);
+    session.set_state(
+        state_of(read_session(path), session.state(), "0123456789abcdef", kSteps, "kept"));
+    EXPECT_NE(before, left);
+    EXPECT_EQ(settled(session), left);
+}
+
+} // namespace
+} // namespace isochron::app

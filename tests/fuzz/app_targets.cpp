@@ -1,0 +1,76 @@
+// Configurations, what they are imported from, and messages of a cluster.
+#include "tests/fuzz/targets.h"
+
+#include "app/cluster/cluster_messages.h"
+#include "app/config/check_config.h"
+#include "app/config/config.h"
+#include "app/config/display_config_text.h"
+#include "app/config/pvx_file.h"
+#include "app/config/toml_reader.h"
+
+#include <array>
+#include <string>
+
+namespace isochron::fuzz {
+namespace {
+
+void fuzz_toml(Bytes input) {
+    const std::string text(input.begin(), input.end());
+    try {
+        const app::Config config = app::parse_config(text, "fuzz.toml");
+        for (const app::ConfigProblem& problem : app::problems_of(config))
+            claim_one_line(app::line_of(problem, config));
+        app::describe(config);
+        app::emulation_for(config);
+        const app::Config again =
+            app::parse_config(app::display_config_text(config.installation), "again.toml");
+        claim(again.installation == config.installation, "an installation comes back as written");
+    } catch (const app::ConfigError& error) {
+        claim_one_line(error.what());
+        claim(std::string_view(error.what()).starts_with("fuzz.toml:"), "it names its file");
+    }
+}
+
+void fuzz_pvx(Bytes input) {
+    const std::string text(input.begin(), input.end());
+    try {
+        const app::PvxImport import = app::parse_pvx(text, "fuzz.pvx", {});
+        const std::string toml = app::display_config_text(import.installation);
+        app::problems_of(app::parse_config(toml, "fuzz.pvx"));
+    } catch (const app::ConfigError& error) {
+        claim_one_line(error.what());
+        claim(std::string_view(error.what()).starts_with("fuzz.pvx:"), "it names its file");
+    }
+}
+
+void fuzz_cluster(Bytes input) {
+    if (input.empty())
+        return;
+    const std::span<const std::byte> message = std::as_bytes(input.subspan(1));
+    const auto comes_back = [](const auto& value, auto decode) {
+        const app::MessageBytes bytes = app::encoded(value);
+        claim(decode(std::as_bytes(std::span(bytes))) == value, "a message comes back as sent");
+    };
+    try {
+        switch (input[0] % 3) {
+        case 0:
+            if (const auto order = app::decode_order(message))
+                comes_back(*order, [](auto bytes) { return *app::decode_order(bytes); });
+            break;
+        case 1: comes_back(app::decode_choice(message), app::decode_choice); break;
+        default: comes_back(app::decode_answer(message), app::decode_answer); break;
+        }
+    } catch (const interaction::Error& error) {
+        claim_one_line(error.what());
+    }
+}
+
+} // namespace
+
+std::span<const Target> app_targets() {
+    static constexpr std::array kTargets{Target{"toml", fuzz_toml}, Target{"pvx", fuzz_pvx},
+                                         Target{"cluster", fuzz_cluster}};
+    return kTargets;
+}
+
+} // namespace isochron::fuzz

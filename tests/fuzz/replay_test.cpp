@@ -1,0 +1,69 @@
+// Every input that once did harm, and every one that fuzzing starts from, does none.
+#include "tests/fuzz/targets.h"
+#include "tests/support/paths.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace isochron::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of(const char* kind, const Target& target) {
+    return fs::path(test_support::source_root()) / "tests/fuzz" / kind / std::string(target.name);
+}
+
+std::vector<Target> all_targets() {
+    std::vector<Target> all;
+    for (const auto& group : {volume_targets(), interaction_targets(), app_targets()})
+        all.insert(all.end(), group.begin(), group.end());
+    return all;
+}
+
+class FuzzInputs : public testing::TestWithParam<Target> {};
+
+TEST_P(FuzzInputs, DoesNoHarm) {
+    const Target& target = GetParam();
+    int count = 0;
+    for (const char* kind : {"corpus", "found"}) {
+        const fs::path folder = folder_of(kind, target);
+        if (!fs::exists(folder))
+            continue;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+            std::ifstream file(entry.path(), std::ios::binary);
+            const std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
+            SCOPED_TRACE(entry.path());
+            EXPECT_NO_THROW(
+                target.run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}));
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 0) << "tests/fuzz/corpus/" << target.name << " is empty";
+}
+
+TEST(FuzzFolders, EveryInputBelongsToATarget) {
+    for (const char* kind : {"corpus", "found"})
+        for (const fs::directory_entry& entry :
+             fs::directory_iterator(fs::path(test_support::source_root()) / "tests/fuzz" / kind)) {
+            const std::vector<Target> all = all_targets();
+            EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Target& target) {
+                return target.name == entry.path().filename().string();
+            })) << entry.path();
+        }
+}
+
+std::string name_of(const testing::TestParamInfo<Target>& info) {
+    return std::string(info.param.name);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FuzzInputs, testing::ValuesIn(all_targets()), name_of);
+
+} // namespace
+} // namespace isochron::fuzz

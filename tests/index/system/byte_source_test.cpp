@@ -1,0 +1,127 @@
+// A file that gets shorter, fails or is slow: one line of what reads it, and never a signal.
+#include "index/build/index_build.h"
+#include "index/error.h"
+#include "index/extraction/extractor.h"
+#include "index/file/index_file.h"
+#include "tests/support/memory_series.h"
+#include "tests/support/reader_fixtures.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
+namespace isochron::index {
+namespace {
+
+using testing::HasSubstr;
+
+/// A file that gives a few bytes at a time, late, and on some day not at all.
+class PoorSource final : public ByteSource {
+  public:
+    explicit PoorSource(const std::filesystem::path& path) : bytes_(read_file(path)) {}
+
+    const std::string& name() const override { return name_; }
+    std::uint64_t size() const override { return bytes_.size(); }
+
+    std::atomic<bool> fails{false};
+    std::atomic<std::uint64_t> most{~std::uint64_t{0}}; ///< bytes of one read
+    std::atomic<std::uint64_t> ends{~std::uint64_t{0}};
+    std::atomic<unsigned> late_ms{0};
+
+  protected:
+    std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
+        std::this_thread::sleep_for(std::chrono::milliseconds(late_ms));
+        if (fails)
+            throw Error(name_ + ": cannot be read: Input/output error");
+        const std::uint64_t end = std::min<std::uint64_t>(bytes_.size(), ends);
+        const std::uint64_t left = offset < end ? end - offset : 0;
+        const std::size_t count = std::min({left, std::uint64_t{out.size()}, most.load()});
+        std::memcpy(out.data(), bytes_.data() + offset, count);
+        return count;
+    }
+
+  private:
+    std::string name_ = "poor.isochron", bytes_;
+};
+
+class ByteSourceTest : public testing::Test {
+  protected:
+    ByteSourceTest() {
+        MemorySeries series(field_.view());
+        build_index(series, path_, {.with_tree = true});
+        auto source = std::make_unique<PoorSource>(path_);
+        source_ = source.get();
+        file_ = IndexFile::open(std::move(source), 1);
+    }
+
+    test_support::TestFolder folder_;
+    std::filesystem::path path_ = folder_.path() / "a.isochron";
+    TestField field_{{40, 35, 37}, 3, ValueType::u8, moving_sphere};
+    PoorSource* source_ = nullptr; ///< of the file
+    std::shared_ptr<const IndexFile> file_;
+};
+
+TEST_F(ByteSourceTest, ReadsThatComeInPiecesGiveTheSame) {
+    source_->most = 7;
+    EXPECT_EQ(search_in(file_)({1, 100.0}, {})->ids, BruteForce(field_.view(), 1).active(100.0));
+    EXPECT_NO_THROW(file_->verify());
+}
+
+TEST_F(ByteSourceTest, AFailureIsOneLineOfEveryMethodAndTheNextSearchIsRight) {
+    for (const SearchMethod method :
+         {SearchMethod::cells, SearchMethod::bricks, SearchMethod::tree, SearchMethod::scan}) {
+        const Search search = search_in(file_, method);
+        source_->fails = true;
+        try {
+            search({2, 100.0}, {});
+            FAIL() << "no error";
+        } catch (const Error& error) {
+            EXPECT_STREQ(error.what(), "poor.isochron: cannot be read: Input/output error");
+        }
+        source_->fails = false;
+        EXPECT_EQ(search({2, 100.0}, {})->ids, BruteForce(field_.view(), 2).active(100.0));
+    }
+}
+
+TEST_F(ByteSourceTest, AFileThatIsMadeShorterIsOneLineAndTheLastPictureStays) {
+    const auto file = IndexFile::open(path_, 1);
+    Extractor extractor(extract_from(file));
+    extractor.request({.query = {0, {100.0}}, .next_step = {}});
+    extractor.wait();
+    const ExtractionPtr shown = extractor.newest();
+    ASSERT_NE(shown, nullptr);
+    std::filesystem::resize_file(path_, 5000);
+    extractor.request({.query = {1, {120.0}}, .next_step = {}});
+    extractor.wait();
+    ASSERT_TRUE(extractor.failure());
+    EXPECT_THAT(*extractor.failure(), HasSubstr("a.isochron: truncated: nothing at byte "));
+    EXPECT_EQ(extractor.newest(), shown);
+}
+
+TEST_F(ByteSourceTest, ASlowDiskHoldsNobodyUpWhoAsks) {
+    source_->late_ms = 20;
+    Extractor extractor(extract_from(file_));
+    const auto started = std::chrono::steady_clock::now();
+    extractor.request({.query = {0, {100.0}}, .next_step = {}});
+    extractor.newest();
+    EXPECT_TRUE(extractor.busy());
+    source_->late_ms = 0;
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->surfaces[0].ids, BruteForce(field_.view(), 0).active(100.0));
+    EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::minutes(1));
+}
+
+TEST_F(ByteSourceTest, VerifyNoticesThatAnOpenFileHasBecomeShorter) {
+    for (const std::uint64_t end : {std::uint64_t{0}, std::uint64_t{100}, std::uint64_t{4096},
+                                    source_->size() / 4, source_->size() / 2}) {
+        source_->ends = end;
+        EXPECT_THROW(file_->verify(), Error) << end;
+    }
+}
+
+} // namespace
+} // namespace isochron::index

@@ -65,6 +65,8 @@ class Cluster final : public index::Team {
     /// What rank 0 tells, by all others.
     std::vector<std::byte> hear() { return await(0); }
 
+    /// The name of the machine that a process runs on.
+    const std::string& host_of(unsigned rank) const { return hosts_[rank]; }
     /// `process 3 on wall-left`.
     std::string name_of(unsigned rank) const;
 

@@ -1,11 +1,14 @@
 // A command run by all processes of a cluster's job.
 #include "app/commands/cluster_job.h"
 
+#include "app/cluster/processor_shares.h"
 #include "app/cluster/shared_frames.h"
 #include "app/commands/subcommands.h"
 #include "app/config/display_config_text.h"
 #include "app/version.h"
 #include "interaction/recording/commands_json.h"
+#include "render/gl/driver.h"
+#include "stereo/context/raster_threads.h"
 #include "stereo/nodes.h"
 
 #include <fmt/format.h>
@@ -65,6 +68,23 @@ FactDifference first_difference(const std::string& a, const std::string& b) {
     return {path.substr(1), value(here), value(there)};
 }
 
+/// Shows each frame that rank 0 orders, until there are no more.
+template <typename Shown>
+void each_order(Shown& shown, const FrameDone& done,
+                const std::function<void(const FrameOrder&, const Latch&)>& show) {
+    for (std::size_t number = 0; auto order = shown.frames().next(); ++number) {
+        shown.outputs().windows().poll_events();
+        show(
+            *order, order->latched.devices.empty() ? Latch{} : [&order] { return order->latched; });
+        if (done)
+            done(number, {std::move(order->input),
+                          std::move(order->commands),
+                          {},
+                          {},
+                          std::move(order->latched)});
+    }
+}
+
 } // namespace
 
 void ClusterJob::together(const std::function<void()>& part) {
@@ -117,19 +137,42 @@ void ClusterJob::share_frames(Session& session) {
         session.share_frames(std::make_unique<SharedFrames>(cluster_));
 }
 
+void ClusterJob::share_frames(PatternShow& show) {
+    if (size() > 1)
+        show.share_frames(std::make_unique<SharedFrames>(cluster_));
+}
+
 void ClusterJob::follow(Session& session, const FrameDone& done) {
-    for (std::size_t number = 0; auto order = session.frames().next(); ++number) {
-        session.outputs().windows().poll_events();
-        session.frame(
-            order->input, order->commands, order->waiting,
-            order->latched.devices.empty() ? Latch{} : [&order] { return order->latched; });
-        if (done)
-            done(number, {std::move(order->input),
-                          std::move(order->commands),
-                          {},
-                          {},
-                          std::move(order->latched)});
+    each_order(session, done, [&](const FrameOrder& order, const Latch& latch) {
+        session.frame(order.input, order.commands, order.waiting, latch);
+    });
+}
+
+void ClusterJob::follow(PatternShow& show, const FrameDone& done) {
+    each_order(show, done, [&](const FrameOrder& order, const Latch& latch) {
+        show.frame(order.input, order.commands, latch);
+    });
+}
+
+void ClusterJob::tell_shared_processors(const render::Gl& gl) {
+    if (size() == 1)
+        return;
+    const stereo::RasterThreads mine = stereo::raster_threads();
+    // Without a thread of its own, the one that gives the commands draws.
+    const std::size_t threads =
+        render::draws_in_software(gl) ? std::max<std::size_t>(mine.threads, 1) : 0;
+    const std::string text = json{{"processors", mine.processors}, {"threads", threads}}.dump();
+    std::vector<ProcessorShare> shares;
+    for (const auto& told : cluster_.gather(std::as_bytes(std::span(text)))) {
+        const json share = json::parse(reinterpret_cast<const char*>(told.data()),
+                                       reinterpret_cast<const char*>(told.data()) + told.size());
+        shares.push_back({cluster_.host_of(static_cast<unsigned>(shares.size())),
+                          share.at("processors").get<std::vector<int>>(),
+                          share.at("threads").get<std::size_t>()});
     }
+    if (leads())
+        for (const std::string& line : shared_processors(shares))
+            fmt::print(stderr, "isochron: note: {}\n", line);
 }
 
 void ClusterJob::finish() {
@@ -155,11 +198,16 @@ void prepare_walls(Config& config, const ClusterJob& job, bool emulated) {
     stereo::add_console(config.installation, job.size());
 }
 
-Facts facts_of(const Config& config, const index::IndexFile& file) {
+Facts facts_of(const Config& config) {
     return {{"program", std::string(kProgram)},
             {"configuration", config.text},
-            {"installation", display_config_text(config.installation)},
-            {"data set", fmt::format("content hash {:016x}", file.content_hash())}};
+            {"installation", display_config_text(config.installation)}};
+}
+
+Facts facts_of(const Config& config, const index::IndexFile& file) {
+    Facts facts = facts_of(config);
+    facts.emplace_back("data set", fmt::format("content hash {:016x}", file.content_hash()));
+    return facts;
 }
 
 Facts start_fact(const Session& session) {

@@ -10,6 +10,7 @@
 // A process that was started without mpirun is a job of one, for which none of this does anything.
 #pragma once
 
+#include "app/session/pattern_show.h"
 #include "app/session/replay.h"
 #include "app/session/session.h"
 #include "stereo/cluster.h"
@@ -43,8 +44,14 @@ class ClusterJob {
     /// Shares the session's frames among the processes; the job outlives the session. With one
     /// process there is nothing to share.
     void share_frames(Session& session);
+    void share_frames(PatternShow& show);
     /// Takes part in the frames of rank 0 until it ends them.
     void follow(Session& session, const FrameDone& done = {});
+    void follow(PatternShow& show, const FrameDone& done = {});
+
+    /// Says once where processes on one machine draw in software and have fewer processors there
+    /// than threads that draw. Called by all.
+    void tell_shared_processors(const render::Gl& gl);
 
     /// Returns when all have come so far: then they may leave.
     void finish();
@@ -65,6 +72,7 @@ class ClusterJob {
 void prepare_walls(Config& config, const ClusterJob& job, bool emulated);
 
 /// What must be alike before a session can start, and then its start.
+Facts facts_of(const Config& config);
 Facts facts_of(const Config& config, const index::IndexFile& file);
 Facts start_fact(const Session& session);
 

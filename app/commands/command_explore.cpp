@@ -1,6 +1,7 @@
 // `isochron explore`: the live program, in a window.
 #include "app/commands/cancel.h"
 #include "app/commands/cluster_job.h"
+#include "app/commands/explore_options.h"
 #include "app/commands/file_patterns.h"
 #include "app/commands/kept_session.h"
 #include "app/commands/open_index.h"
@@ -25,20 +26,6 @@
 namespace isochron::app {
 namespace {
 
-struct ExploreOptions {
-    std::optional<std::string> data;
-    std::string config = "desktop";
-    std::optional<std::string> check_config, context, stereo, quality, footprint;
-    std::optional<std::string> record, report;
-    std::optional<double> isovalue, seconds;
-    std::optional<std::uint32_t> step;
-    std::vector<int> size;
-    std::string screenshots = ".";
-    std::optional<std::string> session;
-    bool force = false, resume = false;
-    bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
-};
-
 Config configure(const ExploreOptions& options) {
     Config config = read_config(options.config);
     if (options.context)
@@ -53,6 +40,7 @@ Config configure(const ExploreOptions& options) {
             window.fullscreen = false;
         }
     config.openxr.enabled = config.openxr.enabled && !options.emulate;
+    config.openxr.verbose = options.verbose;
     const bool in_headset =
         config.openxr.enabled && config.context == stereo::ContextKind::egl; // shows without window
     if (config.context != stereo::ContextKind::glfw && !in_headset)
@@ -186,21 +174,37 @@ void print_status(const LiveLoop& live) {
 }
 
 /// Devices and windows as in a session, the pattern in the place of data.
-void show_test_pattern(const ExploreOptions& options, const ClusterJob& job) {
-    if (options.record || options.report)
-        throw UsageError("--test-pattern does not go with --record or --report");
-    if (job.size() > 1)
-        throw UsageError("--test-pattern is shown by one process, without mpirun");
-    const Config config = configure(options);
-    warn(config);
+void show_test_pattern(const ExploreOptions& options, ClusterJob& job) {
+    Config config;
     interaction::CompositeInput trackers;
-    open_trackers(config, trackers);
-    PatternShow show(config, open(options, config, job, nullptr));
+    std::optional<PatternShow> opened;
+    job.together([&] {
+        if (options.record || options.report)
+            throw UsageError("--test-pattern does not go with --record or --report");
+        config = configure(options);
+        prepare_walls(config, job, options.emulate);
+        if (!job.leads())
+            return;
+        warn(config);
+        open_trackers(config, trackers);
+    });
+    job.require_same(facts_of(config));
+    job.set_limits(config.cluster.limits);
+    job.together([&] { opened.emplace(config, open(options, config, job, nullptr)); });
+    PatternShow& show = *opened;
     if (options.stereo)
         show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
+    job.require_same({{"stereo mode", std::string(stereo::name_of(show.stereo()))}});
+    job.tell_shared_processors(show.outputs().gl());
+    job.share_frames(show);
     LiveLoop live(config, std::move(trackers), live_options(options));
-    live.run(show);
+    if (job.leads())
+        live.run(show);
+    else
+        job.follow(show);
+    show.frames().end();
     print_status(live);
+    job.finish();
 }
 
 /// Says what a configuration holds. @return whether that was all that was asked for
@@ -223,7 +227,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     // A signal ends the session as its user would: what was recorded gets its name.
     const CancelOnSignal signals;
     if (options.test_pattern)
-        return job.together([&] { show_test_pattern(options, job); });
+        return show_test_pattern(options, job);
     Config config;
     std::shared_ptr<const index::IndexFile> file;
     interaction::CompositeInput trackers;
@@ -266,6 +270,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     });
     Session& session = *opened;
     job.require_same(start_fact(session));
+    job.tell_shared_processors(session.outputs().gl());
     job.share_frames(session);
     LiveLoop live(config, std::move(trackers), live_options(options), session.outputs().headset());
     session.set_clock(live.clock());
@@ -292,76 +297,12 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     signals.check();
 }
 
-std::string footer() {
-    std::string text = "Mouse and keyboard:\n";
-    for (const std::string& line : interaction::Controls::documentation())
-        text += "  " + line + "\n";
-    text += "\nWith --emulate:\n";
-    for (const std::string& line : RoomCamera::documentation())
-        text += "  " + line + "\n";
-    text +=
-        "\nIn every process of a job (mpirun -n N isochron explore ...), each opens the windows of "
-        "its node;\nthe first one reads the devices. docs/INSTALLATIONS.md tells more.\n";
-    text += "\nExit status: 0 done, 1 bad input, 2 bad usage.";
-    return text;
-}
-
 } // namespace
 
 void add_explore(Command& program) {
     auto options = std::make_shared<ExploreOptions>();
     Command command = program.subcommand("explore", "Explore an index in a window, live.");
-    command.option("file", options->data, "Index made by `isochron build`");
-    command
-        .option("--config", options->config,
-                fmt::format("TOML file, or the name of a shipped one: {}",
-                            fmt::join(shipped_config_names(), ", ")))
-        .shows_default();
-    command.option("--check-config", options->check_config,
-                   "List the windows, screens, viewers and devices of this configuration "
-                   "and what is wrong with it, and leave");
-    command.flag("--emulate", options->emulate,
-                 "Show the whole installation in one window: the room from outside, with what "
-                 "every wall shows");
-    command
-        .option("--context", options->context,
-                "GL context: glfw (a window), or egl where a headset is the only display")
-        .one_of({"glfw", "egl", "osmesa"});
-    command.option("--stereo", options->stereo, "Stereo mode to start in")
-        .one_of(stereo_mode_names());
-    command.option("--quality", options->quality, "auto, fast or quality")
-        .one_of(interaction::all_names<interaction::QualityMode>());
-    command
-        .option("--footprint", options->footprint,
-                "What a settled picture is drawn with: auto (the best that fits the frame "
-                "budget), or always gaussian or surface")
-        .one_of(settled_footprint_names());
-    command.option("--size", options->size, "Size of every window, or of the room's, in pixels")
-        .values(2)
-        .between(16, 16384);
-    command.option("--isovalue", options->isovalue, "Isovalue to start with, in data units");
-    command.option("--step", options->step, "Step to start at, from 0");
-    command.option("--record", options->record, "Record the session to this file (JSON Lines)");
-    command.flag("--force", options->force, "Let --record replace a recording");
-    command.option("--session", options->session,
-                   "Keep the session in this file (NAME.isochron-session) instead of the user's "
-                   "folder for such files; saved every 30 s and at the end");
-    command.flag("--resume", options->resume,
-                 "Go on where the last session on these data ended, or that of --session");
-    command.option("--report", options->report,
-                   "Write the time of every frame's stages to this JSON file");
-    command
-        .option("--screenshots", options->screenshots,
-                "Folder for screenshots (key P); made where it is missing")
-        .shows_default();
-    command.option("--seconds", options->seconds, "Leave after this many seconds").positive();
-    command.flag("--list-devices", options->list_devices,
-                 "Say which devices the configuration names, and leave; needs no index");
-    command.flag("--test-pattern", options->test_pattern,
-                 "Show a pattern instead of data: each eye's letter, each wall's name, a cross "
-                 "at a known depth, the axes of every device; needs no index");
-    command.flag("--no-panel", options->no_panel, "Start with the panel hidden (Tab shows it)");
-    command.footer(footer());
+    add_explore_options(command, *options);
     command.on_run([options] {
         if (!only_describes(*options))
             run_in_cluster([&](ClusterJob& job) { explore(*options, job); });

@@ -102,29 +102,45 @@ void write_pictures(Outputs& outputs, const Options& options, const PictureNames
 }
 
 /// The recorded heads and hands before the test pattern; needs no data.
-void replay_test_pattern(const Options& options, const ClusterJob& job) {
-    check(options);
-    if (job.size() > 1)
-        throw UsageError("--test-pattern is shown by one process, without mpirun");
-    const interaction::Recording recording = read_recording(options.recording);
-    const Config config = config_of(options, recording.header);
-    if (options.out)
-        make_folder(*options.out);
-    PatternShow show(config, windows_of(options, config, recording.header, job));
-    show.obey(recording.header.start);
-    const PictureNames names = picture_names(config.installation);
-    std::vector<fs::path> written;
-    for (std::size_t number = 0; number < recording.frames.size(); ++number) {
-        const interaction::RecordedFrame& frame = recording.frames[number];
-        show.obey(frame.commands);
+void replay_test_pattern(const Options& options, ClusterJob& job) {
+    interaction::Recording recording;
+    Config config;
+    PictureNames names;
+    std::optional<PatternShow> opened;
+    job.together([&] {
+        check(options);
+        recording = read_recording(options.recording);
+        config = config_of(options, recording.header);
+        names = picture_names(config.installation);
+        prepare_walls(config, job, options.emulate);
+        if (options.out)
+            make_folder(*options.out);
+    });
+    job.require_same(facts_of(config));
+    job.set_limits(config.cluster.limits);
+    job.together([&] {
+        opened.emplace(config, windows_of(options, config, recording.header, job));
+        opened->obey(recording.header.start);
         if (options.stereo)
-            show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
-        show.frame(frame.input, [&frame] { return frame.latched; });
+            opened->set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
+    });
+    PatternShow& show = *opened;
+    job.require_same({{"stereo mode", std::string(stereo::name_of(show.stereo()))}});
+    job.tell_shared_processors(show.outputs().gl());
+    job.share_frames(show);
+    std::vector<fs::path> written;
+    const auto done = [&](std::size_t number, const interaction::RecordedFrame& frame) {
         write_pictures(show.outputs(), options, names, number, frame, written);
-    }
+    };
+    if (job.leads())
+        replay_pattern(show, recording, replay_options(options), done);
+    else
+        job.follow(show, done);
+    show.frames().end();
     show.outputs().pictures().finish();
     for (const fs::path& path : written)
         fmt::print("wrote {}\n", path.string());
+    job.finish();
 }
 
 /// Everything that is read before the first frame.
@@ -175,7 +191,7 @@ std::vector<std::string> show(Session& session, const Prepared& all, bool live, 
 
 void replay(const Options& options, ClusterJob& job) {
     if (options.test_pattern)
-        return job.together([&] { replay_test_pattern(options, job); });
+        return replay_test_pattern(options, job);
     std::optional<Prepared> prepared;
     job.together([&] { prepared = prepare(options, job); });
     const Prepared& all = *prepared;
@@ -192,6 +208,7 @@ void replay(const Options& options, ClusterJob& job) {
     });
     Session& session = *opened;
     job.require_same(start_fact(session));
+    job.tell_shared_processors(session.outputs().gl());
     job.share_frames(session);
 
     std::vector<fs::path> written;

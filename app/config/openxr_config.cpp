@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 namespace isochron::app {
 namespace {
@@ -30,7 +31,19 @@ constexpr std::array kMirrors{
     Word<Mirror>{Mirror::left, "left"}, Word<Mirror>{Mirror::right, "right"},
     Word<Mirror>{Mirror::both, "both"}, Word<Mirror>{Mirror::none, "none"}};
 constexpr std::array kHands{Word<bool>{false, "right"}, Word<bool>{true, "left"}};
-constexpr std::array kFallbacks{Word<bool>{false, "none"}, Word<bool>{true, "window"}};
+constexpr std::array kFallbacks{Word<WithoutRuntime>{WithoutRuntime::fail, "none"},
+                                Word<WithoutRuntime>{WithoutRuntime::window, "window"},
+                                Word<WithoutRuntime>{WithoutRuntime::wait, "wait"}};
+
+std::string in_words(const OpenXrConfig& config) {
+    switch (config.fallback) {
+    case WithoutRuntime::fail: break;
+    case WithoutRuntime::window: return "the windows as configured";
+    case WithoutRuntime::wait:
+        return fmt::format("looked for every {:g} s", config.options.retry.count());
+    }
+    return "an error";
+}
 
 template <typename Words, typename Value>
 void read_word(TomlReader& reader, const char* key, const Words& words, Value& into) {
@@ -76,7 +89,7 @@ std::vector<std::string> describe_openxr(const OpenXrConfig& config) {
                         options.scale, options.depth ? ", with depth where it is taken" : ""),
             fmt::format("  mirror {}, wand in the {} hand, without a runtime: {}",
                         name_in(kMirrors, config.mirror), name_in(kHands, options.left_handed),
-                        config.fallback ? "the windows as configured" : "an error"),
+                        in_words(config)),
             fmt::format("  devices: head, wand, wand2; keys of their buttons{}",
                         built_with_openxr() ? "" : "; this program was built without OpenXR")};
 }
@@ -100,12 +113,18 @@ static std::unique_ptr<stereo::Headset> open_runtime(const stereo::OpenXrOptions
 std::unique_ptr<stereo::Headset> open_headset(const OpenXrConfig& config) {
     if (!config.enabled)
         return nullptr;
+    // What a missing runtime means is said here, in one line; the loader would add five.
+    if (!config.verbose)
+        setenv("XR_LOADER_DEBUG", "none", 0); // NOLINT(concurrency-mt-unsafe): before threads
+    stereo::OpenXrOptions options = config.options;
+    options.wait = config.fallback == WithoutRuntime::wait;
     try {
-        return open_runtime(config.options);
+        return open_runtime(options);
     } catch (const render::Error& error) {
-        if (!config.fallback)
-            throw render::Error(fmt::format(
-                "{}; openxr.fallback = \"window\" shows the windows without one", error.what()));
+        if (config.fallback != WithoutRuntime::window)
+            throw render::Error(fmt::format("{}; openxr.fallback = \"wait\" looks for one until it "
+                                            "is there, \"window\" does without",
+                                            error.what()));
         fmt::print(stderr, "isochron: warning: {}; the windows are shown instead\n", error.what());
         return nullptr;
     }

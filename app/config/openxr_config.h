@@ -5,15 +5,24 @@
 #include "stereo/headset_display.h"
 #include "stereo/openxr/openxr_options.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace isochron::app {
 
+/// What is done at the start without a runtime.
+enum class WithoutRuntime : std::uint8_t {
+    fail,
+    window, ///< the windows are shown as configured, and no headset is looked for
+    wait    ///< the windows show the scene until there is one
+};
+
 struct OpenXrConfig {
     bool enabled = false;
-    bool fallback = false; ///< without a runtime the windows are shown as configured
+    WithoutRuntime fallback = WithoutRuntime::fail;
+    bool verbose = false; ///< the OpenXR loader's own messages go to stderr, too
     stereo::OpenXrOptions options;
     stereo::Mirror mirror = stereo::Mirror::left;
 };

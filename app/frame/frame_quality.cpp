@@ -12,17 +12,27 @@ Milliseconds period_of(const Config& config, std::optional<double> refresh_rate)
     return Milliseconds(1e3 / std::min(refresh_rate.value_or(limit), limit));
 }
 
-Milliseconds budget_of(const Config& config, Milliseconds period) {
-    return config.frame_budget_ms > 0 ? Milliseconds(config.frame_budget_ms) : period;
-}
-
 } // namespace
 
 FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
                            std::optional<double> refresh_rate)
-    : settled_(config.settled_footprint), period_(period_of(config, refresh_rate)),
-      steady_(budget_of(config, period_)),
-      still_(std::max(steady_.budget(), Milliseconds(config.still_budget_ms))), meter_(gl) {}
+    : settled_(config.settled_footprint), wanted_budget_(config.frame_budget_ms),
+      still_budget_(config.still_budget_ms), configured_period_(period_of(config, refresh_rate)),
+      period_(configured_period_), steady_(wanted_budget_.count() > 0 ? wanted_budget_ : period_),
+      still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
+
+void FrameQuality::set_headset_period(std::optional<Milliseconds> period) {
+    // Runtimes tell their period to the nanosecond, not always the same one.
+    constexpr double kSame = 0.02;
+    const Milliseconds wanted = period.value_or(configured_period_);
+    if (!(wanted.count() > 0) || std::abs(wanted / period_ - 1) < kSame)
+        return;
+    period_ = wanted;
+    if (wanted_budget_.count() > 0)
+        return;
+    steady_ = QualityController(period_);
+    still_ = QualityController(std::max(period_, still_budget_));
+}
 
 std::vector<DrawSample> FrameQuality::collect(FrameLog& log) {
     std::vector<DrawSample> samples = meter_.finished();

@@ -36,6 +36,10 @@ class FrameQuality {
     /// @param refresh_rate [Hz] of the display, if it is known
     FrameQuality(const render::Gl& gl, const Config& config, std::optional<double> refresh_rate);
 
+    /// A headset's period counts in the place of display and configuration while it paces the frames.
+    /// @param period empty: it does not
+    void set_headset_period(std::optional<Milliseconds> period);
+
     /// Frames whose times are known by now, each once; completes their reports.
     std::vector<DrawSample> collect(FrameLog& log);
     /// Learns from frames, in their order.
@@ -65,7 +69,9 @@ class FrameQuality {
 
   private:
     const std::optional<render::Footprint> settled_;
-    const Milliseconds period_; ///< of frames, as display and configuration allow
+    const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: as the period
+    const Milliseconds configured_period_;            ///< as display and configuration allow
+    Milliseconds period_;                             ///< of frames
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
     DrawMeter meter_;

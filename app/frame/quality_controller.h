@@ -113,7 +113,7 @@ class QualityController {
     bool decided(const Candidate& candidate, const DrawLoad& load) const;
     void fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const;
 
-    const Milliseconds budget_;
+    Milliseconds budget_;
     std::array<Candidate, render::kFootprints> candidates_;
     render::Footprint current_ = render::Footprint::quad;
     bool budgeted_ = false; ///< current_ was chosen by the budget

@@ -16,7 +16,9 @@ Outputs::Outputs(const Config& config, stereo::Windows windows,
                  std::unique_ptr<stereo::Headset> headset)
     : config_(config), windows_(std::move(windows)),
       gl_(windows_.drawing().loader(), config_.drawn_by), in_flight_(gl_),
-      displays_(headset ? std::deque<stereo::Display>() : make_displays(gl_, windows_, config_)),
+      displays_(headset && config_.openxr.options.windowless
+                    ? std::deque<stereo::Display>()
+                    : make_displays(gl_, windows_, config_)),
       headset_(std::move(headset)), stereo_modes_(live_stereo_modes(windows_)) {
     if (headset_) {
         headset_display_.emplace(gl_, windows_.drawing(), windows_[0], config_.openxr.mirror,
@@ -46,13 +48,13 @@ std::vector<stereo::HeadsetEye> Outputs::headset_eyes() const {
 
 std::optional<interaction::Pose> Outputs::ray_at(const interaction::MouseMoveEvent& cursor,
                                                  std::span<const stereo::Viewpoint> viewers) const {
-    if (room_ || headset_ || cursor.window >= displays_.size())
+    if (room_ || !shows_windows() || cursor.window >= displays_.size())
         return std::nullopt;
     return displays_[cursor.window].ray_at(viewers, {cursor.x, 1.0f - cursor.y});
 }
 
 void Outputs::leave_free(int pixels) {
-    if (room_ || headset_ || displays_.empty())
+    if (room_ || displays_.empty())
         return;
     stereo::Display& first = displays_.front();
     const bool adapts =
@@ -95,28 +97,31 @@ DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& ove
         }
         drawn_.scene(place, views);
     };
-    for (std::size_t i = 0; i < displays_.size(); ++i)
+    const bool in_windows = shows_windows();
+    for (std::size_t i = 0; in_windows && i < displays_.size(); ++i)
         draw_window(displays_[i], counted, overlay_of(i, overlay));
-    if (headset_) {
+    if (headset_)
         headset_display_->draw(audience.eyes, [&](std::span<const render::View> views) {
             counted(ScenePlace{}, views);
         });
-        show_in_headset(false, overlay);
-    }
+    end_headset_frame(false);
+    if (!in_windows)
+        headset_display_->mirror(overlay);
     return of_cell;
 }
 
 void Outputs::draw_again(const Audience& audience, const Overlay& overlay) {
     drawn_.audience = audience;
+    end_headset_frame(true);
+    if (!shows_windows())
+        return headset_display_->mirror(overlay);
     for (std::size_t i = 0; i < displays_.size(); ++i)
         displays_[i].draw_overlay_again(overlay_of(i, overlay));
-    if (headset_)
-        show_in_headset(true, overlay);
 }
 
-void Outputs::show_in_headset(bool again, const Overlay& overlay) {
-    headset_display_->submit(*headset_, drawn_.audience.eyes, again);
-    headset_display_->mirror(overlay);
+void Outputs::end_headset_frame(bool again) {
+    if (headset_)
+        headset_display_->submit(*headset_, drawn_.audience.eyes, again);
 }
 
 void Outputs::draw_room(const interaction::InputState& input, const Overlay& overlay) {
@@ -130,12 +135,12 @@ void Outputs::draw_room(const interaction::InputState& input, const Overlay& ove
 void Outputs::present() {
     render::expect_context(gl_);
     in_flight_.end_frame();
+    if (!shows_windows())
+        return headset_display_->present();
     for (stereo::Display& display : displays_)
         display.present();
     if (room_)
         room_->present();
-    if (headset_)
-        headset_display_->present();
 }
 
 KeptPictures Outputs::kept_pictures() {
@@ -165,7 +170,7 @@ void Outputs::take_screenshots() {
     const std::string stem = fmt::format("isochron_{:04}", ++screenshots_taken_);
     if (room_)
         return write_image(kept_pictures().of_room(), screenshot_folder_ / (stem + ".png"));
-    if (headset_)
+    if (!shows_windows())
         return write_image(headset_picture(), screenshot_folder_ / (stem + ".png"));
     const PictureNames names = picture_names(config_.installation);
     kept_pictures().each([&](std::size_t i, const stereo::Display& display) {

@@ -36,6 +36,7 @@ struct Audience {
     std::optional<interaction::Pose> wand;  ///< where it is shown
     std::optional<ShownPanel> panel;        ///< that stands in the room
     stereo::StereoMode stereo{};            ///< chosen live
+    bool in_windows = true; ///< false: a headset shows them, and the first window mirrors it
     bool operator==(const Audience&) const = default;
 };
 
@@ -69,8 +70,8 @@ class Outputs {
     /// Names of the modes that a key goes through.
     const std::vector<std::string>& stereo_modes() const { return stereo_modes_; }
 
-    /// What a window of this process shows; `windows().number(i)` tells which it is. There is none
-    /// beside a headset.
+    /// What a window of this process shows; `windows().number(i)` tells which it is. Beside a headset
+    /// windows show it while the headset does not; there is none where it is the only display.
     const stereo::Display& display(std::size_t window = 0) const { return displays_[window]; }
     std::size_t displays() const { return displays_.size(); }
     /// The room of an emulated installation; null where its windows are real.
@@ -83,8 +84,15 @@ class Outputs {
     }
     /// Where a headset's eyes will be; empty where there is none, or when it wants no picture.
     std::vector<stereo::HeadsetEye> headset_eyes() const;
-    /// False while a headset wants no picture.
-    bool want(const Audience& audience) const { return !headset_ || !audience.eyes.empty(); }
+    /// False while a headset that is shown wants no picture.
+    bool want(const Audience& audience) const {
+        return !headset_ || !audience.eyes.empty() || shows_windows(audience);
+    }
+    /// Whether the windows show what somebody sees, and no headset's mirror.
+    bool shows_windows(const Audience& audience) const {
+        return !headset_ || (audience.in_windows && !displays_.empty());
+    }
+    bool shows_windows() const { return shows_windows(drawn_.audience); } ///< in the last frame
 
     /// The eye's ray under the cursor in a window as drawn last; nothing in a headset or an
     /// emulated room.
@@ -129,7 +137,7 @@ class Outputs {
     stereo::StereoMode mode_in(const stereo::Window& window) const;
     Overlay overlay_of(std::size_t window, const Overlay& overlay) const;
     void draw_window(stereo::Display& display, const Scene& scene, const Overlay& overlay) const;
-    void show_in_headset(bool again, const Overlay& overlay);
+    void end_headset_frame(bool again);
     render::Image headset_picture();
 
     const Config& config_;

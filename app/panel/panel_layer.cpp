@@ -253,7 +253,7 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if (std::exchange(messages_, model.messages) != model.messages)
         said_ = time;
     if (model.place == PanelPlace::over)
-        message_window(model.message, time - said_);
+        message_window(model.standing, model.message, time - said_);
     ImGui::Render();
     return commands;
 }

@@ -34,6 +34,7 @@ struct PanelModel {
     std::string failure;                      ///< of the worker; empty when all is well
     std::string message;                      ///< newest note, such as a saved screenshot
     std::size_t messages = 0;                 ///< how many there were
+    std::string standing;                     ///< stands in the picture for as long as it is true
     const std::vector<std::string>& controls; ///< one line per key
     PanelPlace place = PanelPlace::over;
     const interaction::Commands* undo = nullptr; ///< null: there is nothing to undo

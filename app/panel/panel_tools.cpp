@@ -79,9 +79,11 @@ void tools_section(const PanelModel& model, Commands& commands) {
     }
 }
 
-void message_window(const std::string& message, interaction::Seconds age) {
+void message_window(const std::string& standing, const std::string& message,
+                    interaction::Seconds age) {
     constexpr interaction::Seconds kShown{4.0};
-    if (message.empty() || age > kShown)
+    const bool fresh = !message.empty() && age <= kShown;
+    if (standing.empty() && !fresh)
         return;
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({picture.x / 2, picture.y - 12.0f}, ImGuiCond_Always, {0.5f, 1.0f});
@@ -90,7 +92,11 @@ void message_window(const std::string& message, interaction::Seconds age) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    ImGui::TextUnformatted(message.c_str());
+    ImGui::PushTextWrapPos(0.9f * picture.x);
+    for (const std::string& line : {standing, fresh ? message : std::string()})
+        if (!line.empty())
+            ImGui::TextUnformatted(line.c_str());
+    ImGui::PopTextWrapPos();
     ImGui::End();
 }
 

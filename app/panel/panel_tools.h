@@ -13,9 +13,10 @@ namespace isochron::app {
 void history_section(const PanelModel& model, interaction::Commands& commands);
 /// The tools of mouse and hands, and what they have made.
 void tools_section(const PanelModel& model, interaction::Commands& commands);
-/// The newest message, for a while, at the bottom of the picture.
-/// @param age of the message
-void message_window(const std::string& message, interaction::Seconds age);
+/// What stands in the picture as long as it is true, and the newest message for a while, at its
+/// bottom. @param age of the message
+void message_window(const std::string& standing, const std::string& message,
+                    interaction::Seconds age);
 /// The question whether to leave, in the middle of the picture.
 void leaving_window(const PanelModel& model, interaction::Commands& commands);
 

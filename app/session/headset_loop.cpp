@@ -32,7 +32,9 @@ bool HeadsetLoop::begin_frame(interaction::Seconds now) {
         return false;
     state_ = headset_->update(now);
     tell_changes();
-    return headset_->begin_frame(now).has_value();
+    const auto frame = headset_->begin_frame(now);
+    period_ = frame ? std::optional(frame->period) : std::nullopt;
+    return frame.has_value();
 }
 
 interaction::InputState HeadsetLoop::with_devices(interaction::InputState others,

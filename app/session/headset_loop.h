@@ -4,6 +4,7 @@
 #include "app/session/haptics.h"
 #include "stereo/headset.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ class HeadsetLoop {
     /// is told on stderr, a line for each change.
     /// @return whether the headset has paced the program
     bool begin_frame(interaction::Seconds now);
+    /// Between two pictures, while the headset paces the program.
+    std::optional<interaction::Seconds> period() const { return period_; }
     /// The headset's devices before all others; lets hands feel what they do.
     interaction::InputState with_devices(interaction::InputState others, interaction::Seconds now);
     void feel(const std::vector<interaction::HapticPulse>& pulses);
@@ -32,6 +35,7 @@ class HeadsetLoop {
     stereo::Headset* headset_;
     stereo::HeadsetState state_ = stereo::HeadsetState::idle;
     std::string told_;
+    std::optional<interaction::Seconds> period_;
     Haptics haptics_;
 };
 

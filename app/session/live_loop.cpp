@@ -108,6 +108,7 @@ void LiveLoop::run(Session& session) {
         if (config_.devices.empty() && !session.outputs().headset()) // a tracked wand points itself
             emulation_.set_panel(session.state().room_panel, session.room_panel_size());
         const InputState input = poll(events);
+        session.set_headset_period(headset_.period());
         Commands commands = session.commands_from(input);
         Commands from_panel = session.take_panel_commands();
         interaction::merge(from_panel, asked);
@@ -132,11 +133,10 @@ void LiveLoop::run(PatternShow& show) {
     const Latch latch = [this] { return trackers_.latch(clock_()); };
     Pacer pacer(config_.frame_rate_limit);
     trackers_.begin();
-    for (bool running = true; running && !show.outputs().windows().should_close();) {
+    for (bool running = true; running && !show.should_close();) {
         const InputState input = poll(show.outputs().windows().poll_events());
         const Commands commands = show.commands_from(input);
-        show.obey(commands);
-        show.frame(input, latch);
+        show.frame(input, commands, latch);
         running = goes_on(commands, input);
         pacer.wait();
     }

@@ -29,8 +29,15 @@ Commands PatternShow::commands_from(const InputState& input) {
     return commands;
 }
 
-void PatternShow::frame(const InputState& input, const Latch& latch) {
-    seen_ = latch ? with_heads(input, viewers_heads(latch(), config_.installation)) : input;
+bool PatternShow::should_close() const {
+    return outputs_.windows().should_close() || frames_->close_wanted();
+}
+
+void PatternShow::frame(const InputState& input, const Commands& commands, const Latch& latch) {
+    const Latch heads =
+        frames_->begin(input, commands, Waiting::never, latch, config_.installation);
+    obey(commands);
+    seen_ = heads ? with_heads(input, viewers_heads(heads(), config_.installation)) : input;
     const interaction::DeviceState* wand = seen_.find("wand");
     Audience audience;
     audience.viewers = viewpoints(config_.installation, seen_, eye_separation_);
@@ -41,6 +48,12 @@ void PatternShow::frame(const InputState& input, const Latch& latch) {
     };
     outputs_.draw(audience, scene, {});
     outputs_.draw_room(input, {});
+    frames_->swap_barrier([this] {
+        outputs_.gl().Finish();
+        FrameAnswer answer;
+        answer.close = outputs_.windows().should_close();
+        return answer;
+    });
     outputs_.present();
 }
 

@@ -1,12 +1,14 @@
 // The test pattern in every window of an installation: a session without data.
 #pragma once
 
+#include "app/cluster/frames_alone.h"
 #include "app/config/config.h"
 #include "app/frame/late_latch.h"
 #include "app/output/outputs.h"
 #include "app/scene/test_pattern.h"
 #include "interaction/controls.h"
 
+#include <memory>
 #include <span>
 
 namespace isochron::app {
@@ -20,12 +22,21 @@ class PatternShow {
     /// Of the commands that devices lead to or a recording holds, those that matter to a pattern.
     void obey(const interaction::Commands& commands);
     void set_stereo(stereo::StereoMode mode) { mode_ = mode; }
+    stereo::StereoMode stereo() const { return mode_; }
 
     /// What the devices lead to: another stereo mode, wider eyes, the end.
     interaction::Commands commands_from(const interaction::InputState& input);
 
-    /// Draws and presents every window. @param latch tells where the heads are now
-    void frame(const interaction::InputState& input, const Latch& latch = {});
+    /// Draws and presents every window, and obeys the commands.
+    /// @param latch tells where the heads are now
+    void frame(const interaction::InputState& input, const interaction::Commands& commands = {},
+               const Latch& latch = {});
+
+    /// From now on the processes of a cluster show each frame together.
+    void share_frames(std::unique_ptr<FrameSharing> sharing) { frames_ = std::move(sharing); }
+    FrameSharing& frames() { return *frames_; }
+    /// A window of this or of another process is closed.
+    bool should_close() const;
 
     Outputs& outputs() { return outputs_; } ///< what it is shown in
 
@@ -39,6 +50,7 @@ class PatternShow {
     stereo::StereoMode mode_;
     float eye_separation_;         ///< [m], of the first viewer
     interaction::InputState seen_; ///< in the last frame
+    std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
 };
 
 } // namespace isochron::app

@@ -62,6 +62,15 @@ std::vector<std::string> replay_fixed_step(Session& session,
     return different;
 }
 
+void replay_pattern(PatternShow& show, const interaction::Recording& recording,
+                    const ReplayOptions& options, const FrameDone& done) {
+    for (std::size_t number = 0; number < recording.frames.size(); ++number) {
+        const interaction::RecordedFrame& frame = recording.frames[number];
+        show.frame(frame.input, obeyed(frame.commands, options), latch_of(frame));
+        done(number, frame);
+    }
+}
+
 void replay_live(Session& session, const interaction::Recording& recording,
                  const ReplayOptions& options) {
     const auto& frames = recording.frames;

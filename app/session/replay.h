@@ -2,6 +2,7 @@
 // to.
 #pragma once
 
+#include "app/session/pattern_show.h"
 #include "app/session/session.h"
 #include "interaction/recording/recording.h"
 
@@ -25,6 +26,10 @@ using FrameDone = std::function<void(std::size_t number, const interaction::Reco
 std::vector<std::string> replay_fixed_step(Session& session,
                                            const interaction::Recording& recording,
                                            const ReplayOptions& options, const FrameDone& done);
+
+/// The test pattern before the recorded heads and hands, each frame once.
+void replay_pattern(PatternShow& show, const interaction::Recording& recording,
+                    const ReplayOptions& options, const FrameDone& done);
 
 /// On the wall clock, dropping no command; frames come as fast as the display takes them.
 /// Ends with the recording or when the window closes.

@@ -160,16 +160,30 @@ std::optional<ColorScale> Session::shown_scale() const {
     return color_scale(state_, *file_);
 }
 
+/// Whether the windows show the scene themselves: always, but beside a headset only once it has
+/// wanted no picture for a moment.
+bool Session::in_windows(const FrameReport& report) {
+    constexpr interaction::Seconds kMoment{0.5};
+    if (!outputs_.headset_eyes().empty())
+        in_headset_ = report.time;
+    return !in_headset_ || report.time - *in_headset_ > kMoment;
+}
+
+void Session::set_headset_period(std::optional<interaction::Seconds> period) {
+    quality_.set_headset_period(period ? std::optional(Milliseconds(*period)) : std::nullopt);
+}
+
 /// With the footprint that was drawn last.
-Session::Picture Session::picture(const interaction::InputState& input,
-                                  const FrameReport& report) const {
+Session::Picture Session::picture(const interaction::InputState& input, const FrameReport& report) {
+    const bool in_windows = this->in_windows(report);
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
     return {
         .audience = {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
                      .eyes = outputs_.headset_eyes(),
                      .wand = wand ? wand->pose : std::nullopt,
                      .panel = room_panel_.shown(state_.room_panel),
-                     .stereo = state_.stereo},
+                     .stereo = state_.stereo,
+                     .in_windows = in_windows},
         .mark = state_.mark,
         .pointed = picker_.pointed(input, !room_panel_.touched(), state_, scene_.shown()),
         .tools = drawing_of({state_.mark, state_.clip, state_.ruler}, data_frame(file_->info())),

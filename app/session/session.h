@@ -86,6 +86,9 @@ class Session {
     /// input counts as polled when the frame begins.
     void set_clock(std::function<interaction::Seconds()> clock) { clock_ = std::move(clock); }
 
+    /// Time between two pictures of a headset that paces the frames; empty: none does.
+    void set_headset_period(std::optional<interaction::Seconds> period);
+
     /// The panel shows the last of these until there is a newer one.
     void show_messages(std::vector<std::string> messages);
     void set_recording(bool recording) { recording_ = recording; }
@@ -124,9 +127,10 @@ class Session {
     void request_cells(Waiting waiting);
     void take_newest_cells(Waiting waiting, FrameReport& report);
     std::optional<ColorScale> shown_scale() const;
-    Picture picture(const interaction::InputState& input, const FrameReport& report) const;
+    Picture picture(const interaction::InputState& input, const FrameReport& report);
     interaction::InputState seen(const interaction::InputState& input, const Latch& latch,
                                  FrameReport& report);
+    bool in_windows(const FrameReport& report);
     void learn_costs();
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
     bool agree(bool measure, FrameReport& report);
@@ -162,6 +166,7 @@ class Session {
     FrameQuality quality_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     CaptureWait captures_;
+    std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
     bool recording_ = false;
     std::string message_;
     std::size_t messages_ = 0;

@@ -45,6 +45,10 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .failure = failure(),
             .message = message_,
             .messages = messages_,
+            .standing = outputs_.headset() && outputs_.shows_windows()
+                            ? "No picture in the headset: this window shows the data meanwhile. " +
+                                  outputs_.headset()->description()
+                            : std::string(),
             .controls = documentation_,
             .place = place,
             .undo = history_.undo(),
@@ -60,7 +64,7 @@ OperatorPanel::Model Session::panel_models(const FrameReport& report) const {
 /// Each eye that has a half of the window sees the panel there.
 glm::ivec2 Session::panel_places() const {
     const stereo::StereoMode mode = stereo::upright(state_.stereo);
-    if (outputs_.room() || outputs_.headset())
+    if (outputs_.room() || !outputs_.shows_windows())
         return glm::ivec2(1);
     return {mode == stereo::StereoMode::side_by_side ? 2 : 1,
             mode == stereo::StereoMode::top_bottom ? 2 : 1};

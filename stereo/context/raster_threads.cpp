@@ -26,6 +26,12 @@ std::optional<unsigned> number_in(std::string_view text) {
     return error == std::errc() ? std::optional(number) : std::nullopt;
 }
 
+/// Processes of one job on one machine (Open MPI counts them) begin at different processors.
+std::size_t processes_before() {
+    const char* rank = std::getenv("OMPI_COMM_WORLD_LOCAL_RANK"); // NOLINT(concurrency-mt-unsafe)
+    return rank ? number_in(rank).value_or(0) : 0;
+}
+
 std::vector<int> allowed_processors() {
     std::vector<int> processors;
     cpu_set_t allowed;
@@ -37,7 +43,7 @@ std::vector<int> allowed_processors() {
 }
 
 /// As Mesa counts them: none where one processor would do the work of the caller.
-std::size_t raster_threads(std::size_t processors) {
+std::size_t threads_on(std::size_t processors) {
     constexpr std::size_t kMost = 16;
     const char* wanted = std::getenv("LP_NUM_THREADS");
     const std::optional<unsigned> number = wanted ? number_in(wanted) : std::nullopt;
@@ -45,7 +51,7 @@ std::size_t raster_threads(std::size_t processors) {
 }
 
 /// @return threads found
-std::size_t bind_threads(const std::vector<int>& processors) {
+std::size_t bind_threads(const std::vector<int>& processors, std::size_t first) {
     std::size_t found = 0;
     std::error_code ended; // a thread may end meanwhile
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", ended)) {
@@ -61,7 +67,7 @@ std::size_t bind_threads(const std::vector<int>& processors) {
         ++found;
         cpu_set_t one;
         CPU_ZERO(&one);
-        CPU_SET(processors[*number % processors.size()], &one);
+        CPU_SET(processors[(first + *number) % processors.size()], &one);
         sched_setaffinity(static_cast<pid_t>(*thread), sizeof(one), &one);
     }
     return found;
@@ -69,13 +75,19 @@ std::size_t bind_threads(const std::vector<int>& processors) {
 
 } // namespace
 
+RasterThreads raster_threads() {
+    RasterThreads plan{allowed_processors(), 0};
+    plan.threads = threads_on(plan.processors.size());
+    return plan;
+}
+
 void spread_raster_threads() {
-    const std::vector<int> processors = allowed_processors();
-    const std::size_t threads = raster_threads(processors.size());
+    const auto [processors, threads] = raster_threads();
     if (processors.empty())
         return;
+    const std::size_t first = processes_before() * threads;
     constexpr int kTries = 20;
-    for (int i = 0; i < kTries && bind_threads(processors) < threads; ++i)
+    for (int i = 0; i < kTries && bind_threads(processors, first) < threads; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 

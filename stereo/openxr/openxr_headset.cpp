@@ -31,17 +31,30 @@ bool is_loss(XrResult result) {
 
 class OpenXrHeadset final : public Headset {
   public:
-    explicit OpenXrHeadset(const OpenXrOptions& options)
-        : options_(options), instance_(std::make_unique<OpenXrInstance>(options)),
-          actions_(std::make_unique<OpenXrActions>(*instance_, options.left_handed)) {}
+    explicit OpenXrHeadset(const OpenXrOptions& options) : options_(options) {
+        try {
+            instance_ = std::make_unique<OpenXrInstance>(options);
+            actions_ = std::make_unique<OpenXrActions>(*instance_, options.left_handed);
+            return;
+        } catch (const OpenXrError& error) {
+            if (!options.wait || !is_loss(error.result))
+                throw;
+            lose(Seconds(0), error);
+        }
+        // The context is made before the runtime can say which one it would like.
+        if (options_.binding == OpenXrBinding::automatic)
+            options_.binding = options_.windowless ? OpenXrBinding::egl : OpenXrBinding::xlib;
+    }
 
     ContextApi context_api() const override {
-        return instance_->binding() == OpenXrBinding::egl ? ContextApi::egl : ContextApi::native;
+        const OpenXrBinding binding = instance_ ? instance_->binding() : options_.binding;
+        return binding == OpenXrBinding::egl ? ContextApi::egl : ContextApi::native;
     }
     void attach(GlContext& drawing, const render::Gl& gl) override {
         context_ = &drawing;
         gl_ = &gl;
-        connect();
+        if (instance_)
+            connect();
     }
     void detach() override {
         session_.reset();

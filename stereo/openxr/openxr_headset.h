@@ -8,7 +8,8 @@
 
 namespace isochron::stereo {
 
-/// The runtime is connected to at once; the headset once it is attached to a context.
+/// The runtime is connected to at once, or later where the options wait for one; the headset once it
+/// is attached to a context.
 /// @throws render::Error when there is no runtime, or none that suits the options
 std::unique_ptr<Headset> open_headset(const OpenXrOptions& options);
 

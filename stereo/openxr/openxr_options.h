@@ -24,6 +24,7 @@ enum class OpenXrBinding : std::uint8_t {
 struct OpenXrOptions {
     OpenXrSpace space = OpenXrSpace::automatic;
     OpenXrBinding binding = OpenXrBinding::automatic;
+    bool wait = false;       ///< without a runtime it is looked for until there is one
     bool windowless = false; ///< the context will be one of EGL without a window
     bool depth = true;       ///< depth goes along with the picture where the runtime takes it
     bool left_handed = false;

@@ -97,6 +97,8 @@ class ClusterJobTest : public testing::Test {
         for (std::size_t at = 0; (at = result.err.find("isochron: ", at)) != std::string::npos;
              ++at)
             lines.push_back(result.err.substr(at, result.err.find('\n', at) - at));
+        // That processes draw on the same processors is no fault of theirs.
+        std::erase_if(lines, [](const std::string& line) { return line.starts_with(kProcessors); });
         return lines;
     }
     static void expect_one_line(const ChildResult& result, const std::string& start,
@@ -115,6 +117,7 @@ class ClusterJobTest : public testing::Test {
                            signal, command);
     }
 
+    static constexpr const char* kProcessors = "isochron: note: ";
     TestFolder folder_;
 };
 
@@ -182,7 +185,8 @@ TEST_F(ClusterJobTest, ProcessesThatSeeOtherDataOrConfigurationRefuseToStart) {
     folder_.write("b.toml", small_cave("[emulation]\nwalk_speed = 2.5\n"));
     expect_one_line(job({replay + "--config a.toml", replay + "--config b.toml"}), "process 1 on ",
                     ": another configuration: '[emulation]', process 0 has 'its end'");
-    expect_one_line(job({replay, replay + "--stereo left"}), "process 1 on ", ": another start: ");
+    expect_one_line(job({replay, replay + "--stereo left"}), "process 1 on ",
+                    ": another start: stereo is '\"left\"', process 0 has '\"quadbuffer\"'");
     expect_one_line(job({replay, replay + "--size 32 32"}), "process 1 on ",
                     ": another installation: 'size = [32, 32]', process 0 has 'size = [64, 40]'");
     expect_one_line(job({replay, replay + "--data missing"}), "process 1 on ", ": missing");
@@ -193,6 +197,53 @@ TEST_F(ClusterJobTest, AJobThatDoesNotFitTheInstallationIsToldWhy) {
     record(small_cave());
     expect_one_line(job(6, kReplay), "walk.jsonl", "6 processes for 5 nodes");
     expect_one_line(job(2, std::string(kReplay) + " --emulate"), "--emulate", "without mpirun");
+}
+
+TEST_F(ClusterJobTest, TheTestPatternIsTheOneOfASingleProcess) {
+    record(small_cave());
+    const std::string replay = "$isochron replay walk.jsonl --test-pattern --every 5 --out ";
+    ASSERT_EQ(alone(replay + "alone").status, 0);
+    const auto expected = files_in("alone");
+    EXPECT_EQ(expected.size(), 4u * 4 * 2);
+    for (const int processes : {2, 5}) {
+        const std::string out = fmt::format("job{}", processes);
+        const ChildResult result = job(processes, replay + out);
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(files_in(out), expected) << processes << " processes";
+    }
+    expect_one_line(job({replay + "out", replay + "out --stereo left"}), "process 1 on ",
+                    ": another stereo mode: 'left', process 0 has 'quadbuffer'");
+    expect_one_line(job(2, replay + "out --emulate"), "--emulate", "without mpirun");
+}
+
+TEST_F(ClusterJobTest, TheLiveTestPatternEndsOnAllWallsAtOnce) {
+    const test_support::VirtualDisplay screen;
+    std::string lab = small_cave();
+    for (std::size_t at; (at = lab.find("\"quadbuffer\"")) != lab.npos;)
+        lab.replace(at, 12, "\"mono\"");
+    folder_.write("lab.toml", lab);
+    auto ended = std::async(std::launch::async, [&] {
+        return job(2, "$isochron explore --test-pattern --config lab.toml");
+    });
+    screen.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron.*left"});
+    screen.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron.*floor"});
+    screen.close_window("Isochron: test pattern: floor"); // the second process's
+    const ChildResult result = ended.get();
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(lines_of(result).size(), 0u) << result.err;
+}
+
+TEST_F(ClusterJobTest, ProcessesThatShareAProcessorAreToldOnce) {
+    record(small_cave());
+    const std::string replay = "exec taskset -c 0 $isochron replay walk.jsonl --stamps --out out";
+    const ChildResult result = job(2, replay);
+    ASSERT_EQ(result.status, 0) << result.err;
+    std::size_t lines = 0;
+    for (std::size_t at = 0; (at = result.err.find(kProcessors, at)) != std::string::npos; ++at)
+        ++lines;
+    EXPECT_EQ(lines, 1u) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("2 processes draw in software on "));
+    EXPECT_THAT(result.err, HasSubstr("2 threads on 1 processor: start no more than 1 there"));
 }
 
 TEST_F(ClusterJobTest, ADriverWithoutSwapGroupsIsNamedWhereOneIsAskedFor) {

@@ -177,9 +177,10 @@ TEST_F(ExploreTest, ClosingTheWindowKeepsTheRecording) {
 }
 
 TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
-    const auto program = explore({"--screenshots", folder_.path().string(), "--isovalue", "8"});
+    // The folder is made.
+    const auto program = explore({"--screenshots", file("pictures/new"), "--isovalue", "8"});
     screen_.xdotool({"key", "p"});
-    const auto picture = folder_.path() / "isochron_0001.png";
+    const auto picture = folder_.path() / "pictures/new/isochron_0001.png";
     while (!std::filesystem::exists(picture))
         screen_.xdotool(
             {"getmouselocation"}); // the program is at work; the test's limit ends a hang
@@ -292,6 +293,13 @@ TEST_F(ExploreTest, NothingThatIsReadIsEverOverwritten) {
     EXPECT_EQ(folder_.read("notes.txt"), "mine");
     EXPECT_EQ(std::filesystem::file_size(file("sphere.isochron")), size);
     EXPECT_EQ(Program({"explore", file("sphere.isochron"), "--isovalue", "nan"}).exit_status(), 2);
+}
+
+TEST_F(ExploreTest, AFolderForPicturesThatCannotBeMadeIsToldAtTheStart) {
+    folder_.write("taken", "");
+    EXPECT_EQ(Program({"explore", file("sphere.isochron"), "--screenshots", file("taken/here")})
+                  .exit_status(),
+              1);
 }
 
 TEST_F(ExploreTest, WithoutADisplayItSaysSo) {

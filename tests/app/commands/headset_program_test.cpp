@@ -102,8 +102,10 @@ TEST_F(HeadsetProgram, GoesOnWhenItsSessionIsLostAndHandsFeelTheirGrab) {
 
 TEST_F(HeadsetProgram, WithoutARuntimeItSaysSoInOneLine) {
     setenv("XR_RUNTIME_JSON", "/nowhere/runtime.json", 1);
-    const ChildResult result = explore({"--config", "hmd", "--context", "egl"});
+    const std::string config = changed_config("fallback = \"wait\"", "fallback = \"none\"");
+    const ChildResult result = explore({"--config", config, "--context", "egl"});
     EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_THAT(result.err, HasSubstr("XR_RUNTIME_JSON=/nowhere/runtime.json"));
     EXPECT_THAT(result.err, HasSubstr("openxr.fallback"));
 }
@@ -111,11 +113,21 @@ TEST_F(HeadsetProgram, WithoutARuntimeItSaysSoInOneLine) {
 TEST_F(HeadsetProgram, TheWindowsAreShownWhereThatIsConfigured) {
     test_support::VirtualDisplay screen;
     setenv("XR_RUNTIME_JSON", "/nowhere/runtime.json", 1);
-    const std::string config = changed_config("fallback = \"none\"", "fallback = \"window\"");
+    const std::string config = changed_config("fallback = \"wait\"", "fallback = \"window\"");
     const ChildResult result =
         explore({"--config", config, "--size", "320", "160", "--seconds", "1"});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.err, HasSubstr("the windows are shown instead"));
+}
+
+TEST_F(HeadsetProgram, AMissingRuntimeIsLookedForAndTheWindowShowsTheScene) {
+    test_support::VirtualDisplay screen;
+    setenv("XR_RUNTIME_JSON", "/nowhere/runtime.json", 1);
+    const ChildResult result =
+        explore({"--config", "hmd", "--size", "320", "160", "--seconds", "1", "--isovalue", "8"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("headset not there, looking for it: OpenXR: no runtime"));
+    EXPECT_EQ(result.err.find("Error ["), std::string::npos) << "the loader's own messages";
 }
 
 class HeadsetBesideAWindow : public HeadsetProgram,

@@ -53,6 +53,18 @@ TEST_F(InstallationCommand, CheckConfigNamesWhatIsWrongAndFails) {
     EXPECT_EQ(isochron({"explore"}).status, 2) << "without an index there is nothing to explore";
 }
 
+TEST_F(InstallationCommand, AShippedNameMeansTheShippedConfigurationWhateverLiesThere) {
+    std::filesystem::create_directory(folder.path() / "hmd");
+    folder.write("cave4", "[[windows]]\nname = \"mine\"\n");
+    ChildResult result = isochron({"explore", "--check-config", "hmd"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("openxr: "));
+    result = isochron({"explore", "--check-config", "cave4"});
+    EXPECT_THAT(result.out, HasSubstr("window left: "));
+    result = isochron({"explore", "--check-config", "./cave4"});
+    EXPECT_THAT(result.out, HasSubstr("window mine: "));
+}
+
 TEST_F(InstallationCommand, ImportWritesAConfigurationThatIsSound) {
     folder.write("cave.pvx", kPvx);
     ChildResult result = isochron({"config", "import", "cave.pvx", "-o", "cave.toml", "--unit",

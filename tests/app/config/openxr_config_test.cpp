@@ -36,7 +36,7 @@ TEST(OpenXrConfig, HoldsWhatTheFileSays) {
                                        "fallback = \"window\"\ndepth = false\nscale = 1.5\n"
                                        "retry_seconds = 5");
     EXPECT_TRUE(config.enabled);
-    EXPECT_TRUE(config.fallback);
+    EXPECT_EQ(config.fallback, WithoutRuntime::window);
     EXPECT_EQ(config.mirror, stereo::Mirror::both);
     EXPECT_EQ(config.options.space, stereo::OpenXrSpace::local);
     EXPECT_EQ(config.options.binding, stereo::OpenXrBinding::xlib);

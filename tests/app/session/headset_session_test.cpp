@@ -145,6 +145,109 @@ TEST_F(HeadsetSession, AStillPictureIsThereAgainAfterTheSessionWasLost) {
     EXPECT_EQ(headset().frames.back().views.at(0).picture.rgba, before.rgba);
 }
 
+/// A window beside the headset: what is done while the headset is away is seen there.
+class HeadsetBesideWindow : public HeadsetSession {
+  protected:
+    HeadsetBesideWindow() {
+        config_.openxr.options.windowless = false;
+        config_.openxr.options.binding = stereo::OpenXrBinding::egl; // as the context is
+        config_.installation.windows.front().stereo = StereoMode::mono;
+        config_.installation.windows.front().size = {128, 96};
+    }
+    void stand_for(double seconds) {
+        for (const auto end = now_ + interaction::Seconds(seconds); now_ < end;)
+            frame({});
+    }
+    Image shown() const { return session_->outputs().display().read_window(); }
+};
+
+TEST_F(HeadsetBesideWindow, TheWindowShowsTheSceneWhileTheHeadsetIsLost) {
+    config_.openxr.options.retry = interaction::Seconds(1000);
+    start();
+    Commands commands = showing(kPlacement);
+    commands.stereo = "mono";
+    settle(commands);
+    EXPECT_FALSE(session_->outputs().shows_windows());
+    headset().happens(Happening::lose_session);
+    stand_for(0.3);
+    EXPECT_FALSE(session_->outputs().shows_windows()) << "a moment without pictures is none";
+    stand_for(0.4);
+    ASSERT_TRUE(session_->outputs().shows_windows());
+    const Image before = shown();
+    EXPECT_GT(warm_part(before).pixels, 50) << "the sphere is seen";
+    // Commands have an effect that is seen.
+    interaction::Similarity beside = kPlacement;
+    beside.translation.x += 0.3;
+    Commands move;
+    move.room_from_physical = beside;
+    EXPECT_TRUE(frame(move).redrawn);
+    EXPECT_GT(warm_part(shown()).center.x, warm_part(before).center.x + 5);
+    EXPECT_FALSE(frame({}).redrawn) << "and it is drawn once";
+}
+
+TEST_F(HeadsetBesideWindow, TheHeadsetHasThePictureAgainOnceItIsBack) {
+    start();
+    settle(showing(kPlacement));
+    const render::Image before = headset().frames.back().views.at(0).picture;
+    headset().happens(Happening::lose_session);
+    stand_for(0.7);
+    EXPECT_TRUE(session_->outputs().shows_windows());
+    now_ += interaction::Seconds(2.5);
+    settle({});
+    EXPECT_FALSE(session_->outputs().shows_windows());
+    EXPECT_EQ(headset().frames.back().views.at(0).picture.rgba, before.rgba);
+}
+
+TEST_F(HeadsetBesideWindow, ARuntimeThatStartsLaterIsTakenUp) {
+    config_.openxr.fallback = WithoutRuntime::wait;
+    headset().runtime_available = false;
+    start();
+    Commands commands = showing(kPlacement);
+    commands.stereo = "mono";
+    frame(commands);
+    stand_for(0.2);
+    ASSERT_TRUE(session_->outputs().shows_windows());
+    EXPECT_GT(warm_part(shown()).pixels, 50) << "the sphere is seen";
+    headset().runtime_available = true;
+    stand_for(1.5);
+    EXPECT_EQ(headset().sessions, 0u) << "not before retry_seconds";
+    stand_for(1.0);
+    settle({});
+    EXPECT_EQ(headset().sessions, 1u);
+    EXPECT_FALSE(session_->outputs().shows_windows());
+    EXPECT_FALSE(headset().frames.back().views.empty());
+}
+
+TEST_F(HeadsetSession, MissedFramesAndBudgetFollowTheRuntimesPeriod) {
+    start();
+    settle(showing(kPlacement));
+    const auto live = [&](double between) -> const FrameReport& {
+        now_ += interaction::Seconds(between);
+        stereo::Headset& client = *session_->outputs().headset();
+        client.update(now_);
+        const auto begun = client.begin_frame(now_);
+        session_->set_headset_period(begun ? std::optional(begun->period) : std::nullopt);
+        return session_->frame(client.poll(now_), {}, Waiting::never);
+    };
+    headset().period = 50'000'000;
+    live(0.05);
+    unsigned missed = 0;
+    for (int i = 0; i < 20; ++i) {
+        missed += live(0.05).missed;
+        EXPECT_NEAR(session_->log().frames().back().budget.count(),
+                    std::max(50.0, config_.still_budget_ms), 0.1);
+    }
+    EXPECT_EQ(missed, 0u);
+    EXPECT_EQ(live(0.15).missed, 2u);
+    session_->set_headset_period(std::nullopt);
+    EXPECT_EQ(session_
+                  ->frame(session_->outputs().headset()->poll(now_ + interaction::Seconds(0.05)),
+                          {}, Waiting::never)
+                  .missed,
+              static_cast<unsigned>(std::round(0.05 * config_.frame_rate_limit)) - 1)
+        << "what is configured counts again";
+}
+
 TEST_F(HeadsetSession, TheMirrorCutsTheLeftEyeToTheWindow) {
     config_.openxr.mirror = stereo::Mirror::left;
     start();

@@ -147,6 +147,44 @@ TEST_P(OscTest, NaNAndNonUnitQuaternionsAreRefused) {
     EXPECT_THAT(input.status()[1], testing::HasSubstr("2 refused as none"));
 }
 
+/// Each hand has a message of its own: a frame may begin between the two. The hand whose message
+/// comes later is then stated where it was one message ago, and says so by its time.
+TEST_P(OscTest, AFrameBetweenTwoHandsMessagesStatesEachAsItWasSent) {
+    const auto at = [](double x, double time) {
+        return Pose{{static_cast<float>(x + 0.1 * time), 1.2f, 0.0f}, {1, 0, 0, 0}};
+    };
+    for (int i = 0; i <= 20; ++i) {
+        const double now = 1 + i / 150.0;
+        ASSERT_TRUE(sender.send(osc_pose("/isochron/wand/pose", at(0.3, now))));
+        const InputState state = input.poll(Seconds(now)); // a frame begins here
+        ASSERT_TRUE(sender.send(osc_pose("/isochron/glasses/pose", at(-0.3, now))));
+        expect_near(state.find("wand")->pose->position, at(0.3, now).position, 1e-6);
+        const DeviceState* other = state.find("head");
+        if (i == 0) {
+            EXPECT_FALSE(other->pose);
+            continue;
+        }
+        // One message at 150 Hz and 0.1 m/s: 0.7 mm.
+        const double before = 1 + (i - 1) / 150.0;
+        expect_near(other->pose->position, at(-0.3, before).position, 1e-6);
+        EXPECT_LE(other->measured->count(), now);
+    }
+}
+
+TEST_P(OscTest, WhatWasQueuedBeforeTheStartDoesNotMakeGoodPosesJumps) {
+    for (int i = 0; i < 60; ++i)
+        ASSERT_TRUE(sender.send(osc_pose("/isochron/glasses/pose", kLeaning)));
+    input.begin();
+    Pose moved = kLeaning;
+    moved.position.x += 2;
+    for (int i = 0; i < 30; ++i)
+        expect_near(
+            after(osc_pose("/isochron/glasses/pose", moved), "head", i / 60.0).pose->position,
+            moved.position, 1e-6);
+    EXPECT_THAT(input.status()[1],
+                testing::HasSubstr("30 poses, 0 refused as none, 0 late, 0 jum"));
+}
+
 TEST_P(OscTest, BundlesInBundlesEnd) {
     std::string nested = osc_pose("/isochron/glasses/pose", kLeaning);
     for (int i = 0; i < 100; ++i)

@@ -78,6 +78,22 @@ TEST_F(HandsTest, HandsAppearWithTheirControllers) {
     EXPECT_EQ(device("wand").tracking(), Tracking::tracked);
 }
 
+TEST_F(HandsTest, HandsThatMoveAtOnceAreStatedWhereTheRuntimeSaysExactly) {
+    take_controllers();
+    connect();
+    settle();
+    for (int i = 0; i < 50; ++i) {
+        const float turn = 0.1f * static_cast<float>(i);
+        headset().right.aim.position = kRight.position + 0.2f * glm::vec3(std::cos(turn), 0, turn);
+        headset().left.aim.position = kLeft.position - 0.2f * glm::vec3(turn, std::sin(turn), 0);
+        frame();
+        EXPECT_LT(glm::distance(device("wand").pose->position, headset().right.aim.position),
+                  1e-6f);
+        EXPECT_LT(glm::distance(device("wand2").pose->position, headset().left.aim.position),
+                  1e-6f);
+    }
+}
+
 TEST_F(HandsTest, AHandThatIsGuessedAtMovesNothing) {
     take_controllers();
     connect();

@@ -1,0 +1,87 @@
+// What `explore` is told on the command line.
+#include "app/commands/explore_options.h"
+
+#include "app/config/config.h"
+#include "app/config/shipped_configs.h"
+#include "app/output/room_camera.h"
+#include "interaction/controls.h"
+#include "stereo/stereo_mode.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace isochron::app {
+namespace {
+
+std::string footer() {
+    std::string text = "Mouse and keyboard:\n";
+    for (const std::string& line : interaction::Controls::documentation())
+        text += "  " + line + "\n";
+    text += "\nWith --emulate:\n";
+    for (const std::string& line : RoomCamera::documentation())
+        text += "  " + line + "\n";
+    text +=
+        "\nIn every process of a job (mpirun -n N isochron explore ...), each opens the windows of "
+        "its node;\nthe first one reads the devices. docs/INSTALLATIONS.md tells more.\n";
+    text += "\nExit status: 0 done, 1 bad input, 2 bad usage.";
+    return text;
+}
+
+} // namespace
+
+void add_explore_options(Command& command, ExploreOptions& options) {
+    command.option("file", options.data, "Index made by `isochron build`");
+    command
+        .option("--config", options.config,
+                fmt::format("TOML file, or the name of a shipped one: {}",
+                            fmt::join(shipped_config_names(), ", ")))
+        .shows_default();
+    command.option("--check-config", options.check_config,
+                   "List the windows, screens, viewers and devices of this configuration "
+                   "and what is wrong with it, and leave");
+    command.flag("--emulate", options.emulate,
+                 "Show the whole installation in one window: the room from outside, with what "
+                 "every wall shows");
+    command
+        .option("--context", options.context,
+                "GL context: glfw (a window), or egl where a headset is the only display")
+        .one_of({"glfw", "egl", "osmesa"});
+    command.option("--stereo", options.stereo, "Stereo mode to start in")
+        .one_of(stereo_mode_names());
+    command.option("--quality", options.quality, "auto, fast or quality")
+        .one_of(interaction::all_names<interaction::QualityMode>());
+    command
+        .option("--footprint", options.footprint,
+                "What a settled picture is drawn with: auto (the best that fits the frame "
+                "budget), or always gaussian or surface")
+        .one_of(settled_footprint_names());
+    command.option("--size", options.size, "Size of every window, or of the room's, in pixels")
+        .values(2)
+        .between(16, 16384);
+    command.option("--isovalue", options.isovalue, "Isovalue to start with, in data units");
+    command.option("--step", options.step, "Step to start at, from 0");
+    command.option("--record", options.record, "Record the session to this file (JSON Lines)");
+    command.flag("--force", options.force, "Let --record replace a recording");
+    command.option("--session", options.session,
+                   "Keep the session in this file (NAME.isochron-session) instead of the user's "
+                   "folder for such files; saved every 30 s and at the end");
+    command.flag("--resume", options.resume,
+                 "Go on where the last session on these data ended, or that of --session");
+    command.option("--report", options.report,
+                   "Write the time of every frame's stages to this JSON file");
+    command
+        .option("--screenshots", options.screenshots,
+                "Folder for screenshots (key P); made where it is missing")
+        .shows_default();
+    command.option("--seconds", options.seconds, "Leave after this many seconds").positive();
+    command.flag("--list-devices", options.list_devices,
+                 "Say which devices the configuration names, and leave; needs no index");
+    command.flag("--test-pattern", options.test_pattern,
+                 "Show a pattern instead of data: each eye's letter, each wall's name, a cross "
+                 "at a known depth, the axes of every device; needs no index");
+    command.flag("--verbose", options.verbose, "Let the OpenXR loader say what it does, too");
+    command.flag("--no-panel", options.no_panel, "Start with the panel hidden (Tab shows it)");
+    command.footer(footer());
+}
+
+} // namespace isochron::app

@@ -1,0 +1,32 @@
+// What `explore` is told on the command line.
+#pragma once
+
+#include "app/commands/command_line.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+struct ExploreOptions {
+    std::optional<std::string> data;
+    std::string config = "desktop";
+    std::optional<std::string> check_config, context, stereo, quality, footprint;
+    std::optional<std::string> record, report;
+    std::optional<double> isovalue, seconds;
+    std::optional<std::uint32_t> step;
+    std::vector<int> size;
+    std::string screenshots = ".";
+    std::optional<std::string> session;
+    bool force = false, resume = false;
+    bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
+    bool verbose = false;
+};
+
+/// Adds the options that say so, and what is said below them.
+/// @param options live until the command has run
+void add_explore_options(Command& command, ExploreOptions& options);
+
+} // namespace isochron::app

@@ -1,4 +1,5 @@
 // `isochron build`: reads a series of volume files and writes its index.
+#include "app/commands/build_arguments.h"
 #include "app/commands/cancel.h"
 #include "app/commands/file_patterns.h"
 #include "app/commands/index_report.h"
@@ -9,86 +10,21 @@
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/file/index_series.h"
+#include "index/system/growing_file.h"
 #include "index/system/team.h"
 #include "stereo/cluster.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <limits>
 #include <memory>
 #include <new>
-#include <sstream>
+#include <optional>
 
 namespace isochron::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct BuildArguments {
-    std::vector<std::string> files;
-    fs::path out;
-    index::ReadOptions read;
-    std::string type;
-    std::vector<std::uint32_t> dims;
-    std::vector<double> spacing, origin;
-    index::BuildOptions build;
-    std::string tiers, codec;
-    std::optional<std::string> color, color_component, color_unit;
-    bool quiet = false, append = false, refer = false;
-    double timeout = 30; ///< [s]
-};
-
-std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
-    if (numbers.empty())
-        return std::nullopt;
-    return glm::dvec3(numbers[0], numbers[1], numbers[2]);
-}
-
-index::ReadOptions read_options(const BuildArguments& arguments) {
-    index::ReadOptions read = arguments.read;
-    if (!arguments.dims.empty())
-        read.dims = {arguments.dims[0], arguments.dims[1], arguments.dims[2]};
-    if (!arguments.type.empty())
-        read.type = index::value_type_from_name(arguments.type);
-    read.spacing = vector_of(arguments.spacing);
-    read.origin = vector_of(arguments.origin);
-    return read;
-}
-
-/// Of the second array: the same files, and all that was said of them, but another array.
-index::ReadOptions color_options(const BuildArguments& arguments) {
-    index::ReadOptions read = read_options(arguments);
-    read.array = arguments.color;
-    read.component = arguments.color_component;
-    read.value_unit = arguments.color_unit;
-    return read;
-}
-
-/// `bricks,cells`; `none` for an index that only scans.
-index::TierSet tiers_of(const std::string& list) {
-    index::TierSet tiers;
-    if (list == "none")
-        return tiers;
-    std::istringstream names(list);
-    for (std::string name; std::getline(names, name, ',');) {
-        const auto tier = index::tier_from_name(name);
-        if (!tier)
-            throw UsageError(fmt::format("--tiers: {}: expected none, or some of {}", name,
-                                         fmt::join(index::kTierNames, ",")));
-        tiers = tiers.with(*tier);
-    }
-    return tiers;
-}
-
-/// The files as the index will look for them: from its own folder.
-index::Referral referral_to(const std::vector<fs::path>& files, const BuildArguments& arguments) {
-    index::Referral referral{.files = {}, .options = read_options(arguments)};
-    const fs::path folder = fs::absolute(arguments.out).parent_path();
-    for (const fs::path& file : files)
-        referral.files.push_back(fs::absolute(file).lexically_relative(folder));
-    return referral;
-}
 
 /// An index is a series too: of an older file version it becomes one of this.
 bool is_one_index(const std::vector<fs::path>& files) {
@@ -109,78 +45,96 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
     return text;
 }
 
-/// What was asked for; an index that is appended to stays what it is in all that was not.
-BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held) {
-    index::BuildOptions& build = arguments.build;
-    if (arguments.tiers.empty() && held.plan().asked)
-        build.tiers = held.plan().tiers;
-    if (!build.with_tree && held.plan().tiers.has(index::Tier::tree)) {
-        build.with_tree = true;
-        build.tree = held.tree_options();
+/// The volume and the array to color by; no volume when there is nothing to append.
+struct Sources {
+    std::unique_ptr<index::VolumeSeries> volume, colors;
+};
+
+Sources open_sources(const std::vector<fs::path>& files, const BuildArguments& arguments) {
+    Sources sources;
+    if (!is_one_index(files)) {
+        sources.volume = index::open_series(files, read_options(arguments));
+        if (arguments.color)
+            sources.colors = index::open_series(files, color_options(arguments));
+        return sources;
     }
-    if (arguments.codec.empty())
-        build.codec = held.codec();
-    arguments.refer = arguments.refer || held.referral();
-    if (!arguments.color && held.color()) {
-        arguments.color = held.color()->chosen_array.value_or(held.color()->array);
-        arguments.color_component = held.color()->chosen_component;
+    if (arguments.refer)
+        throw UsageError("--refer: an index has no files of values to refer to");
+    sources.volume = index::open_index_series(files.front(), read_options(arguments));
+    index::ReadOptions of_colors = color_options(arguments);
+    if (!of_colors.array)
+        of_colors.array = index::color_of_index(files.front());
+    if (of_colors.array)
+        sources.colors = index::open_index_series(files.front(), of_colors);
+    return sources;
+}
+
+/// Appends in place where that can be, else builds anew.
+/// @param file null where nothing is appended to @return what a user should know, or nothing
+std::string write_index(const Sources& sources, const BuildArguments& arguments,
+                        const index::BuildOptions& options, const index::IndexFile* held,
+                        index::GrowingFile* file, const index::Progress& progress,
+                        index::Team& team) {
+    std::string reason = held ? reason_to_rewrite(*held, options) : std::string();
+    if (held && reason.empty()) {
+        if (index::append_index(*sources.volume, *held, *file, arguments.out, options, progress,
+                                team))
+            return {};
+        reason = "the cells have no levels for values of the new steps";
     }
-    return arguments;
+    index::build_index(*sources.volume, arguments.out, options, progress, team);
+    return held ? fmt::format("note: written anew: {}\n", reason) : std::string();
 }
 
 void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSignal& signals) {
     const bool reports = team.rank() == 0 && !asked.quiet;
     BuildArguments arguments = asked;
+    std::optional<index::GrowingFile> file;
     std::shared_ptr<const index::IndexFile> held;
-    if (asked.append)
+    if (asked.append) {
+        team.together([&] { file.emplace(asked.out, team.rank() == 0); });
         team.together([&] {
             held = index::IndexFile::open(asked.out);
             arguments = with_held(asked, *held);
         });
+    }
     index::BuildOptions options = arguments.build;
     if (!arguments.tiers.empty())
         options.tiers = tiers_of(arguments.tiers);
     if (!arguments.codec.empty())
         options.codec = *index::codec_from_name(arguments.codec);
+    options.array = arguments.read.array;
+    options.component = arguments.read.component;
     options.color_array = arguments.color;
     options.color_component = arguments.color_component;
-    std::unique_ptr<index::VolumeSeries> series, colors;
+    Sources sources;
     team.together([&] {
         const std::vector<fs::path> files = expand_patterns(arguments.files);
         refuse_input_as_output(files, arguments.out);
         if (arguments.refer)
             options.referral = referral_to(files, arguments);
-        if (is_one_index(files)) {
-            if (arguments.refer)
-                throw UsageError("--refer: an index has no files of values to refer to");
-            series = index::open_index_series(files.front(), read_options(arguments));
-            index::ReadOptions of_colors = color_options(arguments);
-            if (!of_colors.array)
-                of_colors.array = index::color_of_index(files.front());
-            if (of_colors.array)
-                colors = index::open_index_series(files.front(), of_colors);
-        } else {
-            series = index::open_series(files, read_options(arguments));
-            if (arguments.color)
-                colors = index::open_series(files, color_options(arguments));
-        }
+        sources = open_sources(files, arguments);
         if (held) {
-            series = index::append_to(held, arguments.out.string(), std::move(series));
-            colors = index::append_colors_to(held, arguments.out.string(), std::move(colors));
+            sources.volume =
+                index::append_to(held, arguments.out.string(), std::move(sources.volume));
+            sources.colors =
+                index::append_colors_to(held, arguments.out.string(), std::move(sources.colors));
         }
-        options.color = colors.get();
+        options.color = sources.colors.get();
     });
-    if (!series) { // nothing to append
+    if (!sources.volume) { // nothing to append
         if (reports)
             fmt::print("{}: holds every step of these files already\n", arguments.out.string());
         return;
     }
-    const index::SeriesInfo& info = series->info();
+    const index::SeriesInfo& info = sources.volume->info();
+    const std::size_t known = held ? held->info().steps() : 0;
+    std::string note;
     try {
-        ProgressBar bar(stderr,
-                        static_cast<double>(info.step_bytes()) * static_cast<double>(info.steps()));
-        index::build_index(
-            *series, arguments.out, options,
+        ProgressBar bar(stderr, static_cast<double>(info.step_bytes()) *
+                                    static_cast<double>(info.steps() - known));
+        note = write_index(
+            sources, arguments, options, held.get(), file ? &*file : nullptr,
             [&](std::string_view phase, double fraction) {
                 signals.check();
                 if (reports)
@@ -192,7 +146,7 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
             fmt::format("{}: there is not enough memory to build it", arguments.out.string()));
     }
     if (reports)
-        fmt::print("{}", summary(arguments.out, *index::IndexFile::open(arguments.out)));
+        fmt::print("{}{}", summary(arguments.out, *index::IndexFile::open(arguments.out)), note);
 }
 
 /// In a job, `what` is the last word: not all members know of it, so none can be waited for.
@@ -227,75 +181,6 @@ void run_build(const BuildArguments& arguments) {
             throw ReportedElsewhere();
         throw;
     }
-}
-
-void add_reading_options(Command& command, BuildArguments& arguments) {
-    index::ReadOptions& read = arguments.read;
-    command.option("--array", read.array, "Scalar array to read, where files hold several")
-        .group("Reading");
-    command
-        .option("--component", read.component,
-                "Component of a vector array: a number from 0, or magnitude")
-        .group("Reading");
-    command
-        .flag("--allow-surplus", read.allow_surplus,
-              "Read files in which data are left over after the values that the header says")
-        .group("Reading");
-    command
-        .option("--spacing", arguments.spacing,
-                "Distance between vertices along each axis, in length units "
-                "(default: as the files say, else 1 1 1)")
-        .values(3)
-        .type_name("SX SY SZ")
-        .positive()
-        .group("Reading");
-    command
-        .option("--origin", arguments.origin,
-                "Position of the first vertex, in length units "
-                "(default: as the files say, else 0 0 0)")
-        .values(3)
-        .type_name("OX OY OZ")
-        .group("Reading");
-    command
-        .option("--time-step", read.time_step,
-                "Physical time between steps, in time units (default: as the files say, "
-                "else 1)")
-        .positive()
-        .group("Reading");
-    command.option("--length-unit", read.length_unit, "Unit of positions, such as mm")
-        .group("Reading");
-    command.option("--time-unit", read.time_unit, "Unit of times, such as s").group("Reading");
-    command.option("--value-unit", read.value_unit, "Unit of the values, such as K")
-        .group("Reading");
-
-    const char* colors = "Colors";
-    const Option color =
-        command
-            .option("--color", arguments.color, "A second array of the files to color surfaces by")
-            .group(colors);
-    command
-        .option("--color-component", arguments.color_component,
-                "Its component, where it is a vector array: a number from 0, or magnitude")
-        .needs(color)
-        .group(colors);
-    command.option("--color-unit", arguments.color_unit, "Unit of its values")
-        .needs(color)
-        .group(colors);
-
-    const char* raw = "Headerless raw files";
-    command.option("--dims", arguments.dims, "Vertices along each axis, x fastest")
-        .values(3)
-        .type_name("NX NY NZ")
-        .between(2u, 65537u)
-        .group(raw);
-    command.option("--type", arguments.type, "Type of the stored values")
-        .one_of({"i8", "u8", "i16", "u16", "i32", "f32", "f64"})
-        .group(raw);
-    command.flag("--big-endian", read.big_endian, "Most significant byte first (default: least)")
-        .group(raw);
-    command.option("--header-bytes", read.header_bytes, "Bytes to skip at the start of each file")
-        .shows_default()
-        .group(raw);
 }
 
 } // namespace

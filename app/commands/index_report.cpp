@@ -70,6 +70,25 @@ double coherence(const index::IndexFile& file) {
             static_cast<double>(file.info().steps()));
 }
 
+/// Of the cells where there are any, else of the bricks: of wide types those of the last step.
+index::LevelMapPtr levels_of(const index::IndexFile& file) {
+    if (file.cells())
+        return std::make_shared<index::LevelMap>(file.levels());
+    return file.plan().tiers.has(index::Tier::bricks)
+               ? file.chunks().levels(static_cast<std::uint32_t>(file.info().steps() - 1))
+               : nullptr;
+}
+
+std::string levels_text(const index::IndexFile& file) {
+    const auto levels = levels_of(file);
+    if (!levels)
+        return "none: there are no bricks and no cells";
+    const bool by_step = !file.cells() && index::size_of(file.info().type) > 1;
+    return fmt::format("{}, {}{}", levels->levels(),
+                       levels->lossless() ? "one for every value" : "shared by several values",
+                       by_step ? " (of the last step; each has its own)" : "");
+}
+
 std::string times_text(const SeriesInfo& info) {
     if (info.steps() == 1)
         return fmt::format("1 at time {}{}", human_number(info.times.front()),
@@ -162,9 +181,14 @@ std::string as_text(const IndexReport& report) {
          fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
     for (const std::string& reason : file.plan().reasons)
         line("plan", reason);
-    line("levels", fmt::format("{}, {}", file.levels().levels(),
-                               file.levels().lossless() ? "one for every value"
-                                                        : "shared by several values"));
+    if (file.plan().steps < info.steps())
+        line("plan",
+             fmt::format("made when it had {} of its {} steps", file.plan().steps, info.steps()));
+    if (file.cells() && file.cells()->steps() < info.steps())
+        line("cells", fmt::format("of the first {} steps; the others are searched by bricks until "
+                                  "their epoch of {} is complete",
+                                  file.cells()->steps(), index::TimePath::kMaxSteps));
+    line("levels", levels_text(file));
     if (entries_of(file) > 0)
         line("coherence", fmt::format("{:.4f} entries per cell-step ({} entries{})",
                                       coherence(file), grouped(entries_of(file)),
@@ -221,12 +245,16 @@ std::string as_json(const IndexReport& report) {
         {"percent_of_raw", percent_of_raw(file)},
         {"tiers", nlohmann::ordered_json::array()},
         {"plan", file.plan().reasons},
-        {"levels", file.levels().levels()},
-        {"lossless", file.levels().lossless()},
+        {"levels", nullptr},
+        {"lossless", nullptr},
         {"refers_to", nullptr},
         {"lattice", file.tree_options().lattice},
         {"max_variation", file.tree_options().max_variation},
     };
+    if (const auto levels = levels_of(file)) {
+        j["levels"] = levels->levels();
+        j["lossless"] = levels->lossless();
+    }
     for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
         if (file.plan().tiers.has(static_cast<index::Tier>(i)))
             j["tiers"].push_back(index::kTierNames[i]);

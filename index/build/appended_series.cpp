@@ -28,6 +28,8 @@ class AppendedSeries final : public VolumeSeries {
         std::memcpy(out.data(), held.values.step_bytes(step).data(), out.size());
     }
 
+    std::uint64_t state(std::size_t step) const override { return all_->state(step); }
+
   private:
     std::shared_ptr<const IndexFile> index_;
     std::unique_ptr<VolumeSeries> all_;
@@ -37,6 +39,28 @@ class AppendedSeries final : public VolumeSeries {
 template <class T>
 bool begins_with(const std::vector<T>& all, const std::vector<T>& first) {
     return all.size() >= first.size() && std::equal(first.begin(), first.end(), all.begin());
+}
+
+/// Reads those steps again of which nothing else tells that they are what was indexed.
+void expect_unchanged(const std::string& name, VolumeSeries& all, std::size_t held,
+                      std::span<const std::uint64_t> checksums,
+                      std::span<const std::uint64_t> states) {
+    std::vector<std::byte> stored;
+    for (std::size_t step = 0; step < held; ++step) {
+        if (states[step] != 0 && all.state(step) == states[step])
+            continue;
+        stored.resize(all.info().step_bytes());
+        all.read(step, stored);
+        if (checksum_of(stored) == checksums[step])
+            continue;
+        const std::vector<std::string>& sources = all.info().sources;
+        throw Error(
+            fmt::format("{}: cannot be appended to: its source {} has changed under step {}", name,
+                        sources.size() == all.info().steps() ? sources[step]
+                        : sources.empty()                    ? "?"
+                                                             : sources.back(),
+                        step));
+    }
 }
 
 } // namespace
@@ -55,6 +79,7 @@ std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
         refuse(fmt::format("the files given must begin with the {} steps that it holds, {} to {}",
                            held.steps(), held.sources.empty() ? "?" : held.sources.front(),
                            held.sources.empty() ? "?" : held.sources.back()));
+    expect_unchanged(name, *all, held.steps(), index->checksums(), index->source_states());
     if (given.steps() == held.steps())
         return nullptr;
     return std::make_unique<AppendedSeries>(std::move(index), std::move(all), &IndexFile::load);
@@ -75,6 +100,8 @@ std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> 
         throw Error(fmt::format("{}: cannot be appended to: its colors {} differ in type or "
                                 "scaling",
                                 name, given));
+    expect_unchanged(name, *all, index->info().steps(), index->color_checksums(),
+                     index->source_states());
     return std::make_unique<AppendedSeries>(std::move(index), std::move(all),
                                             &IndexFile::load_color);
 }

@@ -6,15 +6,17 @@
 namespace isochron::index {
 
 /// Takes the steps that the index holds from there, and reads the others from their files: what
-/// `build --append` builds from. Its index is the one that building everything anew would give.
+/// `build --append` builds from.
 /// @param all the whole series, those steps included
 /// @return null when the index holds all steps already
-/// @throws Error naming the index when the series does not begin with its steps
+/// @throws Error naming the index when the series does not begin with its steps, or when a source
+///         has been written to since and no longer holds what was indexed
 std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
                                         const std::string& name, std::unique_ptr<VolumeSeries> all);
 
 /// Likewise for the array to color by. @param all null when none is asked for
-/// @throws Error naming the index when it holds another one, or one holds it and the other does not
+/// @throws Error naming the index when it holds another one, one holds it and the other does not,
+///         or a source has changed
 std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> index,
                                                const std::string& name,
                                                std::unique_ptr<VolumeSeries> all);

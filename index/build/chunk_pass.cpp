@@ -1,6 +1,8 @@
 // The pass of a build that packs the steps into chunks.
 #include "index/build/chunk_pass.h"
 
+#include "index/build/level_choice.h"
+#include "index/file/step_levels.h"
 #include "index/file/step_packer.h"
 #include "index/scan/bricks.h"
 
@@ -8,43 +10,53 @@
 
 namespace isochron::index {
 
-ChunkFindings placed_steps(PartWriter& parts, std::vector<StepEntry> mine, Team& team) {
+std::vector<StepEntry> placed_steps(PartWriter& parts, std::vector<StepEntry> mine,
+                                    std::uint64_t& end, Team& team) {
     const PartWriter::Placed placed = parts.place(team);
     for (StepEntry& step : mine)
-        step.offset += placed.start;
-    return {placed.bytes, team.gather_items(mine)};
+        step.offset += end + placed.start;
+    end += placed.bytes;
+    return team.gather_items(mine);
 }
 
-ChunkFindings write_chunks(const StepValues& values, const MappedFile& volume,
-                           const LevelMap& levels, const ChunkContents& contents, NewFile& file,
-                           std::uint64_t offset, const std::filesystem::path& spill,
-                           unsigned threads, Team& team, const Progress& progress) {
-    const auto [first, last] = team.share(values.steps);
+std::vector<StepEntry> write_chunks(const StepValues& values, std::size_t first,
+                                    const MappedFile& volume, const ChunkContents& contents,
+                                    ByteSink& file, std::uint64_t& end,
+                                    const std::filesystem::path& spill, unsigned threads,
+                                    Team& team, const Progress& progress) {
+    const auto [mine, mine_end] = team.share(values.steps - first);
     std::optional<PartWriter> parts;
     std::vector<StepEntry> steps;
     team.together([&] {
-        parts.emplace(file, offset, spill, team);
+        parts.emplace(file, end, spill, team);
         StepPacker packer(values.grid, values.type, contents.codec, threads);
+        const auto append = [&](std::span<const std::byte> bytes) { parts->append(bytes); };
         std::vector<std::uint8_t> bricks;
-        for (std::size_t step = first; step < last; ++step) {
+        for (std::size_t i = mine; i < mine_end; ++i) {
+            const std::size_t step = first + i;
             if (progress)
                 progress("packing",
-                         static_cast<double>(step - first) / static_cast<double>(last - first));
-            if (contents.bricks) {
-                bricks.resize(BrickGrid(values.grid).bytes_per_step());
-                build_bricks(values, levels, step, bricks);
-            }
+                         static_cast<double>(i - mine) / static_cast<double>(mine_end - mine));
             const auto stored = values.step_bytes(step);
+            std::vector<std::byte> levels;
+            if (contents.bricks) {
+                const LevelMap map = levels_of_step(values.type, stored);
+                bricks.resize(BrickGrid(values.grid).bytes_per_step());
+                build_bricks(values, map, step, bricks);
+                if (has_step_levels(values.type))
+                    levels = bytes_of(map);
+            }
             const std::uint64_t begin = parts->align(kPartAlignment);
-            StepEntry entry =
-                packer.pack(contents.values ? stored : std::span<const std::byte>(), bricks,
-                            [&](std::span<const std::byte> bytes) { parts->append(bytes); });
+            StepEntry entry = packer.pack(contents.values ? stored : std::span<const std::byte>(),
+                                          bricks, append);
+            append(levels);
             entry.offset = begin;
+            entry.bytes += levels.size();
             steps.push_back(entry);
             volume.let_go(stored);
         }
     });
-    return placed_steps(*parts, std::move(steps), team);
+    return placed_steps(*parts, std::move(steps), end, team);
 }
 
 } // namespace isochron::index

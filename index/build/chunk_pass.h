@@ -20,22 +20,20 @@ struct ChunkContents {
     Codec codec = Codec::fitting;
 };
 
-/// Steps of one array in the volume section.
-struct ChunkFindings {
-    std::uint64_t bytes = 0;
-    std::vector<StepEntry> steps;
-};
-
-/// Packs each member's share of the steps, one after the other with all threads, and writes them
-/// behind each other.
+/// Packs each member's share of the steps from `first` on, one after the other with all threads,
+/// and writes them behind each other. Bricks of wide types get levels for each step.
 /// @param volume where the values lie; what has been read of it is let go
+/// @param end of the file so far; moves behind what was written
 /// @param spill name for files of members that have to wait for others
-ChunkFindings write_chunks(const StepValues& values, const MappedFile& volume,
-                           const LevelMap& levels, const ChunkContents& contents, NewFile& file,
-                           std::uint64_t offset, const std::filesystem::path& spill,
-                           unsigned threads, Team& team, const Progress& progress);
+/// @return where the steps are
+std::vector<StepEntry> write_chunks(const StepValues& values, std::size_t first,
+                                    const MappedFile& volume, const ChunkContents& contents,
+                                    ByteSink& file, std::uint64_t& end,
+                                    const std::filesystem::path& spill, unsigned threads,
+                                    Team& team, const Progress& progress);
 
 /// The steps of all members, once they are where they belong.
-ChunkFindings placed_steps(PartWriter& parts, std::vector<StepEntry> mine, Team& team);
+std::vector<StepEntry> placed_steps(PartWriter& parts, std::vector<StepEntry> mine,
+                                    std::uint64_t& end, Team& team);
 
 } // namespace isochron::index

@@ -19,24 +19,32 @@ void expect_colors_of(const SeriesInfo& colors, const SeriesInfo& volume) {
                                 volume.array, volume.grid.vertex_count(), volume.steps()));
 }
 
-ColorFindings read_colors(VolumeSeries& series, const ChunkContents& contents, NewFile& file,
-                          std::uint64_t offset, const std::filesystem::path& spill,
-                          unsigned threads, Team& team, const Progress& progress) {
+ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorArray* held,
+                          const ChunkContents& contents, ByteSink& file, std::uint64_t& end,
+                          const std::filesystem::path& spill, unsigned threads, Team& team,
+                          const Progress& progress) {
     const SeriesInfo& info = series.info();
     ValueRange range;
+    if (held && team.rank() == 0) {
+        range.nan_values = held->nan_values;
+        if (held->nan_values < first * info.grid.vertex_count()) {
+            range.low = held->low;
+            range.high = held->high;
+        }
+    }
     std::vector<std::uint64_t> checksums;
     std::optional<PartWriter> parts;
     std::vector<StepEntry> steps;
     team.together([&] {
-        parts.emplace(file, offset, spill, team);
+        parts.emplace(file, end, spill, team);
         StepPacker packer(info.grid, info.type, contents.codec, threads);
-        const auto [first, last] = team.share(info.steps());
+        const auto [mine, mine_end] = team.share(info.steps() - first);
         std::vector<std::byte> stored(info.step_bytes());
-        for (std::size_t t = first; t < last; ++t) {
+        for (std::size_t i = mine; i < mine_end; ++i) {
             if (progress)
                 progress("reading colors",
-                         static_cast<double>(t - first) / static_cast<double>(last - first));
-            series.read(t, stored);
+                         static_cast<double>(i - mine) / static_cast<double>(mine_end - mine));
+            series.read(first + i, stored);
             add_range(info.type, info.scaling, stored, range.low, range.high, range.nan_values);
             checksums.push_back(checksum_of(stored));
             const std::uint64_t begin = parts->align(kPartAlignment);
@@ -55,7 +63,7 @@ ColorFindings read_colors(VolumeSeries& series, const ChunkContents& contents, N
              .low = all.low,
              .high = all.high,
              .nan_values = all.nan_values},
-            placed_steps(*parts, std::move(steps), team),
+            placed_steps(*parts, std::move(steps), end, team),
             team.gather_items(checksums)};
 }
 

@@ -4,7 +4,7 @@
 #include "index/build/chunk_pass.h"
 #include "index/file/index_contents.h"
 #include "index/progress.h"
-#include "index/system/new_file.h"
+#include "index/system/byte_sink.h"
 #include "index/system/team.h"
 
 namespace isochron::index {
@@ -15,13 +15,17 @@ void expect_colors_of(const SeriesInfo& colors, const SeriesInfo& volume);
 /// What the pass has found, the same for every member.
 struct ColorFindings {
     ColorArray array; ///< `chosen_*` are left empty
-    ChunkFindings chunks;
+    std::vector<StepEntry> steps;
     std::vector<std::uint64_t> checksums; ///< of the stored values of every step
 };
 
-/// Reads each member's share of the steps and packs their values where `contents` says so.
-ColorFindings read_colors(VolumeSeries& series, const ChunkContents& contents, NewFile& file,
-                          std::uint64_t offset, const std::filesystem::path& spill,
-                          unsigned threads, Team& team, const Progress& progress);
+/// Reads each member's share of the steps from `first` on and packs their values where `contents`
+/// says so.
+/// @param held what is known of the steps before, if there are any
+/// @param end of the file so far; moves behind what was written
+ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorArray* held,
+                          const ChunkContents& contents, ByteSink& file, std::uint64_t& end,
+                          const std::filesystem::path& spill, unsigned threads, Team& team,
+                          const Progress& progress);
 
 } // namespace isochron::index

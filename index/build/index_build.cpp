@@ -1,6 +1,7 @@
 // Building of .isochron files: one pass over the series, then the tiers over what was written.
 #include "index/build/index_build.h"
 
+#include "index/build/build_target.h"
 #include "index/build/chunk_pass.h"
 #include "index/build/color_pass.h"
 #include "index/build/tier_plan.h"
@@ -9,13 +10,13 @@
 #include "index/error.h"
 #include "index/file/file_layout.h"
 #include "index/file/metadata.h"
+#include "index/file/step_levels.h"
 #include "index/system/input_file.h"
 #include "index/system/mapped_file.h"
-#include "index/system/new_file.h"
 #include "index/system/parallel.h"
+#include "index/volume/chunking.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
@@ -36,91 +37,55 @@ void refuse_foreign_file(const std::filesystem::path& out) {
             fmt::format("{}: exists and is not an isochron index: not replaced", out.string()));
 }
 
-/// Of everything that decides what a query answers and where it lies.
-std::uint64_t content_hash(const SeriesInfo& info, std::span<const std::uint64_t> checksums) {
-    std::vector<double> numbers(info.grid.vertices.begin(), info.grid.vertices.end());
-    for (const glm::dvec3& v : {info.grid.origin, info.grid.spacing, info.grid.direction[0],
-                                info.grid.direction[1], info.grid.direction[2]})
-        numbers.insert(numbers.end(), {v.x, v.y, v.z});
-    numbers.insert(numbers.end(),
-                   {static_cast<double>(info.type), info.scaling.slope, info.scaling.intercept});
-    numbers.insert(numbers.end(), info.times.begin(), info.times.end());
-    return XXH3_64bits_withSeed(numbers.data(), numbers.size() * sizeof(double),
-                                checksum_of(std::as_bytes(checksums)));
+/// First steps that cells are built of where an index has them. Those of an epoch lie in one tree,
+/// so they are built when it is complete, or when there are as many new steps in it as old ones.
+std::uint32_t covered_steps(std::uint32_t held, std::uint32_t steps, std::uint32_t covered) {
+    const std::uint32_t begin = steps / TimePath::kMaxSteps * TimePath::kMaxSteps;
+    const std::uint32_t old = std::max(held, begin) - begin;
+    return steps - begin >= 2 * old ? steps : std::max(covered, begin);
 }
 
-/// A new file of all members of the team, made by the first.
-class TeamFile {
-  public:
-    TeamFile(Team& team, const std::filesystem::path& target) : team_(team) {
-        std::string temporary;
-        team.together([&] {
-            if (team.rank() == 0) {
-                file_.emplace(target);
-                file_->remove_remains();
-                temporary = file_->temporary().string();
-            }
-        });
-        const auto names = team.gather(std::as_bytes(std::span(temporary)));
-        team.together([&] {
-            if (team.rank() > 0)
-                file_.emplace(
-                    target, std::filesystem::path(std::string(
-                                reinterpret_cast<const char*>(names[0].data()), names[0].size())));
-        });
-    }
-
-    NewFile& operator*() { return *file_; }
-    NewFile* operator->() { return &*file_; }
-
-    void commit() {
-        team_.together([&] {
-            if (team_.rank() > 0)
-                file_->commit();
-        });
-        team_.together([&] {
-            if (team_.rank() == 0)
-                file_->commit();
-        });
-    }
-
-  private:
-    Team& team_;
-    std::optional<NewFile> file_;
-};
-
-/// The sections of the file in the making.
+/// The parts of a file in the making.
 class Build {
   public:
+    /// @param held what is appended to, if anything
     Build(VolumeSeries& series, const std::filesystem::path& out, const BuildOptions& options,
-          const Progress& progress, Team& team)
+          const Progress& progress, Team& team, BuildTarget& target, const IndexFile* held)
         : series_(series), out_(out), options_(options), progress_(progress), team_(team),
-          threads_(thread_count(options.threads)), file_(team, out),
-          values_file_(team, out.string() + ".volume"), metadata_{.info = series.info(),
-                                                                  .codec = options.codec,
-                                                                  .tree = options.tree,
-                                                                  .referral = options.referral} {}
+          threads_(thread_count(options.threads)), target_(target),
+          scratch_(team, out.string() + ".volume"),
+          held_(held), metadata_{.info = series.info(),
+                                 .codec = options.codec,
+                                 .tree = options.tree,
+                                 .referral = options.referral,
+                                 .chosen_array = options.array,
+                                 .chosen_component = options.component},
+          steps_(static_cast<std::uint32_t>(series.info().steps())) {
+        if (held)
+            take(*held);
+    }
 
-    void run() {
-        team_.together([&] { refuse_foreign_file(out_); });
+    /// @return false where appending would give cells that miss values
+    bool run() {
+        plan_cells();
         read_steps();
-        team_.together([&] { written_.emplace(values_file_->temporary()); });
+        if (held_ && !fits_held_levels())
+            return false;
+        team_.together([&] { written_.emplace(scratch_.sink().temporary()); });
         const SeriesInfo& info = metadata_.info;
         values_ = {.grid = info.grid,
                    .type = info.type,
                    .scaling = info.scaling,
                    .steps = info.steps(),
                    .first = written_->bytes().data(),
-                   .stride = step_stride(info.step_bytes())};
-        IndexStats& stats = metadata_.stats;
-        stats.histogram =
-            count_values(values_, *written_, stats.low, stats.high, threads_, team_, progress_);
-        team_.together([&] {
-            metadata_.plan = plan_tiers(values_, *metadata_.levels, options_.tiers);
-            if (options_.with_tree)
-                metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::tree);
-        });
-        write_volume();
+                   .stride = step_stride(info.step_bytes()),
+                   .first_step = window_};
+        if (!held_)
+            plan();
+        align();
+        const auto entries = write_chunks(values_, fresh_, *written_, contents(), target_.sink(),
+                                          end_, spill(".chunks"), threads_, team_, progress_);
+        append_to(volume_steps_, entries);
         write_colors();
         write_cells();
         team_.together([&] {
@@ -129,107 +94,158 @@ class Build {
         });
         if (progress_)
             progress_("flushing to disk", 0.0);
-        file_.commit();
+        target_.commit(header_);
+        return true;
     }
 
   private:
     bool has(Tier tier) const { return metadata_.plan.tiers.has(tier); }
 
+    template <class T, class From>
+    static void append_to(std::vector<T>& to, const From& more) {
+        to.insert(to.end(), more.begin(), more.end());
+    }
+
+    /// What an index holds already stays where it is.
+    void take(const IndexFile& held) {
+        const Metadata& known = held.metadata();
+        fresh_ = known.info.steps();
+        end_ = held.header().file_bytes;
+        header_.sequence = held.header().sequence + 1;
+        metadata_.plan = known.plan;
+        metadata_.levels = known.levels;
+        counts_ = known.stats.counts;
+        append_to(volume_steps_, held.step_entries().first(fresh_));
+        append_to(checksums_, held.checksums().first(fresh_));
+        append_to(states_, held.source_states());
+        if (held.color()) {
+            append_to(color_steps_, held.step_entries().last(fresh_));
+            append_to(color_checksums_, held.color_checksums());
+        }
+    }
+
+    /// Which steps get cells, and what has to be read for them.
+    void plan_cells() {
+        window_ = fresh_;
+        covered_ = steps_;
+        if (!held_ || !has(Tier::cells))
+            return;
+        const std::uint32_t known = held_->metadata().cell_steps;
+        covered_ = covered_steps(static_cast<std::uint32_t>(fresh_), steps_, known);
+        first_epoch_ = known / TimePath::kMaxSteps;
+        const std::size_t kept = covered_ == known
+                                     ? held_->directory().size()
+                                     : first_epoch_ * Chunking(metadata_.info.grid).count();
+        append_to(directory_, held_->directory().first(kept));
+        append_to(unit_checksums_, held_->checksums().subspan(fresh_, 2 * kept));
+        if (covered_ == known)
+            return;
+        const std::size_t begin = std::size_t{first_epoch_} * TimePath::kMaxSteps;
+        const std::size_t before = has(Tier::deltas) && begin > 0 ? 1 : 0;
+        window_ = std::min(window_, begin - before);
+    }
+
     void read_steps() {
         const SeriesInfo& info = metadata_.info;
         team_.together([&] {
             if (team_.rank() == 0)
-                values_file_->reserve(info.steps() * step_stride(info.step_bytes()));
+                scratch_.sink().reserve((info.steps() - window_) * step_stride(info.step_bytes()));
         });
-        VolumeFindings found = read_volume(series_, *values_file_, 0, team_, progress_);
-        metadata_.stats.low = found.low;
-        metadata_.stats.high = found.high;
-        metadata_.stats.nan_values = found.nan_values;
-        metadata_.levels = std::move(found.levels);
-        header_.content_hash = content_hash(info, found.checksums);
-        checksums_ = std::move(found.checksums);
+        VolumeFindings found =
+            read_volume(series_, window_, fresh_, scratch_.sink(), team_, progress_);
+        counts_.merge(info.type, found.counts);
+        set_counts(metadata_, counts_);
+        append_to(checksums_, found.checksums);
+        append_to(states_, found.states);
+        found_levels_ = std::move(found.levels);
+        header_.content_hash = content_hash_of(info, checksums_);
     }
 
-    /// Of the sections that are made in parts, which begin where pages do.
-    Section& begin(SectionKind kind) {
-        Section& section = header_.section(kind);
-        section.offset = align_up(end_, kSectionAlignment);
-        return section;
+    /// Whether the cells that there are know every value of the new steps.
+    bool fits_held_levels() const {
+        if (!has(Tier::cells) || !metadata_.levels->lossless() ||
+            !has_step_levels(metadata_.info.type))
+            return true;
+        if (!found_levels_->lossless())
+            return false;
+        const auto known = metadata_.levels->distinct(), given = found_levels_->distinct();
+        return std::ranges::includes(known, given);
+    }
+
+    void plan() {
+        team_.together([&] {
+            const bool keeps = options_.plan && (found_levels_->lossless() ||
+                                                 !options_.plan->tiers.has(Tier::deltas));
+            metadata_.plan =
+                keeps ? *options_.plan : plan_tiers(values_, *found_levels_, options_.tiers);
+            if (options_.with_tree)
+                metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::tree);
+            if (!keeps)
+                metadata_.plan.steps = steps_;
+        });
+        if (has(Tier::cells))
+            metadata_.levels = found_levels_;
     }
 
     ChunkContents contents() const {
         return {has(Tier::bricks), !options_.referral, options_.codec};
     }
     std::string spill(const char* what) const { return out_.string() + what; }
-
-    void write_volume() {
-        Section& section = begin(SectionKind::volume);
-        ChunkFindings found =
-            write_chunks(values_, *written_, *metadata_.levels, contents(), *file_, section.offset,
-                         spill(".chunks"), threads_, team_, progress_);
-        section.bytes = found.bytes;
-        end_ = section.offset + section.bytes;
-        steps_ = std::move(found.steps);
-    }
-
-    void write_cells() {
-        if (!has(Tier::cells))
-            return;
-        Section& section = begin(SectionKind::units);
-        UnitFindings units =
-            write_units(values_, *written_, *metadata_.levels, has(Tier::deltas), *file_,
-                        section.offset, spill(".units"), threads_, team_, progress_);
-        section.bytes = units.bytes;
-        end_ = section.offset + section.bytes;
-        directory_ = std::move(units.directory);
-        metadata_.stats.cell_entries = units.entries;
-        append_checksums(units.checksums);
-    }
+    /// Where the next part begins.
+    void align() { end_ = align_up(end_, kPartAlignment); }
 
     void write_colors() {
         if (!options_.color)
             return;
-        Section& section = header_.section(SectionKind::volume);
-        const std::uint64_t before = align_up(section.bytes, kPartAlignment);
+        align();
         ColorFindings found =
-            read_colors(*options_.color, contents(), *file_, section.offset + before,
-                        spill(".colors"), threads_, team_, progress_);
-        for (StepEntry& step : found.chunks.steps)
-            step.offset += before;
-        steps_.insert(steps_.end(), found.chunks.steps.begin(), found.chunks.steps.end());
-        section.bytes = before + found.chunks.bytes;
-        end_ = section.offset + section.bytes;
-        color_checksums_ = std::move(found.checksums);
+            read_colors(*options_.color, fresh_, held_ ? held_->color() : nullptr, contents(),
+                        target_.sink(), end_, spill(".colors"), threads_, team_, progress_);
+        append_to(color_steps_, found.steps);
+        append_to(color_checksums_, found.checksums);
         metadata_.color = std::move(found.array);
         metadata_.color->chosen_array = options_.color_array;
         metadata_.color->chosen_component = options_.color_component;
     }
 
-    void append_checksums(const std::vector<std::uint64_t>& more) {
-        checksums_.insert(checksums_.end(), more.begin(), more.end());
+    void write_cells() {
+        if (!has(Tier::cells))
+            return;
+        metadata_.cell_steps = covered_;
+        if (held_ && held_->metadata().cell_steps == covered_)
+            return;
+        align();
+        StepValues covered = values_;
+        covered.steps = covered_;
+        const UnitFindings units =
+            write_units(covered, first_epoch_, *written_, *metadata_.levels, has(Tier::deltas),
+                        target_.sink(), end_, spill(".units"), threads_, team_, progress_);
+        append_to(directory_, units.directory);
+        append_to(unit_checksums_, units.checksums);
     }
 
     void append(SectionKind kind, std::span<const std::byte> bytes) {
-        Section& section = header_.section(kind);
-        section = {align_up(end_, kPartAlignment), bytes.size(), checksum_of(bytes)};
-        file_->write_at(section.offset, bytes);
-        end_ = section.offset + section.bytes;
+        align();
+        header_.section(kind) = {end_, bytes.size(), checksum_of(bytes)};
+        target_.sink().write_at(end_, bytes);
+        end_ += bytes.size();
     }
 
     void write_rest() {
         if (has(Tier::tree))
             append(SectionKind::tree, build_thi_tree(values_, options_.tree, progress_, threads_));
-        append_checksums(color_checksums_);
-        append(SectionKind::steps, std::as_bytes(std::span(steps_)));
+        else
+            append(SectionKind::tree, {});
+        append_to(volume_steps_, color_steps_);
+        append(SectionKind::steps, std::as_bytes(std::span(volume_steps_)));
         append(SectionKind::directory, std::as_bytes(std::span(directory_)));
+        append_to(checksums_, unit_checksums_);
+        append_to(checksums_, color_checksums_);
+        append_to(checksums_, states_);
         append(SectionKind::checksums, std::as_bytes(std::span(checksums_)));
         const std::string text = to_json(metadata_);
         append(SectionKind::metadata, std::as_bytes(std::span(text)));
-        for (Section& section : header_.sections)
-            if (section.offset == 0)
-                section.offset = kSectionAlignment; // an empty one lies anywhere
         header_.file_bytes = end_;
-        file_->write_at(0, header_bytes(header_));
     }
 
     VolumeSeries& series_;
@@ -238,24 +254,27 @@ class Build {
     const Progress& progress_;
     Team& team_;
     unsigned threads_;
-    TeamFile file_;
-    TeamFile values_file_; ///< the values as they are read; never gets its name
+    BuildTarget& target_;
+    NewTarget scratch_; ///< the values as they are read; never gets its name
+    const IndexFile* held_;
     Metadata metadata_;
     FileHeader header_;
-    std::optional<MappedFile> written_; ///< the values, once they are complete
+    std::uint32_t steps_;           ///< of the series
+    std::size_t fresh_ = 0;         ///< the first step that is not held
+    std::size_t window_ = 0;        ///< the first step of which values are needed
+    std::uint32_t covered_ = 0;     ///< first steps that cells hold
+    std::uint32_t first_epoch_ = 0; ///< of which cells are built
+    ValueCounts counts_;
+    std::optional<LevelMap> found_levels_; ///< of the new steps together
+    std::optional<MappedFile> written_;    ///< the values, once they are complete
     StepValues values_;
     std::vector<UnitEntry> directory_;
-    std::vector<std::uint64_t> checksums_;
-    std::vector<StepEntry> steps_;
-    std::vector<std::uint64_t> color_checksums_;
-    std::uint64_t end_ = kSectionAlignment; ///< of what has been written
+    std::vector<std::uint64_t> checksums_, unit_checksums_, color_checksums_, states_;
+    std::vector<StepEntry> volume_steps_, color_steps_;
+    std::uint64_t end_ = kDataBegin; ///< of what has been written
 };
 
-} // namespace
-
-void build_index(VolumeSeries& series, const std::filesystem::path& out,
-                 const BuildOptions& options, const Progress& progress, Team& team) {
-    const SeriesInfo& info = series.info();
+void check_options(const SeriesInfo& info, const BuildOptions& options) {
     try {
         check_limits(info);
         if (options.tiers)
@@ -266,12 +285,29 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
         throw Error(fmt::format("{}: {}", info.sources.empty() ? "series" : info.sources.front(),
                                 error.what()));
     }
-    Build(series, out, options, progress, team).run();
+}
+
+} // namespace
+
+void build_index(VolumeSeries& series, const std::filesystem::path& out,
+                 const BuildOptions& options, const Progress& progress, Team& team) {
+    check_options(series.info(), options);
+    NewTarget target(team, out);
+    team.together([&] { refuse_foreign_file(out); });
+    Build(series, out, options, progress, team, target, nullptr).run();
 }
 
 void build_index(VolumeSeries& series, const std::filesystem::path& out,
                  const BuildOptions& options, const Progress& progress) {
     build_index(series, out, options, progress, *alone());
+}
+
+bool append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
+                  const std::filesystem::path& out, const BuildOptions& options,
+                  const Progress& progress, Team& team) {
+    check_options(series.info(), options);
+    GrowingTarget target(team, file, held.header());
+    return Build(series, out, options, progress, team, target, &held).run();
 }
 
 } // namespace isochron::index

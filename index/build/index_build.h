@@ -4,13 +4,16 @@
 #include "index/file/chunk_codec.h"
 #include "index/file/index_file.h"
 #include "index/progress.h"
+#include "index/system/byte_sink.h"
 #include "index/system/team.h"
 
 namespace isochron::index {
 
 struct BuildOptions {
     std::optional<TierSet> tiers =
-        {};                 ///< instead of the planner's choice, which leaves out the tree
+        {}; ///< instead of the planner's choice, which leaves out the tree
+    /// Instead of a choice: that of an index which is written anew, where it still can be.
+    std::optional<TierPlan> plan = {};
     bool with_tree = false; ///< besides
     ThiOptions tree = {};
     unsigned threads = 0; ///< 0 for as many as there are processors
@@ -21,6 +24,8 @@ struct BuildOptions {
     VolumeSeries* color = nullptr;
     /// What picks it in the files, for an index that refers to them.
     std::optional<std::string> color_array = {}, color_component = {};
+    /// What picks the volume itself.
+    std::optional<std::string> array = {}, component = {};
 };
 
 /// Reads a series once and writes NAME.isochron under a temporary name, then renames it.
@@ -35,5 +40,20 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
                  const BuildOptions& options, const Progress& progress = {});
 void build_index(VolumeSeries& series, const std::filesystem::path& out,
                  const BuildOptions& options, const Progress& progress, Team& team);
+
+/// Appends the steps that an index does not hold yet, in place: it writes behind the end of the
+/// file, and last the header. Killed at any moment it leaves the old index or the new one; whoever
+/// has the old one open goes on with it. What queries answer and the content hash are those of an
+/// index built anew. Cells come by whole epochs: where fewer steps are new than old in an epoch,
+/// they wait until it is complete, and bricks are searched meanwhile.
+/// @param series all steps; of those that are held it is asked for values that cells need
+/// @param held the newest state of the file @param file opened for writing, for the first member
+///        alone @param options tiers, codec, referral and colors as the index has them
+/// @return false, and nothing is written, where that cannot be: its cells are of a type of more
+///         than 8 bits and miss values of the new steps
+/// @throws Error as `build_index`; the index stays as it was
+bool append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
+                  const std::filesystem::path& out, const BuildOptions& options,
+                  const Progress& progress, Team& team);
 
 } // namespace isochron::index

@@ -12,7 +12,6 @@ namespace isochron::index {
 namespace {
 
 constexpr std::size_t kSamples = 1 << 16;
-constexpr std::size_t kSamplesPerStep = 1 << 11;
 
 /// SplitMix64: different numbers have different hashes. Steele, Lea and Flood, "Fast splittable
 /// pseudorandom number generators", OOPSLA 2014, doi:10.1145/2660193.2660195.
@@ -154,11 +153,11 @@ void LevelChooser::add_values(std::size_t step, std::span<const T> values) {
         take_distinct(distinct.take());
     }
     // One value at random out of each of equal stretches.
-    const std::size_t count = std::min(values.size(), kSamplesPerStep);
+    const std::size_t count = std::min(values.size(), samples_per_step_);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t first = i * values.size() / count;
         const std::size_t end = (i + 1) * values.size() / count;
-        const std::uint64_t hash = hash_of(step * kSamplesPerStep + i);
+        const std::uint64_t hash = hash_of(step * samples_per_step_ + i);
         const T value = values[first + hash_of(hash) % (end - first)];
         if (!is_nan(value))
             samples_.push_back({hash, ordinal(value)});
@@ -205,6 +204,13 @@ LevelMap LevelChooser::choose() const {
         ordinals.push_back(sample.ordinal);
     std::sort(ordinals.begin(), ordinals.end());
     return LevelMap::of_thresholds(type_, even_thresholds(weighted(type_, ordinals)));
+}
+
+LevelMap levels_of_step(ValueType type, std::span<const std::byte> stored) {
+    constexpr std::size_t kSamplesOfOneStep = 1 << 14;
+    LevelChooser chooser(type, kSamplesOfOneStep);
+    chooser.add(0, stored);
+    return chooser.choose();
 }
 
 } // namespace isochron::index

@@ -25,7 +25,11 @@ namespace isochron::index {
 /// lowest hashes are kept.
 class LevelChooser {
   public:
-    explicit LevelChooser(ValueType type) : type_(type) {}
+    /// As many values of a step are looked at where a series of steps is added.
+    static constexpr std::size_t kSamplesPerStep = 1 << 11;
+
+    explicit LevelChooser(ValueType type, std::size_t samples_per_step = kSamplesPerStep)
+        : type_(type), samples_per_step_(samples_per_step) {}
 
     /// @param step number in the series @param stored all values of the step
     void add(std::size_t step, std::span<const std::byte> stored);
@@ -49,9 +53,13 @@ class LevelChooser {
     static void keep_lowest_hashes(std::vector<Sample>& samples);
 
     ValueType type_;
+    std::size_t samples_per_step_ = kSamplesPerStep;
     bool many_ = false;                   ///< more than 256 distinct values
     std::vector<std::uint64_t> distinct_; ///< ordinals, ascending; empty when there are many
     std::vector<Sample> samples_;         ///< now and then cut down to the lowest hashes
 };
+
+/// The levels for the bricks of one step alone, which depend on its values and nothing else.
+LevelMap levels_of_step(ValueType type, std::span<const std::byte> stored);
 
 } // namespace isochron::index

@@ -2,9 +2,6 @@
 #include "index/build/part_writer.h"
 
 #include "index/file/file_layout.h"
-#include "index/system/mapped_file.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
@@ -13,32 +10,32 @@ namespace isochron::index {
 namespace {
 
 /// Copies what a member has spilled to its place, a piece at a time.
-void copy_spilled(const std::filesystem::path& from, std::uint64_t bytes, NewFile& to,
+void copy_spilled(const ScratchFile& from, std::uint64_t bytes, ByteSink& to,
                   std::uint64_t offset) {
-    if (bytes == 0)
-        return;
-    const MappedFile spilled(from);
     constexpr std::uint64_t kPiece = 16 << 20;
-    for (std::uint64_t at = 0; at < spilled.bytes().size(); at += kPiece) {
-        const auto piece =
-            spilled.bytes().subspan(at, std::min(kPiece, spilled.bytes().size() - at));
+    std::vector<std::byte> piece;
+    for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
+        piece.resize(std::min(kPiece, bytes - at));
+        from.read(at, piece);
         to.write_at(offset + at, piece);
-        spilled.let_go(piece);
     }
 }
 
 } // namespace
 
-PartWriter::PartWriter(NewFile& file, std::uint64_t offset, const std::filesystem::path& spill,
+PartWriter::PartWriter(ByteSink& file, std::uint64_t offset, const std::filesystem::path& spill,
                        const Team& team)
     : file_(file), offset_(offset) {
     if (team.rank() > 0)
-        spilled_.emplace(spill.string() + fmt::format("{}", team.rank()));
+        spilled_.emplace(spill);
 }
 
 std::uint64_t PartWriter::append(std::span<const std::byte> bytes) {
     const std::uint64_t at = end_;
-    (spilled_ ? *spilled_ : file_).write_at(spilled_ ? at : offset_ + at, bytes);
+    if (spilled_)
+        spilled_->write_at(at, bytes);
+    else
+        file_.write_at(offset_ + at, bytes);
     end_ += bytes.size();
     return at;
 }
@@ -57,7 +54,7 @@ PartWriter::Placed PartWriter::place(Team& team) {
     }
     team.together([&] {
         if (spilled_)
-            copy_spilled(spilled_->temporary(), end_, file_, offset_ + placed.start);
+            copy_spilled(*spilled_, end_, file_, offset_ + placed.start);
     });
     return placed;
 }

@@ -1,7 +1,8 @@
 // Parts of a section, of which nobody knows the sizes before they are made.
 #pragma once
 
-#include "index/system/new_file.h"
+#include "index/system/byte_sink.h"
+#include "index/system/scratch_file.h"
 #include "index/system/team.h"
 
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace isochron::index {
 class PartWriter {
   public:
     /// @param offset where the section begins in the file
-    PartWriter(NewFile& file, std::uint64_t offset, const std::filesystem::path& spill,
+    PartWriter(ByteSink& file, std::uint64_t offset, const std::filesystem::path& spill,
                const Team& team);
 
     /// Puts bytes behind what there is. @return where, from the member's first byte
@@ -34,9 +35,9 @@ class PartWriter {
     Placed place(Team& team);
 
   private:
-    NewFile& file_;
+    ByteSink& file_;
     std::uint64_t offset_, end_ = 0;
-    std::optional<NewFile> spilled_;
+    std::optional<ScratchFile> spilled_;
 };
 
 } // namespace isochron::index

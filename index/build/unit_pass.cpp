@@ -10,19 +10,20 @@
 #include <optional>
 
 namespace isochron::index {
-UnitFindings write_units(const StepValues& values, const MappedFile& volume, const LevelMap& levels,
-                         bool deltas, NewFile& file, std::uint64_t offset,
-                         const std::filesystem::path& spill, unsigned threads, Team& team,
-                         const Progress& progress) {
+
+UnitFindings write_units(const StepValues& values, std::uint32_t first_epoch,
+                         const MappedFile& volume, const LevelMap& levels, bool deltas,
+                         ByteSink& file, std::uint64_t& end, const std::filesystem::path& spill,
+                         unsigned threads, Team& team, const Progress& progress) {
     const Chunking chunking(values.grid);
-    const std::size_t units = std::size_t{epoch_count(values.steps)} * chunking.count();
+    const std::size_t units =
+        std::size_t{epoch_count(values.steps) - first_epoch} * chunking.count();
     const auto [first, last] = team.share(units);
     std::vector<UnitEntry> directory;
     std::vector<std::uint64_t> checksums;
-    std::uint64_t entries = 0;
     std::optional<PartWriter> parts;
     team.together([&] {
-        parts.emplace(file, offset, spill, team);
+        parts.emplace(file, end, spill, team);
         std::vector<UnitBuilder> builders(threads, UnitBuilder(values, levels));
         std::vector<UnitBytes> batch(threads);
         for (std::size_t at = first; at < last; at += threads) {
@@ -34,8 +35,8 @@ UnitFindings write_units(const StepValues& values, const MappedFile& volume, con
                          [&](std::size_t item, unsigned worker) {
                              const auto chunk =
                                  static_cast<std::uint32_t>((at + item) % chunking.count());
-                             const auto epoch =
-                                 static_cast<std::uint32_t>((at + item) / chunking.count());
+                             const auto epoch = first_epoch + static_cast<std::uint32_t>(
+                                                                  (at + item) / chunking.count());
                              builders[worker].build(chunk, epoch, deltas, batch[item]);
                          },
                          {});
@@ -46,8 +47,8 @@ UnitFindings write_units(const StepValues& values, const MappedFile& volume, con
                 parts->align(kPartAlignment);
                 const std::uint64_t deltas_at = parts->append(unit.deltas);
                 parts->align(kPartAlignment);
-                directory.push_back({cells_at, unit.cells.size(), deltas_at, unit.deltas.size()});
-                entries += unit.entries;
+                directory.push_back(
+                    {cells_at, unit.cells.size(), deltas_at, unit.deltas.size(), unit.entries});
                 checksums.push_back(checksum_of(unit.cells));
                 checksums.push_back(checksum_of(unit.deltas));
             }
@@ -55,16 +56,11 @@ UnitFindings write_units(const StepValues& values, const MappedFile& volume, con
     });
     const PartWriter::Placed placed = parts->place(team);
     for (UnitEntry& entry : directory) {
-        entry.cells_offset += placed.start;
-        entry.deltas_offset += placed.start;
+        entry.cells_offset += end + placed.start;
+        entry.deltas_offset += end + placed.start;
     }
-    UnitFindings findings;
-    findings.bytes = placed.bytes;
-    for (const std::uint64_t found : team.gather_values(entries))
-        findings.entries += found;
-    findings.directory = team.gather_items(directory);
-    findings.checksums = team.gather_items(checksums);
-    return findings;
+    end += placed.bytes;
+    return {team.gather_items(directory), team.gather_items(checksums)};
 }
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// Range, NaN count and histogram of a series.
+// Range and counts of values that a team has seen.
 #include "index/build/value_stats.h"
 
 #include <algorithm>
@@ -31,6 +31,32 @@ ValueRange agreed_range(const ValueRange& mine, Team& team) {
     return all;
 }
 
+ValueCounts agreed_counts(const ValueCounts& mine, ValueType type, Team& team) {
+    struct Head {
+        double low, high;
+        std::uint64_t nan_values;
+        std::int64_t exponent, first;
+        std::uint64_t bins;
+    };
+    const auto heads = team.gather_values(
+        Head{mine.low, mine.high, mine.nan_values, mine.exponent, mine.first, mine.bins.size()});
+    const std::vector<std::uint64_t> bins = team.gather_items(mine.bins);
+    ValueCounts all;
+    auto next = bins.begin();
+    for (const Head& head : heads) {
+        ValueCounts one{.low = head.low,
+                        .high = head.high,
+                        .nan_values = head.nan_values,
+                        .exponent = static_cast<int>(head.exponent),
+                        .first = head.first,
+                        .bins = {}};
+        one.bins.assign(next, next + static_cast<std::ptrdiff_t>(head.bins));
+        next += static_cast<std::ptrdiff_t>(head.bins);
+        all.merge(type, one);
+    }
+    return all;
+}
+
 void add_range(ValueType type, Scaling scaling, std::span<const std::byte> stored, double& low,
                double& high, std::uint64_t& nan_values) {
     double least = low, greatest = high;
@@ -46,21 +72,6 @@ void add_range(ValueType type, Scaling scaling, std::span<const std::byte> store
     low = least;
     high = greatest;
     nan_values += nans;
-}
-
-void add_histogram(ValueType type, Scaling scaling, std::span<const std::byte> stored, double low,
-                   double high, std::span<std::uint64_t> bins) {
-    // Halves keep the width finite for any two doubles.
-    const double half_width = high / 2 - low / 2;
-    const double last = static_cast<double>(bins.size() - 1);
-    const double per_half = half_width > 0 ? static_cast<double>(bins.size()) / half_width : 0.0;
-    for_each_scaled(type, scaling, stored, [&](double value) {
-        if (!std::isfinite(value))
-            return;
-        // A denormal width makes the factor infinite and 0 * infinity a NaN, which counts as 0.
-        const double bin = (value / 2 - low / 2) * per_half;
-        ++bins[bin > 0 ? static_cast<std::size_t>(std::min(bin, last)) : 0];
-    });
 }
 
 } // namespace isochron::index

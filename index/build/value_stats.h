@@ -1,4 +1,4 @@
-// Range, NaN count and histogram of a series.
+// Range and counts of values that a team has seen.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -17,14 +17,13 @@ struct ValueRange {
 /// What all members of a team have seen together; 0 to 0 where none saw a finite value.
 ValueRange agreed_range(const ValueRange& mine, Team& team);
 
+/// What all members of a team have counted together.
+ValueCounts agreed_counts(const ValueCounts& mine, ValueType type, Team& team);
+
 /// Extends the range by one step's finite scaled values and counts its NaN. Call with `low` =
 /// infinity and `high` = -infinity at first.
 /// @param stored as in `VolumeSeries::read`
 void add_range(ValueType type, Scaling scaling, std::span<const std::byte> stored, double& low,
                double& high, std::uint64_t& nan_values);
-
-/// Counts one step's finite scaled values into equal bins over [low, high].
-void add_histogram(ValueType type, Scaling scaling, std::span<const std::byte> stored, double low,
-                   double high, std::span<std::uint64_t> bins);
 
 } // namespace isochron::index

@@ -34,7 +34,7 @@ std::vector<Unit> views(std::string_view kind, const CellTier::Units& units,
 } // namespace
 
 CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
-                   const Units& deltas, const LazyPart* pages, std::uint64_t budget)
+                   const Units& deltas, const Pages* pages, std::uint64_t budget)
     : chunking_(chunking), steps_(steps),
       cells_(views<CellUnit>("cells", cells, chunking,
                              std::size_t{chunking.count()} * epoch_count(steps))),
@@ -42,12 +42,20 @@ CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& c
       sound_steps_(cells.size() * kEpoch), sound_tables_(cells.size() * 2 * kEpoch),
       sound_transitions_(deltas.size() * kEpoch), pages_(pages), budget_(budget) {}
 
+std::uint64_t CellTier::held_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& pages : *pages_)
+        bytes += pages->held();
+    return bytes;
+}
+
 std::shared_lock<std::shared_mutex> CellTier::hold() const {
-    if (pages_ && pages_->held() > budget_)
+    if (pages_ && held_bytes() > budget_)
         if (const std::unique_lock alone(held_, std::try_to_lock); alone) {
             for (Marks* marks : {&sound_steps_, &sound_tables_, &sound_transitions_})
                 marks->clear();
-            pages_->drop();
+            for (const auto& pages : *pages_)
+                pages->drop();
         }
     return std::shared_lock(held_);
 }
@@ -64,14 +72,14 @@ TimePath CellTier::path_to(std::uint32_t step) const {
 void CellTier::check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
     const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
     const CellUnit& unit = cells_[i];
-    need(unit.head_bytes(epoch_steps(epoch)));
+    need(epoch, unit.head_bytes(epoch_steps(epoch)));
     if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
         refuse("cells", epoch, chunk);
     for (const std::uint32_t node : path_to(step)) {
         const std::size_t mark = i * 2 * kEpoch + node;
         if (sound_tables_[mark])
             continue;
-        need(unit.table_bytes(node));
+        need(epoch, unit.table_bytes(node));
         if (!unit.check_table(node))
             refuse("cells", epoch, chunk);
         sound_tables_.set(mark);
@@ -82,11 +90,11 @@ void CellTier::check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32
 void CellTier::check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
     const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
     const DeltaUnit& unit = deltas_[i];
-    need(unit.head_bytes(epoch_steps(epoch)));
+    need(epoch, unit.head_bytes(epoch_steps(epoch)));
     if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
         refuse("deltas", epoch, chunk);
-    need(unit.table_bytes(2 * (step % kEpoch)));
-    need(unit.table_bytes(2 * (step % kEpoch) + 1));
+    need(epoch, unit.table_bytes(2 * (step % kEpoch)));
+    need(epoch, unit.table_bytes(2 * (step % kEpoch) + 1));
     if (!unit.check_transition(step % kEpoch))
         refuse("deltas", epoch, chunk);
     sound_transitions_.set(i * kEpoch + step % kEpoch);
@@ -97,7 +105,8 @@ void CellTier::expect_cells(std::uint32_t step) const {
     const std::size_t begin = std::size_t{step / kEpoch} * chunking_.count();
     for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk)
         if (!sound_steps_[(begin + chunk) * kEpoch + step % kEpoch])
-            pages_->expect(cells_[begin + chunk].head_bytes(epoch_steps(step / kEpoch)));
+            (*pages_)[step / kEpoch]->expect(
+                cells_[begin + chunk].head_bytes(epoch_steps(step / kEpoch)));
 }
 
 /// Calls `f` with the cells of every chunk, sound as far as the step needs them, while the next
@@ -196,12 +205,12 @@ std::vector<TimeNodeCells> CellTier::nodes() const {
         std::vector<std::uint64_t> cells(TimeNode::count(epoch_steps(epoch)));
         for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk) {
             const CellUnit& unit = cells_[std::size_t{epoch} * chunking_.count() + chunk];
-            need(unit.head_bytes(epoch_steps(epoch)));
+            need(epoch, unit.head_bytes(epoch_steps(epoch)));
             if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
                 refuse("cells", epoch, chunk);
             for (std::uint32_t node = 0; node < cells.size(); ++node)
                 if (const auto table = unit.table_bytes(node); !table.empty())
-                    need(table.first(sizeof(CellTableHead)));
+                    need(epoch, table.first(sizeof(CellTableHead)));
             const std::vector<std::uint32_t> entries = unit.entries();
             for (std::size_t node = 0; node < cells.size(); ++node)
                 cells[node] += entries[node];

@@ -28,11 +28,17 @@ class CellTier {
     /// One for each chunk of each epoch: [epoch][chunk], epochs of TimePath::kMaxSteps steps.
     using Units = std::vector<std::span<const std::byte>>;
 
+    /// What the units of each epoch lie in, where they are read when they are needed.
+    using Pages = std::vector<std::unique_ptr<LazyPart>>;
+
     /// @param deltas may be empty
-    /// @param pages what the units lie in, where they are read when they are needed; outlives this
-    /// @param budget bytes of it to keep
+    /// @param pages one for each epoch, or none at all; outlives this
+    /// @param budget bytes of them to keep
     CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells, const Units& deltas,
-             const LazyPart* pages = nullptr, std::uint64_t budget = 0);
+             const Pages* pages = nullptr, std::uint64_t budget = 0);
+
+    /// First steps of the series that it holds.
+    std::uint32_t steps() const { return steps_; }
 
     /// While somebody holds the tier, what searches find stays where it is. Who takes hold when
     /// more has been read than the budget allows, and nobody else holds it, makes it begin anew.
@@ -89,10 +95,11 @@ class CellTier {
     void expect_cells(std::uint32_t step) const;
     void check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
     void check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
-    void need(std::span<const std::byte> bytes) const {
+    void need(std::uint32_t epoch, std::span<const std::byte> bytes) const {
         if (pages_)
-            pages_->need(bytes);
+            (*pages_)[epoch]->need(bytes);
     }
+    std::uint64_t held_bytes() const;
 
     std::uint32_t epoch_steps(std::uint32_t epoch) const;
     TimePath path_to(std::uint32_t step) const;
@@ -103,7 +110,7 @@ class CellTier {
     std::vector<DeltaUnit> deltas_;
     /// Found sound: all that is needed at a step of a unit; a unit's head and its tables.
     mutable Marks sound_steps_, sound_tables_, sound_transitions_;
-    const LazyPart* pages_;
+    const Pages* pages_;
     std::uint64_t budget_;
     mutable std::shared_mutex held_;
 };

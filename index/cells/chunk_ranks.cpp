@@ -48,9 +48,8 @@ void ChunkRanks::compute(std::uint32_t chunk, std::uint32_t first, std::uint32_t
     square_high_.resize(stretch.count);
     const std::size_t size = size_of(values_.type);
     for (std::uint32_t step = 0; step < count; ++step) {
-        const std::span stored(values_.first + (first + step) * values_.stride +
-                                   stretch.first * size,
-                               stretch.count * size);
+        const auto stored =
+            values_.step_bytes(first + step).subspan(stretch.first * size, stretch.count * size);
         std::uint8_t* low = low_.data() + std::size_t{step} * cells_;
         std::uint8_t* high = high_.data() + std::size_t{step} * cells_;
         reduce_columns(ranks_of(stored), stretch.count);

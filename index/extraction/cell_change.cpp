@@ -24,21 +24,22 @@ using Cut = LevelMap::Cut;
 
 struct ChangeSearch::WorkSpace {
     explicit WorkSpace(const std::shared_ptr<const IndexFile>& file)
-        : levels(file->levels()), scaling(file->info().scaling), cells(file->cells()),
+        : scaling(file->info().scaling), cells(file->cells()),
+          levels(cells ? &file->levels() : nullptr),
           steps(static_cast<std::uint32_t>(file->info().steps())), search(search_in(file)) {}
 
     /// Playback asks for the same isovalue again and again.
     const std::optional<Cut>& cut_at(double isovalue) {
         if (!(isovalue == last_isovalue)) {
-            last_cut = levels.cut(scaling, isovalue);
+            last_cut = levels->cut(scaling, isovalue);
             last_isovalue = isovalue;
         }
         return last_cut;
     }
 
-    const LevelMap& levels;
     const Scaling& scaling;
     const CellTier* cells;
+    const LevelMap* levels; ///< of the cells
     std::uint32_t steps;
     double last_isovalue = std::numeric_limits<double>::quiet_NaN();
     std::optional<Cut> last_cut;
@@ -85,10 +86,31 @@ void drop_common(std::span<CellId> added, std::span<CellId> removed, std::vector
 
 } // namespace
 
+CellChange ChangeSearch::searched(const Query& to) {
+    work_->set = work_->search(to, {});
+    return {true, work_->set->ids, {}};
+}
+
+/// Bricks at least say when two isovalues lie between the same values of a step.
+CellChange ChangeSearch::without_cells(const Query& from, const Query& to) {
+    if (from.step == to.step && can_search(*file_, SearchMethod::bricks)) {
+        const LevelMapPtr levels = file_->chunks().levels(to.step);
+        const auto from_cut = levels->cut(work_->scaling, from.isovalue);
+        const auto to_cut = levels->cut(work_->scaling, to.isovalue);
+        if (!to_cut)
+            return {true, {}, {}};
+        if (from_cut == to_cut && to_cut->exact)
+            return {};
+    }
+    return searched(to);
+}
+
 CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
     WorkSpace& work = *work_;
     if (const std::uint32_t last = std::max(from.step, to.step); last >= work.steps)
         throw Error(fmt::format("step {}: expected 0 to {}", last, work.steps - 1));
+    if (!file_->has_cells(from.step) || !file_->has_cells(to.step))
+        return without_cells(from, to);
     const CellTier* cells = work.cells;
     const std::optional<Cut> from_cut = work.cut_at(from.isovalue);
     const std::optional<Cut> to_cut =
@@ -97,10 +119,8 @@ CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
         return {true, {}, {}}; // nothing is active any more
     if (from.step == to.step && from_cut == to_cut && to_cut->exact)
         return {};
-    if (!cells || !to_cut->exact || !from_cut || !from_cut->exact) {
-        work.set = work.search(to, {});
-        return {true, work.set->ids, {}};
-    }
+    if (!to_cut->exact || !from_cut || !from_cut->exact)
+        return searched(to);
     const auto held = cells->hold();
     work.clear();
     bool disjoint = true; // a cell is in one of the runs at most

@@ -32,6 +32,8 @@ class ChangeSearch {
 
   private:
     struct WorkSpace;
+    CellChange searched(const Query& to);
+    CellChange without_cells(const Query& from, const Query& to);
     std::shared_ptr<const IndexFile> file_;
     std::unique_ptr<WorkSpace> work_;
 };

@@ -34,7 +34,7 @@ class IndexSearch {
         const auto started = Clock::now();
         auto set = std::make_shared<CellSet>();
         set->query = query;
-        set->method = method_;
+        set->method = method_at(query.step);
         by_chunks_ = !file_->better_whole(query.step);
         step_.reset();
         const bool searched = !std::isfinite(query.isovalue) || search(*set, stop);
@@ -50,8 +50,15 @@ class IndexSearch {
   private:
     using Clock = std::chrono::steady_clock;
 
+    /// Steps that were appended may not have cells yet.
+    SearchMethod method_at(std::uint32_t step) const {
+        if (method_ != SearchMethod::cells || file_->has_cells(step))
+            return method_;
+        return can_search(*file_, SearchMethod::bricks) ? SearchMethod::bricks : SearchMethod::scan;
+    }
+
     bool search(CellSet& set, const std::stop_token& stop) {
-        switch (method_) {
+        switch (set.method) {
         case SearchMethod::cells: return search_cells(set, stop);
         case SearchMethod::bricks: return search_bricks_of(set, stop);
         case SearchMethod::tree: return search_tree(set, stop);
@@ -97,8 +104,8 @@ class IndexSearch {
         if (by_chunks_)
             return layers_.search(set.query, true, set.ids, set.candidates, stop);
         const LoadedStep& loaded = whole(set.query.step);
-        set.candidates =
-            search_bricks(loaded.values, file_->levels(), loaded.bricks, set.query, set.ids);
+        set.candidates = search_bricks(loaded.values, *file_->chunks().levels(set.query.step),
+                                       loaded.bricks, set.query, set.ids);
         sort_ids(set.ids, file_->info().grid.cell_count());
         return !stop.stop_requested();
     }

@@ -65,10 +65,11 @@ std::span<const CellId> LayerSearch::of_layer(std::span<const CellId> ids,
 
 bool LayerSearch::search(const Query& query, bool by_bricks, std::vector<CellId>& out,
                          std::uint64_t& candidates, const std::stop_token& stop) {
-    const auto cut = file_->levels().cut(file_->info().scaling, query.isovalue);
     out.clear();
     candidates = 0;
-    if (!cut)
+    const LevelMapPtr levels = by_bricks ? file_->chunks().levels(query.step) : nullptr;
+    const auto cut = levels ? levels->cut(file_->info().scaling, query.isovalue) : std::nullopt;
+    if (levels && !cut)
         return true;
     std::vector<std::vector<CellId>> found(StepSlab::layers(file_->info().grid));
     std::vector<std::uint64_t> tested(found.size());
@@ -79,8 +80,7 @@ bool LayerSearch::search(const Query& query, bool by_bricks, std::vector<CellId>
             if (by_bricks) {
                 if (!slab.fill_candidates(*cut))
                     return;
-                tested[layer] =
-                    test_bricks(slab.cells(), file_->levels(), slab.bricks(), query, ids);
+                tested[layer] = test_bricks(slab.cells(), *levels, slab.bricks(), query, ids);
                 sort_ids(ids, slab.cells().grid.cell_count());
             } else {
                 slab.fill_all();

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/file/chunk_codec.h"
 #include "index/file/metadata.h"
+#include "index/file/step_levels.h"
 #include "index/system/parallel.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 namespace isochron::index {
 namespace {
 
-enum Kind : unsigned { kChunk, kLayer, kWhole };
+enum Kind : unsigned { kChunk, kLayer, kWhole, kLevels };
 
 /// Records with less than this between them touch the same pages of the disk: read together.
 constexpr std::uint64_t kSamePages = 4096;
@@ -48,7 +49,10 @@ void place_bricks(const Chunk& chunk, const BrickGrid& grid, const std::array<st
 
 ChunkStore::ChunkStore(const ByteSource& source, ByteCache& cache, ChunkArray array)
     : source_(source), cache_(cache), array_(std::move(array)), grid_(array_.info.grid),
-      visited_(array_.info.steps()) {}
+      visited_(array_.info.steps()) {
+    if (!has_step_levels(array_.info.type))
+        of_type_ = std::make_shared<LevelMap>(LevelMap::of_type(array_.info.type));
+}
 
 ByteCache::Key ChunkStore::key(unsigned kind, std::uint32_t step, std::uint32_t layer,
                                std::uint32_t place) const {
@@ -68,7 +72,7 @@ ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
     const StepEntry& entry = array_.steps[step];
     const std::uint32_t count = grid_.chunks_of_layer();
     std::vector<std::byte> bytes(layer_table_bytes(count));
-    const std::uint64_t begin = array_.section + entry.offset;
+    const std::uint64_t begin = entry.offset;
     source_.read(begin + entry.tables + layer * bytes.size(), bytes);
     LayerHead head;
     std::memcpy(&head, bytes.data(), sizeof head);
@@ -89,6 +93,26 @@ ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
         damaged(step, fmt::format("layer {} lies outside its step", layer));
     cache_.add(at, table, count * (sizeof(std::uint64_t) + 2));
     return table;
+}
+
+LevelMapPtr ChunkStore::levels(std::uint32_t step) const {
+    if (of_type_)
+        return of_type_;
+    const ByteCache::Key at = key(kLevels, step);
+    if (auto known = cache_.find<LevelMap>(at))
+        return known;
+    const StepEntry& entry = array_.steps[step];
+    const std::uint64_t begin =
+        entry.tables + layer_table_bytes(grid_.chunks_of_layer()) * grid_.layers();
+    std::vector<std::byte> bytes(entry.bytes - begin);
+    source_.read(entry.offset + begin, bytes);
+    const auto levels = step_levels(array_.info.type, bytes);
+    if (!levels)
+        damaged(step, "the levels of its bricks");
+    auto kept = std::make_shared<LevelMap>(*levels);
+    // Of types of two bytes a table beside.
+    cache_.add(at, kept, bytes.size() + (size_of(array_.info.type) == 2 ? 1 << 16 : 0));
+    return kept;
 }
 
 /// Calls `f(i, record)` for every place, `i` counting from 0.

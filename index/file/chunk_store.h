@@ -6,6 +6,7 @@
 #include "index/file/chunk_table.h"
 #include "index/file/file_layout.h"
 #include "index/file/index_contents.h"
+#include "index/volume/level_map.h"
 
 #include <memory>
 #include <mutex>
@@ -28,6 +29,7 @@ struct ChunkLayer {
     std::vector<std::uint64_t> offsets;  ///< in the file, by place; one more than there are chunks
     std::vector<std::uint8_t> low, high; ///< by place
 };
+using LevelMapPtr = std::shared_ptr<const LevelMap>;
 using ChunkLayerPtr = std::shared_ptr<const ChunkLayer>;
 
 /// What is to be known of an array before its chunks can be read.
@@ -35,7 +37,6 @@ struct ChunkArray {
     std::string called;       ///< for messages: `volume`
     std::uint32_t number = 0; ///< tells arrays of one cache apart
     SeriesInfo info;
-    std::uint64_t section = 0; ///< offset of what `StepEntry::offset` counts from
     std::vector<StepEntry> steps;
     bool has_bricks = false, has_values = true;
 };
@@ -51,6 +52,8 @@ class ChunkStore {
     const ChunkGrid& grid() const { return grid_; }
 
     ChunkLayerPtr layer(std::uint32_t step, std::uint32_t layer) const;
+    /// What the bricks of a step are ranks among; of an index that has bricks.
+    LevelMapPtr levels(std::uint32_t step) const;
     /// @param places ascending @return in the same order
     std::vector<ChunkPtr> chunks(std::uint32_t step, std::uint32_t layer,
                                  std::span<const std::uint32_t> places) const;
@@ -76,6 +79,7 @@ class ChunkStore {
     ByteCache& cache_;
     ChunkArray array_;
     ChunkGrid grid_;
+    LevelMapPtr of_type_; ///< of an 8-bit type
     mutable std::mutex visits_mutex_;
     mutable std::vector<bool> visited_; ///< steps that have been worked on
 };

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace isochron::index {
 
@@ -15,8 +16,8 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
     return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-std::array<std::byte, kSectionAlignment> header_bytes(FileHeader header) {
-    std::array<std::byte, kSectionAlignment> bytes{};
+HeaderSlot header_bytes(FileHeader header) {
+    HeaderSlot bytes{};
     header.checksum = 0;
     std::memcpy(bytes.data(), &header, sizeof header);
     header.checksum = checksum_of(bytes);
@@ -24,20 +25,19 @@ std::array<std::byte, kSectionAlignment> header_bytes(FileHeader header) {
     return bytes;
 }
 
-FileHeader checked_header(const ByteSource& file) {
-    const std::string& name = file.name();
+namespace {
+
+/// What every header of a file says. @param there bytes of the slot that the file has
+void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t there) {
     const FileHeader expected;
-    std::array<std::byte, kSectionAlignment> start{};
-    const std::size_t there = std::min<std::uint64_t>(file.size(), start.size());
-    file.read(0, std::span(start).first(there));
     const std::size_t known = std::min(there, expected.magic.size());
-    if (there == 0 || std::memcmp(start.data(), expected.magic.data(), known) != 0)
+    if (there == 0 || std::memcmp(slot.data(), expected.magic.data(), known) != 0)
         throw Error(fmt::format("{}: not an isochron index", name));
-    if (there < kSectionAlignment)
-        throw Error(fmt::format("{}: truncated: {} bytes, the header alone has {}", name,
-                                file.size(), kSectionAlignment));
     FileHeader header;
-    std::memcpy(&header, start.data(), sizeof header);
+    std::memcpy(&header, slot.data(), sizeof header);
+    if (there < kHeaderBytes)
+        throw Error(fmt::format("{}: truncated: {} bytes, the headers alone have {}", name, there,
+                                kDataBegin));
     if (header.byte_order != expected.byte_order)
         throw Error(fmt::format("{}: byte order mark {:08x}, expected {:08x}", name,
                                 header.byte_order, expected.byte_order));
@@ -49,20 +49,40 @@ FileHeader checked_header(const ByteSource& file) {
     if (header.version != kFileVersion)
         throw Error(fmt::format("{}: file version {}, this program reads version {}", name,
                                 header.version, kFileVersion));
-    // Rebuilding the header also notices anything but zeros behind it.
-    if (header_bytes(header) != start)
+}
+
+} // namespace
+
+FileHeader checked_header(const ByteSource& file) {
+    const std::string& name = file.name();
+    std::optional<FileHeader> newest;
+    for (std::uint64_t number = 0; number < kHeaderSlots; ++number) {
+        HeaderSlot slot{};
+        const std::uint64_t at = number * kHeaderBytes;
+        const std::size_t there = std::min(file.size() - std::min(file.size(), at), kHeaderBytes);
+        file.read(at, std::span(slot).first(there));
+        if (number == 0)
+            check_kind(name, slot, there);
+        FileHeader header;
+        std::memcpy(&header, slot.data(), sizeof header);
+        // Rebuilding the header also notices anything but zeros behind it.
+        if (header_bytes(header) == slot && slot_of(header) == at &&
+            (!newest || header.sequence > newest->sequence))
+            newest = header;
+    }
+    if (!newest)
         throw Error(fmt::format("{}: damaged header: its checksum does not match", name));
-    if (header.file_bytes != file.size())
-        throw Error(fmt::format("{}: {}: {} bytes, the header says {}", name,
-                                file.size() < header.file_bytes ? "truncated" : "wrong size",
-                                file.size(), header.file_bytes));
-    for (std::size_t i = 0; i < header.sections.size(); ++i)
-        if (const Section& section = header.sections[i];
-            section.offset % kPartAlignment || section.offset < kSectionAlignment ||
-            section.offset > file.size() || section.bytes > file.size() - section.offset)
+    if (newest->file_bytes > file.size())
+        throw Error(fmt::format("{}: truncated: {} bytes, the header says {}", name, file.size(),
+                                newest->file_bytes));
+    for (std::size_t i = 0; i < newest->sections.size(); ++i)
+        if (const Section& section = newest->sections[i];
+            section.offset % kPartAlignment || section.offset < kDataBegin ||
+            section.offset > newest->file_bytes ||
+            section.bytes > newest->file_bytes - section.offset)
             throw Error(fmt::format("{}: damaged header: section {} lies outside the file", name,
                                     kSectionNames[i]));
-    return header;
+    return *newest;
 }
 
 } // namespace isochron::index

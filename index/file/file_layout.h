@@ -1,19 +1,23 @@
 // Header and section table of the .isochron file: where everything lies, and whether it is intact.
 //
-// Version 3, little-endian, offsets from the start of the file. The header has 4096 bytes:
-// FileHeader, then zeros. The sections follow from 4096 on, volume and units at multiples of 4096,
-// the others of 64, the gaps zero:
-// - volume: chunks of values with the extremes of their bricks, and the tables that say where they
-//   lie (chunk_table.h), array after array, step after step, each from a multiple of 64
-// - units: cells and deltas of every chunk in every epoch (cell_unit.h), each part padded to 64
-//   bytes
-// - tree: the THI tree's block (thi_tree.h)
-// - steps: a StepEntry for each step of the volume, then for each of the array to color by
-// - directory: a UnitEntry for each epoch and chunk, chunks faster
-// - checksums: XXH3, 64 bits: of the stored values of every step of the volume, of cells and deltas
-//   of every unit, of the stored values of every step of the array to color by
-// - metadata: JSON (metadata.h)
-// A section that the plan does without is empty.
+// Version 3, little-endian, offsets from the start of the file. It begins with two slots for a
+// header, of 4096 bytes each: FileHeader, then zeros. The sound one with the higher sequence number
+// counts; a new index has only the first. What a header names follows from 8192 on:
+// - the chunks of a step, of one array each, with the tables that say where they lie and the levels
+//   of their bricks (chunk_table.h, step_levels.h), from a multiple of 64
+// - units: cells and deltas of a chunk of cells in an epoch (cell_unit.h), each from a multiple of
+//   64; those of an epoch lie one behind the other
+// - the sections, from multiples of 64. tree: the THI tree's block (thi_tree.h). steps: a StepEntry
+//   for each step, array after array: the volume and its levels of detail, then those to color by.
+//   directory: a UnitEntry for each epoch and chunk, chunks faster. checksums: XXH3, 64 bits, of
+//   the stored values of every step of the volume, of cells and deltas of every unit, of the stored
+//   values of every step of the array to color by; then for each step what tells whether its
+//   source has changed (VolumeSeries::state), 0 if unknown. metadata: JSON (metadata.h)
+// A section that the plan does without is empty. Gaps of fewer than 64 bytes are zero; others hold
+// what an earlier header named.
+//
+// Who appends writes behind the end of the file, flushes, writes the other slot, and flushes again:
+// what the header that counted named stays where it is.
 #pragma once
 
 #include "index/system/byte_source.h"
@@ -28,34 +32,29 @@ namespace isochron::index {
 
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
-constexpr std::uint64_t kSectionAlignment = 4096;
+constexpr std::uint64_t kHeaderBytes = 4096;
+constexpr std::uint64_t kHeaderSlots = 2;
+constexpr std::uint64_t kDataBegin = kHeaderSlots * kHeaderBytes;
 constexpr std::uint64_t kPartAlignment = 64;
 constexpr std::uint32_t kFileVersion = 3;
 
-enum class SectionKind : std::uint32_t {
-    volume,
-    units,
-    tree,
-    steps,
-    directory,
-    checksums,
-    metadata
-};
-constexpr std::array<const char*, 7> kSectionNames{"volume",    "units",     "tree",    "steps",
-                                                   "directory", "checksums", "metadata"};
+enum class SectionKind : std::uint32_t { tree, steps, directory, checksums, metadata };
+constexpr std::array<const char*, 5> kSectionNames{"tree", "steps", "directory", "checksums",
+                                                   "metadata"};
 
 struct Section {
     std::uint64_t offset = 0, bytes = 0;
-    std::uint64_t checksum = 0; ///< XXH3, 64 bits; 0 for what the checksums section covers
+    std::uint64_t checksum = 0; ///< XXH3, 64 bits
 };
 
-/// Where the parts of a unit lie in their section.
+/// Where the parts of a unit lie.
 struct UnitEntry {
     std::uint64_t cells_offset, cells_bytes;
     std::uint64_t deltas_offset, deltas_bytes;
+    std::uint64_t entries; ///< of its cells
 };
 
-/// Where the chunks of a step lie in their section.
+/// Where the chunks of a step lie, of one array.
 struct StepEntry {
     std::uint64_t offset = 0, bytes = 0;
     std::uint64_t tables = 0; ///< where the tables of the layers begin, from `offset`
@@ -66,7 +65,8 @@ struct FileHeader {
     std::array<char, 8> magic{'I', 'S', 'O', 'C', 'H', 'R', 'O', 'N'};
     std::uint32_t version = kFileVersion;
     std::uint32_t byte_order = 0x01020304;
-    std::uint64_t file_bytes = 0;
+    std::uint64_t sequence = 0;   ///< of a new index 0, one more for each time it has grown
+    std::uint64_t file_bytes = 0; ///< what lies behind them does not count
     std::uint64_t content_hash = 0;
     std::array<Section, kSectionNames.size()> sections{};
     std::uint64_t checksum = 0; ///< XXH3 of the 4096 header bytes with this field 0
@@ -76,16 +76,21 @@ struct FileHeader {
         return sections[static_cast<std::size_t>(kind)];
     }
 };
-static_assert(sizeof(FileHeader) == 32 + kSectionNames.size() * 24 + 8);
+static_assert(sizeof(FileHeader) == 40 + kSectionNames.size() * 24 + 8);
 
 constexpr std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-/// The 4096 header bytes, with the checksum filled in.
-std::array<std::byte, kSectionAlignment> header_bytes(FileHeader header);
+/// A slot, with the checksum filled in.
+using HeaderSlot = std::array<std::byte, kHeaderBytes>;
+HeaderSlot header_bytes(FileHeader header);
+/// Where the slot of a header is.
+constexpr std::uint64_t slot_of(const FileHeader& header) {
+    return header.sequence % kHeaderSlots * kHeaderBytes;
+}
 
-/// Checks the header of a file and that every section lies within it.
+/// Finds the header of a file that counts, and checks that every section lies within the file.
 /// @throws Error: foreign, other byte order, other version, damaged header, truncated
 FileHeader checked_header(const ByteSource& file);
 

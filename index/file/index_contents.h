@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/tiers.h"
+#include "index/file/value_counts.h"
 #include "index/volume/step_values.h"
 #include "index/volume/volume_series.h"
 
@@ -15,13 +16,12 @@
 
 namespace isochron::index {
 
-constexpr std::size_t kHistogramBins = 256;
-
 /// Everything known about a file's contents besides the values.
 struct IndexStats {
     double low = 0, high = 0;             ///< range of the finite scaled values
     std::uint64_t nan_values = 0;         ///< vertex-steps that are NaN
     std::vector<std::uint64_t> histogram; ///< kHistogramBins equal bins over [low, high], all steps
+    ValueCounts counts;                   ///< what these were made of
     std::uint64_t file_bytes = 0, volume_bytes = 0, bricks_bytes = 0, cells_bytes = 0,
                   deltas_bytes = 0, tree_bytes = 0, color_bytes = 0;
     std::uint64_t cell_entries = 0; ///< stored (cell, extremes, time node) of the tier cells

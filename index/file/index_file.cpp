@@ -1,6 +1,7 @@
 // Opening of .isochron files.
 #include "index/file/index_file.h"
 
+#include "index/file/step_levels.h"
 #include "index/scan/bricks.h"
 #include "index/system/memory_limit.h"
 #include "index/volume/chunking.h"
@@ -16,6 +17,7 @@ namespace isochron::index {
 namespace {
 
 constexpr std::uint64_t kMaxMetadataBytes = 256 << 20;
+constexpr std::uint64_t kPage = 4096;
 
 const char* section_name(SectionKind kind) {
     return kSectionNames[static_cast<std::size_t>(kind)];
@@ -64,16 +66,21 @@ std::vector<T> IndexFile::section(SectionKind kind) const {
     return items;
 }
 
-std::span<const std::byte> IndexFile::part(std::uint64_t offset, std::uint64_t bytes) const {
-    return units_->bytes().subspan(offset, bytes);
+std::span<const std::byte> IndexFile::part(std::size_t unit, std::uint64_t offset,
+                                           std::uint64_t bytes) const {
+    const std::size_t epoch = unit / Chunking(metadata_.info.grid).count();
+    return units_[epoch]->bytes().subspan(offset - epoch_begins_[epoch], bytes);
+}
+
+bool IndexFile::lies_within(std::uint64_t offset, std::uint64_t bytes) const {
+    return offset % kPartAlignment == 0 && offset >= kDataBegin && offset <= header_.file_bytes &&
+           bytes <= header_.file_bytes - offset;
 }
 
 ChunkArray IndexFile::array_of(std::uint32_t number, const SeriesInfo& info) const {
-    const Section& section = header_.section(SectionKind::volume);
     ChunkArray array{.called = number == 0 ? "volume" : "colors",
                      .number = number,
                      .info = info,
-                     .section = section.offset,
                      .steps = {},
                      .has_bricks = number == 0 && metadata_.plan.tiers.has(Tier::bricks),
                      .has_values = !metadata_.referral};
@@ -81,11 +88,12 @@ ChunkArray IndexFile::array_of(std::uint32_t number, const SeriesInfo& info) con
     const std::uint64_t tables = layer_table_bytes(grid.chunks_of_layer()) * grid.layers();
     for (std::size_t step = 0; step < steps(); ++step) {
         const StepEntry& entry = step_entries_[number * steps() + step];
-        if (entry.offset > section.bytes || entry.bytes > section.bytes - entry.offset ||
-            entry.offset % kPartAlignment || entry.tables > entry.bytes ||
-            entry.bytes - entry.tables != tables)
+        const bool has_levels = array.has_bricks && has_step_levels(info.type);
+        if (!lies_within(entry.offset, entry.bytes) || entry.tables > entry.bytes ||
+            entry.bytes - entry.tables < tables ||
+            (!has_levels && entry.bytes - entry.tables > tables))
             throw damaged(
-                fmt::format("step {} of the {} lies outside its section", step, array.called));
+                fmt::format("step {} of the {} lies outside the file", step, array.called));
         array.steps.push_back(entry);
     }
     return array;
@@ -96,7 +104,7 @@ void IndexFile::set_arrays() {
     if (step_entries_.size() / arrays != steps() || step_entries_.size() % arrays)
         throw damaged(
             fmt::format("{} steps of chunks, expected {}", step_entries_.size(), arrays * steps()));
-    const std::size_t checksums = arrays * steps() + 2 * directory_.size();
+    const std::size_t checksums = (arrays + 1) * steps() + 2 * directory_.size();
     if (checksums_.size() != checksums)
         throw damaged(fmt::format("{} checksums, expected {}", checksums_.size(), checksums));
     const auto sums = checksums_.begin();
@@ -125,9 +133,10 @@ void IndexFile::set_arrays() {
     color_referral_ = metadata_.referral;
     color_referral_->options.array = metadata_.color->chosen_array;
     color_referral_->options.component = metadata_.color->chosen_component;
-    color_source_ =
-        std::make_unique<StepSource>(bytes_->name(), colors_->info(), *color_referral_,
-                                     std::vector(checksums_.end() - count, checksums_.end()));
+    const auto sums_of_colors = color_checksums();
+    color_source_ = std::make_unique<StepSource>(
+        bytes_->name(), colors_->info(), *color_referral_,
+        std::vector<std::uint64_t>(sums_of_colors.begin(), sums_of_colors.end()));
 }
 
 void IndexFile::set_cells() {
@@ -139,28 +148,57 @@ void IndexFile::set_cells() {
     const Grid& grid = metadata_.info.grid;
     if (grid.cells()[0] > Chunking::kMaxCells)
         throw damaged(fmt::format("cells in rows of {}", grid.cells()[0]));
-    const std::uint64_t expected = Chunking(grid).count() * std::uint64_t{epoch_count(steps())};
+    const std::uint32_t held = metadata_.cell_steps, chunks = Chunking(grid).count();
+    if (held < 1 || held > steps() || !metadata_.levels)
+        throw damaged(fmt::format("cells of {} steps, the volume has {}", held, steps()));
+    const std::uint64_t expected = chunks * std::uint64_t{epoch_count(held)};
     if (directory_.size() != expected)
         throw damaged(
             fmt::format("directory of {} units, expected {}", directory_.size(), expected));
-    const Section& section = header_.section(SectionKind::units);
-    units_ = std::make_unique<LazyPart>(*bytes_, section.offset, section.bytes);
+    for (std::size_t first = 0; first < directory_.size(); first += chunks) {
+        std::uint64_t begin = header_.file_bytes, end = kDataBegin;
+        for (const UnitEntry& unit : std::span(directory_).subspan(first, chunks))
+            for (const auto& [offset, length] :
+                 {std::pair{unit.cells_offset, unit.cells_bytes},
+                  std::pair{unit.deltas_offset, unit.deltas_bytes}}) {
+                if (!lies_within(offset, length))
+                    throw damaged("a unit of cells lies outside the file");
+                begin = std::min(begin, offset);
+                end = std::max(end, offset + length);
+            }
+        epoch_begins_.push_back(begin);
+        units_.push_back(std::make_unique<LazyPart>(*bytes_, begin, end - begin));
+    }
     const bool with_deltas = metadata_.plan.tiers.has(Tier::deltas);
     CellTier::Units cells, deltas;
-    for (const UnitEntry& unit : directory_) {
-        for (const auto& [offset, length] : {std::pair{unit.cells_offset, unit.cells_bytes},
-                                             std::pair{unit.deltas_offset, unit.deltas_bytes}})
-            if (offset > section.bytes || length > section.bytes - offset ||
-                offset % kPartAlignment)
-                throw damaged("a unit of cells lies outside its section");
-        cells.push_back(part(unit.cells_offset, unit.cells_bytes));
+    IndexStats& stats = metadata_.stats;
+    for (std::size_t i = 0; i < directory_.size(); ++i) {
+        const UnitEntry& unit = directory_[i];
+        cells.push_back(part(i, unit.cells_offset, unit.cells_bytes));
         if (with_deltas)
-            deltas.push_back(part(unit.deltas_offset, unit.deltas_bytes));
-        metadata_.stats.cells_bytes += unit.cells_bytes;
-        metadata_.stats.deltas_bytes += unit.deltas_bytes;
+            deltas.push_back(part(i, unit.deltas_offset, unit.deltas_bytes));
+        stats.cells_bytes += unit.cells_bytes;
+        stats.deltas_bytes += unit.deltas_bytes;
+        stats.cell_entries += unit.entries;
     }
-    cells_.emplace(Chunking(grid), static_cast<std::uint32_t>(steps()), cells, deltas, units_.get(),
-                   cache_bytes_);
+    cells_.emplace(Chunking(grid), held, cells, deltas, &units_, cache_bytes_);
+}
+
+std::span<const std::uint64_t> IndexFile::color_checksums() const {
+    return colors_ ? std::span(checksums_).subspan(steps() + 2 * directory_.size(), steps())
+                   : std::span<const std::uint64_t>();
+}
+std::span<const std::uint64_t> IndexFile::source_states() const {
+    return std::span(checksums_).last(steps());
+}
+
+bool IndexFile::has_had(std::uint64_t content_hash) const {
+    if (content_hash == header_.content_hash)
+        return true;
+    for (std::size_t steps = this->steps() - 1; steps > 0; --steps)
+        if (content_hash_of(metadata_.info, std::span(checksums_).first(steps)) == content_hash)
+            return true;
+    return false;
 }
 
 LoadedStep IndexFile::load(std::uint32_t step) const {
@@ -188,8 +226,8 @@ const StepValues& IndexFile::values() const {
                        .scaling = info.scaling,
                        .steps = info.steps(),
                        .stride = step_stride(info.step_bytes())};
-        const std::size_t bytes = align_up(all.stride * all.steps, kSectionAlignment);
-        all_.reset(static_cast<std::byte*>(std::aligned_alloc(kSectionAlignment, bytes)),
+        const std::size_t bytes = align_up(all.stride * all.steps, kPage);
+        all_.reset(static_cast<std::byte*>(std::aligned_alloc(kPage, bytes)),
                    [](std::byte* memory) { std::free(memory); });
         if (!all_)
             throw Error(fmt::format("{}: no memory for {} bytes", bytes_->name(), bytes));
@@ -235,16 +273,20 @@ void IndexFile::verify(const Progress& progress) const {
             progress(called, static_cast<double>(next) / total);
         return checksums_[next++];
     };
-    for (std::uint32_t step = 0; step < steps(); ++step)
+    for (std::uint32_t step = 0; step < steps(); ++step) {
         check_step(load(step), step, take("volume"), "volume");
+        if (metadata_.plan.tiers.has(Tier::bricks))
+            volume_->levels(step);
+    }
+    const std::uint32_t chunks = Chunking(metadata_.info.grid).count();
     for (std::size_t i = 0; i < directory_.size(); ++i) {
         const auto held = cells_->hold(); // gives memory back where there is too much of it
         const UnitEntry& unit = directory_[i];
-        for (const auto& bytes : {part(unit.cells_offset, unit.cells_bytes),
-                                  part(unit.deltas_offset, unit.deltas_bytes)}) {
-            units_->need(bytes);
+        for (const auto& bytes : {part(i, unit.cells_offset, unit.cells_bytes),
+                                  part(i, unit.deltas_offset, unit.deltas_bytes)}) {
+            units_[i / chunks]->need(bytes);
             if (checksum_of(bytes) != take("units"))
-                throw mismatch(SectionKind::units);
+                throw damaged("the checksum of the units does not match");
         }
         cells_->verify_unit(i);
     }
@@ -262,29 +304,23 @@ Error IndexFile::mismatch(SectionKind kind) const {
     return damaged(fmt::format("the checksum of section {} does not match", section_name(kind)));
 }
 
-/// Padding is zero and lies outside every checksum.
+/// Padding is zero and lies outside every checksum. Longer gaps hold what an earlier header named.
 void IndexFile::check_gaps() const {
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> used{{0, kSectionAlignment}};
-    const auto use = [&](SectionKind kind, std::uint64_t offset, std::uint64_t bytes) {
-        used.emplace_back(header_.section(kind).offset + offset, bytes);
-    };
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> used{{0, kDataBegin}};
     for (const StepEntry& step : step_entries_)
-        use(SectionKind::volume, step.offset, step.bytes);
+        used.emplace_back(step.offset, step.bytes);
     for (const UnitEntry& unit : directory_) {
-        use(SectionKind::units, unit.cells_offset, unit.cells_bytes);
-        use(SectionKind::units, unit.deltas_offset, unit.deltas_bytes);
+        used.emplace_back(unit.cells_offset, unit.cells_bytes);
+        used.emplace_back(unit.deltas_offset, unit.deltas_bytes);
     }
-    for (const SectionKind kind : {SectionKind::tree, SectionKind::steps, SectionKind::directory,
-                                   SectionKind::checksums, SectionKind::metadata})
-        use(kind, 0, header_.section(kind).bytes);
+    for (const Section& section : header_.sections)
+        if (section.bytes > 0)
+            used.emplace_back(section.offset, section.bytes);
     std::sort(used.begin(), used.end());
     std::uint64_t end = 0;
     std::vector<std::byte> gap;
     for (const auto& [offset, bytes] : used) {
-        // Longer than padding ever is: no gap of the sections' making.
-        if (offset > end + kSectionAlignment)
-            throw damaged(fmt::format("nothing lies from byte {} to {}", end, offset));
-        gap.resize(offset > end ? offset - end : 0);
+        gap.resize(offset > end && offset - end < kPartAlignment ? offset - end : 0);
         bytes_->read(end, gap);
         for (std::size_t i = 0; i < gap.size(); ++i)
             if (gap[i] != std::byte{0})

@@ -46,9 +46,13 @@ class IndexFile {
     const IndexStats& stats() const { return metadata_.stats; }
     const TierPlan& plan() const { return metadata_.plan; }
     Codec codec() const { return metadata_.codec; }
-    const LevelMap& levels() const { return *metadata_.levels; } ///< of bricks and cells
+    const LevelMap& levels() const {
+        return *metadata_.levels;
+    } ///< of the cells: there must be some
     const ThiOptions& tree_options() const { return metadata_.tree; }
     const std::optional<Referral>& referral() const { return metadata_.referral; }
+    /// What is stored beside the values.
+    const Metadata& metadata() const { return metadata_; }
 
     /// One step as a whole; decoded, from its source where the file refers to it: not for the
     /// thread that draws. @throws Error when it cannot be read, is damaged or is not as it was
@@ -68,14 +72,28 @@ class IndexFile {
     /// One step of it, as `load`. There must be one.
     LoadedStep load_color(std::uint32_t step) const;
 
-    /// Null where the plan does without them; with the deltas, if any.
+    /// Null where the plan does without them; with the deltas, if any. They may hold the first
+    /// steps only.
     const CellTier* cells() const { return cells_ ? &*cells_ : nullptr; }
+    bool has_cells(std::uint32_t step) const { return cells_ && step < cells_->steps(); }
     /// Null without one. Read and checked when first asked for: not for the thread that draws.
     /// @throws Error when it is damaged
     const ThiTree* tree() const;
 
     /// Of the values and grid: the same data, the same hash.
     std::uint64_t content_hash() const { return header_.content_hash; }
+    /// Whether that is the hash of the data, or was when the series had fewer steps.
+    bool has_had(std::uint64_t content_hash) const;
+    /// Where everything lies.
+    const FileHeader& header() const { return header_; }
+    std::span<const StepEntry> step_entries() const { return step_entries_; }
+    std::span<const UnitEntry> directory() const { return directory_; }
+    /// As stored: of the values of each step, of each unit, of the colors, and each source's state.
+    std::span<const std::uint64_t> checksums() const { return checksums_; }
+    /// Of the values of the array to color by.
+    std::span<const std::uint64_t> color_checksums() const;
+    /// What each step's source was when it was indexed; 0 where that is unknown.
+    std::span<const std::uint64_t> source_states() const;
     /// What is kept of the values, and what it may take.
     ByteCache::Use cache() const { return cache_.use(); }
 
@@ -89,11 +107,13 @@ class IndexFile {
     std::size_t steps() const { return metadata_.info.steps(); }
     template <class T>
     std::vector<T> section(SectionKind kind) const;
-    std::span<const std::byte> part(std::uint64_t offset, std::uint64_t bytes) const;
+    std::span<const std::byte> part(std::size_t unit, std::uint64_t offset,
+                                    std::uint64_t bytes) const;
 
     void set_arrays();
     void set_cells();
     ChunkArray array_of(std::uint32_t number, const SeriesInfo& info) const;
+    bool lies_within(std::uint64_t offset, std::uint64_t bytes) const;
     void check_gaps() const;
     void check_step(const LoadedStep& loaded, std::uint32_t step, std::uint64_t checksum,
                     const char* called) const;
@@ -111,7 +131,8 @@ class IndexFile {
     std::optional<Referral> color_referral_;
     std::unique_ptr<StepSource> source_, color_source_; ///< when it refers to its sources
     std::vector<UnitEntry> directory_;
-    std::unique_ptr<LazyPart> units_;
+    std::vector<std::uint64_t> epoch_begins_; ///< where the units of each epoch begin
+    CellTier::Pages units_;                   ///< by epoch
     std::optional<CellTier> cells_;
     mutable std::once_flag tree_read_;
     mutable std::vector<std::uint64_t> tree_bytes_;

@@ -4,7 +4,6 @@
 #include "index/error.h"
 
 #include <fmt/format.h>
-#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -92,10 +91,6 @@ std::string exact_text(const json& value) {
     return name;
 }
 
-bool finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 SeriesInfo info_of(const json& j) {
     SeriesInfo info;
     info.array = exact_text(j.at("array"));
@@ -156,12 +151,36 @@ LevelMap levels_of(const json& j, ValueType type) {
     return LevelMap::of_thresholds(type, ascending(j.at("thresholds"), LevelMap::kMaxLevels - 1));
 }
 
+json json_of(const ValueCounts& counts) {
+    return {{"low", counts.low},           {"high", counts.high},   {"nan", counts.nan_values},
+            {"exponent", counts.exponent}, {"first", counts.first}, {"bins", counts.bins}};
+}
+
+ValueCounts counts_of(const json& j, ValueType type) {
+    ValueCounts counts;
+    j.at("low").get_to(counts.low);
+    j.at("high").get_to(counts.high);
+    counts.nan_values = whole<std::uint64_t>(j.at("nan"));
+    const json &exponent = j.at("exponent"), &first = j.at("first"), &bins = j.at("bins");
+    if (!exponent.is_number_integer() || !first.is_number_integer() || !bins.is_array() ||
+        bins.size() > static_cast<std::size_t>(ValueCounts::kMostBins))
+        throw Error("counts of values that cannot be");
+    exponent.get_to(counts.exponent);
+    first.get_to(counts.first);
+    counts.bins.resize(bins.size());
+    get_whole(bins, counts.bins);
+    if (!counts.sound(type))
+        throw Error("counts of values that do not fit their range");
+    return counts;
+}
+
 json json_of(const TierPlan& plan) {
     json tiers = json::array();
     for (std::size_t i = 0; i < kTierNames.size(); ++i)
         if (plan.tiers.has(static_cast<Tier>(i)))
             tiers.push_back(kTierNames[i]);
-    return {{"tiers", tiers}, {"reasons", plan.reasons}, {"asked", plan.asked}};
+    return {
+        {"tiers", tiers}, {"reasons", plan.reasons}, {"asked", plan.asked}, {"steps", plan.steps}};
 }
 
 TierPlan plan_of(const json& j) {
@@ -174,6 +193,8 @@ TierPlan plan_of(const json& j) {
     }
     j.at("reasons").get_to(plan.reasons);
     plan.asked = j.value("asked", false); // version 2 did not say
+    if (j.contains("steps"))
+        plan.steps = whole<std::uint32_t>(j.at("steps"));
     return plan;
 }
 
@@ -269,32 +290,14 @@ ColorArray color_of(const json& j) {
 
 } // namespace
 
-void check_limits(const SeriesInfo& info) {
-    const Grid& grid = info.grid;
-    for (const std::uint32_t n : grid.vertices)
-        if (n < 2 || n > 65537)
-            throw Error(fmt::format("{}x{}x{} vertices, expected 2 to 65537 along each axis",
-                                    grid.vertices[0], grid.vertices[1], grid.vertices[2]));
-    if (grid.cell_count() > std::numeric_limits<CellId>::max())
-        throw Error(fmt::format("{} cells, expected fewer than 2^32", grid.cell_count()));
-    if (!finite(grid.origin) || !finite(grid.spacing) || !finite(grid.direction[0]) ||
-        !finite(grid.direction[1]) || !finite(grid.direction[2]))
-        throw Error("origin, spacing or direction is not finite");
-    if (!(grid.spacing.x > 0 && grid.spacing.y > 0 && grid.spacing.z > 0))
-        throw Error(fmt::format("spacing {} {} {}, expected positive numbers", grid.spacing.x,
-                                grid.spacing.y, grid.spacing.z));
-    if (!(std::abs(glm::determinant(grid.direction)) > 1e-6))
-        throw Error("the direction's axes lie in one plane");
-    if (!std::isfinite(info.scaling.slope) || info.scaling.slope == 0 ||
-        !std::isfinite(info.scaling.intercept))
-        throw Error(fmt::format("scaling {} * stored + {}, expected finite numbers and no slope 0",
-                                info.scaling.slope, info.scaling.intercept));
-    if (info.times.empty() || info.times.size() >= std::numeric_limits<std::uint32_t>::max())
-        throw Error(fmt::format("{} steps, expected 1 to 2^32 - 2", info.times.size()));
-    for (std::size_t t = 0; t < info.times.size(); ++t)
-        if (!std::isfinite(info.times[t]) || (t > 0 && !(info.times[t] > info.times[t - 1])))
-            throw Error(fmt::format("step {} has time {}, expected finite and increasing times", t,
-                                    info.times[t]));
+void set_counts(Metadata& metadata, ValueCounts counts) {
+    IndexStats& stats = metadata.stats;
+    const SeriesInfo& info = metadata.info;
+    stats.low = counts.scaled_low(info.scaling);
+    stats.high = counts.scaled_high(info.scaling);
+    stats.nan_values = counts.nan_values;
+    stats.histogram = counts.histogram(info.type, info.scaling);
+    stats.counts = std::move(counts);
 }
 
 std::string to_json(const Metadata& metadata) {
@@ -318,18 +321,17 @@ std::string to_json(const Metadata& metadata) {
         {"times", info.times},
         {"sources", exact(info.sources)},
         {"notes", info.notes},
-        {"stats",
-         {{"low", stats.low},
-          {"high", stats.high},
-          {"nan_values", stats.nan_values},
-          {"cell_entries", stats.cell_entries},
-          {"histogram", stats.histogram}}},
-        {"levels", json_of(metadata.levels.value())},
+        {"stats", {{"counts", json_of(stats.counts)}}},
+        {"cell_steps", metadata.cell_steps},
         {"plan", json_of(metadata.plan)},
         {"codec", kCodecNames[static_cast<std::size_t>(metadata.codec)]},
         {"tree",
          {{"lattice", metadata.tree.lattice}, {"max_variation", metadata.tree.max_variation}}},
     };
+    if (metadata.levels)
+        j["levels"] = json_of(*metadata.levels);
+    put_optional(j, "chosen_array", metadata.chosen_array);
+    put_optional(j, "chosen_component", metadata.chosen_component);
     if (metadata.referral)
         j["referral"] = json_of(*metadata.referral);
     if (metadata.color)
@@ -343,14 +345,14 @@ Metadata metadata_from_json(std::string_view text) try {
     const json j = json::parse(text);
     Metadata metadata;
     metadata.info = info_of(j);
-    const json& stats = j.at("stats");
-    stats.at("low").get_to(metadata.stats.low);
-    stats.at("high").get_to(metadata.stats.high);
-    metadata.stats.nan_values = whole<std::uint64_t>(stats.at("nan_values"));
-    metadata.stats.cell_entries = whole<std::uint64_t>(stats.at("cell_entries"));
-    metadata.stats.histogram.resize(kHistogramBins);
-    get_whole(stats.at("histogram"), metadata.stats.histogram);
-    metadata.levels = levels_of(j.at("levels"), metadata.info.type);
+    if (j.at("stats").contains("counts")) // version 2 had others, which are counted anew
+        set_counts(metadata, counts_of(j.at("stats").at("counts"), metadata.info.type));
+    if (j.contains("levels"))
+        metadata.levels = levels_of(j.at("levels"), metadata.info.type);
+    if (j.contains("cell_steps"))
+        metadata.cell_steps = whole<std::uint32_t>(j.at("cell_steps"));
+    get_optional(j, "chosen_array", metadata.chosen_array);
+    get_optional(j, "chosen_component", metadata.chosen_component);
     metadata.plan = plan_of(j.at("plan"));
     if (j.contains("codec")) { // version 2 had none
         const auto codec = codec_from_name(j.at("codec").get<std::string>());

@@ -3,6 +3,7 @@
 
 #include "index/file/chunk_codec.h"
 #include "index/file/index_contents.h"
+#include "index/file/series_content.h"
 #include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
 
@@ -17,11 +18,17 @@ struct Metadata {
     IndexStats stats = {};
     TierPlan plan = {};
     Codec codec = Codec::fitting;        ///< that values were packed with
-    std::optional<LevelMap> levels = {}; ///< always set once the values are known
+    std::optional<LevelMap> levels = {}; ///< of the cells, where there are any
+    std::uint32_t cell_steps = 0;        ///< first steps that the cells hold
     ThiOptions tree = {};
     std::optional<Referral> referral = {};
     std::optional<ColorArray> color = {};
+    /// What picks the array in the files: `ReadOptions::array` and `component`.
+    std::optional<std::string> chosen_array = {}, chosen_component = {};
 };
+
+/// Sets what follows from the counts of a series' values.
+void set_counts(Metadata& metadata, ValueCounts counts);
 
 /// Same metadata, same text: keys are sorted, numbers round-trip.
 std::string to_json(const Metadata& metadata);
@@ -30,12 +37,7 @@ std::string to_json(const Metadata& metadata);
 ///         (see `check_limits`)
 Metadata metadata_from_json(std::string_view text);
 
-/// What every series must keep to: 2 to 65,537 vertices along each axis, fewer than 2^32 cells and
-/// steps, a finite geometry with positive spacing and a regular direction, finite increasing times,
-/// a slope that is not 0. @throws Error
-void check_limits(const SeriesInfo& info);
-
-/// Bytes from one step to the next in the volume section.
+/// Bytes from one step to the next where values lie as they are.
 constexpr std::size_t step_stride(std::size_t step_bytes) {
     return (step_bytes + 63) / 64 * 64;
 }

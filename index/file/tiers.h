@@ -43,6 +43,7 @@ struct TierPlan {
     TierSet tiers;
     std::vector<std::string> reasons; ///< a sentence for each tier that could be, for `info`
     bool asked = false;               ///< chosen by whoever built the index
+    std::uint32_t steps = 0;          ///< of the series when they were chosen
 };
 
 } // namespace isochron::index

@@ -7,6 +7,7 @@
 #include "index/system/input_file.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -126,6 +127,13 @@ class FileSeries final : public VolumeSeries {
             open_->read(place.step, out);
             expect_unchanged(found_[place.file]);
         });
+    }
+
+    std::uint64_t state(std::size_t step) const override {
+        std::vector<std::uint64_t> numbers;
+        for (const FileState& state : found_[places_.at(step).file].states)
+            numbers.insert(numbers.end(), {state.size, static_cast<std::uint64_t>(state.written)});
+        return XXH3_64bits(numbers.data(), numbers.size() * sizeof numbers.front());
     }
 
   private:

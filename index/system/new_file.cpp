@@ -98,17 +98,23 @@ void NewFile::reserve(std::uint64_t bytes) {
         fail(errno);
 }
 
-void NewFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+int write_all(int file, std::uint64_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written =
-            ::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+            ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (written < 0 && errno == EINTR)
             continue;
         if (written <= 0)
-            fail(written < 0 ? errno : ENOSPC);
+            return written < 0 ? errno : ENOSPC;
         offset += static_cast<std::uint64_t>(written);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
+    return 0;
+}
+
+void NewFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+    if (const int error = write_all(file_, offset, bytes))
+        fail(error);
 }
 
 void NewFile::commit() {

@@ -1,6 +1,8 @@
 // A file that appears complete under its name, or not at all.
 #pragma once
 
+#include "index/system/byte_sink.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -8,23 +10,26 @@
 
 namespace isochron::index {
 
+/// Writes all bytes to an open file. @return 0, or the system's error
+int write_all(int file, std::uint64_t offset, std::span<const std::byte> bytes);
+
 /// Writes to `.NAME.XXXX.tmp` in the folder of NAME; `commit` gives it its name. Destroyed before
 /// that, it removes what it wrote and an older file of that name stays as it was. Every function
 /// throws Error with the final name and what the system said (disk full, folder not writable, ...).
-class NewFile {
+class NewFile final : public ByteSink {
   public:
     /// @throws Error also when `target` exists and is not a regular file
     explicit NewFile(std::filesystem::path target);
     /// Writes into the temporary file of another process, which owns it: here `commit` only
     /// flushes.
     NewFile(std::filesystem::path target, std::filesystem::path temporary);
-    ~NewFile();
+    ~NewFile() override;
     NewFile(const NewFile&) = delete;
     NewFile& operator=(const NewFile&) = delete;
 
     /// Claims disk space from the start of the file, so that a full disk shows before the work.
     void reserve(std::uint64_t bytes);
-    void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+    void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
     /// Removes the temporary files that killed writers of the same name left.
     void remove_remains() const;
     /// Flushes to disk, then renames over the final name.

@@ -66,6 +66,10 @@ class VolumeSeries {
     /// @param out exactly `info().step_bytes()` long
     /// @throws Error naming the file when it cannot be read or disagrees with the first step
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;
+
+    /// A number that changes when what a step is read from is written to; 0 where that cannot be
+    /// told without reading.
+    virtual std::uint64_t state(std::size_t /*step*/) const { return 0; }
 };
 
 /// Opens files, a glob's result or a .pvd as one series. Files are put in natural order

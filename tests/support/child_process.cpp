@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,6 +38,16 @@ std::string file_contents(const fs::path& path) {
             const struct rlimit limit { options.largest_file, options.largest_file };
             ::setrlimit(RLIMIT_FSIZE, &limit);
             ::signal(SIGXFSZ, SIG_IGN); // so that the write fails instead
+        }
+        if (options.dies_after > 0) {
+            const auto most = static_cast<std::uint64_t>(1'000'000);
+            const struct itimerval alarm {
+                {}, {
+                    static_cast<time_t>(options.dies_after / most),
+                        static_cast<suseconds_t>(options.dies_after % most)
+                }
+            };
+            ::setitimer(ITIMER_REAL, &alarm, nullptr); // stays over the next line
         }
         ::execv(program.c_str(), argv.data());
     }

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
+
 namespace isochron::app {
 namespace {
 
@@ -49,36 +51,123 @@ TEST_F(CommandLine, ChangeWritesWhatTwoSetsDoNotShare) {
         "step 5, expected 0 to 4");
 }
 
-TEST_F(CommandLine, AppendingGivesTheBytesOfBuildingAnew) {
+/// What an index says of its data, less where it lies and how large it is.
+nlohmann::json description(const std::string& info) {
+    auto j = nlohmann::json::parse(info);
+    for (const char* key : {"file", "file_bytes", "volume_bytes", "percent_of_raw", "plan"})
+        j.erase(key);
+    return j;
+}
+
+TEST_F(CommandLine, AppendingGivesTheContentOfBuildingAnew) {
+    const auto described = [&] {
+        return description(isochron({"info", "a.isochron", "--json"}).out);
+    };
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
-    const std::string whole = folder.read("a.isochron");
+    const auto whole = described();
     for (const std::string first : {"t[01].raw", "t[0123].raw"}) {
         std::filesystem::remove(folder.path() / "a.isochron");
         ASSERT_EQ(isochron(build_of(first)).status, 0);
-        EXPECT_NE(folder.read("a.isochron"), whole);
+        EXPECT_NE(described(), whole);
+        const std::string held = folder.read("a.isochron");
         const ChildResult appended = isochron(build_of("t*.raw", {"--append"}));
         EXPECT_EQ(appended.status, 0) << appended.err;
-        EXPECT_EQ(folder.read("a.isochron"), whole);
+        EXPECT_EQ(described(), whole);
+        EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
+        // What it held is where it was.
+        EXPECT_EQ(folder.read("a.isochron").substr(8192, held.size() - 8192), held.substr(8192));
     }
+    const std::string bytes = folder.read("a.isochron");
     const ChildResult again = isochron(build_of("t*.raw", {"--append"}));
     EXPECT_EQ(again.status, 0);
     EXPECT_THAT(again.out, HasSubstr("a.isochron: holds every step of these files already"));
-    EXPECT_EQ(folder.read("a.isochron"), whole);
+    EXPECT_EQ(folder.read("a.isochron"), bytes);
 }
 
 TEST_F(CommandLine, AppendingKeepsWhatTheIndexWasBuiltWith) {
+    const auto described = [&] {
+        return description(isochron({"info", "a.isochron", "--json"}).out);
+    };
     for (const std::vector<std::string>& options :
          {std::vector<std::string>{"--tiers", "bricks", "--codec", "none"},
           {"--refer"},
           {"--lattice", "16", "--codec", "lz4"}}) {
         ASSERT_EQ(isochron(build_of("t*.raw", options)).status, 0);
-        const std::string whole = folder.read("a.isochron");
+        const auto whole = described();
         std::filesystem::remove(folder.path() / "a.isochron");
         ASSERT_EQ(isochron(build_of("t[01].raw", options)).status, 0);
-        EXPECT_EQ(isochron(build_of("t*.raw", {"--append"})).status, 0);
-        EXPECT_TRUE(folder.read("a.isochron") == whole) << options.front();
+        const ChildResult appended = isochron(build_of("t*.raw", {"--append"}));
+        EXPECT_EQ(appended.status, 0) << appended.err;
+        EXPECT_EQ(described(), whole) << options.front();
+        EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
+        const bool anew = options.front() == "--lattice";
+        EXPECT_EQ(appended.out.find("written anew: the paper's tree spans all steps") !=
+                      std::string::npos,
+                  anew);
         std::filesystem::remove(folder.path() / "a.isochron");
     }
+}
+
+TEST_F(CommandLine, AppendingSaysWhereItIsToldOtherwise) {
+    for (const auto& [options, told] : {std::pair<std::vector<std::string>, std::string>{
+                                            {"--tiers", "none"}, "tiers none instead of bricks"},
+                                        {{"--codec", "zstd"}, "codec zstd instead of fitting"},
+                                        {{"--refer"}, "it refers to its files from now on"}}) {
+        ASSERT_EQ(isochron(build_of("t[01].raw")).status, 0);
+        std::vector<std::string> more = options;
+        more.push_back("--append");
+        const ChildResult appended = isochron(build_of("t*.raw", more));
+        EXPECT_EQ(appended.status, 0) << appended.err;
+        EXPECT_THAT(appended.out, HasSubstr("note: written anew: " + told));
+        EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
+        std::filesystem::remove(folder.path() / "a.isochron");
+    }
+}
+
+TEST_F(CommandLine, ASourceThatWasTouchedIsReadAgainAndOneThatHasChangedIsRefused) {
+    ASSERT_EQ(isochron(build_of("t[0123].raw")).status, 0);
+    const std::string held = folder.read("a.isochron");
+    folder.write("t1.raw", folder.read("t1.raw")); // only its time is new
+    ASSERT_EQ(isochron(build_of("t*.raw", {"--append"})).status, 0);
+    folder.write("a.isochron", held);
+    std::string changed = folder.read("t1.raw");
+    changed[100] = char(changed[100] ^ 1);
+    folder.write("t1.raw", changed);
+    expect_failure(isochron(build_of("t*.raw", {"--append"})), 1,
+                   "a.isochron: cannot be appended to: its source t1.raw has changed under step 1");
+    EXPECT_EQ(folder.read("a.isochron"), held);
+}
+
+TEST_F(CommandLine, AppendingThatIsKilledAtAnyMomentLeavesTheOldIndexOrTheNewOne) {
+    ASSERT_EQ(isochron(build_of("t[01].raw")).status, 0);
+    const std::string held = folder.read("a.isochron");
+    const std::vector<std::string> append = build_of("t*.raw", {"--append", "--quiet"});
+    const auto begun = std::chrono::steady_clock::now();
+    ASSERT_EQ(isochron(append).status, 0);
+    const auto took = std::chrono::duration_cast<std::chrono::microseconds>(
+                          std::chrono::steady_clock::now() - begun)
+                          .count();
+    const auto steps_now = [&] {
+        EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
+        return nlohmann::json::parse(isochron({"info", "a.isochron", "--json"}).out)
+            .at("steps")
+            .get<int>();
+    };
+    std::mt19937 random(test_seed());
+    int killed = 0;
+    folder.write("a.isochron", held);
+    for (int moment = 0; moment < 20; ++moment) {
+        const ChildResult result =
+            isochron(append, {.dies_after = 1 + random() % std::uint64_t(took)});
+        killed += result.status >= 1000;
+        const int now = steps_now();
+        EXPECT_TRUE(now == 2 || now == 5) << now;
+        if (now == 5) // what a kill leaves behind is kept until then
+            folder.write("a.isochron", held);
+    }
+    EXPECT_GT(killed, 5);
+    EXPECT_EQ(isochron(append).status, 0);
+    EXPECT_EQ(steps_now(), 5);
 }
 
 TEST_F(CommandLine, AnIndexThatRefersToItsSourcesAnswersAsOneThatCarriesThem) {
@@ -173,7 +262,7 @@ TEST_F(CommandLine, AnInterruptedBuildEndsWithStatus130AndLeavesTheOldIndexAlone
     const auto before = folder.names();
     const std::vector<std::string> build{"build", "noise*.raw", "--dims", "100", "100",
                                          "100",   "--type",     "u8",     "-o",  "a.isochron"};
-    for (const char* phase : {"reading", "counting", "packing", "indexing"}) {
+    for (const char* phase : {"reading", "packing", "indexing"}) {
         const ChildResult result =
             isochron(build, {.interrupt_after = phase}); // as soon as it is printed
         EXPECT_EQ(result.status, 130);
@@ -249,14 +338,18 @@ TEST_F(CommandLine, ColorsAreAppendedWithTheRest) {
         return isochron(all);
     };
     ASSERT_EQ(build("s?.vtk", {"--color", "heat"}).status, 0);
-    const std::string whole = folder.read("c.isochron");
+    const auto described = [&] {
+        return description(isochron({"info", "c.isochron", "--json"}).out);
+    };
+    const auto whole = described();
     std::filesystem::remove(folder.path() / "c.isochron");
     ASSERT_EQ(build("s[01].vtk", {"--color", "heat"}).status, 0);
     expect_failure(build("s?.vtk", {"--append", "--color", "speed"}), 1,
                    "it holds the colors heat, the colors speed given");
     const ChildResult appended = build("s?.vtk", {"--append"});
     EXPECT_EQ(appended.status, 0) << appended.err;
-    EXPECT_EQ(folder.read("c.isochron"), whole);
+    EXPECT_EQ(described(), whole);
+    EXPECT_EQ(isochron({"verify", "c.isochron"}).status, 0);
     expect_failure(build("s?.vtk", {"--color", "cold"}), 1, "cold");
 }
 

@@ -78,6 +78,26 @@ TEST_F(MpiBuild, GivesTheSameBytesWhateverTheNumberOfProcesses) {
     EXPECT_EQ(folder.read("job"), folder.read("alone"));
 }
 
+TEST_F(MpiBuild, AppendsInPlace) {
+    for (const std::string type : {"u8", "f32"}) {
+        const std::string letter = type.substr(0, 1);
+        for (const int step : {3, 4})
+            std::filesystem::rename(folder.path() / (letter + std::to_string(step) + ".raw"),
+                                    folder.path() / ("later" + std::to_string(step)));
+        ASSERT_EQ(build(0, type, "alone").status, 0);
+        std::filesystem::copy_file(folder.path() / "alone", folder.path() / "job");
+        for (const int step : {3, 4})
+            std::filesystem::rename(folder.path() / ("later" + std::to_string(step)),
+                                    folder.path() / (letter + std::to_string(step) + ".raw"));
+        ASSERT_EQ(build(0, type, "alone", {"--append"}).status, 0);
+        const ChildResult result = build(3, type, "job", {"--append"});
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(folder.read("job"), folder.read("alone"));
+        std::filesystem::remove(folder.path() / "job");
+        std::filesystem::remove(folder.path() / "alone");
+    }
+}
+
 TEST_F(MpiBuild, ReadsInAReaderOfEveryProcess) {
     const auto vti = std::filesystem::path(test_support::test_data()) / "vti" / "raw_zlib64.vti";
     for (const char* name : {"s0.vti", "s1.vti", "s2.vti"})

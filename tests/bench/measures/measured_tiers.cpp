@@ -30,7 +30,8 @@ double seconds_for_bricks(const IndexFile& file) {
     std::vector<std::uint8_t> bricks(index::BrickGrid(values.grid).bytes_per_step());
     const Stopwatch watch;
     for (std::size_t step = 0; step < values.steps; ++step)
-        index::build_bricks(values, file.levels(), step, bricks);
+        index::build_bricks(values, *file.chunks().levels(static_cast<std::uint32_t>(step)), step,
+                            bricks);
     return watch.seconds();
 }
 
@@ -58,7 +59,8 @@ Recipe bricks_of(const FilePtr& file) {
                 structure.build_seconds = seconds_for_bricks(*file);
                 structure.ids = [file](const Query& query, Ids& out) {
                     const index::LoadedStep step = file->load(query.step);
-                    index::search_bricks(step.values, file->levels(), step.bricks, query, out);
+                    index::search_bricks(step.values, *file->chunks().levels(query.step),
+                                         step.bricks, query, out);
                 };
                 return structure;
             }};

@@ -87,7 +87,7 @@ class OldVersionTest : public testing::Test {
         Metadata metadata{.info = file->info(),
                           .stats = file->stats(),
                           .plan = file->plan(),
-                          .levels = file->levels(),
+                          .levels = {},
                           .tree = {},
                           .referral = {},
                           .color = *file->color()};

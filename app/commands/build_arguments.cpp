@@ -1,0 +1,183 @@
+// What a user asked `isochron build` for, as options of the floor below.
+#include "app/commands/build_arguments.h"
+
+#include "index/file/index_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sstream>
+
+namespace isochron::app {
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string names_of(const index::TierSet& tiers) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (tiers.has(static_cast<index::Tier>(i)))
+            names.push_back(index::kTierNames[i]);
+    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ","));
+}
+
+std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
+    if (numbers.empty())
+        return std::nullopt;
+    return glm::dvec3(numbers[0], numbers[1], numbers[2]);
+}
+
+} // namespace
+
+index::ReadOptions read_options(const BuildArguments& arguments) {
+    index::ReadOptions read = arguments.read;
+    if (!arguments.dims.empty())
+        read.dims = {arguments.dims[0], arguments.dims[1], arguments.dims[2]};
+    if (!arguments.type.empty())
+        read.type = index::value_type_from_name(arguments.type);
+    read.spacing = vector_of(arguments.spacing);
+    read.origin = vector_of(arguments.origin);
+    return read;
+}
+
+index::ReadOptions color_options(const BuildArguments& arguments) {
+    index::ReadOptions read = read_options(arguments);
+    read.array = arguments.color;
+    read.component = arguments.color_component;
+    read.value_unit = arguments.color_unit;
+    return read;
+}
+
+index::TierSet tiers_of(const std::string& list) {
+    index::TierSet tiers;
+    if (list == "none")
+        return tiers;
+    std::istringstream names(list);
+    for (std::string name; std::getline(names, name, ',');) {
+        const auto tier = index::tier_from_name(name);
+        if (!tier)
+            throw UsageError(fmt::format("--tiers: {}: expected none, or some of {}", name,
+                                         fmt::join(index::kTierNames, ",")));
+        tiers = tiers.with(*tier);
+    }
+    return tiers;
+}
+
+index::Referral referral_to(const std::vector<fs::path>& files, const BuildArguments& arguments) {
+    index::Referral referral{.files = {}, .options = read_options(arguments)};
+    const fs::path folder = fs::absolute(arguments.out).parent_path();
+    for (const fs::path& file : files)
+        referral.files.push_back(fs::absolute(file).lexically_relative(folder));
+    return referral;
+}
+
+BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held) {
+    const index::Metadata& known = held.metadata();
+    index::BuildOptions& build = arguments.build;
+    if (arguments.tiers.empty())
+        build.plan = held.plan();
+    if (held.plan().tiers.has(index::Tier::tree) && !build.with_tree) {
+        build.with_tree = true;
+        build.tree = held.tree_options();
+    }
+    if (arguments.codec.empty())
+        build.codec = held.codec();
+    arguments.refer = arguments.refer || held.referral();
+    if (!arguments.read.array) {
+        arguments.read.array = known.chosen_array;
+        arguments.read.component = known.chosen_component;
+    }
+    if (!arguments.color && held.color()) {
+        arguments.color = held.color()->chosen_array.value_or(held.color()->array);
+        arguments.color_component = held.color()->chosen_component;
+    }
+    return arguments;
+}
+
+std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOptions& options) {
+    index::TierSet wanted = options.tiers.value_or(held.plan().tiers);
+    if (options.with_tree)
+        wanted = wanted.with(index::Tier::tree);
+    if (wanted != held.plan().tiers)
+        return fmt::format("tiers {} instead of {}", names_of(wanted), names_of(held.plan().tiers));
+    if (options.codec != held.codec())
+        return fmt::format("codec {} instead of {}",
+                           index::kCodecNames[static_cast<std::size_t>(options.codec)],
+                           index::kCodecNames[static_cast<std::size_t>(held.codec())]);
+    if (options.referral.has_value() != held.referral().has_value())
+        return "it refers to its files from now on";
+    if (options.with_tree)
+        return "the paper's tree spans all steps";
+    return {};
+}
+
+void add_reading_options(Command& command, BuildArguments& arguments) {
+    index::ReadOptions& read = arguments.read;
+    command.option("--array", read.array, "Scalar array to read, where files hold several")
+        .group("Reading");
+    command
+        .option("--component", read.component,
+                "Component of a vector array: a number from 0, or magnitude")
+        .group("Reading");
+    command
+        .flag("--allow-surplus", read.allow_surplus,
+              "Read files in which data are left over after the values that the header says")
+        .group("Reading");
+    command
+        .option("--spacing", arguments.spacing,
+                "Distance between vertices along each axis, in length units "
+                "(default: as the files say, else 1 1 1)")
+        .values(3)
+        .type_name("SX SY SZ")
+        .positive()
+        .group("Reading");
+    command
+        .option("--origin", arguments.origin,
+                "Position of the first vertex, in length units "
+                "(default: as the files say, else 0 0 0)")
+        .values(3)
+        .type_name("OX OY OZ")
+        .group("Reading");
+    command
+        .option("--time-step", read.time_step,
+                "Physical time between steps, in time units (default: as the files say, "
+                "else 1)")
+        .positive()
+        .group("Reading");
+    command.option("--length-unit", read.length_unit, "Unit of positions, such as mm")
+        .group("Reading");
+    command.option("--time-unit", read.time_unit, "Unit of times, such as s").group("Reading");
+    command.option("--value-unit", read.value_unit, "Unit of the values, such as K")
+        .group("Reading");
+
+    const char* colors = "Colors";
+    const Option color =
+        command
+            .option("--color", arguments.color, "A second array of the files to color surfaces by")
+            .group(colors);
+    command
+        .option("--color-component", arguments.color_component,
+                "Its component, where it is a vector array: a number from 0, or magnitude")
+        .needs(color)
+        .group(colors);
+    command.option("--color-unit", arguments.color_unit, "Unit of its values")
+        .needs(color)
+        .group(colors);
+
+    const char* raw = "Headerless raw files";
+    command.option("--dims", arguments.dims, "Vertices along each axis, x fastest")
+        .values(3)
+        .type_name("NX NY NZ")
+        .between(2u, 65537u)
+        .group(raw);
+    command.option("--type", arguments.type, "Type of the stored values")
+        .one_of({"i8", "u8", "i16", "u16", "i32", "f32", "f64"})
+        .group(raw);
+    command.flag("--big-endian", read.big_endian, "Most significant byte first (default: least)")
+        .group(raw);
+    command.option("--header-bytes", read.header_bytes, "Bytes to skip at the start of each file")
+        .shows_default()
+        .group(raw);
+}
+
+} // namespace isochron::app

@@ -110,7 +110,7 @@ std::span<const ControlLine> control_lines() {
         {"Wand buttons 6, 7, 8", "room panel, pick the surface, read the data at the tip"},
         {"Wand buttons 9, 10, 11", "next tool for button 1, undo, redo"},
         {"Wand on the room's panel",
-         "button 1 clicks, drags; the title moves it, the stick scrolls"},
+         "button 1 clicks, drags; title moves it, stick scrolls"},
         {"Wand valuator 3", "fly where the wand points, or back"},
         {"Wand valuator 4", "turn by 30 degrees"},
         {"Both wands' button 1", "move, turn and scale the volume between two hands"},

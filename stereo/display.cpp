@@ -37,7 +37,7 @@ Display::Display(const render::Gl& gl, GlContext& drawing, GlContext& context, W
     composed_.clear(kBlack);
 }
 
-void Display::draw(std::span<const Viewpoint> viewers, StereoMode mode, const Scene& scene,
+void Display::draw(std::span<const ViewerPose> viewers, StereoMode mode, const Scene& scene,
                    const Overlay& overlay) {
     const glm::ivec2 size = context_->framebuffer_size();
     if (size.x < 1 || size.y < 1)
@@ -55,7 +55,7 @@ void Display::draw(std::span<const Viewpoint> viewers, StereoMode mode, const Sc
     compose(overlay);
 }
 
-void Display::draw_viewport(std::size_t number, const Viewpoint& viewer, const Scene& scene) {
+void Display::draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene) {
     const Viewport& viewport = window_.viewports[number];
     std::vector<render::View> views;
     for (const Eye eye : eyes_of(mode_)) {
@@ -107,7 +107,7 @@ bool Display::fills_window() const {
     return area == composed_.size().x * composed_.size().y;
 }
 
-std::optional<interaction::Pose> Display::ray_at(std::span<const Viewpoint> viewers,
+std::optional<interaction::Pose> Display::ray_at(std::span<const ViewerPose> viewers,
                                                  glm::vec2 at) const {
     const bool shared = Multiplex::shows(mode_) || right_buffer_.has_value();
     for (const Viewport& viewport : window_.viewports)
@@ -117,7 +117,7 @@ std::optional<interaction::Pose> Display::ray_at(std::span<const Viewpoint> view
                                     glm::vec2(region.size);
             if (!(local.x >= 0 && local.x <= 1 && local.y >= 0 && local.y <= 1))
                 continue;
-            const Viewpoint& viewer = viewers[viewport.viewer];
+            const ViewerPose& viewer = viewers[viewport.viewer];
             return ray_through(viewport.screen, viewer.head,
                                shared ? Eye::center : place_of(place, mode_), viewer.eye_separation,
                                region.size, local);

@@ -27,10 +27,10 @@
 namespace isochron::stereo {
 
 /// Where a viewer's eyes are in one frame.
-struct Viewpoint {
+struct ViewerPose {
     interaction::Pose head;
     float eye_separation = 0; ///< [m]
-    bool operator==(const Viewpoint&) const = default;
+    bool operator==(const ViewerPose&) const = default;
 };
 
 /// One window; an installation with several windows has one display for each.
@@ -57,12 +57,12 @@ class Display {
     /// Draws one frame at the present size of the framebuffer: each eye that the mode shows, of
     /// each viewport, exactly once; then the overlay. A minimized window draws nothing.
     /// @param viewers by number, as the window's viewports name them
-    void draw(std::span<const Viewpoint> viewers, StereoMode mode, const Scene& scene,
+    void draw(std::span<const ViewerPose> viewers, StereoMode mode, const Scene& scene,
               const Overlay& overlay = {});
     /// The same for one viewer.
     void draw(const interaction::Pose& head, float eye_separation, StereoMode mode,
               const Scene& scene, const Overlay& overlay = {}) {
-        const Viewpoint viewer{head, eye_separation};
+        const ViewerPose viewer{head, eye_separation};
         draw(std::span(&viewer, 1), mode, scene, overlay);
     }
 
@@ -77,7 +77,8 @@ class Display {
     /// where both see it: a pose that looks along -Z. Nothing where no viewport is.
     /// @param viewers where they are now
     /// @param at fractions of the window from the lower left
-    std::optional<interaction::Pose> ray_at(std::span<const Viewpoint> viewers, glm::vec2 at) const;
+    std::optional<interaction::Pose> ray_at(std::span<const ViewerPose> viewers,
+                                            glm::vec2 at) const;
 
     /// Leaves so many pixels free at the left of each eye's part, for a panel. Takes hold with the
     /// next frame that is drawn.
@@ -108,7 +109,7 @@ class Display {
 
     int left_ = 0; ///< pixels that stay free
     Region region_of(const Viewport& viewport, Eye place) const;
-    void draw_viewport(std::size_t number, const Viewpoint& viewer, const Scene& scene);
+    void draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene);
     /// The eye's picture to show in the place of `place`.
     EyePicture shown_at(Eye place, std::size_t viewport) const;
     bool fills_window() const; ///< the eyes' regions leave no pixel of the window free

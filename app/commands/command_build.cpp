@@ -190,11 +190,11 @@ void add_build(Command& program) {
     Command command =
         program.subcommand("build", "Read a series of volume files and write its index, one file.");
     command
-        .option("files", arguments->files,
-                "One .pvd, or the steps' files or quoted patterns ('t*.vti') in any order: "
-                ".vti .vtk .mhd .mha .nhdr .nrrd .nii .nii.gz .nc, or raw; or an index, also of "
-                "the file "
-                "version before this")
+        .option(
+            "files", arguments->files,
+            "A .pvd, or the files of the steps in any order, also as quoted patterns ('t*.vti'); "
+            "or an index, also of the file version before this. Known are " +
+                index::known_extensions())
         .required()
         .type_name("FILES");
     command.option("-o,--out", arguments->out, "Index to write; replaced when complete")

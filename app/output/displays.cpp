@@ -74,10 +74,10 @@ std::vector<std::string> live_stereo_modes(const stereo::Windows& windows) {
     return names;
 }
 
-std::vector<stereo::Viewpoint> viewpoints(const stereo::Installation& installation,
-                                          const interaction::InputState& input,
-                                          float eye_separation) {
-    std::vector<stereo::Viewpoint> found;
+std::vector<stereo::ViewerPose> viewer_poses(const stereo::Installation& installation,
+                                             const interaction::InputState& input,
+                                             float eye_separation) {
+    std::vector<stereo::ViewerPose> found;
     for (const stereo::Viewer& viewer : installation.viewers) {
         const interaction::DeviceState* head = input.find(viewer.head);
         const interaction::Pose waiting{viewer.position, {1.0f, 0.0f, 0.0f, 0.0f}};

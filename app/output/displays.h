@@ -32,8 +32,8 @@ std::vector<std::string> live_stereo_modes(const stereo::Windows& windows);
 
 /// Where the eyes are: each viewer's head, or until it is tracked the configured place.
 /// @param eye_separation chosen live, of the first viewer [m]
-std::vector<stereo::Viewpoint> viewpoints(const stereo::Installation& installation,
-                                          const interaction::InputState& input,
-                                          float eye_separation);
+std::vector<stereo::ViewerPose> viewer_poses(const stereo::Installation& installation,
+                                             const interaction::InputState& input,
+                                             float eye_separation);
 
 } // namespace isochron::app

@@ -46,8 +46,9 @@ std::vector<stereo::HeadsetEye> Outputs::headset_eyes() const {
     return headset_ ? headset_->eyes() : std::vector<stereo::HeadsetEye>();
 }
 
-std::optional<interaction::Pose> Outputs::ray_at(const interaction::MouseMoveEvent& cursor,
-                                                 std::span<const stereo::Viewpoint> viewers) const {
+std::optional<interaction::Pose>
+Outputs::ray_at(const interaction::MouseMoveEvent& cursor,
+                std::span<const stereo::ViewerPose> viewers) const {
     if (room_ || !shows_windows() || cursor.window >= displays_.size())
         return std::nullopt;
     return displays_[cursor.window].ray_at(viewers, {cursor.x, 1.0f - cursor.y});

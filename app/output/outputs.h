@@ -31,7 +31,7 @@ namespace isochron::app {
 
 /// Who looks in one frame, how, and what of theirs stands in the room.
 struct Audience {
-    std::vector<stereo::Viewpoint> viewers; ///< by number
+    std::vector<stereo::ViewerPose> viewers; ///< by number
     std::vector<stereo::HeadsetEye> eyes;   ///< of a headset that wants a picture
     std::optional<interaction::Pose> wand;  ///< where it is shown
     std::optional<ShownPanel> panel;        ///< that stands in the room
@@ -98,7 +98,7 @@ class Outputs {
     /// emulated room.
     /// @param viewers where they are now
     std::optional<interaction::Pose> ray_at(const interaction::MouseMoveEvent& cursor,
-                                            std::span<const stereo::Viewpoint> viewers) const;
+                                            std::span<const stereo::ViewerPose> viewers) const;
 
     /// Leaves the left of the first window to the panel that lies over it, where its screens take
     /// on the shape of what is left. @param pixels of each eye's part

@@ -79,7 +79,7 @@ stereo::StereoMode RoomView::shown(stereo::StereoMode mode) {
 }
 
 void RoomView::draw(const std::deque<stereo::Display>& displays,
-                    std::span<const stereo::Viewpoint> viewers,
+                    std::span<const stereo::ViewerPose> viewers,
                     const std::optional<interaction::Pose>& wand,
                     const interaction::InputState& input, const stereo::Display::Overlay& overlay) {
     const interaction::DeviceState* camera = input.find(kRoomCamera);
@@ -108,7 +108,7 @@ void RoomView::draw_into(stereo::Display& display, const std::deque<stereo::Disp
 }
 
 std::vector<RoomView::Wall> RoomView::walls_of(const std::deque<stereo::Display>& displays,
-                                               std::span<const stereo::Viewpoint> viewers) {
+                                               std::span<const stereo::ViewerPose> viewers) {
     std::vector<Wall> walls;
     for (const stereo::Display& display : displays)
         for (std::size_t i = 0; i < display.window().viewports.size(); ++i) {
@@ -138,7 +138,7 @@ void RoomView::draw_walls(const render::View& view, std::span<const Wall> walls,
 }
 
 void RoomView::draw_room(const render::View& view, std::span<const Wall> walls,
-                         std::span<const stereo::Viewpoint> viewers,
+                         std::span<const stereo::ViewerPose> viewers,
                          const std::optional<interaction::Pose>& wand) {
     draw_walls(view, walls, true);
     for (std::size_t i = 0; i < viewers.size(); ++i)

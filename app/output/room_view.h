@@ -35,7 +35,7 @@ class RoomView {
     /// corners of what they see; heads, wand and floor. Then the overlay.
     /// @param input holds the camera; where it does not, the camera stands where it starts
     void draw(const std::deque<stereo::Display>& displays,
-              std::span<const stereo::Viewpoint> viewers,
+              std::span<const stereo::ViewerPose> viewers,
               const std::optional<interaction::Pose>& wand, const interaction::InputState& input,
               const stereo::Display::Overlay& overlay);
     void present() { display_.present(); }
@@ -53,16 +53,16 @@ class RoomView {
         std::size_t viewer;
     };
     static std::vector<Wall> walls_of(const std::deque<stereo::Display>& displays,
-                                      std::span<const stereo::Viewpoint> viewers);
+                                      std::span<const stereo::ViewerPose> viewers);
     void draw_room(const render::View& view, std::span<const Wall> walls,
-                   std::span<const stereo::Viewpoint> viewers,
+                   std::span<const stereo::ViewerPose> viewers,
                    const std::optional<interaction::Pose>& wand);
     void draw_walls(const render::View& view, std::span<const Wall> walls, bool from_front) const;
 
     /// What was drawn last, beside the displays.
     struct Drawn {
         interaction::Pose camera;
-        std::vector<stereo::Viewpoint> viewers;
+        std::vector<stereo::ViewerPose> viewers;
         std::optional<interaction::Pose> wand;
     };
     void draw_into(stereo::Display& display, const std::deque<stereo::Display>& displays,

@@ -84,13 +84,13 @@ void Scene::look(const ExplorerState& state, const interaction::Pose& head,
 }
 
 void Scene::set_near_fade(const interaction::ComfortOptions& comfort,
-                          std::span<const stereo::Viewpoint> viewers) {
+                          std::span<const stereo::ViewerPose> viewers) {
     heads_.clear();
     appearance_.near_fade.reset();
     if (!(comfort.near_whole > 0))
         return;
     appearance_.near_fade = {.gone = comfort.near_gone, .whole = comfort.near_whole};
-    for (const stereo::Viewpoint& viewer : viewers)
+    for (const stereo::ViewerPose& viewer : viewers)
         heads_.push_back(viewer.head.position);
 }
 

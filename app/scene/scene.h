@@ -57,7 +57,7 @@ class Scene {
 
     /// Where what comes near to somebody fades, and who is there.
     void set_near_fade(const interaction::ComfortOptions& comfort,
-                       std::span<const stereo::Viewpoint> viewers);
+                       std::span<const stereo::ViewerPose> viewers);
 
     /// What is the same for all eyes of the frames to come: colors, and the edges of the box that
     /// carry numbers.

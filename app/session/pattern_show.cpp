@@ -40,7 +40,7 @@ void PatternShow::frame(const InputState& input, const Commands& commands, const
     seen_ = heads ? with_heads(input, viewers_heads(heads(), config_.installation)) : input;
     const interaction::DeviceState* wand = seen_.find("wand");
     Audience audience;
-    audience.viewers = viewpoints(config_.installation, seen_, eye_separation_);
+    audience.viewers = viewer_poses(config_.installation, seen_, eye_separation_);
     audience.wand = wand ? wand->pose : std::nullopt;
     audience.stereo = mode_;
     const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
@@ -59,7 +59,7 @@ void PatternShow::frame(const InputState& input, const Commands& commands, const
 
 void PatternShow::draw(const ScenePlace& place, std::span<const render::View> views) {
     const std::size_t number = place.window->viewports[place.viewport].viewer;
-    const stereo::Viewpoint& viewer = outputs_.audience().viewers[number];
+    const stereo::ViewerPose& viewer = outputs_.audience().viewers[number];
     const PatternWall wall =
         pattern_wall(*place.window, place.viewport, config_.installation.viewers[number],
                      viewer.head, viewer.eye_separation, views.front().size);

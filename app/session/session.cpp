@@ -178,7 +178,7 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
     const bool in_windows = this->in_windows(report);
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
     return {
-        .audience = {.viewers = viewpoints(config_.installation, input, state_.eye_separation),
+        .audience = {.viewers = viewer_poses(config_.installation, input, state_.eye_separation),
                      .eyes = outputs_.headset_eyes(),
                      .wand = wand ? wand->pose : std::nullopt,
                      .panel = room_panel_.shown(state_.room_panel),

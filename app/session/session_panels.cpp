@@ -27,7 +27,7 @@ std::optional<interaction::Pose> Session::ray_at(const interaction::MouseMoveEve
     interaction::InputState emulated;
     emulated.devices.push_back({.name = "head", .pose = head, .valuators = {}});
     return outputs_.ray_at(cursor,
-                           viewpoints(config_.installation, emulated, state_.eye_separation));
+                           viewer_poses(config_.installation, emulated, state_.eye_separation));
 }
 
 PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) const {

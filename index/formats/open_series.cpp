@@ -41,15 +41,19 @@ SeriesFile series_file(const fs::path& path, const ReadOptions& options,
     // Raw data have any name; their dimensions say that they are meant.
     if (options.dims)
         return {path, open_raw, time};
-    std::string known = ".pvd";
-    for (const Format& format : kFormats)
-        known += fmt::format(" {}", format.extension);
     throw Error(fmt::format("{}: unknown format, expected one of {}, or raw values with --dims and "
                             "--type",
-                            path.string(), known));
+                            path.string(), known_extensions()));
 }
 
 } // namespace
+
+std::string known_extensions() {
+    std::string known = ".pvd";
+    for (const Format& format : kFormats)
+        known += fmt::format(" {}", format.extension);
+    return known;
+}
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options) {

@@ -78,4 +78,7 @@ class VolumeSeries {
 std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::path>& files,
                                           const ReadOptions& options = {});
 
+/// The ends of the names that `open_series` knows, as in ".pvd .vti .vtk".
+std::string known_extensions();
+
 } // namespace isochron::index

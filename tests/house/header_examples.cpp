@@ -253,7 +253,7 @@ void quality_controller_example(DrawMeter& meter, const interaction::MotionGate&
 void kept_pictures_example(const render::Gl& gl, const stereo::Windows& windows,
                            const Config& config, std::deque<stereo::Display>& displays,
                            std::optional<RoomView>& room,
-                           std::span<const stereo::Viewpoint> viewers, stereo::StereoMode mode,
+                           std::span<const stereo::ViewerPose> viewers, stereo::StereoMode mode,
                            const stereo::DrawViews& scene) {
 #include "app/output/kept_pictures.example"
 }

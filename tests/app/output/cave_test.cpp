@@ -187,7 +187,7 @@ TEST_P(CaveTest, TheRoomShowsEveryWallsPictureWhereTheWallIs) {
     std::deque<stereo::Display> walls = displays_of(config.installation);
     const auto window = offscreen_beside(*context_, size);
     RoomView room(gl_, *window, config.installation);
-    const stereo::Viewpoint viewer{{{0.0f, 1.7f, 0.0f}, {1, 0, 0, 0}}, 0.06f};
+    const stereo::ViewerPose viewer{{{0.0f, 1.7f, 0.0f}, {1, 0, 0, 0}}, 0.06f};
     const auto paint = [&](std::size_t wall, glm::vec3 upper, glm::vec3 lower) {
         walls[wall].draw(std::span(&viewer, 1), StereoMode::left,
                          [&](std::span<const render::View> eyes) {

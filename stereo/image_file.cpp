@@ -34,7 +34,8 @@ std::string format_of(const std::filesystem::path& path) {
 
 } // namespace
 
-void write_image(const render::Image& image, const std::filesystem::path& path) {
+std::vector<std::byte> encoded_image(const render::Image& image, const std::filesystem::path& path,
+                                     const std::string& note) {
     const std::string format = format_of(path);
     const auto pixels = static_cast<std::size_t>(std::max(image.width, 0)) *
                         static_cast<std::size_t>(std::max(image.height, 0));
@@ -46,12 +47,27 @@ void write_image(const render::Image& image, const std::filesystem::path& path) 
     static const auto encode = module_function<image_module::Encode>(image_module::kEncode);
     std::vector<std::byte> bytes;
     std::string error;
-    encode(image, format, bytes, error);
+    encode(image, format, note, bytes, error);
     if (!error.empty())
         throw render::Error(fmt::format("{}: {}", path.string(), error));
+    return bytes;
+}
+
+void write_image(const render::Image& image, const std::filesystem::path& path,
+                 const std::string& note) {
+    const std::vector<std::byte> bytes = encoded_image(image, path, note);
     index::NewFile file(path);
     file.write_at(0, bytes);
     file.commit();
+}
+
+std::string read_note(const std::filesystem::path& path) {
+    static const auto read = module_function<image_module::ReadNote>(image_module::kReadNote);
+    std::string note, error;
+    read(path.string(), note, error);
+    if (!error.empty())
+        throw render::Error(fmt::format("{}: {}", path.string(), error));
+    return note;
 }
 
 render::Image read_image(const std::filesystem::path& path) {

@@ -3,7 +3,10 @@
 
 #include "render/gl/image.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace isochron::stereo {
 
@@ -12,7 +15,15 @@ namespace isochron::stereo {
 /// The first call loads OpenImageIO, which takes a fraction of a second.
 /// @throws render::Error for another extension or an empty picture, index::Error when the file
 /// cannot be written; both name the file
-void write_image(const render::Image& image, const std::filesystem::path& path);
+/// @param note kept in the file as it is, for `read_note`; ASCII, empty: none
+void write_image(const render::Image& image, const std::filesystem::path& path,
+                 const std::string& note = {});
+/// The bytes that `write_image` writes. @param path says the format, and who fails
+std::vector<std::byte> encoded_image(const render::Image& image, const std::filesystem::path& path,
+                                     const std::string& note = {});
+
+/// The note in a picture; empty where it has none. @throws render::Error naming the file
+std::string read_note(const std::filesystem::path& path);
 
 /// Reads back what `write_image` writes, and other files that OpenImageIO knows with one (gray),
 /// three or four channels; .exr is converted from linear light to sRGB. Alpha is 255 where there is

@@ -265,6 +265,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
             warn_beyond(*options.isovalue, *file);
         opened->set_state(start_from(start, options, file->info()));
         opened->outputs().set_screenshots(options.screenshots);
+        opened->set_data_name(std::filesystem::path(*options.data).filename().string());
         if (config.cluster.swap_group && job.size() > 1)
             stereo::join_swap_group(opened->outputs().windows());
     });

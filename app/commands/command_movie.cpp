@@ -5,9 +5,11 @@
 #include "app/commands/replay_source.h"
 #include "app/commands/subcommands.h"
 #include "app/output/movie_file.h"
-#include "app/output/picture_names.h"
+#include "app/output/picture_parts.h"
 #include "app/session/recording_file.h"
 #include "index/error.h"
+#include "index/file/file_layout.h"
+#include "index/system/input_file.h"
 
 #include <fmt/format.h>
 
@@ -30,23 +32,16 @@ struct MovieOptions : ReplaySource {
 /// One movie for the window, or one for each eye and viewport; written behind the drawing.
 class Movies {
   public:
-    Movies(const MovieOptions& options, const PictureNames& names, BackgroundWork& writing)
-        : options_(options), names_(names), writing_(writing) {}
+    Movies(const MovieOptions& options, const PictureNames& names, MovieNote about,
+           BackgroundWork& writing)
+        : options_(options), names_(names), about_(std::move(about)), writing_(writing) {}
 
     /// What the frame drawn last shows, for so many frames of the movie.
-    void add(Outputs& outputs, std::size_t times) {
-        if (outputs.room())
-            return add("", outputs.kept_pictures().of_room(), times);
-        outputs.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
-            const std::size_t number = outputs.windows().number(i);
-            const PictureNames::Window& named = names_.windows.at(number);
-            if (options_.eyes == "window")
-                return add(named.suffix, display.read_window(), times);
-            for (std::size_t v = 0; v < named.viewports.size(); ++v)
-                for (const stereo::Eye eye : stereo::eyes_of(display.mode()))
-                    add(fmt::format("{}_{}", named.viewports[v], name_of(eye)),
-                        display.read_eye(eye, v), times);
-        });
+    void add(Outputs& outputs, const PictureNote& frame, std::size_t times) {
+        each_part(outputs, options_.eyes == "each", names_, frame,
+                  [&](const PictureNote& note, const std::string& suffix, render::Image image) {
+                      add(note, suffix, std::move(image), times);
+                  });
     }
 
     /// Completes them. @return a line for each
@@ -67,15 +62,16 @@ class Movies {
         return out.parent_path() / (out.stem().string() + suffix + out.extension().string());
     }
 
-    void add(const std::string& suffix, render::Image image, std::size_t times) {
+    void add(PictureNote note, const std::string& suffix, render::Image image, std::size_t times) {
         const fs::path path = path_with(suffix);
         auto& movie = movies_[path];
         if (!movie) {
             if (fs::exists(path) && !options_.force)
                 throw index::Error(
                     fmt::format("{}: exists already; --force replaces it", path.string()));
+            note.movie = about_;
             movie = std::make_shared<MovieFile>(path, glm::ivec2(image.width, image.height),
-                                                options_.rate);
+                                                options_.rate, text_of(note));
         }
         writing_.wait_for_room();
         writing_.post([movie = movie, image = std::move(image), times] {
@@ -87,6 +83,7 @@ class Movies {
 
     const MovieOptions& options_;
     const PictureNames& names_;
+    const MovieNote about_;
     BackgroundWork& writing_;
     std::map<fs::path, std::shared_ptr<MovieFile>> movies_;
 };
@@ -115,6 +112,13 @@ class Clock {
     std::uint64_t next_ = 0; ///< frame of the movie
 };
 
+/// Of the recording's content.
+std::string hash_of(const fs::path& recording) {
+    constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;
+    const std::string text = index::read_text(recording, kLargest);
+    return fmt::format("{:016x}", index::checksum_of(std::as_bytes(std::span(text))));
+}
+
 void make_movie(const MovieOptions& options, ClusterJob& job) {
     if (job.size() > 1)
         throw UsageError("a movie is made by one process, without mpirun");
@@ -126,10 +130,11 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     const auto file = data_of(options, recording.header);
     Session session(config, file, windows_of(options, config, recording.header, job));
     const ReplayOptions replay = replay_options(options);
+    session.set_data_name(data_name(options, recording.header));
     session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
     const PictureNames names = picture_names(config.installation);
     BackgroundWork writing;
-    Movies movies(options, names, writing);
+    Movies movies(options, names, {options.rate, hash_of(options.recording)}, writing);
     Clock clock(recording, options.rate);
     {
         const CancelOnSignal signals;
@@ -138,7 +143,7 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
             session, recording, replay, [&](std::size_t number, const interaction::RecordedFrame&) {
                 signals.check();
                 if (const std::size_t times = clock.frames_of(number))
-                    movies.add(session.outputs(), times);
+                    movies.add(session.outputs(), session.note(), times);
                 bar.show("making the movie", static_cast<double>(number + 1) /
                                                  static_cast<double>(recording.frames.size()));
             });

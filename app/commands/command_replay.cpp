@@ -4,7 +4,7 @@
 #include "app/commands/progress_bar.h"
 #include "app/commands/replay_source.h"
 #include "app/commands/subcommands.h"
-#include "app/output/picture_names.h"
+#include "app/output/picture_parts.h"
 #include "app/session/pattern_show.h"
 #include "app/session/recording_file.h"
 #include "app/text.h"
@@ -29,35 +29,16 @@ struct Options : ReplaySource {
 
 /// Writes the pictures of one frame under names that start with `stem`, and notes which.
 void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
-                    const std::string& stem, std::vector<fs::path>& written) {
+                    const PictureNote& frame, const std::string& stem,
+                    std::vector<fs::path>& written) {
     const fs::path folder = *options.out;
-    const auto write = [&](render::Image image, const std::string& suffix) {
-        outputs.pictures().wait_for_room();
-        written.push_back(folder / fmt::format("{}{}.{}", stem, suffix, options.format));
-        outputs.write_image(std::move(image), written.back());
-    };
-    const auto write_eyes = [&](const stereo::Display& display, const PictureNames::Window& named) {
-        for (std::size_t i = 0; i < named.viewports.size(); ++i)
-            for (const stereo::Eye eye : stereo::eyes_of(display.mode()))
-                write(display.read_eye(eye, i),
-                      fmt::format("{}_{}", named.viewports[i], name_of(eye)));
-    };
-    if (outputs.room())
-        return write(outputs.kept_pictures().of_room(), "");
-    outputs.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
-        const std::size_t number = outputs.windows().number(i);
-        if (number >= names.windows.size()) // the operator's window is no wall
-            return;
-        const PictureNames::Window& named = names.windows[number];
-        if (options.eyes == "each") {
-            write_eyes(display, named);
-        } else if (stereo::upright(display.mode()) == stereo::StereoMode::quadbuffer) {
-            write(display.read_window(), named.suffix + "_left");
-            write(display.read_right_buffer(), named.suffix + "_right");
-        } else {
-            write(display.read_window(), named.suffix);
-        }
-    });
+    each_part(outputs, options.eyes == "each", names, frame,
+              [&](const PictureNote& note, const std::string& suffix, render::Image image) {
+                  outputs.pictures().wait_for_room();
+                  written.push_back(folder / fmt::format("{}{}.{}", stem, suffix, options.format));
+                  outputs.write_image(std::move(image), written.back(),
+                                      note.data_hash.empty() ? std::string() : text_of(note));
+              });
 }
 
 void make_folder(const fs::path& folder) {
@@ -90,14 +71,16 @@ void check(const Options& options) {
 }
 
 /// Of one frame, where the options ask for them.
+/// @param note what the frame shows; of a test pattern nothing is said
 void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
                     std::size_t number, const interaction::RecordedFrame& frame,
-                    std::vector<fs::path>& written) {
+                    const std::function<PictureNote()>& note, std::vector<fs::path>& written) {
     if (options.every > 0 && number % options.every == 0)
-        write_pictures(outputs, options, names, fmt::format("frame_{:05}", number), written);
+        write_pictures(outputs, options, names, note(), fmt::format("frame_{:05}", number),
+                       written);
     if (options.stamps)
         for (const std::string& stamp : frame.commands.stamps)
-            write_pictures(outputs, options, names,
+            write_pictures(outputs, options, names, note(),
                            fmt::format("stamp_{:05}_{}", number, file_name(stamp)), written);
 }
 
@@ -130,7 +113,8 @@ void replay_test_pattern(const Options& options, ClusterJob& job) {
     job.share_frames(show);
     std::vector<fs::path> written;
     const auto done = [&](std::size_t number, const interaction::RecordedFrame& frame) {
-        write_pictures(show.outputs(), options, names, number, frame, written);
+        write_pictures(
+            show.outputs(), options, names, number, frame, [] { return PictureNote{}; }, written);
     };
     if (job.leads())
         replay_pattern(show, recording, replay_options(options), done);
@@ -201,6 +185,7 @@ void replay(const Options& options, ClusterJob& job) {
     job.together([&] {
         opened.emplace(all.config, all.file,
                        windows_of(options, all.config, all.recording.header, job));
+        opened->set_data_name(data_name(options, all.recording.header));
         opened->set_state(
             start_of(all.recording.header, opened->state(), all.file->info().steps(), all.replay));
         if (options.out)
@@ -213,7 +198,9 @@ void replay(const Options& options, ClusterJob& job) {
 
     std::vector<fs::path> written;
     const auto done = [&](std::size_t number, const interaction::RecordedFrame& frame) {
-        write_pictures(session.outputs(), options, all.names, number, frame, written);
+        write_pictures(
+            session.outputs(), options, all.names, number, frame, [&] { return session.note(); },
+            written);
     };
     const std::vector<std::string> different = show(session, all, options.live, job, done);
     session.outputs().pictures().finish();

@@ -43,6 +43,9 @@ void add_replay_source(Command& command, ReplaySource& source) {
                 "best there is; with --live the best that fits the frame budget), gaussian or "
                 "surface")
         .one_of(settled_footprint_names());
+    command.flag("--ray", source.ray,
+                 "Show the wand's ray and what is under the cursor, which pictures leave out");
+    command.flag("--caption", source.caption, "Write isovalue and time into the pictures");
     command.option("--config", source.config,
                    "TOML file or shipped name instead of the recorded configuration");
     command
@@ -64,6 +67,8 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
     if (options.footprint)
         config.settled_footprint = settled_footprint_from_name(*options.footprint);
     config.picture_samples = options.samples.value_or(config.picture_samples);
+    config.picture_ray = config.picture_ray || options.ray;
+    config.picture_caption = config.picture_caption || options.caption;
     for (stereo::Window& window : config.installation.windows) {
         if (!options.size.empty() && !options.emulate)
             window.size = {options.size[0], options.size[1]};
@@ -94,6 +99,10 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                         "(--any-data replays all the same)",
                         options.recording, header.data_hash, path, hash));
     return file;
+}
+
+std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header) {
+    return fs::path(options.data.value_or(header.data)).filename().string();
 }
 
 stereo::Windows windows_of(const ReplaySource& options, const Config& config,

@@ -19,7 +19,7 @@ namespace isochron::app {
 struct ReplaySource {
     std::string recording;
     std::optional<std::string> data, config, context, stereo, quality, footprint;
-    bool any_data = false, emulate = false, live = false;
+    bool any_data = false, emulate = false, live = false, ray = false, caption = false;
     std::optional<int> samples;
     std::vector<int> size;
 };
@@ -34,6 +34,9 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
 /// @throws index::Error, interaction::Error when they are not there, or others
 std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                                                 const interaction::RecordingHeader& header);
+
+/// The file name of these data, without its folder.
+std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header);
 
 /// @throws render::Error
 stereo::Windows windows_of(const ReplaySource& options, const Config& config,

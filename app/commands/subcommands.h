@@ -14,6 +14,7 @@ void add_verify(Command& program);
 void add_explore(Command& program);
 void add_movie(Command& program);
 void add_replay(Command& program);
+void add_reproduce(Command& program);
 void add_config(Command& program);
 
 } // namespace isochron::app

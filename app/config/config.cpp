@@ -126,6 +126,8 @@ void read_rendering(TomlReader& reader, Config& config) {
     });
     reader.flag("bounding_box", config.bounding_box);
     reader.flag("wand_ray", config.wand_ray);
+    reader.flag("picture_ray", config.picture_ray);
+    reader.flag("picture_caption", config.picture_caption);
 }
 
 void read_placement(TomlReader& reader, PlacementOptions& placement) {

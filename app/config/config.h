@@ -70,6 +70,8 @@ struct Config {
     int picture_samples = 0;  ///< likewise of pictures that are written; 0: 4, or more on displays
     bool bounding_box = true; ///< with ticks and numbers
     bool wand_ray = true;
+    bool picture_ray = false;     ///< pictures that are written show it, too
+    bool picture_caption = false; ///< and say isovalue and time
 };
 
 /// @param name stands before the line number in messages

@@ -8,7 +8,8 @@ stereo::DisplayOptions KeptPictures::options(std::size_t window) const {
 }
 
 bool KeptPictures::serves(std::size_t window) const {
-    return shown[window].fills() && options(window).samples == display_options(gl, config).samples;
+    return !differ && shown[window].fills() &&
+           options(window).samples == display_options(gl, config).samples;
 }
 
 void KeptPictures::each(const TakePicture& take) const {

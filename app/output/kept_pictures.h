@@ -35,6 +35,7 @@ struct KeptPictures {
     std::optional<RoomView>& room;      ///< of an emulated installation
     /// Draws a window once more as it was drawn last.
     std::function<void(stereo::Display& display)> draw;
+    bool differ = false; ///< something is shown that they leave out
 
     void each(const TakePicture& take) const;
     /// The room, with its walls. There must be one.

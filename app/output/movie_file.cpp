@@ -1,6 +1,7 @@
 // Pictures through a pipe to ffmpeg.
 #include "app/output/movie_file.h"
 
+#include "app/output/picture_note.h"
 #include "index/error.h"
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ fs::path temporary_of(const fs::path& path) {
            fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string());
 }
 
-std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, double rate) {
+std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, double rate,
+                                       const std::string& note) {
     std::vector<std::string> all{"ffmpeg",    "-hide_banner",
                                  "-nostdin",  "-y",
                                  "-loglevel", "error",
@@ -47,6 +49,8 @@ std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, dou
     else // players want even sides and halved color
         add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast",
              "-crf", "16", "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
+    if (!note.empty())
+        all.insert(all.end(), {"-metadata", "comment=" + note});
     all.push_back(out.string());
     return all;
 }
@@ -75,15 +79,17 @@ struct FfmpegPipe {
 struct MovieFile::State {
     fs::path path, temporary;
     glm::ivec2 size;
+    std::string note;
     FfmpegPipe pictures, complaints;
     pid_t ffmpeg = -1;
     std::size_t frames = 0;
     bool whole = false;
 
-    State(fs::path target, glm::ivec2 pixels, double rate)
-        : path(std::move(target)), temporary(temporary_of(path)), size(pixels) {
+    State(fs::path target, glm::ivec2 pixels, double rate, std::string text)
+        : path(std::move(target)), temporary(temporary_of(path)), size(pixels),
+          note(std::move(text)) {
         std::signal(SIGPIPE, SIG_IGN); // an ffmpeg that is gone is told as an error
-        std::vector<std::string> words = arguments_for(temporary, size, rate);
+        std::vector<std::string> words = arguments_for(temporary, size, rate, note);
         std::vector<char*> arguments;
         for (std::string& word : words)
             arguments.push_back(word.data());
@@ -132,8 +138,8 @@ struct MovieFile::State {
     }
 };
 
-MovieFile::MovieFile(fs::path path, glm::ivec2 size, double rate)
-    : state_(std::make_unique<State>(std::move(path), size, rate)) {}
+MovieFile::MovieFile(fs::path path, glm::ivec2 size, double rate, std::string note)
+    : state_(std::make_unique<State>(std::move(path), size, rate, std::move(note))) {}
 MovieFile::~MovieFile() = default;
 
 void MovieFile::add(const render::Image& image) {
@@ -163,6 +169,8 @@ void MovieFile::finish() {
     const std::string said = s.wait();
     if (!said.empty())
         throw index::Error(fmt::format("{}: ffmpeg: {}", s.path.string(), said));
+    if (s.path.extension() == ".gif" && !s.note.empty())
+        add_note_to_gif(s.temporary, s.note);
     std::error_code error;
     fs::rename(s.temporary, s.path, error);
     if (error)

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace isochron::app {
 
@@ -22,8 +23,9 @@ class MovieFile {
   public:
     /// @param size of every picture, pixels
     /// @param rate pictures per second
+    /// @param note kept in the file, where its format has a place for it; ASCII, empty: none
     /// @throws index::Error when ffmpeg is missing or cannot be started
-    MovieFile(std::filesystem::path path, glm::ivec2 size, double rate);
+    MovieFile(std::filesystem::path path, glm::ivec2 size, double rate, std::string note = {});
     ~MovieFile();
     MovieFile(const MovieFile&) = delete;
     MovieFile& operator=(const MovieFile&) = delete;

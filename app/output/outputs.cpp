@@ -2,6 +2,7 @@
 #include "app/output/outputs.h"
 
 #include "app/output/picture_names.h"
+#include "app/version.h"
 #include "render/gl/driver.h"
 #include "stereo/image_file.h"
 
@@ -76,9 +77,9 @@ Outputs::Overlay Outputs::overlay_of(std::size_t window, const Overlay& overlay)
     return window == 0 && !room_ ? overlay : Overlay();
 }
 
-void Outputs::draw_window(stereo::Display& display, const Scene& scene,
-                          const Overlay& overlay) const {
-    ScenePlace place{&display.window(), 0, mode_in(display.window())};
+void Outputs::draw_window(stereo::Display& display, const Scene& scene, const Overlay& overlay,
+                          bool kept) const {
+    ScenePlace place{&display.window(), 0, mode_in(display.window()), kept};
     display.draw(
         drawn_.audience.viewers, place.mode,
         [&](std::span<const render::View> views) {
@@ -145,9 +146,10 @@ void Outputs::present() {
 }
 
 KeptPictures Outputs::kept_pictures() {
-    return {gl_,     windows_,
-            config_, displays_,
-            room_,   [this](stereo::Display& display) { draw_window(display, drawn_.scene, {}); }};
+    const auto draw = [this](stereo::Display& display) {
+        draw_window(display, drawn_.scene, {}, true);
+    };
+    return {gl_, windows_, config_, displays_, room_, draw, kept_differ()};
 }
 
 /// What the window beside the headset shows.
@@ -155,35 +157,61 @@ render::Image Outputs::headset_picture() {
     const std::vector<stereo::HeadsetEye>& eyes = drawn_.audience.eyes;
     const stereo::DisplayOptions options =
         picture_options(gl_, config_, windows_[0].framebuffer_size());
-    if (eyes.empty() || options.samples == display_options(gl_, config_).samples) {
+    if (eyes.empty() ||
+        (options.samples == display_options(gl_, config_).samples && !kept_differ())) {
         headset_display_->mirror({});
         return headset_display_->read_window();
     }
     stereo::HeadsetDisplay picture(gl_, windows_.drawing(), windows_[0], config_.openxr.mirror,
                                    options);
-    picture.draw(eyes,
-                 [&](std::span<const render::View> views) { drawn_.scene(ScenePlace{}, views); });
+    picture.draw(eyes, [&](std::span<const render::View> views) {
+        drawn_.scene(ScenePlace{.kept = true}, views);
+    });
     picture.mirror({});
     return picture.read_window();
 }
 
-void Outputs::take_screenshots() {
+bool Outputs::kept_differ() const {
+    return config_.picture_caption || (drawn_.audience.aids && !config_.picture_ray);
+}
+
+PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
+    frame.program = kProgram;
+    frame.drawn_with = windows_.drawing().description();
+    frame.configuration = config_.text;
+    frame.part = part;
+    frame.size = room_ ? room_->size() : windows_[0].framebuffer_size();
+    for (std::size_t i = 0; !room_ && i < displays_.size(); ++i)
+        if (windows_.number(i) == part.window)
+            frame.size = displays_[i].size();
+    frame.samples = picture_options(gl_, config_, frame.size).samples;
+    frame.ray = config_.picture_ray;
+    frame.caption = config_.picture_caption;
+    return frame;
+}
+
+void Outputs::take_screenshots(const PictureNote& frame) {
     const std::string stem = fmt::format("isochron_{:04}", ++screenshots_taken_);
+    const auto write = [&](const PicturePart& part, const std::string& suffix,
+                           render::Image image) {
+        write_image(std::move(image), screenshot_folder_ / fmt::format("{}{}.png", stem, suffix),
+                    text_of(noted(frame, part)));
+    };
     if (room_)
-        return write_image(kept_pictures().of_room(), screenshot_folder_ / (stem + ".png"));
+        return write({.shows = "room"}, "", kept_pictures().of_room());
     if (!shows_windows())
-        return write_image(headset_picture(), screenshot_folder_ / (stem + ".png"));
+        return write({.shows = "headset"}, "", headset_picture());
     const PictureNames names = picture_names(config_.installation);
     kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
-        write_image(display.read_window(),
-                    screenshot_folder_ /
-                        fmt::format("{}{}.png", stem, names.windows[windows_.number(i)].suffix));
+        const std::size_t number = windows_.number(i);
+        write({.window = number}, names.windows[number].suffix, display.read_window());
     });
 }
 
-void Outputs::write_image(render::Image image, const std::filesystem::path& path) {
-    pictures_.post([image = std::move(image), path] {
-        stereo::write_image(image, path);
+void Outputs::write_image(render::Image image, const std::filesystem::path& path,
+                          const std::string& note) {
+    pictures_.post([image = std::move(image), path, note] {
+        stereo::write_image(image, path, note);
         return "saved " + path.string();
     });
 }

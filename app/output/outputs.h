@@ -5,7 +5,7 @@
 //     outputs.draw(audience, scene, panel);      // or draw_again, when only the panel has changed
 //     outputs.draw_room(input, panel);
 //     outputs.present();
-//     outputs.take_screenshots();                // the same pictures, with more samples
+//     outputs.take_screenshots(note);            // the same pictures, with more samples
 #pragma once
 
 #include "app/config/config.h"
@@ -13,6 +13,7 @@
 #include "app/frame/draw_cost.h"
 #include "app/output/displays.h"
 #include "app/output/kept_pictures.h"
+#include "app/output/picture_note.h"
 #include "app/output/room_view.h"
 #include "render/gl/frames_in_flight.h"
 #include "stereo/headset_display.h"
@@ -36,6 +37,8 @@ struct Audience {
     std::optional<interaction::Pose> wand;  ///< where it is shown
     std::optional<ShownPanel> panel;        ///< that stands in the room
     stereo::StereoMode stereo{};            ///< chosen live
+    /// A wand's ray or what is under a cursor is shown, which pictures to keep leave out.
+    bool aids = false;
     bool in_windows = true; ///< false: a headset shows them, and the first window mirrors it
     bool operator==(const Audience&) const = default;
 };
@@ -45,6 +48,7 @@ struct ScenePlace {
     const stereo::Window* window = nullptr; ///< of the installation; null: a headset
     std::size_t viewport = 0;               ///< of the window
     stereo::StereoMode mode{};              ///< of the window
+    bool kept = false;                      ///< for a picture that is written
 };
 
 class Outputs {
@@ -122,9 +126,13 @@ class Outputs {
     /// Where screenshots go and what they are called: `<folder>/isochron_0001.png`.
     void set_screenshots(const std::filesystem::path& folder) { screenshot_folder_ = folder; }
     /// Of the room, of the headset's mirror, or of every window of this process.
-    void take_screenshots();
-    /// Writes a picture under its name, in the background.
-    void write_image(render::Image image, const std::filesystem::path& path);
+    /// @param frame what the last frame shows
+    void take_screenshots(const PictureNote& frame);
+    /// Writes a picture under its name, in the background. @param note goes into the file; empty: none
+    void write_image(render::Image image, const std::filesystem::path& path,
+                     const std::string& note = {});
+    /// What a picture of a frame says of itself.
+    PictureNote noted(PictureNote frame, const PicturePart& part) const;
     BackgroundWork& pictures() { return pictures_; } ///< that are written
 
   private:
@@ -136,9 +144,11 @@ class Outputs {
 
     stereo::StereoMode mode_in(const stereo::Window& window) const;
     Overlay overlay_of(std::size_t window, const Overlay& overlay) const;
-    void draw_window(stereo::Display& display, const Scene& scene, const Overlay& overlay) const;
+    void draw_window(stereo::Display& display, const Scene& scene, const Overlay& overlay,
+                     bool kept = false) const;
     void end_headset_frame(bool again);
     render::Image headset_picture();
+    bool kept_differ() const; ///< from those that are shown
 
     const Config& config_;
     stereo::Windows windows_;

@@ -2,6 +2,7 @@
 #include "app/scene/scene.h"
 
 #include "app/scene/axis_labels.h"
+#include "app/scene/caption.h"
 #include "app/scene/font.h"
 #include "app/scene/mark.h"
 #include "interaction/navigation.h"
@@ -267,6 +268,10 @@ void Scene::draw_over_cells(const render::View& view,
     text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
                     legend_quads({surfaces_, info_.value_unit, scale_}, text_pass_, view.size),
                     render::TextPass::Depth::none);
+    if (!caption_.empty())
+        text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
+                        caption_quads(caption_, text_pass_, view.size),
+                        render::TextPass::Depth::none);
 }
 
 } // namespace isochron::app

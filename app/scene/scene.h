@@ -53,6 +53,8 @@ class Scene {
     void set_pointed(const std::optional<interaction::Pointed>& pointed) { pointed_ = pointed; }
     /// What is drawn for tools, and the plane that cuts the surfaces.
     void set_tools(const interaction::ToolDrawing& drawing, const interaction::ClipPlane& clip);
+    /// Words in the corner of the picture; empty: none.
+    void set_caption(const std::string& words) { caption_ = words; }
     void set_veil(const render::Veil& veil) { veil_ = veil; }
 
     /// Where what comes near to somebody fades, and who is there.
@@ -113,6 +115,7 @@ class Scene {
     std::vector<glm::vec3> heads_; ///< of viewers before whom cells fade
     interaction::Mark mark_;
     std::optional<interaction::Pointed> pointed_;
+    std::string caption_;
     interaction::ToolDrawing tools_;
     interaction::ClipPlane clip_;
     render::VeilPass veil_pass_;

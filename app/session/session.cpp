@@ -1,9 +1,12 @@
 // One session: the data, the worker, the eyes, and the story of one frame.
 #include "app/session/session.h"
 
+#include "app/scene/caption.h"
 #include "app/session/start_state.h"
 #include "interaction/navigator.h"
 #include "interaction/tool_table.h"
+
+#include <fmt/format.h>
 
 #include <chrono>
 #include <utility>
@@ -177,15 +180,17 @@ void Session::set_headset_period(std::optional<interaction::Seconds> period) {
 Session::Picture Session::picture(const interaction::InputState& input, const FrameReport& report) {
     const bool in_windows = this->in_windows(report);
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
+    const auto pointed = picker_.pointed(input, !room_panel_.touched(), state_, scene_.shown());
     return {
         .audience = {.viewers = viewer_poses(config_.installation, input, state_.eye_separation),
                      .eyes = outputs_.headset_eyes(),
                      .wand = wand ? wand->pose : std::nullopt,
                      .panel = room_panel_.shown(state_.room_panel),
                      .stereo = state_.stereo,
+                     .aids = wand || pointed,
                      .in_windows = in_windows},
         .mark = state_.mark,
-        .pointed = picker_.pointed(input, !room_panel_.touched(), state_, scene_.shown()),
+        .pointed = pointed,
         .tools = drawing_of({state_.mark, state_.clip, state_.ruler}, data_frame(file_->info())),
         .clip = state_.clip,
         .guides = {state_.grid, interaction::teleport_target(input)},
@@ -258,13 +263,12 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
         quality_.begin(log_.next());
         scene_.set_guides(now.guides);
         scene_.set_panel(now.audience.panel);
-        scene_.set_pointed(now.pointed);
         scene_.set_tools(now.tools, now.clip);
         scene_.set_near_fade(config_.comfort, now.audience.viewers);
         scene_.set_veil(now.veil);
         scene_.look(state_, now.audience.viewers.front().head, now.scale);
-        const auto scene = [this](const ScenePlace&, std::span<const render::View> views) {
-            draw_views(views);
+        const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
+            draw_views(place, views);
         };
         const DrawLoad of_cell = outputs_.draw(now.audience, scene, panel);
         quality_.end(report, of_cell, report.upload + watch.lap());
@@ -274,8 +278,32 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     outputs_.draw_room(input, panel);
 }
 
-void Session::draw_views(std::span<const render::View> views) {
-    scene_.draw(views, drawn_->room_from_physical, drawn_->footprint, drawn_->audience.wand);
+void Session::draw_views(const ScenePlace& place, std::span<const render::View> views) {
+    const bool aids = !place.kept || config_.picture_ray;
+    scene_.set_pointed(aids ? drawn_->pointed : std::nullopt);
+    scene_.set_caption(place.kept && config_.picture_caption && scene_.shown()
+                           ? caption_text(scene_.shown()->query, file_->info())
+                           : std::string());
+    scene_.draw(views, drawn_->room_from_physical, drawn_->footprint,
+                aids ? drawn_->audience.wand : std::nullopt);
+}
+
+PictureNote Session::note() const {
+    PictureNote note;
+    note.data = data_name_;
+    note.data_hash = fmt::format("{:016x}", file_->content_hash());
+    note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
+    ExplorerState state = state_;
+    if (const index::ExtractionPtr& shown = scene_.shown()) { // while time plays, it may lag
+        state.step = shown->query.step;
+        for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
+             ++i)
+            state.isosurfaces[i].isovalue = shown->query.isovalues[i];
+    }
+    note.state = state.as_commands();
+    note.input = input_;
+    note.latched = latched_;
+    return note;
 }
 
 /// What others are told before a frame is shown.
@@ -340,8 +368,9 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_.present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
+    input_ = input;
     if (captures(report))
-        outputs_.take_screenshots();
+        outputs_.take_screenshots(note());
     show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
     report.total = whole.lap();

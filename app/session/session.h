@@ -93,6 +93,11 @@ class Session {
     void show_messages(std::vector<std::string> messages);
     void set_recording(bool recording) { recording_ = recording; }
 
+    /// The file name of the data, for pictures that say what they show.
+    void set_data_name(const std::string& name) { data_name_ = name; }
+    /// What the last frame shows.
+    PictureNote note() const;
+
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const;
     /// What the frames are shown in, and what keeps their pictures.
@@ -138,7 +143,7 @@ class Session {
     bool captures(const FrameReport& report);
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
-    void draw_views(std::span<const render::View> views);
+    void draw_views(const ScenePlace& place, std::span<const render::View> views);
     OperatorPanel::Model panel_models(const FrameReport& report) const;
     glm::ivec2 panel_places() const;
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
@@ -160,7 +165,9 @@ class Session {
     History history_;
     const std::vector<std::string> documentation_ = interaction::Controls::documentation();
     interaction::Commands panel_commands_;
+    interaction::InputState input_; ///< of the last frame
     interaction::InputState latched_;
+    std::string data_name_;
     std::function<interaction::Seconds()> clock_;
     FrameLog log_;
     FrameQuality quality_;

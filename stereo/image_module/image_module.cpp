@@ -26,8 +26,11 @@ std::string one_line(std::string text) {
     return text.empty() ? "unknown error of OpenImageIO" : text;
 }
 
-void encode(const render::Image& image, const std::string& format, std::vector<std::byte>& bytes,
-            std::string& error) {
+/// The name of the note among the file's attributes.
+constexpr const char* kNote = "isochron";
+
+void encode(const render::Image& image, const std::string& format, const std::string& note,
+            std::vector<std::byte>& bytes, std::string& error) {
     auto output = OIIO::ImageOutput::create(format);
     if (!output) {
         error = one_line(OIIO::geterror());
@@ -39,6 +42,8 @@ void encode(const render::Image& image, const std::string& format, std::vector<s
     spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
     spec.attribute("DateTime",
                    ""); // else EXR gets the time of day: no two replays would be the same
+    if (!note.empty())
+        spec.attribute(kNote, note);
     std::vector<unsigned char> file;
     OIIO::Filesystem::IOVecOutput memory(file);
     output->set_ioproxy(&memory);
@@ -102,6 +107,14 @@ void decode(const std::string& path, render::Image& image, std::string& error) {
     }
 }
 
+void read_note(const std::string& path, std::string& note, std::string& error) {
+    auto input = OIIO::ImageInput::open(path);
+    if (input)
+        note = std::string(input->spec().get_string_attribute(kNote));
+    else
+        error = one_line(OIIO::geterror());
+}
+
 /// Nothing may be thrown across the border of a module.
 template <typename Function>
 void guarded(std::string& error, Function function) {
@@ -116,8 +129,13 @@ void guarded(std::string& error, Function function) {
 
 extern "C" __attribute__((visibility("default"))) void
 isochron_encode_image(const render::Image& image, const std::string& format,
-                      std::vector<std::byte>& bytes, std::string& error) {
-    guarded(error, [&] { encode(image, format, bytes, error); });
+                      const std::string& note, std::vector<std::byte>& bytes, std::string& error) {
+    guarded(error, [&] { encode(image, format, note, bytes, error); });
+}
+
+extern "C" __attribute__((visibility("default"))) void
+isochron_read_note(const std::string& path, std::string& note, std::string& error) {
+    guarded(error, [&] { read_note(path, note, error); });
 }
 
 extern "C" __attribute__((visibility("default"))) void

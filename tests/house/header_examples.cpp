@@ -260,7 +260,7 @@ void kept_pictures_example(const render::Gl& gl, const stereo::Windows& windows,
 
 void outputs_example(const Config& config, stereo::Windows windows, const Audience& audience,
                      const Outputs::Scene& scene, const Outputs::Overlay& panel,
-                     const interaction::InputState& input) {
+                     const interaction::InputState& input, const PictureNote& note) {
 #include "app/output/outputs.example"
 }
 

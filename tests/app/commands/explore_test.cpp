@@ -191,6 +191,9 @@ TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
     EXPECT_EQ(image.height, 480);
     // The panel would cover the corner.
     EXPECT_EQ(0, std::memcmp(image.at(20, 20), image.at(620, 460), 3));
+    EXPECT_EQ(
+        Program({"reproduce", picture.string(), "--data", file("sphere.isochron")}).exit_status(),
+        0);
 }
 
 TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheCamera) {

@@ -2,6 +2,7 @@
 #include "tests/support/session_fixture.h"
 
 #include "app/output/movie_file.h"
+#include "app/output/picture_note.h"
 #include "app/session/replay.h"
 #include "index/error.h"
 #include "interaction/recording/recording.h"
@@ -19,7 +20,7 @@ class MovieTest : public testing::Test {
   protected:
     MovieTest() {
         folder_.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\nwc -c > \"$last\"\n"
-                                "echo \"$@\" >> \"$last\"\n");
+                                "printf '%s ' \"$@\" >> \"$last\"\n");
         std::filesystem::permissions(folder_.path() / "ffmpeg", std::filesystem::perms::owner_all);
         before_ = std::getenv("PATH");
         setenv("PATH", (folder_.path().string() + ":" + before_).c_str(), 1);
@@ -93,6 +94,18 @@ TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
     EXPECT_EQ(program({"movie", recording, "-o", movie, "--rate", "20"}).status, 0);
     EXPECT_EQ(bytes_of("walk.mp4"), 21u * 64 * 48 * 4) << "0, 0.05, ... 1 s";
     EXPECT_EQ(program({"movie", recording, "-o", movie}).status, 1) << "it is there already";
+    // It says what it shows, without a path of this machine.
+    const PictureNote note = note_from(note_text_in(movie));
+    EXPECT_EQ(note.data, "sphere.isochron");
+    EXPECT_EQ(note.data_hash.size(), 16u);
+    ASSERT_TRUE(note.movie);
+    EXPECT_EQ(note.movie->rate, 20);
+    EXPECT_TRUE(note.state.isosurfaces);
+    const std::string told = note_text_in(movie);
+    EXPECT_EQ(told.find(folder_.path().string()), std::string::npos);
+    const ChildResult again = program({"reproduce", movie});
+    EXPECT_EQ(again.status, 1);
+    EXPECT_THAT(again.err, testing::HasSubstr("isochron movie RECORDING --rate 20"));
 }
 
 } // namespace

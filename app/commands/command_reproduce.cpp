@@ -1,0 +1,228 @@
+// `isochron reproduce`: a picture is made again from what it says of itself, and compared.
+#include "app/commands/kept_session.h"
+#include "app/commands/open_index.h"
+#include "app/commands/replay_source.h"
+#include "app/commands/subcommands.h"
+#include "app/output/picture_parts.h"
+#include "app/version.h"
+#include "index/error.h"
+#include "index/system/input_file.h"
+#include "index/system/new_file.h"
+#include "stereo/image_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReproduceOptions {
+    std::string picture;
+    std::optional<std::string> data, out;
+    std::string context = "egl";
+};
+
+PictureNote note_in(const fs::path& picture) {
+    const std::string text = note_text_in(picture);
+    if (text.empty())
+        throw interaction::Error(fmt::format(
+            "{}: it does not say what it shows: no picture that isochron has written, or one that "
+            "another program has written again",
+            picture.string()));
+    try {
+        return note_from(text);
+    } catch (const interaction::Error& error) {
+        throw interaction::Error(fmt::format("{}: {}", picture.string(), error.what()));
+    }
+}
+
+/// The data that are named, or those of the picture's name for them, beside it or here.
+fs::path data_path(const ReproduceOptions& options, const PictureNote& note) {
+    if (options.data)
+        return *options.data;
+    std::error_code ignored;
+    for (const fs::path& path :
+         {fs::path(options.picture).parent_path() / note.data, fs::path(note.data)})
+        if (!note.data.empty() && fs::is_regular_file(path, ignored))
+            return path;
+    throw interaction::Error(
+        fmt::format("{}: it shows {} (hash {}), which is not beside it; --data "
+                    "tells where it is",
+                    options.picture, note.data, note.data_hash));
+}
+
+Config config_for(const ReproduceOptions& options, const PictureNote& note) {
+    Config config = parse_config(note.configuration, options.picture + " (configuration)");
+    config.context = *stereo::context_kind_from_name(options.context);
+    config.picture_samples = note.samples;
+    config.picture_ray = note.ray;
+    config.picture_caption = note.caption;
+    config.openxr.enabled = false;
+    if (note.footprint != render::name_of(render::Footprint::quad))
+        config.settled_footprint = settled_footprint_from_name(note.footprint);
+    auto& windows = config.installation.windows;
+    for (stereo::Window& window : windows)
+        window.fullscreen = false;
+    if (note.part.shows != "room") {
+        if (note.part.window >= windows.size())
+            throw interaction::Error(fmt::format("{}: it shows window {} of {}", options.picture,
+                                                 note.part.window + 1, windows.size()));
+        windows[note.part.window].size = note.size;
+    }
+    return config;
+}
+
+stereo::Windows windows_for(const Config& config, const PictureNote& note) {
+    if (note.part.shows == "room")
+        return stereo::open_room(config.context, config.installation, {.size = note.size});
+    return stereo::open_windows(config.context, config.installation, {});
+}
+
+/// Frames with the same devices, until the picture is as good as it gets.
+void settle(Session& session, const PictureNote& note) {
+    constexpr int kMost = 100;
+    interaction::InputState input = note.input;
+    const Latch latch = note.latched.devices.empty() ? Latch{} : [&note] { return note.latched; };
+    for (int i = 0; i < kMost; ++i) {
+        const FrameReport& frame = session.frame(input, {}, Waiting::for_cells, latch);
+        if (frame.final && name_of(frame.footprint) == note.footprint && !frame.redrawn)
+            return;
+        input.time += interaction::Seconds(0.1);
+    }
+}
+
+struct MadePicture {
+    render::Image image;
+    std::string drawn_with;
+};
+
+MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
+    const auto file = open_index(data_path(options, note));
+    if (data_hash_of(*file) != note.data_hash)
+        throw interaction::Error(
+            fmt::format("{}: made of other data: expected hash {}, {} has {}", options.picture,
+                        note.data_hash, data_path(options, note).string(), data_hash_of(*file)));
+    const Config config = config_for(options, note);
+    Session session(config, file, windows_for(config, note));
+    ExplorerState state = session.state();
+    if (!state.apply(note.state, file->info().steps()))
+        throw interaction::Error(fmt::format("{}: its state does not fit the data ({} steps)",
+                                             options.picture, file->info().steps()));
+    if (note.footprint == render::name_of(render::Footprint::quad))
+        state.quality = interaction::QualityMode::fast;
+    session.set_state(state);
+    settle(session, note);
+    MadePicture made;
+    const PictureNames names = picture_names(config.installation);
+    const bool each_eye =
+        note.part.shows == "left" || note.part.shows == "right" || note.part.shows == "center";
+    each_part(session.outputs(), each_eye, names, session.note(),
+              [&](const PictureNote& mine, const std::string&, render::Image image) {
+                  if (mine.part == note.part) {
+                      made.image = std::move(image);
+                      made.drawn_with = mine.drawn_with;
+                  }
+              });
+    if (made.image.rgba.empty())
+        throw interaction::Error(fmt::format("{}: it shows a {} that its configuration has not",
+                                             options.picture, note.part.shows));
+    return made;
+}
+
+/// What differs between two pictures, in words.
+std::vector<std::string> differences(const PictureNote& note, const MadePicture& made,
+                                     const render::Image& there) {
+    std::vector<std::string> lines;
+    if (note.program != kProgram)
+        lines.push_back(fmt::format("program: {}, this is {}", note.program, kProgram));
+    if (note.drawn_with != made.drawn_with)
+        lines.push_back(fmt::format("driver: {}, here {}", note.drawn_with, made.drawn_with));
+    if (there.width != made.image.width || there.height != made.image.height) {
+        lines.push_back(fmt::format("size: {} x {}, made again {} x {}", there.width, there.height,
+                                    made.image.width, made.image.height));
+        return lines;
+    }
+    std::size_t pixels = 0, first = 0;
+    int most = 0;
+    for (std::size_t i = 0; i < there.rgba.size(); i += 4) {
+        int off = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            off = std::max(off, std::abs(there.rgba[i + c] - made.image.rgba[i + c]));
+        if (off > 0 && pixels++ == 0)
+            first = i / 4;
+        most = std::max(most, off);
+    }
+    if (pixels > 0)
+        lines.push_back(fmt::format(
+            "pixels: {} of {} differ, by at most {} of 255, the first at {}, {}", pixels,
+            there.rgba.size() / 4, most, first % static_cast<std::size_t>(there.width),
+            first / static_cast<std::size_t>(there.width)));
+    else
+        lines.emplace_back("no pixel differs, but bytes of the file do");
+    return lines;
+}
+
+void describe(const std::string& picture, const PictureNote& note) {
+    fmt::print("{}: {} of {} (hash {}), by {}\n", picture, note.part.shows, note.data,
+               note.data_hash, note.program);
+}
+
+void reproduce(const ReproduceOptions& options) {
+    const PictureNote note = note_in(options.picture);
+    describe(options.picture, note);
+    if (note.movie)
+        throw interaction::Error(fmt::format(
+            "{}: a movie is made again by `isochron movie RECORDING --rate {:g}` of the recording "
+            "with hash {}",
+            options.picture, note.movie->rate, note.movie->recording));
+    if (note.part.shows == "headset")
+        throw interaction::Error(options.picture +
+                                 ": it shows a headset's mirror, which is not made again");
+    if (options.out && fs::exists(*options.out))
+        throw index::Error(fmt::format("{}: exists already", *options.out));
+    const MadePicture made = make(options, note);
+    const auto bytes = stereo::encoded_image(made.image, options.picture, text_of(note));
+    constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;
+    const std::string there = index::read_text(options.picture, kLargest);
+    if (options.out) {
+        index::NewFile file(*options.out);
+        file.write_at(0, stereo::encoded_image(made.image, *options.out, text_of(note)));
+        file.commit();
+        fmt::print("wrote {}\n", *options.out);
+    }
+    const std::string_view mine(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (mine == there) {
+        fmt::print("made again: the same {} bytes\n", there.size());
+        return;
+    }
+    for (const std::string& line : differences(note, made, stereo::read_image(options.picture)))
+        fmt::print("differs: {}\n", line);
+    throw interaction::Error(options.picture + ": made again, it differs");
+}
+
+} // namespace
+
+void add_reproduce(Command& program) {
+    auto options = std::make_shared<ReproduceOptions>();
+    Command command = program.subcommand(
+        "reproduce", "Make a written picture again from what it holds, and compare.");
+    command.option("picture", options->picture, ".png or .exr that isochron has written")
+        .required();
+    command.option("--data", options->data,
+                   "Index that it shows (default: of that name beside the picture, or here)");
+    command.option("-o,--out", options->out, "Keep the new picture under this name");
+    command.option("--context", options->context, "GL context to draw with")
+        .one_of({"egl", "osmesa"})
+        .shows_default();
+    command.footer("Prints that the bytes are the same, or what differs: data, program, driver, "
+                   "pixels.\nExit status: 0 the same, 1 other or bad input, 2 bad usage.");
+    command.on_run([options] { reproduce(*options); });
+}
+
+} // namespace isochron::app

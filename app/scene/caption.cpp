@@ -1,0 +1,39 @@
+// Captions of pictures.
+#include "app/scene/caption.h"
+
+#include "app/scene/legend.h"
+#include "app/scene/mark.h"
+#include "app/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace isochron::app {
+
+std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info) {
+    std::vector<std::string> values;
+    for (const double value : shown.isovalues)
+        values.push_back(human_number(value));
+    std::string text = fmt::format("{}{}isovalue{} {}{}", info.array,
+                                   info.array.empty() ? "" : ", ", values.size() == 1 ? "" : "s",
+                                   fmt::join(values, ", "), with_space(info.value_unit));
+    if (info.steps() > 1)
+        text += fmt::format(", at {} (step {} of {})",
+                            with_unit(info.times[shown.step], info.time_unit), shown.step + 1,
+                            info.steps());
+    return text;
+}
+
+std::vector<render::ScreenQuad>
+caption_quads(const std::string& words, const render::TextPass& text, const glm::ivec2& picture) {
+    std::vector<render::ScreenQuad> quads;
+    const float height = text_height(picture);
+    const float width = height * render::text_width(text.atlas(), words);
+    const glm::vec3 middle(
+        glm::floor(glm::vec2(height + 0.5f * width, static_cast<float>(picture.y) - 1.5f * height)),
+        0.0f);
+    add_label(words, middle, text, picture, quads);
+    return quads;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,20 @@
+// What a picture says of itself in words: isovalues and time.
+#pragma once
+
+#include "index/volume/query.h"
+#include "index/volume/volume_series.h"
+#include "render/passes/text_pass.h"
+
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// `heart rate, isovalue 8, 12 K, at 0.5 s (step 2 of 6)`.
+std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info);
+
+/// On its paper in the upper left corner, for a picture of that size: for `render::pixel_view`.
+std::vector<render::ScreenQuad>
+caption_quads(const std::string& words, const render::TextPass& text, const glm::ivec2& picture);
+
+} // namespace isochron::app

@@ -40,6 +40,7 @@ std::span<const KeyLine> key_lines() {
         {"Space", "play, pause", {{Key::space, play}}},
         {"R", "reverse the direction of time", {{letter('R'), reverse}}},
         {"L", "loop on, off", {{letter('L'), loop}}},
+        {"End", "follow the last step as new ones come: on, off", {{Key::end, follow}}},
         {"+ -", "play twice, half as fast", {{Key::equal, faster}, {Key::minus, slower}}},
         {"Home", "reset volume and head", {{Key::home, reset}}},
         {"J K",

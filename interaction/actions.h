@@ -68,6 +68,7 @@ enum class Action : std::uint8_t {
     ruler_tool,
     snap_clip,
     remove_made,
+    follow,
     count
 };
 

@@ -110,7 +110,9 @@ void each_setting(Visit&& visit, Records&... r) {
     visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);
     visit(Field{.key = "coloring", .dragged = true}, r.coloring...);
     visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
+    visit(Field{.key = "steps", .low = 0, .undone = false}, r.steps...);
     visit(Field{.key = "step", .dragged = true}, r.step...);
+    visit(Field{.key = "follow"}, r.follow...);
     visit(Field{"playback"}, r.playback...);
     visit(Field{.key = "room_from_physical", .dragged = true}, r.room_from_physical...);
     visit(Field{"quality"}, r.quality...);

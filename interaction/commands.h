@@ -131,6 +131,8 @@ struct Commands {
     std::optional<std::uint32_t> picked; ///< the surface that `isovalue` moves, counted from 0
     std::optional<double> isovalue;
     std::optional<std::uint32_t> step;
+    std::optional<std::uint32_t> steps; ///< that the series has from now on; 0: all there are
+    std::optional<bool> follow;         ///< the last step is shown as soon as there is a new one
     std::optional<PlaybackState> playback;
     std::optional<Similarity> room_from_physical; ///< navigation's result
     std::optional<QualityMode> quality;

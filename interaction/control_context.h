@@ -50,6 +50,7 @@ struct ControlContext {
     std::uint32_t step = 0;
     std::vector<double> const* times = nullptr; ///< physical times of the steps, increasing
     PlaybackState playback;
+    bool follow = false;
     Similarity room_from_physical;
     Similarity home;       ///< what reset returns to
     glm::dvec3 pivot{0.0}; ///< center of the volume, physical space: what orbit turns about

@@ -119,6 +119,11 @@ struct Controls::State {
         state.playing = reached.playing;
         if (reached.step != context.step)
             commands.step = reached.step;
+        if (now.pressed(Action::follow)) {
+            commands.follow = !context.follow;
+            if (*commands.follow && steps > 0)
+                commands.step = static_cast<std::uint32_t>(steps - 1);
+        }
         if (state != context.playback)
             commands.playback = state;
     }

@@ -65,7 +65,9 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options,
         throw UsageError(
             fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
     state.set_isovalue(options.isovalue.value_or(state.isovalue()));
-    state.step = options.step.value_or(state.step);
+    state.steps = static_cast<std::uint32_t>(steps);
+    state.follow = state.follow || options.follow;
+    state.step = options.step.value_or(options.follow ? state.steps - 1 : state.step);
     state.panel = state.panel && !options.no_panel;
     if (options.stereo)
         state.stereo = *stereo::stereo_mode_from_name(*options.stereo);
@@ -259,7 +261,8 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         opened.emplace(config, file, std::move(windows), index::Extract(), std::move(headset));
         const std::size_t steps = file->info().steps();
         const ExplorerState start =
-            earlier ? state_of(*earlier, opened->state(), data_hash_of(*file), steps, "--resume")
+            earlier ? state_of(*earlier, opened->state(), held_hash(*file, earlier->data_hash),
+                               steps, "--resume")
                     : opened->state();
         if (options.isovalue)
             warn_beyond(*options.isovalue, *file);
@@ -282,6 +285,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
             live.record(*options.record, header_of(session, config, *file, *options.data));
             session.set_recording(true);
         }
+        live.watch(*options.data, file);
         live.run(session);
     } else {
         job.follow(session);

@@ -60,6 +60,9 @@ void add_explore_options(Command& command, ExploreOptions& options) {
         .between(16, 16384);
     command.option("--isovalue", options.isovalue, "Isovalue to start with, in data units");
     command.option("--step", options.step, "Step to start at, from 0");
+    command.flag(
+        "--follow", options.follow,
+        "Show the last step, and each new one when `build --append` has added it (key End)");
     command.option("--record", options.record, "Record the session to this file (JSON Lines)");
     command.flag("--force", options.force, "Let --record replace a recording");
     command.option("--session", options.session,

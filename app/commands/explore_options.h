@@ -20,7 +20,7 @@ struct ExploreOptions {
     std::vector<int> size;
     std::string screenshots = ".";
     std::optional<std::string> session;
-    bool force = false, resume = false;
+    bool force = false, resume = false, follow = false;
     bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
     bool verbose = false;
 };

@@ -6,10 +6,20 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 namespace isochron::app {
 
 std::string data_hash_of(const index::IndexFile& file) {
     return fmt::format("{:016x}", file.content_hash());
+}
+
+std::string held_hash(const index::IndexFile& file, const std::string& hash) {
+    std::uint64_t number = 0;
+    const char* const end = hash.data() + hash.size();
+    const auto read = std::from_chars(hash.data(), end, number, 16);
+    return read.ptr == end && read.ec == std::errc() && file.has_had(number) ? hash
+                                                                             : data_hash_of(file);
 }
 
 std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,

@@ -12,6 +12,9 @@ namespace isochron::app {
 
 /// As recordings and sessions name data: 16 hexadecimal digits.
 std::string data_hash_of(const index::IndexFile& file);
+/// The same of the steps that the data had when they were named `hash`, if they ever were; else of
+/// all.
+std::string held_hash(const index::IndexFile& file, const std::string& hash);
 
 /// The session to go on with; where `resume` does not say so, only that there is one is said.
 /// @param path where it is kept; nothing where nobody can say

@@ -91,7 +91,7 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                             options.recording, header.data));
     }
     auto file = open_index(path);
-    const std::string hash = data_hash_of(*file);
+    const std::string hash = held_hash(*file, header.data_hash); // it may have grown since
     // A recording without a hash is not bound to one data set: demonstrations are like that.
     if (!options.any_data && !header.data_hash.empty() && header.data_hash != hash)
         throw interaction::Error(

@@ -92,7 +92,7 @@ std::string as_command(stereo::StereoMode kept) {
 
 } // namespace
 
-bool ExplorerState::apply(const interaction::Commands& commands, std::size_t steps) {
+bool ExplorerState::apply(const interaction::Commands& commands, std::size_t held) {
     bool all_taken = true;
     interaction::each_setting(
         [&](Field field, const auto& given, auto& kept) {
@@ -100,7 +100,9 @@ bool ExplorerState::apply(const interaction::Commands& commands, std::size_t ste
             if (member == &picked)
                 field.high = static_cast<double>(isosurfaces.size()) - 1;
             else if (member == &step || member == &mark)
-                field.high = static_cast<double>(steps) - 1;
+                field.high = static_cast<double>(known_steps(held)) - 1;
+            else if (member == &steps)
+                field.high = static_cast<double>(held);
             if (given && !take(field, *given, kept))
                 all_taken = false;
             picked = std::min(picked, static_cast<std::uint32_t>(isosurfaces.size() - 1));

@@ -5,6 +5,8 @@
 #include "interaction/commands.h"
 #include "stereo/stereo_mode.h"
 
+#include <algorithm>
+
 namespace isochron::app {
 
 struct ExplorerState {
@@ -12,7 +14,9 @@ struct ExplorerState {
     std::uint32_t picked = 0;                             ///< the one that the isovalue moves
     interaction::Coloring coloring;
     bool bounding_box = true; ///< the box with its ticks and numbers
+    std::uint32_t steps = 0;  ///< of the series, as far as the session knows; 0: all of them
     std::uint32_t step = 0;
+    bool follow = false; ///< a new step is shown when it comes
     interaction::PlaybackState playback;
     interaction::Similarity room_from_physical;
     interaction::QualityMode quality = interaction::QualityMode::automatic;
@@ -33,8 +37,14 @@ struct ExplorerState {
 
     /// Sets what the commands carry. A value that cannot be held (a step beyond the series, an
     /// unknown stereo mode, a number that is not finite) leaves the state as it was.
+    /// @param held steps of the index
     /// @return false when something was refused
-    bool apply(const interaction::Commands& commands, std::size_t steps);
+    bool apply(const interaction::Commands& commands, std::size_t held);
+
+    /// How many steps there are to choose from. @param held of the index
+    std::size_t known_steps(std::size_t held) const {
+        return steps == 0 ? held : std::min<std::size_t>(steps, held);
+    }
 
     /// Commands that set every field.
     interaction::Commands as_commands() const;

@@ -122,7 +122,7 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
 
 void playback_buttons(const PanelModel& model, Commands& commands) {
     interaction::PlaybackState playback = model.asked.playback;
-    const auto last = static_cast<std::uint32_t>(model.info.steps() - 1);
+    const auto last = static_cast<std::uint32_t>(model.asked.known_steps(model.info.steps()) - 1);
     const auto go_to = [&](std::uint32_t step) {
         commands.step = step;
         playback.playing = false;
@@ -145,6 +145,12 @@ void playback_buttons(const PanelModel& model, Commands& commands) {
     ImGui::Checkbox("reverse", &playback.reverse);
     ImGui::SameLine();
     ImGui::Checkbox("loop", &playback.loop);
+    ImGui::SameLine();
+    if (bool follow = model.asked.follow; ImGui::Checkbox("follow", &follow)) {
+        commands.follow = follow;
+        if (follow)
+            commands.step = last;
+    }
     auto speed = static_cast<float>(playback.speed);
     ImGui::SetNextItemWidth(-60.0f);
     if (ImGui::SliderFloat("speed", &speed, 1.0f / 64, 64.0f, "x %.3g",
@@ -157,7 +163,7 @@ void playback_buttons(const PanelModel& model, Commands& commands) {
 void time_section(const PanelModel& model, Commands& commands) {
     const auto& times = model.info.times;
     int step = static_cast<int>(model.asked.step);
-    const int last = static_cast<int>(times.size()) - 1;
+    const int last = static_cast<int>(model.asked.known_steps(times.size())) - 1;
     ImGui::SetNextItemWidth(-1.0f);
     ImGui::BeginDisabled(last == 0);
     // Said as people count.

@@ -97,7 +97,7 @@ class Scene {
     bool hidden_by_panel(const render::View& view, const glm::vec3& at) const;
 
     const render::Gl& gl_;
-    const index::SeriesInfo& info_;
+    const index::SeriesInfo info_;
     const std::size_t upload_bytes_; ///< per frame
     bool box_ = true;
     Axes axes_;

@@ -3,6 +3,8 @@
 
 #include "app/frame/pacer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -43,6 +45,24 @@ void LiveLoop::record(const std::filesystem::path& path,
 void LiveLoop::keep_session(const std::filesystem::path& path, const SavedSession& start,
                             bool resumed) {
     keeper_.emplace(path, start, resumed);
+}
+
+void LiveLoop::watch(const std::filesystem::path& path,
+                     std::shared_ptr<const index::IndexFile> file) {
+    watch_.emplace(path, std::move(file));
+}
+
+/// What has grown is told as commands: a recording has them, and so do all processes of a cluster.
+void LiveLoop::take_new_steps(Session& session, Commands& asked) {
+    auto newer = watch_ ? watch_->take() : nullptr;
+    if (!newer)
+        return;
+    const auto steps = static_cast<std::uint32_t>(newer->info().steps());
+    session.grow(std::move(newer));
+    session.show_messages({fmt::format("{} steps now", steps)});
+    asked.steps = steps;
+    if (session.state().follow)
+        asked.step = steps - 1;
 }
 
 /// The devices of a frame that begins now.
@@ -111,6 +131,7 @@ void LiveLoop::run(Session& session) {
         session.set_headset_period(headset_.period());
         Commands commands = session.commands_from(input);
         Commands from_panel = session.take_panel_commands();
+        take_new_steps(session, asked);
         interaction::merge(from_panel, asked);
         interaction::merge(commands, from_panel);
         headset_.feel(commands.haptics);

@@ -15,6 +15,7 @@
 #include "app/session/pattern_show.h"
 #include "app/session/session.h"
 #include "app/session/session_keeper.h"
+#include "index/file/index_watch.h"
 #include "interaction/composite_input.h"
 #include "interaction/desktop_emulation.h"
 #include "interaction/recording/recording.h"
@@ -51,6 +52,9 @@ class LiveLoop {
     /// picture. @throws interaction::Error when the file cannot be created
     void record(const std::filesystem::path& path, const interaction::RecordingHeader& header);
 
+    /// Shows new steps of the index when they come. @param path of the index that is open
+    void watch(const std::filesystem::path& path, std::shared_ptr<const index::IndexFile> file);
+
     /// Keeps what the user comes to, to go on from there. @param resumed what this session began as
     void keep_session(const std::filesystem::path& path, const SavedSession& start, bool resumed);
     /// Where the emulated head is.
@@ -72,6 +76,7 @@ class LiveLoop {
     interaction::InputState poll(std::span<const interaction::WindowEvent> events);
     bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
     void record(interaction::RecordedFrame frame);
+    void take_new_steps(Session& session, interaction::Commands& asked);
     static bool closes(const Session& session, interaction::Commands& asked);
 
     const Config& config_;
@@ -82,6 +87,7 @@ class LiveLoop {
     HeadsetLoop headset_;
     bool paced_ = false; ///< by the headset, in this frame
     std::optional<SessionKeeper> keeper_;
+    std::optional<index::IndexWatch> watch_;
     BackgroundWork recording_;
     /// Lives on the thread that writes.
     std::shared_ptr<interaction::RecordingWriter> recorder_;

@@ -23,6 +23,9 @@ class Picker {
   public:
     explicit Picker(std::shared_ptr<const index::IndexFile> file);
 
+    /// The same data with more steps.
+    void set_file(std::shared_ptr<const index::IndexFile> file) { file_ = std::move(file); }
+
     /// Once a frame.
     /// @param input what the panel in the room has left of it
     /// @param shown cells that are drawn; may be null

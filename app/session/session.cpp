@@ -3,6 +3,7 @@
 
 #include "app/scene/caption.h"
 #include "app/session/start_state.h"
+#include "index/file/index_watch.h"
 #include "interaction/navigator.h"
 #include "interaction/tool_table.h"
 
@@ -36,12 +37,13 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                  stereo::Windows windows, index::Extract extract,
                  std::unique_ptr<stereo::Headset> headset)
     : config_(std::move(config)), file_(std::move(file)),
+      newest_(std::make_shared<index::NewestIndex>(file_)), times_(file_->info().times),
       outputs_(config_, std::move(windows), std::move(headset)),
       state_(start_state(config_, *file_)), home_(state_), gate_(config_.stillness),
       comfort_(config_.comfort),
       extractor_(extract ? std::move(extract)
-                         : index::extract_from(file_, std::nullopt,
-                                               render::CellBuffers::wanted_shading(outputs_.gl()))),
+                         : index::extract_from_newest(
+                               newest_, render::CellBuffers::wanted_shading(outputs_.gl()))),
       scene_(outputs_.gl(), file_->info(), config_), panel_(outputs_.gl(), outputs_.windows()),
       room_panel_(outputs_.gl(), config_.panel), picker_(file_),
       // A headset has its own rate, which the configuration tells.
@@ -63,6 +65,21 @@ std::string Session::failure() const {
     return frames_->failure(extractor_);
 }
 
+void Session::grow(std::shared_ptr<const index::IndexFile> file) {
+    file_ = std::move(file);
+    newest_->set(file_);
+    picker_.set_file(file_);
+    extractor_.forget(); // colors run over all times, and over all values of the second array
+}
+
+/// In a cluster the first process tells that there are more steps, and the others look for them.
+void Session::grow_with(const Commands& commands) {
+    if (!commands.steps || *commands.steps <= file_->info().steps())
+        return;
+    if (auto file = index::grown(file_->name(), *file_))
+        grow(std::move(file));
+}
+
 interaction::ControlContext Session::control_context() const {
     interaction::ControlContext context;
     context.isovalue = state_.isovalue();
@@ -74,7 +91,8 @@ interaction::ControlContext Session::control_context() const {
     context.low = file_->stats().low;
     context.high = file_->stats().high;
     context.step = state_.step;
-    context.times = &file_->info().times;
+    context.times = &times_;
+    context.follow = state_.follow;
     context.playback = state_.playback;
     context.room_from_physical = state_.room_from_physical;
     context.home = home_.room_from_physical;
@@ -116,7 +134,7 @@ Commands Session::commands_from(const interaction::InputState& input) {
 
 void Session::request_cells(Waiting waiting) {
     index::Request request{frames_->ask(state_.surfaces(), waiting), std::nullopt};
-    const auto steps = static_cast<std::uint32_t>(file_->info().steps());
+    const auto steps = static_cast<std::uint32_t>(this->steps());
     if (state_.playback.playing && steps > 1)
         request.next_step =
             (request.query.step + (state_.playback.reverse ? steps - 1 : 1)) % steps;
@@ -342,7 +360,11 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_commands_ = {}; // a replay takes none
     const interaction::InputState rest = room_panel_.update(input, state_.room_panel);
     const ExplorerState before = state_;
+    grow_with(commands);
     state_.apply(commands, file_->info().steps());
+    if (times_.size() != steps())
+        times_.assign(file_->info().times.begin(),
+                      file_->info().times.begin() + static_cast<std::ptrdiff_t>(steps()));
     history_.add(before, state_, commands, input);
     if (commands.screenshot)
         captures_.ask();

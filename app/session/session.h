@@ -53,6 +53,8 @@ class Session {
     const ExplorerState& state() const { return state_; }
     void set_state(const ExplorerState& state) { state_ = state; }
     const ExplorerState& home() const { return home_; }
+    /// Goes on with the same data that have more steps. The command `steps` lets them be seen.
+    void grow(std::shared_ptr<const index::IndexFile> file);
     const History& history() const { return history_; }
 
     /// What the devices lead to in this frame; advances the controls, changes nothing else.
@@ -129,6 +131,8 @@ class Session {
     };
 
     interaction::ControlContext control_context() const;
+    void grow_with(const interaction::Commands& commands);
+    std::size_t steps() const { return state_.known_steps(file_->info().steps()); }
     void request_cells(Waiting waiting);
     void take_newest_cells(Waiting waiting, FrameReport& report);
     std::optional<ColorScale> shown_scale() const;
@@ -150,6 +154,8 @@ class Session {
 
     Config config_;
     std::shared_ptr<const index::IndexFile> file_;
+    std::shared_ptr<index::NewestIndex> newest_; ///< the same for the worker
+    std::vector<double> times_;                  ///< of the steps that are known
     Outputs outputs_;
     ExplorerState state_;
     ExplorerState home_;

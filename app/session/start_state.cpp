@@ -24,6 +24,7 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     state.room_from_physical = place(file.info(), config.placement);
     state.quality = config.quality;
     state.grid = config.grid;
+    state.steps = static_cast<std::uint32_t>(file.info().steps());
     state.eye_separation = config.installation.viewers.front().eye_separation;
     state.isosurfaces = first_surfaces(config, file.stats());
     state.coloring = config.coloring;

@@ -110,4 +110,17 @@ Extract extract_from(std::shared_ptr<const IndexFile> file, std::optional<Search
     };
 }
 
+Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading shading) {
+    struct Made {
+        std::shared_ptr<const IndexFile> file;
+        Extract extract;
+    };
+    return [newest = std::move(newest), shading, made = std::make_shared<Made>()](
+               const SurfacesQuery& query, const std::stop_token& stop) {
+        if (auto file = newest->get(); file != made->file)
+            *made = {file, extract_from(file, std::nullopt, shading)};
+        return made->extract(query, stop);
+    };
+}
+
 } // namespace isochron::index

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -37,6 +38,27 @@ using ExtractionPtr = std::shared_ptr<const Extraction>;
 /// Computes one extraction; runs on the worker only, keeps the state of incremental search.
 /// Returns null when stopped. Throws to report a failure.
 using Extract = std::function<ExtractionPtr(const SurfacesQuery&, std::stop_token)>;
+
+/// Holds the newest state of an index that grows, for an extraction on another thread.
+class NewestIndex {
+  public:
+    explicit NewestIndex(std::shared_ptr<const IndexFile> file) : file_(std::move(file)) {}
+    void set(std::shared_ptr<const IndexFile> file) {
+        const std::scoped_lock lock(mutex_);
+        file_.swap(file);
+    }
+    std::shared_ptr<const IndexFile> get() const {
+        const std::scoped_lock lock(mutex_);
+        return file_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::shared_ptr<const IndexFile> file_;
+};
+
+/// As below, from whatever `newest` holds when it is called.
+Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading shading);
 
 /// The extraction from an open index: each surface has an incremental search of its own. Copies
 /// share their state. What it makes throws Error for a step that the series does not have and for

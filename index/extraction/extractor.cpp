@@ -34,6 +34,8 @@ class RecentExtractions {
         return nullptr;
     }
 
+    std::deque<ExtractionPtr> take_all() { return std::exchange(kept_, {}); }
+
     /// @return the one that had to go, for the caller to free where it does not hold anybody up
     ExtractionPtr add(ExtractionPtr extraction) {
         kept_.push_front(std::move(extraction));
@@ -53,6 +55,7 @@ struct Extractor::State {
     struct Job {
         SurfacesQuery query;
         bool prefetch;
+        std::uint64_t times_forgotten;
         std::stop_source stop;
     };
     struct Outcome {
@@ -86,6 +89,7 @@ struct Extractor::State {
     bool in_flux = false;       ///< the newest request is for other surfaces than the one before
     bool prefetch_done = false; ///< the wanted prefetch need not be tried again
     bool abandoned = false;     ///< the last search was given up: the next one is finished
+    std::uint64_t times_forgotten = 0;
     std::optional<Job> running;
     RecentExtractions recent;
     ExtractionPtr shown;
@@ -111,7 +115,7 @@ void Extractor::State::work(const std::stop_token& stop) {
             lock.lock();
             continue;
         }
-        running = Job{query, prefetch, {}};
+        running = Job{query, prefetch, times_forgotten, {}};
         const Job job = *running;
         lock.unlock();
         finish(job, run(job));
@@ -139,7 +143,9 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
         running.reset();
         const bool stopped = job.stop.stop_requested();
         const bool is_answer = same(job.query, wanted->query) && !answered;
-        if (outcome.extraction) {
+        if (job.times_forgotten != times_forgotten) {
+            // Begun before `forget`: whatever came of it is not wanted.
+        } else if (outcome.extraction) {
             dropped = recent.add(outcome.extraction);
             if (is_answer)
                 answered = true;
@@ -198,6 +204,23 @@ void Extractor::request(const Request& request) {
             if (obsolete && (s.running->prefetch || !s.abandoned))
                 stop = s.running->stop;
         }
+    }
+    if (stop)
+        stop->request_stop();
+    state_->changed.notify_all();
+}
+
+void Extractor::forget() {
+    std::deque<ExtractionPtr> freed; // after the lock
+    std::optional<std::stop_source> stop;
+    {
+        const std::scoped_lock lock(state_->mutex);
+        freed = state_->recent.take_all();
+        state_->answered = false;
+        state_->prefetch_done = false;
+        ++state_->times_forgotten;
+        if (state_->running)
+            stop = state_->running->stop;
     }
     if (stop)
         stop->request_stop();

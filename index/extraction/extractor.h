@@ -35,6 +35,10 @@ class Extractor {
     /// Asking again for what is already asked does nothing. Never waits for the worker.
     void request(const Request& request);
 
+    /// Answers what is asked for anew, as if nothing had been answered yet; what is shown stays
+    /// until then.
+    void forget();
+
     /// The newest finished extraction, null before the first; stays the same until a newer one is
     /// finished.
     ExtractionPtr newest() const;

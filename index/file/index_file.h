@@ -42,6 +42,7 @@ class IndexFile {
     static std::shared_ptr<const IndexFile> open(std::unique_ptr<ByteSource> bytes,
                                                  std::uint64_t cache_bytes = 0);
 
+    const std::string& name() const { return bytes_->name(); }
     const SeriesInfo& info() const { return metadata_.info; }
     const IndexStats& stats() const { return metadata_.stats; }
     const TierPlan& plan() const { return metadata_.plan; }

@@ -106,6 +106,17 @@ TEST(Controls, PlaybackKeysReverseAndChangeSpeedWithinBounds) {
     EXPECT_EQ(desk.context.playback.speed, kSlowest);
 }
 
+TEST(Controls, FollowingGoesToTheLastStep) {
+    Desk desk;
+    const Commands on = desk.tap(bit(Action::follow));
+    EXPECT_EQ(on.follow, true);
+    EXPECT_EQ(on.step, 4u);
+    desk.context.follow = true;
+    const Commands off = desk.tap(bit(Action::follow));
+    EXPECT_EQ(off.follow, false);
+    EXPECT_FALSE(off.step);
+}
+
 TEST(Controls, OneStepDoesNotPlay) {
     Desk desk;
     desk.times = {7};

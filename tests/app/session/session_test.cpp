@@ -42,6 +42,33 @@ TEST_P(SessionTest, ShowsTheCellsThatWereAskedFor) {
     EXPECT_GT(drawn_pixels(session.outputs().display().read_window()), 1000u);
 }
 
+TEST_P(SessionTest, GoesOnWithAnIndexThatGrows) {
+    Session session(small_config(), file_, *context_);
+    const auto asked = [](std::uint32_t steps, std::uint32_t step) {
+        Commands commands;
+        commands.isovalue = 8.0;
+        commands.steps = steps;
+        commands.step = step;
+        return commands;
+    };
+    session.frame(head_at_rest(0), asked(6, 5), Waiting::for_cells);
+    EXPECT_EQ(session.frame(head_at_rest(1), asked(8, 7), Waiting::for_cells).shown->step, 5u)
+        << "there are no more";
+    build_sphere(folder_.path(), 8);
+    // Another process of the cluster has told so.
+    const FrameReport told = session.frame(head_at_rest(2), asked(8, 7), Waiting::for_cells);
+    EXPECT_EQ(told.shown->step, 7u);
+    EXPECT_GT(told.cells, 100u);
+    session.grow(build_sphere(folder_.path(), 9));
+    Commands late;
+    late.step = 8;
+    EXPECT_EQ(session.frame(head_at_rest(3), late, Waiting::for_cells).shown->step, 7u)
+        << "a step counts when the commands tell of it";
+    const FrameReport grown = session.frame(head_at_rest(4), asked(9, 8), Waiting::for_cells);
+    EXPECT_EQ(grown.shown->step, 8u);
+    EXPECT_EQ(session.state().steps, 9u);
+}
+
 TEST_P(SessionTest, FramesGoOnWhileAnExtractionHangs) {
     std::latch entered(1);
     std::promise<void> release;

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/extraction/cell_change.h"
 #include "index/extraction/index_search.h"
+#include "index/file/index_watch.h"
 #include "index/system/growing_file.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
@@ -326,6 +327,21 @@ TEST_F(IndexAppendTest, WhoHasTheIndexOpenGoesOnWithIt) {
     EXPECT_TRUE(now->has_had(old->content_hash()));
     EXPECT_TRUE(now->has_had(now->content_hash()));
     EXPECT_FALSE(now->has_had(old->content_hash() ^ 1));
+    ASSERT_TRUE(grown(path, *old));
+    EXPECT_EQ(grown(path, *old)->info().steps(), 6u);
+    EXPECT_FALSE(grown(path, *now)) << "it is the same";
+    EXPECT_FALSE(grown(folder.path() / "none", *old));
+    IndexWatch watch(path, old);
+    std::shared_ptr<const IndexFile> newer;
+    while (!newer) // within some periods of the watch
+        newer = watch.take();
+    EXPECT_EQ(newer->info().steps(), 6u);
+    EXPECT_FALSE(watch.take()) << "once";
+    const TestField other({20, 19, 18}, 7, ValueType::u8,
+                          [](double x, double, double, double) { return x; });
+    build_index(*series_of(other.view()), folder.path() / "other", {});
+    EXPECT_FALSE(grown(folder.path() / "other", *old)) << "other data";
+    std::filesystem::remove(folder.path() / "other");
     EXPECT_FALSE(old->has_had(now->content_hash()));
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.isochron"));
 }

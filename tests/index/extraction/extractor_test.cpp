@@ -68,6 +68,28 @@ TEST(Extractor, AnswersWhatIsAsked) {
     EXPECT_FALSE(extractor.failure());
 }
 
+TEST(Extractor, WhatIsForgottenIsAnsweredAnewAlsoWhileItIsBeingFound) {
+    HeldExtraction held(false); // gives what it found although it was stopped
+    Extractor extractor(held.extract());
+    extractor.request({.query = {3, {1.0}}, .next_step = {}});
+    held.wait_until_started();
+    held.let_go();
+    extractor.wait();
+    const ExtractionPtr first = extractor.newest();
+    extractor.forget();
+    EXPECT_EQ(extractor.newest(), first) << "it stays until there is another";
+    EXPECT_TRUE(extractor.busy());
+    held.wait_until_started();
+    extractor.forget();
+    held.let_go();
+    held.wait_until_started();
+    EXPECT_EQ(extractor.newest(), first);
+    held.let_go();
+    extractor.wait();
+    EXPECT_NE(extractor.newest(), first);
+    EXPECT_EQ(held.calls(3), 3);
+}
+
 TEST(Extractor, TheLatestRequestWins) {
     HeldExtraction held;
     Extractor extractor(held.extract());

@@ -1,0 +1,45 @@
+// Whether an index that is open has grown meanwhile.
+#include "index/file/index_watch.h"
+
+#include <utility>
+
+namespace isochron::index {
+
+std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const IndexFile& known) {
+    try {
+        const FileHeader now = checked_header(*open_bytes(path));
+        if (now.content_hash == known.content_hash())
+            return nullptr;
+        auto file = IndexFile::open(path);
+        return file->info().steps() > known.info().steps() && file->has_had(known.content_hash())
+                   ? file
+                   : nullptr;
+    } catch (const Error&) { // it is being replaced
+        return nullptr;
+    }
+}
+
+IndexWatch::IndexWatch(std::filesystem::path path, std::shared_ptr<const IndexFile> known)
+    : path_(std::move(path)), known_(std::move(known)),
+      worker_([this](const std::stop_token& stop) { watch(stop); }) {}
+
+IndexWatch::~IndexWatch() = default;
+
+std::shared_ptr<const IndexFile> IndexWatch::take() {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(newer_, nullptr);
+}
+
+void IndexWatch::watch(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!changed_.wait_for(lock, stop, kPeriod, [&] { return stop.stop_requested(); })) {
+        const std::shared_ptr<const IndexFile> known = known_;
+        lock.unlock();
+        auto found = grown(path_, *known);
+        lock.lock();
+        if (found)
+            known_ = newer_ = std::move(found);
+    }
+}
+
+} // namespace isochron::index

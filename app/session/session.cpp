@@ -3,7 +3,6 @@
 
 #include "app/scene/caption.h"
 #include "app/session/start_state.h"
-#include "index/file/index_watch.h"
 #include "interaction/navigator.h"
 #include "interaction/tool_table.h"
 
@@ -63,21 +62,6 @@ std::string Session::drawing() const {
 
 std::string Session::failure() const {
     return frames_->failure(extractor_);
-}
-
-void Session::grow(std::shared_ptr<const index::IndexFile> file) {
-    file_ = std::move(file);
-    newest_->set(file_);
-    picker_.set_file(file_);
-    extractor_.forget(); // colors run over all times, and over all values of the second array
-}
-
-/// In a cluster the first process tells that there are more steps, and the others look for them.
-void Session::grow_with(const Commands& commands) {
-    if (!commands.steps || *commands.steps <= file_->info().steps())
-        return;
-    if (auto file = index::grown(file_->name(), *file_))
-        grow(std::move(file));
 }
 
 interaction::ControlContext Session::control_context() const {

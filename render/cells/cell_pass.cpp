@@ -293,9 +293,12 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         frame.eyes[i] = eye_block(views[i], placement, appearance);
         set_viewport(*gl_, views[i], static_cast<GLuint>(i));
         sequence = sequence_of(views[i], placement, cells, footprint, blended, appearance);
-        if (sequence.texture != 0)
-            gl_->BindTextureUnit(static_cast<GLuint>(1 + i), sequence.texture);
+        // A shader that may read a sequence needs one of its type bound, also where it reads none.
+        gl_->BindTextureUnit(static_cast<GLuint>(1 + i),
+                             sequence.texture != 0 ? sequence.texture : cells.texture());
     }
+    if (views.size() == 1)
+        gl_->BindTextureUnit(2, cells.texture());
     frame.order_begin = sequence.begin;
     frame.order_step = sequence.step;
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);

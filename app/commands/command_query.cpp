@@ -7,6 +7,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
+#include "index/extraction/layer_search.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,6 +23,7 @@ struct QueryArguments {
     double isovalue = 0;
     std::int64_t step = 0;
     std::uint32_t repeats = 5;
+    std::uint32_t level = 0;
     std::string method;
     bool json = false;
 };
@@ -40,8 +42,12 @@ struct Measured {
 
 /// Every repetition starts a new search: otherwise it would find its own last result.
 Measured measure(const std::shared_ptr<const index::IndexFile>& file, const index::Query& query,
-                 index::SearchMethod method, std::uint32_t repeats) {
-    const auto run = [&] { return index::search_in(file, method)(query, {}); };
+                 index::SearchMethod method, std::uint32_t level, std::uint32_t repeats) {
+    const auto run = [&]() -> index::CellSetPtr {
+        if (level > 0) // without positions and normals
+            return std::make_shared<index::CellSet>(index::search_level(file, level, query));
+        return index::search_in(file, method)(query, {});
+    };
     Measured result;
     result.set = run();
     result.cold = {result.set->search_time, result.set->shading_time};
@@ -92,6 +98,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
         {"time_unit", info.time_unit},
         {"isovalue", arguments.isovalue},
         {"value_unit", info.value_unit},
+        {"level", arguments.level},
         {"method", name_of(result.set->method)},
         {"active_cells", active},
         {"candidates", result.set->candidates},
@@ -117,11 +124,13 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
     const index::SeriesInfo& info = file.info();
     const std::uint64_t active = result.set->ids.size();
     const std::uint64_t false_positives = result.set->candidates - active;
-    std::string text = fmt::format("isovalue {}{} at step {} (time {}{})\n"
-                                   "active cells     {}\n",
-                                   arguments.isovalue, with_space(info.value_unit), arguments.step,
-                                   human_number(info.times[result.set->query.step]),
-                                   with_space(info.time_unit), grouped(active));
+    std::string text =
+        fmt::format("isovalue {}{} at step {} (time {}{}){}\n"
+                    "active cells     {}\n",
+                    arguments.isovalue, with_space(info.value_unit), arguments.step,
+                    human_number(info.times[result.set->query.step]), with_space(info.time_unit),
+                    arguments.level > 0 ? fmt::format(", level of detail {}", arguments.level) : "",
+                    grouped(active));
     text += fmt::format("found by         {}: {} candidates, {} false positives{}\n",
                         name_of(result.set->method), grouped(result.set->candidates),
                         grouped(false_positives),
@@ -153,9 +162,14 @@ void run_query(const QueryArguments& arguments) {
         throw index::Error(fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(),
                                        arguments.step, steps - 1));
     warn_beyond(arguments.isovalue, *file);
+    if (arguments.level >= file->detail_levels())
+        throw index::Error(fmt::format("{}: level {}, expected 0 to {}", arguments.file.string(),
+                                       arguments.level, file->detail_levels() - 1));
+    if (arguments.level > 0 && !arguments.method.empty())
+        throw UsageError("--method: is for level 0");
     const Measured result =
         measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue},
-                method_of(arguments, *file), arguments.repeats);
+                method_of(arguments, *file), arguments.level, arguments.repeats);
     if (!arguments.ids.empty())
         write_ids(arguments.ids, result.set->ids);
     fmt::print("{}", arguments.json ? as_json(arguments, *file, result)
@@ -181,6 +195,11 @@ void add_query(Command& program) {
         .between(0u, 1000u)
         .shows_default();
     command
+        .option("--level", arguments->level,
+                "Level of detail, 0 the finest; isochron info lists them. Ids count in the "
+                "level's own grid")
+        .shows_default();
+    command
         .option("--method", arguments->method,
                 "Search by cells, bricks, tree or scan (default: the cheapest that the index "
                 "has)")
@@ -189,7 +208,8 @@ void add_query(Command& program) {
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer(
         "JSON keys: file, step, time, time_unit, isovalue (null unless finite), value_unit,\n"
-        "method (cells, bricks, tree or scan), active_cells, candidates (before the exact test),\n"
+        "level (of detail), method (cells, bricks, tree or scan), active_cells, candidates (before "
+        "the exact test),\n"
         "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
         "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
         "file), resident_bytes and read_bytes (of the process after that run: memory with mapped\n"

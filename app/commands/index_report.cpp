@@ -47,7 +47,7 @@ double raw_bytes(const SeriesInfo& info) {
 
 double percent_of_raw(const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
-    return 100 * static_cast<double>(stats.file_bytes - stats.volume_bytes) /
+    return 100 * static_cast<double>(stats.file_bytes - stats.volume_bytes - stats.detail_bytes) /
            raw_bytes(file.info());
 }
 
@@ -132,6 +132,8 @@ std::string sizes(const index::IndexFile& file) {
     for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
         if (const auto tier = static_cast<index::Tier>(i); file.plan().tiers.has(tier))
             text += fmt::format(", {} {}", index::kTierNames[i], bytes(stats.bytes_of(tier)));
+    if (stats.detail_bytes > 0)
+        text += fmt::format(", levels of detail {}", bytes(stats.detail_bytes));
     if (stats.color_bytes > 0)
         text += fmt::format(", colors {}", bytes(stats.color_bytes));
     return text;
@@ -179,6 +181,10 @@ std::string as_text(const IndexReport& report) {
                                    with_space(color->value_unit), grouped(color->nan_values)));
     line("file",
          fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
+    for (std::size_t level = 1; level < file.detail_levels(); ++level)
+        line(level == 1 ? "levels" : "",
+             fmt::format("of detail {}: {}", level,
+                         fmt::join(file.chunks(level).info().grid.vertices, " x ")));
     for (const std::string& reason : file.plan().reasons)
         line("plan", reason);
     if (file.plan().steps < info.steps())
@@ -188,7 +194,7 @@ std::string as_text(const IndexReport& report) {
         line("cells", fmt::format("of the first {} steps; the others are searched by bricks until "
                                   "their epoch of {} is complete",
                                   file.cells()->steps(), index::TimePath::kMaxSteps));
-    line("levels", levels_text(file));
+    line("ranks", levels_text(file));
     if (entries_of(file) > 0)
         line("coherence", fmt::format("{:.4f} entries per cell-step ({} entries{})",
                                       coherence(file), grouped(entries_of(file)),
@@ -241,6 +247,8 @@ std::string as_json(const IndexReport& report) {
         {"cells_bytes", stats.cells_bytes},
         {"deltas_bytes", stats.deltas_bytes},
         {"tree_bytes", stats.tree_bytes},
+        {"detail_bytes", stats.detail_bytes},
+        {"detail", nlohmann::ordered_json::array()},
         {"raw_bytes", raw_bytes(info)},
         {"percent_of_raw", percent_of_raw(file)},
         {"tiers", nlohmann::ordered_json::array()},
@@ -251,6 +259,9 @@ std::string as_json(const IndexReport& report) {
         {"lattice", file.tree_options().lattice},
         {"max_variation", file.tree_options().max_variation},
     };
+    for (std::size_t level = 1; level < file.detail_levels(); ++level)
+        j["detail"].push_back(
+            {{"level", level}, {"vertices", file.chunks(level).info().grid.vertices}});
     if (const auto levels = levels_of(file)) {
         j["levels"] = levels->levels();
         j["lossless"] = levels->lossless();

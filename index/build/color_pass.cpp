@@ -3,8 +3,8 @@
 
 #include "index/build/value_stats.h"
 #include "index/error.h"
+#include "index/file/detail_levels.h"
 #include "index/file/file_layout.h"
-#include "index/file/step_packer.h"
 
 #include <fmt/format.h>
 
@@ -37,9 +37,10 @@ ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorAr
     std::vector<StepEntry> steps;
     team.together([&] {
         parts.emplace(file, end, spill, team);
-        StepPacker packer(info.grid, info.type, contents.codec, threads);
+        StepWriter writer(info, {false, contents.values, contents.codec}, threads);
         const auto [mine, mine_end] = team.share(info.steps() - first);
-        std::vector<std::byte> stored(info.step_bytes());
+        std::vector<std::uint64_t> words((info.step_bytes() + 7) / 8); // aligned for every type
+        const auto stored = std::as_writable_bytes(std::span(words)).first(info.step_bytes());
         for (std::size_t i = mine; i < mine_end; ++i) {
             if (progress)
                 progress("reading colors",
@@ -47,12 +48,7 @@ ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorAr
             series.read(first + i, stored);
             add_range(info.type, info.scaling, stored, range.low, range.high, range.nan_values);
             checksums.push_back(checksum_of(stored));
-            const std::uint64_t begin = parts->align(kPartAlignment);
-            StepEntry entry = packer.pack(
-                contents.values ? std::span<const std::byte>(stored) : std::span<const std::byte>(),
-                {}, [&](std::span<const std::byte> bytes) { parts->append(bytes); });
-            entry.offset = begin;
-            steps.push_back(entry);
+            writer.write(stored, *parts, steps);
         }
     });
     const ValueRange all = agreed_range(range, team);
@@ -63,7 +59,7 @@ ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorAr
              .low = all.low,
              .high = all.high,
              .nan_values = all.nan_values},
-            placed_steps(*parts, std::move(steps), end, team),
+            placed_steps(*parts, std::move(steps), detail_grids(info.grid).size(), end, team),
             team.gather_items(checksums)};
 }
 

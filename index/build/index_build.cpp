@@ -8,6 +8,7 @@
 #include "index/build/unit_pass.h"
 #include "index/build/volume_pass.h"
 #include "index/error.h"
+#include "index/file/detail_levels.h"
 #include "index/file/file_layout.h"
 #include "index/file/metadata.h"
 #include "index/file/step_levels.h"
@@ -60,7 +61,8 @@ class Build {
                                  .referral = options.referral,
                                  .chosen_array = options.array,
                                  .chosen_component = options.component},
-          steps_(static_cast<std::uint32_t>(series.info().steps())) {
+          steps_(static_cast<std::uint32_t>(series.info().steps())),
+          levels_(detail_grids(series.info().grid).size()) {
         if (held)
             take(*held);
     }
@@ -83,9 +85,10 @@ class Build {
         if (!held_)
             plan();
         align();
-        const auto entries = write_chunks(values_, fresh_, *written_, contents(), target_.sink(),
-                                          end_, spill(".chunks"), threads_, team_, progress_);
-        append_to(volume_steps_, entries);
+        const auto entries =
+            write_chunks(info, values_, fresh_, *written_, contents(), target_.sink(), end_,
+                         spill(".chunks"), threads_, team_, progress_);
+        append_steps(volume_steps_, entries);
         write_colors();
         write_cells();
         team_.together([&] {
@@ -106,6 +109,14 @@ class Build {
         to.insert(to.end(), more.begin(), more.end());
     }
 
+    /// @param more level after level
+    void append_steps(std::vector<std::vector<StepEntry>>& array, std::span<const StepEntry> more) {
+        array.resize(levels_);
+        const std::size_t count = more.size() / levels_;
+        for (std::size_t level = 0; level < levels_; ++level)
+            append_to(array[level], more.subspan(level * count, count));
+    }
+
     /// What an index holds already stays where it is.
     void take(const IndexFile& held) {
         const Metadata& known = held.metadata();
@@ -115,11 +126,11 @@ class Build {
         metadata_.plan = known.plan;
         metadata_.levels = known.levels;
         counts_ = known.stats.counts;
-        append_to(volume_steps_, held.step_entries().first(fresh_));
+        append_steps(volume_steps_, held.step_entries().first(fresh_ * levels_));
         append_to(checksums_, held.checksums().first(fresh_));
         append_to(states_, held.source_states());
         if (held.color()) {
-            append_to(color_steps_, held.step_entries().last(fresh_));
+            append_steps(color_steps_, held.step_entries().last(fresh_ * levels_));
             append_to(color_checksums_, held.color_checksums());
         }
     }
@@ -201,7 +212,7 @@ class Build {
         ColorFindings found =
             read_colors(*options_.color, fresh_, held_ ? held_->color() : nullptr, contents(),
                         target_.sink(), end_, spill(".colors"), threads_, team_, progress_);
-        append_to(color_steps_, found.steps);
+        append_steps(color_steps_, found.steps);
         append_to(color_checksums_, found.checksums);
         metadata_.color = std::move(found.array);
         metadata_.color->chosen_array = options_.color_array;
@@ -236,8 +247,11 @@ class Build {
             append(SectionKind::tree, build_thi_tree(values_, options_.tree, progress_, threads_));
         else
             append(SectionKind::tree, {});
-        append_to(volume_steps_, color_steps_);
-        append(SectionKind::steps, std::as_bytes(std::span(volume_steps_)));
+        std::vector<StepEntry> steps;
+        for (const auto* array : {&volume_steps_, &color_steps_})
+            for (const std::vector<StepEntry>& level : *array)
+                append_to(steps, level);
+        append(SectionKind::steps, std::as_bytes(std::span(steps)));
         append(SectionKind::directory, std::as_bytes(std::span(directory_)));
         append_to(checksums_, unit_checksums_);
         append_to(checksums_, color_checksums_);
@@ -260,6 +274,7 @@ class Build {
     Metadata metadata_;
     FileHeader header_;
     std::uint32_t steps_;           ///< of the series
+    std::size_t levels_;            ///< of detail
     std::size_t fresh_ = 0;         ///< the first step that is not held
     std::size_t window_ = 0;        ///< the first step of which values are needed
     std::uint32_t covered_ = 0;     ///< first steps that cells hold
@@ -270,8 +285,8 @@ class Build {
     StepValues values_;
     std::vector<UnitEntry> directory_;
     std::vector<std::uint64_t> checksums_, unit_checksums_, color_checksums_, states_;
-    std::vector<StepEntry> volume_steps_, color_steps_;
-    std::uint64_t end_ = kDataBegin; ///< of what has been written
+    std::vector<std::vector<StepEntry>> volume_steps_, color_steps_; ///< by level of detail
+    std::uint64_t end_ = kDataBegin;                                 ///< of what has been written
 };
 
 void check_options(const SeriesInfo& info, const BuildOptions& options) {

@@ -1,13 +1,18 @@
 // Work on the layers of a step, side by side.
 #include "index/extraction/layer_search.h"
 
+#include "index/error.h"
 #include "index/extraction/cell_colors.h"
 #include "index/extraction/id_sort.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/system/parallel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 
 namespace isochron::index {
 namespace {
@@ -33,20 +38,21 @@ std::vector<CellId> joined(const std::vector<std::vector<CellId>>& layers) {
 
 } // namespace
 
-LayerSearch::LayerSearch(std::shared_ptr<const IndexFile> file) : file_(std::move(file)) {
+LayerSearch::LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t level)
+    : file_(std::move(file)), store_(file_->chunks(level)) {
     // Slabs of all threads together take no more than a part of what chunks may take.
-    const std::uint64_t room = file_->cache().budget / 4 / StepSlab::bytes(file_->info()) + 1;
+    const std::uint64_t room = file_->cache().budget / 4 / StepSlab::bytes(store_.info()) + 1;
     slabs_.resize(std::min<std::uint64_t>(thread_count(0), room));
 }
 
 bool LayerSearch::for_each_layer(std::uint32_t step, const Work& work,
                                  const std::stop_token& stop) {
-    parallel_for(StepSlab::layers(file_->info().grid), static_cast<unsigned>(slabs_.size()),
+    parallel_for(StepSlab::layers(store_.info().grid), static_cast<unsigned>(slabs_.size()),
                  [&](std::size_t layer, unsigned worker) {
                      if (stop.stop_requested())
                          return;
                      if (!slabs_[worker])
-                         slabs_[worker] = std::make_unique<StepSlab>(file_->chunks());
+                         slabs_[worker] = std::make_unique<StepSlab>(store_);
                      slabs_[worker]->begin(step, static_cast<std::uint32_t>(layer));
                      work(*slabs_[worker], static_cast<std::uint32_t>(layer));
                  },
@@ -56,7 +62,7 @@ bool LayerSearch::for_each_layer(std::uint32_t step, const Work& work,
 
 std::span<const CellId> LayerSearch::of_layer(std::span<const CellId> ids,
                                               std::uint32_t layer) const {
-    const auto n = file_->info().grid.cells();
+    const auto n = store_.info().grid.cells();
     const std::uint64_t cells = std::uint64_t{n[0]} * n[1] * kChunkEdge;
     const auto first = std::ranges::lower_bound(ids, layer * cells);
     const auto last = std::ranges::lower_bound(first, ids.end(), (layer + 1) * cells);
@@ -67,11 +73,11 @@ bool LayerSearch::search(const Query& query, bool by_bricks, std::vector<CellId>
                          std::uint64_t& candidates, const std::stop_token& stop) {
     out.clear();
     candidates = 0;
-    const LevelMapPtr levels = by_bricks ? file_->chunks().levels(query.step) : nullptr;
-    const auto cut = levels ? levels->cut(file_->info().scaling, query.isovalue) : std::nullopt;
+    const LevelMapPtr levels = by_bricks ? store_.levels(query.step) : nullptr;
+    const auto cut = levels ? levels->cut(store_.info().scaling, query.isovalue) : std::nullopt;
     if (levels && !cut)
         return true;
-    std::vector<std::vector<CellId>> found(StepSlab::layers(file_->info().grid));
+    std::vector<std::vector<CellId>> found(StepSlab::layers(store_.info().grid));
     std::vector<std::uint64_t> tested(found.size());
     const bool finished = for_each_layer(
         query.step,
@@ -99,7 +105,7 @@ bool LayerSearch::search(const Query& query, bool by_bricks, std::vector<CellId>
 
 bool LayerSearch::keep_active(const Query& query, std::vector<CellId>& ids,
                               const std::stop_token& stop) {
-    std::vector<std::vector<CellId>> kept(StepSlab::layers(file_->info().grid));
+    std::vector<std::vector<CellId>> kept(StepSlab::layers(store_.info().grid));
     const bool finished = for_each_layer(
         query.step,
         [&](StepSlab& slab, std::uint32_t layer) {
@@ -116,7 +122,7 @@ bool LayerSearch::keep_active(const Query& query, std::vector<CellId>& ids,
 
 bool LayerSearch::shade_cells(CellSet& set, const std::stop_token& stop) {
     set.points.resize(set.ids.size());
-    std::vector<std::vector<CellRow>> rows(StepSlab::layers(file_->info().grid));
+    std::vector<std::vector<CellRow>> rows(StepSlab::layers(store_.info().grid));
     const bool finished = for_each_layer(
         set.query.step,
         [&](StepSlab& slab, std::uint32_t layer) {
@@ -165,6 +171,23 @@ bool LayerSearch::color_cells(const Query& query, std::span<const CellId> cells,
                                out.subspan(first, ids.size()), stop);
         },
         stop);
+}
+
+CellSet search_level(const std::shared_ptr<const IndexFile>& file, std::size_t level,
+                     const Query& query) {
+    if (level >= file->detail_levels())
+        throw Error(fmt::format("level {}: expected 0 to {}", level, file->detail_levels() - 1));
+    if (const std::size_t steps = file->info().steps(); query.step >= steps)
+        throw Error(fmt::format("step {}: expected 0 to {}", query.step, steps - 1));
+    const bool by_bricks = file->plan().tiers.has(Tier::bricks);
+    CellSet set;
+    set.query = query;
+    set.method = by_bricks ? SearchMethod::bricks : SearchMethod::scan;
+    const auto started = std::chrono::steady_clock::now();
+    if (std::isfinite(query.isovalue))
+        LayerSearch(file, level).search(query, by_bricks, set.ids, set.candidates, {});
+    set.search_time = std::chrono::steady_clock::now() - started;
+    return set;
 }
 
 } // namespace isochron::index

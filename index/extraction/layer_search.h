@@ -20,7 +20,8 @@ namespace isochron::index {
 /// the results are incomplete. Not thread-safe: keeps its work space.
 class LayerSearch {
   public:
-    explicit LayerSearch(std::shared_ptr<const IndexFile> file);
+    /// @param level of detail; colors are those of level 0
+    explicit LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t level = 0);
 
     /// Finds the active cells, ascending: by bricks where the index has them, else by a scan.
     /// @param candidates number of cells that were tested
@@ -39,7 +40,14 @@ class LayerSearch {
     std::span<const CellId> of_layer(std::span<const CellId> ids, std::uint32_t layer) const;
 
     std::shared_ptr<const IndexFile> file_;
+    const ChunkStore& store_;
     std::vector<std::unique_ptr<StepSlab>> slabs_; ///< by thread
 };
+
+/// The active cells at a level of detail, ascending; ids are those of the level's own grid. Of an
+/// index that refers to its sources from level 1 on.
+/// @throws Error: there is no such level or step, damaged
+CellSet search_level(const std::shared_ptr<const IndexFile>& file, std::size_t level,
+                     const Query& query);
 
 } // namespace isochron::index

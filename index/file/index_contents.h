@@ -24,6 +24,7 @@ struct IndexStats {
     ValueCounts counts;                   ///< what these were made of
     std::uint64_t file_bytes = 0, volume_bytes = 0, bricks_bytes = 0, cells_bytes = 0,
                   deltas_bytes = 0, tree_bytes = 0, color_bytes = 0;
+    std::uint64_t detail_bytes = 0; ///< of the levels of detail of volume and colors
     std::uint64_t cell_entries = 0; ///< stored (cell, extremes, time node) of the tier cells
 
     std::uint64_t bytes_of(Tier tier) const;

@@ -1,6 +1,7 @@
 // Opening of .isochron files.
 #include "index/file/index_file.h"
 
+#include "index/file/detail_levels.h"
 #include "index/file/step_levels.h"
 #include "index/scan/bricks.h"
 #include "index/system/memory_limit.h"
@@ -77,13 +78,15 @@ bool IndexFile::lies_within(std::uint64_t offset, std::uint64_t bytes) const {
            bytes <= header_.file_bytes - offset;
 }
 
-ChunkArray IndexFile::array_of(std::uint32_t number, const SeriesInfo& info) const {
-    ChunkArray array{.called = number == 0 ? "volume" : "colors",
-                     .number = number,
+/// @param number of the array in the section steps @param fine whether it is a level 0
+ChunkArray IndexFile::level_of(const std::string& called, std::size_t number,
+                               const SeriesInfo& info, bool fine) const {
+    ChunkArray array{.called = called,
+                     .number = static_cast<std::uint32_t>(number),
                      .info = info,
                      .steps = {},
-                     .has_bricks = number == 0 && metadata_.plan.tiers.has(Tier::bricks),
-                     .has_values = !metadata_.referral};
+                     .has_bricks = number < details_ && metadata_.plan.tiers.has(Tier::bricks),
+                     .has_values = !metadata_.referral || !fine};
     const ChunkGrid grid(info.grid);
     const std::uint64_t tables = layer_table_bytes(grid.chunks_of_layer()) * grid.layers();
     for (std::size_t step = 0; step < steps(); ++step) {
@@ -99,26 +102,46 @@ ChunkArray IndexFile::array_of(std::uint32_t number, const SeriesInfo& info) con
     return array;
 }
 
+/// All levels of an array. @param first number of the finest in the section steps
+std::vector<std::unique_ptr<ChunkStore>> IndexFile::array_of(const char* called, std::size_t first,
+                                                             const SeriesInfo& info) {
+    std::vector<std::unique_ptr<ChunkStore>> levels;
+    SeriesInfo of_level = info;
+    for (const Grid& grid : detail_grids(info.grid)) {
+        const std::size_t level = levels.size();
+        of_level.grid = grid;
+        levels.push_back(std::make_unique<ChunkStore>(
+            *bytes_, cache_,
+            level_of(level == 0 ? called : fmt::format("{} at level {}", called, level),
+                     first + level, of_level, level == 0)));
+        std::uint64_t& bytes = level > 0   ? metadata_.stats.detail_bytes
+                               : first > 0 ? metadata_.stats.color_bytes
+                                           : metadata_.stats.volume_bytes;
+        for (std::size_t step = 0; step < steps(); ++step)
+            bytes += step_entries_[(first + level) * steps() + step].bytes;
+    }
+    return levels;
+}
+
 void IndexFile::set_arrays() {
+    details_ = detail_grids(metadata_.info.grid).size();
     const std::size_t arrays = metadata_.color ? 2 : 1;
-    if (step_entries_.size() / arrays != steps() || step_entries_.size() % arrays)
+    if (const std::size_t entries = arrays * details_ * steps(); step_entries_.size() != entries)
         throw damaged(
-            fmt::format("{} steps of chunks, expected {}", step_entries_.size(), arrays * steps()));
+            fmt::format("{} steps of chunks, expected {}", step_entries_.size(), entries));
     const std::size_t checksums = (arrays + 1) * steps() + 2 * directory_.size();
     if (checksums_.size() != checksums)
         throw damaged(fmt::format("{} checksums, expected {}", checksums_.size(), checksums));
     const auto sums = checksums_.begin();
     const auto count = static_cast<std::ptrdiff_t>(steps());
-    volume_ = std::make_unique<ChunkStore>(*bytes_, cache_, array_of(0, metadata_.info));
+    volume_ = array_of("volume", 0, metadata_.info);
     if (metadata_.referral)
         source_ = std::make_unique<StepSource>(bytes_->name(), metadata_.info, *metadata_.referral,
                                                std::vector(sums, sums + count));
     IndexStats& stats = metadata_.stats;
     stats.bricks_bytes = metadata_.plan.tiers.has(Tier::bricks)
-                             ? volume_->grid().count() * sizeof(ChunkBricks) * steps()
+                             ? chunks().grid().count() * sizeof(ChunkBricks) * steps()
                              : 0;
-    for (std::size_t i = 0; i < step_entries_.size(); ++i)
-        (i < steps() ? stats.volume_bytes : stats.color_bytes) += step_entries_[i].bytes;
     stats.volume_bytes -= std::min(stats.volume_bytes, stats.bricks_bytes);
     if (!metadata_.color)
         return;
@@ -127,7 +150,7 @@ void IndexFile::set_arrays() {
     info.value_unit = metadata_.color->value_unit;
     info.type = metadata_.color->type;
     info.scaling = metadata_.color->scaling;
-    colors_ = std::make_unique<ChunkStore>(*bytes_, cache_, array_of(1, info));
+    colors_ = array_of("colors", details_, info);
     if (!metadata_.referral)
         return;
     color_referral_ = metadata_.referral;
@@ -135,7 +158,7 @@ void IndexFile::set_arrays() {
     color_referral_->options.component = metadata_.color->chosen_component;
     const auto sums_of_colors = color_checksums();
     color_source_ = std::make_unique<StepSource>(
-        bytes_->name(), colors_->info(), *color_referral_,
+        bytes_->name(), colors_.front()->info(), *color_referral_,
         std::vector<std::uint64_t>(sums_of_colors.begin(), sums_of_colors.end()));
 }
 
@@ -185,8 +208,9 @@ void IndexFile::set_cells() {
 }
 
 std::span<const std::uint64_t> IndexFile::color_checksums() const {
-    return colors_ ? std::span(checksums_).subspan(steps() + 2 * directory_.size(), steps())
-                   : std::span<const std::uint64_t>();
+    return !colors_.empty()
+               ? std::span(checksums_).subspan(steps() + 2 * directory_.size(), steps())
+               : std::span<const std::uint64_t>();
 }
 std::span<const std::uint64_t> IndexFile::source_states() const {
     return std::span(checksums_).last(steps());
@@ -203,19 +227,19 @@ bool IndexFile::has_had(std::uint64_t content_hash) const {
 
 LoadedStep IndexFile::load(std::uint32_t step) const {
     if (!source_)
-        return volume_->whole(step);
+        return chunks().whole(step);
     auto both = std::make_shared<JoinedStep>(JoinedStep{source_->load(step), {}});
     if (metadata_.plan.tiers.has(Tier::bricks))
-        both->bricks = volume_->whole(step);
+        both->bricks = chunks().whole(step);
     return {both->values.values, both->bricks.bricks, both};
 }
 
 bool IndexFile::better_whole(std::uint32_t step) const {
-    return source_ || volume_->better_whole(step);
+    return source_ || chunks().better_whole(step);
 }
 
 LoadedStep IndexFile::load_color(std::uint32_t step) const {
-    return color_source_ ? color_source_->load(step) : colors_->whole(step);
+    return color_source_ ? color_source_->load(step) : colors_.front()->whole(step);
 }
 
 const StepValues& IndexFile::values() const {
@@ -276,7 +300,7 @@ void IndexFile::verify(const Progress& progress) const {
     for (std::uint32_t step = 0; step < steps(); ++step) {
         check_step(load(step), step, take("volume"), "volume");
         if (metadata_.plan.tiers.has(Tier::bricks))
-            volume_->levels(step);
+            chunks().levels(step);
     }
     const std::uint32_t chunks = Chunking(metadata_.info.grid).count();
     for (std::size_t i = 0; i < directory_.size(); ++i) {
@@ -292,9 +316,25 @@ void IndexFile::verify(const Progress& progress) const {
     }
     if (metadata_.plan.tiers.has(Tier::tree))
         section<std::byte>(SectionKind::tree);
-    for (std::uint32_t step = 0; colors_ && step < steps(); ++step)
+    for (std::uint32_t step = 0; !colors_.empty() && step < steps(); ++step)
         check_step(load_color(step), step, take("colors"), "colors");
+    verify_details(progress);
     check_gaps();
+}
+
+/// Their chunks and tables have checksums of their own.
+void IndexFile::verify_details(const Progress& progress) const {
+    for (const auto* array : {&volume_, &colors_})
+        for (std::size_t level = 1; level < array->size(); ++level)
+            for (std::uint32_t step = 0; step < steps(); ++step) {
+                if (progress)
+                    progress("levels of detail",
+                             static_cast<double>(step) / static_cast<double>(steps()));
+                const ChunkStore& store = *(*array)[level];
+                store.whole(step);
+                if (array == &volume_ && metadata_.plan.tiers.has(Tier::bricks))
+                    store.levels(step);
+            }
 }
 
 Error IndexFile::damaged(const std::string& what) const {

@@ -60,8 +60,12 @@ class IndexFile {
     LoadedStep load(std::uint32_t step) const;
     /// Whether that is better than working on the chunks that are needed.
     bool better_whole(std::uint32_t step) const;
-    /// The volume in chunks; of an index that refers to its sources they have no values.
-    const ChunkStore& chunks() const { return *volume_; }
+    /// How many levels of detail there are, the volume itself included: 0 is the finest
+    /// (detail_levels.h).
+    std::size_t detail_levels() const { return volume_.size(); }
+    /// The volume in chunks, at a level of detail; of an index that refers to its sources those of
+    /// level 0 have no values.
+    const ChunkStore& chunks(std::size_t level = 0) const { return *volume_[level]; }
     /// All steps at once, decoded into memory when it is first asked for: for measurements and
     /// tests. @throws Error as `load`
     const StepValues& values() const;
@@ -69,7 +73,9 @@ class IndexFile {
     /// Null when the index carries no array to color by.
     const ColorArray* color() const { return metadata_.color ? &*metadata_.color : nullptr; }
     /// Likewise in chunks; null where the index refers to its sources.
-    const ChunkStore* color_chunks() const { return color_source_ ? nullptr : colors_.get(); }
+    const ChunkStore* color_chunks(std::size_t level = 0) const {
+        return colors_.empty() || (level == 0 && color_source_) ? nullptr : colors_[level].get();
+    }
     /// One step of it, as `load`. There must be one.
     LoadedStep load_color(std::uint32_t step) const;
 
@@ -112,8 +118,12 @@ class IndexFile {
                                     std::uint64_t bytes) const;
 
     void set_arrays();
+    void verify_details(const Progress& progress) const;
     void set_cells();
-    ChunkArray array_of(std::uint32_t number, const SeriesInfo& info) const;
+    std::vector<std::unique_ptr<ChunkStore>> array_of(const char* called, std::size_t first,
+                                                      const SeriesInfo& info);
+    ChunkArray level_of(const std::string& called, std::size_t number, const SeriesInfo& info,
+                        bool fine) const;
     bool lies_within(std::uint64_t offset, std::uint64_t bytes) const;
     void check_gaps() const;
     void check_step(const LoadedStep& loaded, std::uint32_t step, std::uint64_t checksum,
@@ -127,8 +137,9 @@ class IndexFile {
     FileHeader header_;
     Metadata metadata_;
     std::vector<StepEntry> step_entries_;
+    std::size_t details_ = 0; ///< levels of detail, the volume itself included
     std::vector<std::uint64_t> checksums_;
-    std::unique_ptr<ChunkStore> volume_, colors_;
+    std::vector<std::unique_ptr<ChunkStore>> volume_, colors_; ///< by level of detail
     std::optional<Referral> color_referral_;
     std::unique_ptr<StepSource> source_, color_source_; ///< when it refers to its sources
     std::vector<UnitEntry> directory_;

@@ -94,9 +94,9 @@ TEST_F(Colors, ThatAreDamagedAreFoundByVerify) {
     FileHeader header;
     std::memcpy(&header, bytes.data(), sizeof header);
     const Section steps = header.section(SectionKind::steps);
-    ASSERT_EQ(steps.bytes, 2 * kSteps * sizeof(StepEntry));
+    ASSERT_EQ(steps.bytes, 2 * 2 * kSteps * sizeof(StepEntry)); // with a level of detail each
     StepEntry last;
-    std::memcpy(&last, bytes.data() + steps.offset + steps.bytes - sizeof last, sizeof last);
+    std::memcpy(&last, bytes.data() + steps.offset + (3 * kSteps - 1) * sizeof last, sizeof last);
     bytes[last.offset + 100] ^= 1; // of a chunk
     const std::filesystem::path bad = folder_.path() / "bad.isochron";
     std::ofstream(bad, std::ios::binary) << bytes;

@@ -69,6 +69,9 @@ enum class Action : std::uint8_t {
     snap_clip,
     remove_made,
     follow,
+    orthographic,
+    axis_view,
+    isometric_view,
     count
 };
 

@@ -127,6 +127,7 @@ void each_setting(Visit&& visit, Records&... r) {
     visit(Field{"tools"}, r.tools...);
     visit(Field{.key = "clip", .dragged = true}, r.clip...);
     visit(Field{"ruler"}, r.ruler...);
+    visit(Field{"orthographic"}, r.orthographic...);
     visit(Field{.key = "leaving", .undone = false}, r.leaving...);
 }
 

@@ -148,7 +148,8 @@ struct Commands {
     std::optional<Tools> tools;
     std::optional<ClipPlane> clip;
     std::optional<Ruler> ruler;
-    std::optional<bool> leaving; ///< the user is asked whether to leave
+    std::optional<bool> orthographic; ///< desktop screens show the data in parallel projection
+    std::optional<bool> leaving;      ///< the user is asked whether to leave
     bool screenshot = false;
     bool quit = false;
     bool undo = false; ///< the settings of this frame take back those of the newest change

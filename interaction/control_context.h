@@ -70,9 +70,11 @@ struct ControlContext {
     Tools tools;
     ToolState state;
     DataFrame data;
-    SurfaceFinder find_surface;     ///< among what is shown; may be empty
-    bool leaving = false;           ///< the user is being asked
-    const Commands* undo = nullptr; ///< what takes the newest change back; null: nothing to undo
+    SurfaceFinder find_surface; ///< among what is shown; may be empty
+    bool orthographic = false;
+    const Commands* start = nullptr; ///< what leads back to how the data were seen at the start
+    bool leaving = false;            ///< the user is being asked
+    const Commands* undo = nullptr;  ///< what takes the newest change back; null: nothing to undo
     const Commands* redo = nullptr;
 };
 

@@ -68,8 +68,14 @@ struct Controls::State {
                     double seconds) {
         const bool shift = now.key(Action::shift);
         const double range = context.high - context.low;
-        const int keys = isovalue_up.presses(now.key(Action::isovalue_up), time) -
-                         isovalue_down.presses(now.key(Action::isovalue_down), time);
+        // Recordings of older versions move the wand's valuator with the same keys.
+        const bool moved = now.wand_rate(WandValuator::isovalue) != 0;
+        const auto down = [&](Action key, Action page) {
+            return now.key(key) || (now.key(page) && !moved);
+        };
+        const int keys =
+            isovalue_up.presses(down(Action::isovalue_up, Action::isovalue_rise), time) -
+            isovalue_down.presses(down(Action::isovalue_down, Action::isovalue_fall), time);
         const double wheel =
             now.key(Action::control) ? Reading::valuator(now.mouse, kMouseWheel) : 0.0;
         const double rate = now.wand_rate(WandValuator::isovalue) +
@@ -165,6 +171,8 @@ struct Controls::State {
             const bool wraps = found == modes.end() || found + 1 == modes.end();
             commands.stereo = wraps ? modes.front() : *(found + 1);
         }
+        if (now.pressed(Action::orthographic))
+            commands.orthographic = !context.orthographic;
         if (now.pressed(Action::bounding_box))
             commands.bounding_box = !context.bounding_box;
         if (now.pressed(Action::next_surface) && context.isosurfaces > 1)
@@ -269,6 +277,8 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     s.choose_tools(now, context, commands);
     s.made = s.with_tools(now, context, volume);
     merge(commands, s.made.commands);
+    if (now.pressed(Action::reset) && context.start)
+        merge(commands, *context.start);
     s.take_back(now, context, commands);
     return commands;
 }

@@ -295,12 +295,8 @@ InputState DesktopEmulation::poll(Seconds now) {
     const std::uint64_t wand_buttons =
         (s.shown(grab) || s.presses_panel || s.tapped_panel ? bit(WandButton::grab) : 0) |
         (s.shown(fly) ? bit(WandButton::fly) : 0);
-    const float slow = s.shown(shift) ? 0.1f : 1.0f;
-    input.devices.push_back({"wand",
-                             s.wand(head),
-                             true,
-                             wand_buttons,
-                             {slow * s.axis(isovalue_rise, isovalue_fall), s.axis(grow, shrink)}});
+    input.devices.push_back(
+        {"wand", s.wand(head), true, wand_buttons, {0.0f, s.axis(grow, shrink)}});
     input.devices.push_back({"mouse",
                              std::nullopt,
                              true,

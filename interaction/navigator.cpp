@@ -1,6 +1,8 @@
 // Mouse, keys, stick and gamepad move the volume.
 #include "interaction/navigator.h"
 
+#include "interaction/axis_views.h"
+
 #include <utility>
 
 namespace isochron::interaction {
@@ -16,6 +18,7 @@ constexpr double kTurnAt = 0.7;           ///< deflection that turns
 constexpr double kTurnAgain = 0.3;        ///< and below which the next one is armed
 constexpr double kGrowth = 2.0;           ///< scale per second
 constexpr double kTeleportReach = 20.0;   ///< [m] of the wand's ray
+constexpr double kAheadOf = 0.6;          ///< [rad] off the way ahead
 constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  ///< of the room
 
 /// A head that is not finite turns nothing.
@@ -100,9 +103,26 @@ bool aims(const Reading& now) {
     return now.key(Action::teleport) || now.wand_button(WandButton::teleport);
 }
 
+/// Who points with a cursor aims along the eye's ray.
 std::optional<glm::dvec3> aimed_at(const Reading& now) {
-    const auto wand = Reading::hand(now.wand);
-    return wand ? floor_point(*wand, kTeleportReach) : std::nullopt;
+    const auto eye = Reading::hand(now.pointer);
+    const auto ray = eye ? eye : Reading::hand(now.wand);
+    return ray ? floor_point(*ray, kTeleportReach) : std::nullopt;
+}
+
+/// Turned about the viewer until the data are ahead, where they would be beside or behind; who
+/// stands in them sees them anyway.
+Similarity kept_in_sight(const Similarity& volume, const ControlContext& context,
+                         const Pose& viewer) {
+    glm::dvec3 way = transform(volume, context.pivot) - glm::dvec3(viewer.position);
+    way.y = 0;
+    const double size = context.data.longest_side() * volume.scale;
+    if (glm::length(way) < 0.75 * size)
+        return volume;
+    const double off = std::atan2(-way.x, -way.z) - heading(viewer);
+    const double angle = std::remainder(off, 2 * 3.14159265358979);
+    return std::abs(angle) < kAheadOf ? volume
+                                      : turned(volume, glm::dvec3(viewer.position), kUp, -angle);
 }
 
 } // namespace
@@ -122,6 +142,13 @@ std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlCon
     if (now.pressed(Action::next_view) || now.pressed(WandButton::next_view) ||
         now.pressed(GamepadButton::right_thumb))
         return next_view(context);
+    const bool axis = now.pressed(Action::axis_view);
+    if (can_see(now) && (axis || now.pressed(Action::isometric_view))) {
+        const std::size_t view =
+            axis ? axis_view_after(context.room_from_physical, now.viewer()) : kIsometric;
+        return seen_from(axis_views()[view], context.room_from_physical, context.pivot,
+                         now.viewer());
+    }
     return std::nullopt;
 }
 
@@ -145,7 +172,8 @@ Similarity Navigator::stepped(const Reading& now, Similarity volume) {
 
 /// While the button is held the wand's ray shows the place; letting go brings the place to the
 /// viewer's feet.
-Similarity Navigator::teleported(const Reading& now, const Similarity& volume) {
+Similarity Navigator::teleported(const Reading& now, const ControlContext& context,
+                                 const Similarity& volume) {
     if (aims(now)) {
         teleport_target_ = aimed_at(now);
         return volume;
@@ -154,7 +182,8 @@ Similarity Navigator::teleported(const Reading& now, const Similarity& volume) {
     if (!target || !can_see(now))
         return volume;
     const glm::vec3 eyes = now.viewer().position;
-    return moved(volume, glm::dvec3(eyes.x, 0, eyes.z) - *target);
+    return kept_in_sight(moved(volume, glm::dvec3(eyes.x, 0, eyes.z) - *target), context,
+                         now.viewer());
 }
 
 Similarity Navigator::update(const Reading& now, const ControlContext& context, double seconds,
@@ -167,7 +196,7 @@ Similarity Navigator::update(const Reading& now, const ControlContext& context, 
         volume = dragged(now, context, drag_taken, volume);
         volume = flown(now, volume, seconds);
         volume = stepped(now, volume);
-        volume = teleported(now, volume);
+        volume = teleported(now, context, volume);
         volume = resized(now, context, volume, seconds);
     }
     return is_valid(volume) ? volume : context.room_from_physical;

@@ -25,7 +25,8 @@ class Navigator {
   private:
     static std::optional<Similarity> chosen(const Reading& now, const ControlContext& context);
     Similarity stepped(const Reading& now, Similarity volume);
-    Similarity teleported(const Reading& now, const Similarity& volume);
+    Similarity teleported(const Reading& now, const ControlContext& context,
+                          const Similarity& volume);
     bool turn_armed_ = true; ///< the turning valuator has been at rest since it last turned
     std::optional<glm::dvec3> teleport_target_;
 };

@@ -8,6 +8,8 @@
 namespace isochron::interaction {
 namespace {
 
+constexpr float kAside =
+    0.42f; ///< [rad] to the left of the way ahead, so that the data stay in sight
 constexpr float kGaze = 0.26f;   ///< [rad] below the horizon, where eyes rest: 15 degrees
 constexpr float kEdgeOn = 0.05f; ///< cosine to the normal below which nobody can read or point
 constexpr float kInSight = 0.7f; ///< cosine of the angle off the way ahead, up to which it is there
@@ -51,6 +53,11 @@ Pose ahead_of(const Pose& head, float distance) {
     return facing(head.position + distance * way, head.position);
 }
 
+Pose beside(const Pose& head, float distance) {
+    const glm::vec3 ahead = ahead_of(head, distance).position - head.position;
+    return facing(head.position + glm::angleAxis(kAside, kRoomUp) * ahead, head.position);
+}
+
 RoomPanel called(const RoomPanel& panel, const Pose& head, float distance) {
     if (!is_finite(head))
         return panel;
@@ -61,7 +68,7 @@ RoomPanel called(const RoomPanel& panel, const Pose& head, float distance) {
     const bool reads = glm::dot(panel.pose.orientation * glm::vec3(0, 0, 1), to_panel) < 0.0f;
     if (panel.shown && in_sight && reads && away < kInReach * distance)
         return {false, panel.pose};
-    return {true, ahead_of(head, distance)};
+    return {true, beside(head, distance)};
 }
 
 } // namespace isochron::interaction

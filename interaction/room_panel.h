@@ -42,6 +42,8 @@ Pose facing(const glm::vec3& middle, const glm::vec3& eyes);
 /// that eyes rest on it.
 /// @param distance [m] from the eyes
 Pose ahead_of(const Pose& head, float distance);
+/// Likewise to the left of the way ahead, where it does not stand before the data.
+Pose beside(const Pose& head, float distance);
 
 /// What calling for the panel leads to: it comes to where it can be read, or goes if it is there.
 RoomPanel called(const RoomPanel& panel, const Pose& head, float distance);

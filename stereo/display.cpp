@@ -60,8 +60,11 @@ void Display::draw_viewport(std::size_t number, const ViewerPose& viewer, const 
     std::vector<render::View> views;
     for (const Eye eye : eyes_of(mode_)) {
         const glm::ivec2 size = region_of(viewport, place_of(eye, mode_)).size;
-        views.push_back(view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
-                                options_.near_plane, options_.far_plane, size));
+        views.push_back(viewer.parallel > 0 && viewport.screen.fit_aspect
+                            ? parallel_view_of(viewport.screen, viewer.head, viewer.parallel,
+                                               options_.far_plane, size)
+                            : view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
+                                      options_.near_plane, options_.far_plane, size));
         views.back().corner = corner_in_target(views.size() - 1, size);
     }
     draw_views(*gl_, targets_[number], views.back().corner + views.back().size, options_, views,
@@ -118,6 +121,9 @@ std::optional<interaction::Pose> Display::ray_at(std::span<const ViewerPose> vie
             if (!(local.x >= 0 && local.x <= 1 && local.y >= 0 && local.y <= 1))
                 continue;
             const ViewerPose& viewer = viewers[viewport.viewer];
+            if (viewer.parallel > 0 && viewport.screen.fit_aspect)
+                return parallel_ray_through(viewport.screen, viewer.head, viewer.parallel,
+                                            region.size, local);
             return ray_through(viewport.screen, viewer.head,
                                shared ? Eye::center : place_of(place, mode_), viewer.eye_separation,
                                region.size, local);

@@ -30,6 +30,9 @@ namespace isochron::stereo {
 struct ViewerPose {
     interaction::Pose head;
     float eye_separation = 0; ///< [m]
+    /// Desktop screens show a parallel projection, alike to both eyes, in which what is so far away
+    /// [m] is as large as in perspective; 0: they do not.
+    float parallel = 0;
     bool operator==(const ViewerPose&) const = default;
 };
 

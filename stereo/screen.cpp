@@ -58,21 +58,22 @@ glm::dvec3 in_front(const Plane& plane, glm::dvec3 position) {
     return distance < kNearestEye ? position + (kNearestEye - distance) * plane.normal : position;
 }
 
-bool finite(glm::vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+/// As much of the room as the plane shows of what is so far from the head.
+Plane widened(Plane plane, const interaction::Pose& head, float distance) {
+    const glm::dvec3 eyes = in_front(plane, head.position);
+    const double wider = distance / glm::dot(eyes - plane.middle, plane.normal);
+    plane.half_width *= wider;
+    plane.half_height *= wider;
+    return plane;
 }
 
-} // namespace
-
-glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separation) {
-    const float side = eye == Eye::left ? -0.5f : eye == Eye::right ? 0.5f : 0.0f;
-    return head.position + head.orientation * glm::vec3(side * eye_separation, 0.0f, 0.0f);
+/// From where all lines of sight are as good as parallel.
+glm::dvec3 far_from(const Plane& plane) {
+    return plane.middle + static_cast<double>(kFarEye) * plane.normal;
 }
 
-render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
-                     float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels) {
-    const Plane plane = plane_in_room(screen, head, pixels);
-    const glm::dvec3 position = in_front(plane, eye_position(head, eye, eye_separation));
+render::View view_from(const glm::dvec3& position, const Plane& plane, float near_plane,
+                       float far_plane, glm::ivec2 pixels) {
     const double distance = glm::dot(position - plane.middle, plane.normal);
     const glm::dvec3 to_middle = plane.middle - position;
     const double x = glm::dot(to_middle, plane.right), y = glm::dot(to_middle, plane.up);
@@ -87,6 +88,45 @@ render::View view_of(const Screen& screen, const interaction::Pose& head, Eye ey
     return {glm::mat4(clip_from_eye), glm::mat4(eye_from_room), pixels};
 }
 
+/// From a position through a place of the plane.
+interaction::Pose ray_from(const glm::dvec3& position, const glm::dvec3& place,
+                           const Plane& plane) {
+    const glm::dvec3 back = glm::normalize(position - place);
+    const glm::dvec3 right = glm::normalize(glm::cross(plane.up, back));
+    const glm::dquat turn = glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back));
+    return {glm::vec3(position), glm::normalize(glm::quat(turn))};
+}
+
+glm::dvec3 place_on(const Plane& plane, glm::vec2 at) {
+    return plane.middle + (2.0 * at.x - 1.0) * plane.half_width * plane.right +
+           (2.0 * at.y - 1.0) * plane.half_height * plane.up;
+}
+
+bool finite(glm::vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+} // namespace
+
+glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separation) {
+    const float side = eye == Eye::left ? -0.5f : eye == Eye::right ? 0.5f : 0.0f;
+    return head.position + head.orientation * glm::vec3(side * eye_separation, 0.0f, 0.0f);
+}
+
+render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
+                     float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels) {
+    const Plane plane = plane_in_room(screen, head, pixels);
+    return view_from(in_front(plane, eye_position(head, eye, eye_separation)), plane, near_plane,
+                     far_plane, pixels);
+}
+
+render::View parallel_view_of(const Screen& screen, const interaction::Pose& head, float distance,
+                              float far_plane, glm::ivec2 pixels) {
+    const Plane plane = widened(plane_in_room(screen, head, pixels), head, distance);
+    return view_from(far_from(plane), plane, kFarEye - std::min(far_plane, 0.9f * kFarEye),
+                     kFarEye + far_plane, pixels);
+}
+
 std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction::Pose& head,
                                          glm::ivec2 pixels) {
     const Plane plane = plane_in_room(screen, head, pixels);
@@ -99,13 +139,18 @@ std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction
 interaction::Pose ray_through(const Screen& screen, const interaction::Pose& head, Eye eye,
                               float eye_separation, glm::ivec2 pixels, glm::vec2 at) {
     const Plane plane = plane_in_room(screen, head, pixels);
-    const glm::dvec3 position = in_front(plane, eye_position(head, eye, eye_separation));
-    const glm::dvec3 place = plane.middle + (2.0 * at.x - 1.0) * plane.half_width * plane.right +
-                             (2.0 * at.y - 1.0) * plane.half_height * plane.up;
-    const glm::dvec3 back = glm::normalize(position - place);
-    const glm::dvec3 right = glm::normalize(glm::cross(plane.up, back));
-    const glm::dquat turn = glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back));
-    return {glm::vec3(position), glm::normalize(glm::quat(turn))};
+    return ray_from(in_front(plane, eye_position(head, eye, eye_separation)), place_on(plane, at),
+                    plane);
+}
+
+interaction::Pose parallel_ray_through(const Screen& screen, const interaction::Pose& head,
+                                       float distance, glm::ivec2 pixels, glm::vec2 at) {
+    const Plane plane = widened(plane_in_room(screen, head, pixels), head, distance);
+    const glm::dvec3 place = place_on(plane, at);
+    const glm::dvec3 way = glm::normalize(far_from(plane) - place);
+    const glm::dvec3 eyes = in_front(plane, head.position);
+    const double away = glm::dot(eyes - plane.middle, plane.normal);
+    return ray_from(place + away * way, place, plane);
 }
 
 glm::vec2 size_of(const Screen& screen) {

@@ -37,6 +37,15 @@ glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separat
 render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
                      float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels);
 
+/// How far in front of a screen the eye of a parallel projection stands [m]: over a volume of 1.5 m
+/// sizes differ by less than 0.4 %.
+constexpr float kFarEye = 500.0f;
+
+/// The parallel projection of what is within `far_plane` [m] of the screen's plane, along its normal.
+/// @param distance from the head [m] at which things are as large as in perspective
+render::View parallel_view_of(const Screen& screen, const interaction::Pose& head, float distance,
+                              float far_plane, glm::ivec2 pixels);
+
 /// The corners in the room, as `view_of` has them: carried along with the head, and fitted to the
 /// picture's aspect where the screen asks for it. Lower left, upper left, upper right, lower right.
 std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction::Pose& head,
@@ -47,6 +56,10 @@ std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction
 /// @param pixels of the picture, as `view_of` takes them
 interaction::Pose ray_through(const Screen& screen, const interaction::Pose& head, Eye eye,
                               float eye_separation, glm::ivec2 pixels, glm::vec2 at);
+
+/// The same of a parallel projection; it starts as far from the screen as the head is.
+interaction::Pose parallel_ray_through(const Screen& screen, const interaction::Pose& head,
+                                       float distance, glm::ivec2 pixels, glm::vec2 at);
 
 /// Width and height [m].
 glm::vec2 size_of(const Screen& screen);

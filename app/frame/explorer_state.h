@@ -28,6 +28,7 @@ struct ExplorerState {
     interaction::Tools tools;
     interaction::ClipPlane clip;
     interaction::Ruler ruler;
+    bool orthographic = false; ///< desktop screens show a parallel projection
     bool leaving = false; ///< the user is asked whether to leave
     bool grid = false;    ///< of the floor
     std::vector<interaction::Viewpoint> views;

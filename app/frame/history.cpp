@@ -1,6 +1,9 @@
 // Steps of undo and redo.
 #include "app/frame/history.h"
 
+#include "interaction/actions.h"
+#include "interaction/navigation.h"
+
 #include "interaction/command_fields.h"
 
 #include <algorithm>
@@ -69,8 +72,24 @@ void History::add_change(const ExplorerState& before, const ExplorerState& after
     future_.clear();
 }
 
-void History::add(const ExplorerState& before, const ExplorerState& after,
+/// What is taken back is what was seen: where a key has moved the emulated head as well, the data as
+/// they were to it stand before it again.
+ExplorerState History::as_seen(ExplorerState before, const interaction::InputState& input) const {
+    const interaction::DeviceState* head = input.find("head");
+    const interaction::DeviceState* keys = input.find("keys");
+    const bool emulated = input.find("pointer") != nullptr;
+    if (emulated && head_ && head && head->pose && keys &&
+        (keys->buttons & bit(interaction::Action::reset)))
+        before.room_from_physical =
+            interaction::carried(before.room_from_physical, *head_, *head->pose);
+    return before;
+}
+
+void History::add(const ExplorerState& earlier, const ExplorerState& after,
                   const interaction::Commands& commands, const interaction::InputState& input) {
+    const ExplorerState before = as_seen(earlier, input);
+    if (const interaction::DeviceState* head = input.find("head"))
+        head_ = head->pose;
     if (commands.undo && !past_.empty()) {
         future_.push_back(before);
         past_.pop_back();

@@ -34,6 +34,7 @@ class History {
     bool has_changes() const { return !past_.empty(); }
 
   private:
+    ExplorerState as_seen(ExplorerState before, const interaction::InputState& input) const;
     void add_change(const ExplorerState& before, const ExplorerState& after,
                     const interaction::InputState& input);
     bool continues(std::uint64_t fields, const interaction::InputState& input) const;
@@ -43,7 +44,8 @@ class History {
     std::optional<interaction::Commands> undo_, redo_;
     std::uint64_t fields_ = 0; ///< of the newest change, a bit each; 0: it is complete
     interaction::Seconds changed_{0};
-    bool held_ = false; ///< some button, in every frame since
+    bool held_ = false;                     ///< some button, in every frame since
+    std::optional<interaction::Pose> head_; ///< in the frame before
 };
 
 } // namespace isochron::app

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 
 namespace isochron::app {
@@ -76,13 +78,17 @@ std::vector<std::string> live_stereo_modes(const stereo::Windows& windows) {
 
 std::vector<stereo::ViewerPose> viewer_poses(const stereo::Installation& installation,
                                              const interaction::InputState& input,
-                                             float eye_separation) {
+                                             float eye_separation,
+                                             const std::optional<glm::dvec3>& center) {
     std::vector<stereo::ViewerPose> found;
     for (const stereo::Viewer& viewer : installation.viewers) {
         const interaction::DeviceState* head = input.find(viewer.head);
         const interaction::Pose waiting{viewer.position, {1.0f, 0.0f, 0.0f, 0.0f}};
-        found.push_back({head && head->pose ? *head->pose : waiting,
-                         eye_separation_of(viewer, installation, eye_separation)});
+        const interaction::Pose pose = head && head->pose ? *head->pose : waiting;
+        constexpr double kNearest = 0.1; // [m]
+        const double away = center ? glm::distance(*center, glm::dvec3(pose.position)) : 0.0;
+        found.push_back({pose, eye_separation_of(viewer, installation, eye_separation),
+                         center ? static_cast<float>(std::max(away, kNearest)) : 0.0f});
     }
     return found;
 }

@@ -6,6 +6,7 @@
 #include "stereo/windows.h"
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,10 @@ std::vector<std::string> live_stereo_modes(const stereo::Windows& windows);
 
 /// Where the eyes are: each viewer's head, or until it is tracked the configured place.
 /// @param eye_separation chosen live, of the first viewer [m]
+/// @param center of the data in the room, where desktop screens show them in parallel projection
 std::vector<stereo::ViewerPose> viewer_poses(const stereo::Installation& installation,
                                              const interaction::InputState& input,
-                                             float eye_separation);
+                                             float eye_separation,
+                                             const std::optional<glm::dvec3>& center = {});
 
 } // namespace isochron::app

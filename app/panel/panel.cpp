@@ -7,6 +7,7 @@
 #include "app/panel/panel_tools.h"
 #include "app/scene/mark.h"
 #include "app/text.h"
+#include "interaction/axis_views.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -112,9 +113,14 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
                             slider_format(model.info.value_unit).c_str()))
         commands.isovalue = value;
     const auto& shown = model.frame.shown;
+    const double asked = model.asked.isovalue();
+    if (asked < model.stats.low || asked > model.stats.high)
+        return state_note(fmt::format("beyond the data, {} to {}: nothing is there",
+                                      human_number(model.stats.low),
+                                      with_unit(model.stats.high, model.info.value_unit)),
+                          kWarning);
     state_note(
-        fmt::format("isovalue: asked {}   shown {}",
-                    with_unit(model.asked.isovalue(), model.info.value_unit),
+        fmt::format("isovalue: asked {}   shown {}", with_unit(asked, model.info.value_unit),
                     shown ? with_unit(shown->isovalues[shown_surface(model)], model.info.value_unit)
                           : "nothing yet"),
         kDim);
@@ -180,6 +186,23 @@ void time_section(const PanelModel& model, Commands& commands) {
     ImGui::EndDisabled();
 }
 
+void view_buttons(const PanelModel& model, Commands& commands) {
+    for (std::size_t i = 0; i < interaction::kAxisViews; ++i) {
+        const interaction::AxisView& view = interaction::axis_views()[i];
+        if (ImGui::SmallButton(view.name))
+            commands.room_from_physical = seen_from(view, model.asked.room_from_physical,
+                                                    physical_center(model.info.grid), model.head);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("see the data from there (8, 9)");
+        ImGui::SameLine();
+    }
+    bool orthographic = model.asked.orthographic;
+    if (ImGui::Checkbox("parallel", &orthographic))
+        commands.orthographic = orthographic;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("parallel (orthographic) projection (0)");
+}
+
 void view_section(const PanelModel& model, Commands& commands) {
     int mode = static_cast<int>(model.asked.quality);
     ImGui::SetNextItemWidth(110.0f);
@@ -209,6 +232,9 @@ void view_section(const PanelModel& model, Commands& commands) {
         }
         ImGui::EndCombo();
     }
+    // In the room the data are walked around, and the panel has no line to spare.
+    if (model.place != PanelPlace::in_room)
+        view_buttons(model, commands);
     float millimeters = model.asked.eye_separation * 1000.0f;
     ImGui::SetNextItemWidth(-60.0f);
     if (ImGui::SliderFloat("eyes", &millimeters, 0.0f, interaction::kWidestEyes * 1000.0f,
@@ -282,13 +308,16 @@ void keys_and_mouse(const std::vector<std::string>& lines) {
 } // namespace
 
 std::string quality_line(const FrameReport& frame) {
-    std::string line = fmt::format("{}: {}", name_of(frame.pace), name_of(frame.footprint));
+    // In fast mode quads are drawn whether anything moves or not.
+    const bool fast = frame.reason == QualityReason::fast_mode;
+    std::string line =
+        fmt::format("{}: {}", fast ? "fast" : name_of(frame.pace), name_of(frame.footprint));
     if (frame.expected)
         line += fmt::format(", {:.1f} of {:.1f} ms", frame.expected->count(), frame.budget.count());
     if (frame.reason == QualityReason::over_budget && frame.better)
         line += fmt::format(" (better takes {:.1f})", frame.better->count());
     // That it moves or fits is said by the line already.
-    else if (frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
+    else if (!fast && frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
         line += fmt::format(" ({})", name_of(frame.reason));
     return line;
 }

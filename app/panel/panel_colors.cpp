@@ -24,7 +24,7 @@ Isosurface another(const PanelModel& model) {
     });
     const double low = model.stats.low, high = model.stats.high, picked = model.asked.isovalue();
     const double end = high / 2 - picked / 2 > picked / 2 - low / 2 ? high : low;
-    return {picked / 2 + end / 2, free == palette.end() ? palette.front() : *free, 0.5f};
+    return {picked / 2 + end / 2, free == palette.end() ? palette.front() : *free, 1.0f};
 }
 
 /// One line of the list. @return true when it is to be removed
@@ -84,6 +84,10 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
     }
     if (surfaces.size() < interaction::kMostIsosurfaces && ImGui::SmallButton("add a surface")) {
         commands.picked = static_cast<std::uint32_t>(surfaces.size());
+        // Seen at once: through those that may lie around it.
+        constexpr float kSeenThrough = 0.45f;
+        for (Isosurface& surface : surfaces)
+            surface.opacity = std::min(surface.opacity, kSeenThrough);
         surfaces.push_back(another(model));
     }
     if (surfaces != model.asked.isosurfaces)

@@ -246,7 +246,8 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
     Commands commands;
     area_ = {};
-    if (model.asked.panel || model.place != PanelPlace::over)
+    // The panel in the room stands for the one over the picture.
+    if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
         commands = draw_panel(model, area_);
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);

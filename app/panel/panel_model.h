@@ -40,6 +40,7 @@ struct PanelModel {
     const interaction::Commands* undo = nullptr; ///< null: there is nothing to undo
     const interaction::Commands* redo = nullptr;
     interaction::DataFrame data;
+    interaction::Pose head;     ///< of the first viewer
     bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
 };
 

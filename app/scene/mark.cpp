@@ -36,8 +36,7 @@ void read_out(std::span<const std::string> lines, const glm::vec4& first, const 
         width = std::max(width, render::text_width(text.atlas(), line));
     const float top = kRow * static_cast<float>(lines.size());
     text.fill(in_room, height * glm::vec2(kOff - kPad, kOff - kPad),
-              height * glm::vec2(kOff + width + kPad, kOff + top + kPad), kMarkPaper,
-              quads);
+              height * glm::vec2(kOff + width + kPad, kOff + top + kPad), kMarkPaper, quads);
     for (std::size_t i = 0; i < lines.size(); ++i)
         text.set({.text = lines[i],
                   .at = in_room,

@@ -5,6 +5,7 @@
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
 #include "app/scene/mark.h"
+#include "app/scene/orientation.h"
 #include "interaction/navigation.h"
 #include "render/gl/driver.h"
 #include "render/gl/shader.h"
@@ -159,6 +160,17 @@ void Scene::draw_pointed(const render::View& view,
                     render::TextPass::Depth::none);
 }
 
+void Scene::draw_orientation(const render::View& view,
+                             const interaction::Similarity& room_from_physical) {
+    const Orientation shown = orientation_in(view, room_from_physical, info_, text_pass_);
+    const render::View pixels = render::pixel_view(view);
+    gl_.DepthRange(0.0, 0.0); // before all that has been drawn
+    for (const render::Line& line : shown.lines)
+        line_pass_.draw(pixels, glm::mat4(1.0f), std::span(&line, 1), 2.5f);
+    gl_.DepthRange(0.0, 1.0);
+    text_pass_.draw(pixels, glm::mat4(1.0f), shown.quads, render::TextPass::Depth::none);
+}
+
 /// Over the surface that it lies on, but not over the panel.
 void Scene::draw_mark(const render::View& view, const interaction::Similarity& room_from_physical) {
     const glm::vec3 at(interaction::transform(room_from_physical, mark_.point->position));
@@ -268,6 +280,8 @@ void Scene::draw_over_cells(const render::View& view,
     text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
                     legend_quads({surfaces_, info_.value_unit, scale_}, text_pass_, view.size),
                     render::TextPass::Depth::none);
+    if (orientation_)
+        draw_orientation(view, room_from_physical);
     if (!caption_.empty())
         text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
                         caption_quads(caption_, text_pass_, view.size),

@@ -53,6 +53,8 @@ class Scene {
     void set_pointed(const std::optional<interaction::Pointed>& pointed) { pointed_ = pointed; }
     /// What is drawn for tools, and the plane that cuts the surfaces.
     void set_tools(const interaction::ToolDrawing& drawing, const interaction::ClipPlane& clip);
+    /// The data's axes and a bar of a round length stand in a corner.
+    void set_orientation(bool shown) { orientation_ = shown; }
     /// Words in the corner of the picture; empty: none.
     void set_caption(const std::string& words) { caption_ = words; }
     void set_veil(const render::Veil& veil) { veil_ = veil; }
@@ -94,6 +96,8 @@ class Scene {
     std::optional<glm::vec4> cut_in(const interaction::Similarity& room_from_physical) const;
     void draw_panel(const render::View& view);
     void draw_tools(const render::View& view, const interaction::Similarity& room_from_physical);
+    void draw_orientation(const render::View& view,
+                          const interaction::Similarity& room_from_physical);
     bool hidden_by_panel(const render::View& view, const glm::vec3& at) const;
 
     const render::Gl& gl_;
@@ -116,6 +120,7 @@ class Scene {
     interaction::Mark mark_;
     std::optional<interaction::Pointed> pointed_;
     std::string caption_;
+    bool orientation_ = false;
     interaction::ToolDrawing tools_;
     interaction::ClipPlane clip_;
     render::VeilPass veil_pass_;

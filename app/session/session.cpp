@@ -1,12 +1,9 @@
 // One session: the data, the worker, the eyes, and the story of one frame.
 #include "app/session/session.h"
 
-#include "app/scene/caption.h"
 #include "app/session/start_state.h"
 #include "interaction/navigator.h"
 #include "interaction/tool_table.h"
-
-#include <fmt/format.h>
 
 #include <chrono>
 #include <utility>
@@ -96,13 +93,28 @@ interaction::ControlContext Session::control_context() const {
     context.find_surface = [this](const interaction::Pose& ray) {
         return picker_.hit_by(ray, state_, scene_.shown());
     };
+    context.orthographic = state_.orthographic;
+    context.start = &start_;
     context.leaving = state_.leaving;
     context.undo = history_.undo();
     context.redo = history_.redo();
     return context;
 }
 
+/// What leads back to the start. Displays, viewpoints and tools stay as they were chosen.
+Commands Session::way_to_start() const {
+    Commands way = state_.commands_to(home_);
+    way.quality.reset();
+    way.stereo.reset();
+    way.views.reset();
+    way.tools.reset();
+    way.steps.reset();
+    way.follow.reset();
+    return way;
+}
+
 Commands Session::commands_from(const interaction::InputState& input) {
+    start_ = way_to_start();
     PanelInRoom::Outcome panel = room_panel_.outcome(input, state_.room_panel);
     interaction::ControlContext context = control_context();
     if (panel.touched) // the wand points at what is nearer than the data
@@ -165,15 +177,6 @@ std::optional<ColorScale> Session::shown_scale() const {
     return color_scale(state_, *file_);
 }
 
-/// Whether the windows show the scene themselves: always, but beside a headset only once it has
-/// wanted no picture for a moment.
-bool Session::in_windows(const FrameReport& report) {
-    constexpr interaction::Seconds kMoment{0.5};
-    if (!outputs_.headset_eyes().empty())
-        in_headset_ = report.time;
-    return !in_headset_ || report.time - *in_headset_ > kMoment;
-}
-
 void Session::set_headset_period(std::optional<interaction::Seconds> period) {
     quality_.set_headset_period(period ? std::optional(Milliseconds(*period)) : std::nullopt);
 }
@@ -184,7 +187,8 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
     const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
     const auto pointed = picker_.pointed(input, !room_panel_.touched(), state_, scene_.shown());
     return {
-        .audience = {.viewers = viewer_poses(config_.installation, input, state_.eye_separation),
+        .audience = {.viewers = viewer_poses(config_.installation, input, state_.eye_separation,
+                                             parallel_center()),
                      .eyes = outputs_.headset_eyes(),
                      .wand = wand ? wand->pose : std::nullopt,
                      .panel = room_panel_.shown(state_.room_panel),
@@ -205,7 +209,7 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
         .scale = shown_scale(),
         .bounding_box = state_.bounding_box,
         .windows = outputs_.window_sizes(),
-        .free = state_.panel
+        .free = flat_panel()
                     ? panel_.covered(outputs_.windows()[0].framebuffer_size().x / panel_places().x)
                     : 0};
 }
@@ -278,34 +282,6 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
         outputs_.draw_again(now.audience, panel);
     }
     outputs_.draw_room(input, panel);
-}
-
-void Session::draw_views(const ScenePlace& place, std::span<const render::View> views) {
-    const bool aids = !place.kept || config_.picture_ray;
-    scene_.set_pointed(aids ? drawn_->pointed : std::nullopt);
-    scene_.set_caption(place.kept && config_.picture_caption && scene_.shown()
-                           ? caption_text(scene_.shown()->query, file_->info())
-                           : std::string());
-    scene_.draw(views, drawn_->room_from_physical, drawn_->footprint,
-                aids ? drawn_->audience.wand : std::nullopt);
-}
-
-PictureNote Session::note() const {
-    PictureNote note;
-    note.data = data_name_;
-    note.data_hash = fmt::format("{:016x}", file_->content_hash());
-    note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
-    ExplorerState state = state_;
-    if (const index::ExtractionPtr& shown = scene_.shown()) { // while time plays, it may lag
-        state.step = shown->query.step;
-        for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
-             ++i)
-            state.isosurfaces[i].isovalue = shown->query.isovalues[i];
-    }
-    note.state = state.as_commands();
-    note.input = input_;
-    note.latched = latched_;
-    return note;
 }
 
 /// What others are told before a frame is shown.

@@ -133,6 +133,7 @@ class Session {
     interaction::ControlContext control_context() const;
     void grow_with(const interaction::Commands& commands);
     std::size_t steps() const { return state_.known_steps(file_->info().steps()); }
+    interaction::Commands way_to_start() const;
     void request_cells(Waiting waiting);
     void take_newest_cells(Waiting waiting, FrameReport& report);
     std::optional<ColorScale> shown_scale() const;
@@ -150,6 +151,10 @@ class Session {
     void draw_views(const ScenePlace& place, std::span<const render::View> views);
     OperatorPanel::Model panel_models(const FrameReport& report) const;
     glm::ivec2 panel_places() const;
+    bool on_desktop() const;
+    /// Of the data in the room, while they are shown in parallel projection.
+    std::optional<glm::dvec3> parallel_center() const;
+    bool flat_panel() const; ///< shown over the first window
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
 
     Config config_;
@@ -159,6 +164,7 @@ class Session {
     Outputs outputs_;
     ExplorerState state_;
     ExplorerState home_;
+    interaction::Commands start_; ///< what leads back to it
     interaction::Controls controls_;
     interaction::MotionGate gate_;
     interaction::Comfort comfort_;

@@ -1,6 +1,8 @@
 // A session's panels: what they are told, what they lead to, and where they lie.
 #include "app/session/session.h"
 
+#include "interaction/navigation.h"
+
 #include <utility>
 
 namespace isochron::app {
@@ -11,23 +13,34 @@ constexpr std::size_t kShownFrames = 120;
 
 } // namespace
 
+std::optional<glm::dvec3> Session::parallel_center() const {
+    if (!state_.orthographic)
+        return std::nullopt;
+    return interaction::transform(state_.room_from_physical, physical_center(file_->info().grid));
+}
+
+/// The one in the room replaces it.
+bool Session::flat_panel() const {
+    return state_.panel && !state_.room_panel.shown;
+}
+
 interaction::Commands Session::take_panel_commands() {
     return std::exchange(panel_commands_, {});
 }
 
 std::vector<interaction::WindowEvent>
 Session::panel_events(std::span<const interaction::WindowEvent> events) {
-    return panel_.feed(events, state_.panel || state_.leaving);
+    return panel_.feed(events, flat_panel() || state_.leaving);
 }
 
 std::optional<interaction::Pose> Session::ray_at(const interaction::MouseMoveEvent& cursor,
                                                  const interaction::Pose& head) const {
-    if ((state_.panel || state_.leaving) && panel_.covers(cursor))
+    if ((flat_panel() || state_.leaving) && panel_.covers(cursor))
         return std::nullopt;
     interaction::InputState emulated;
     emulated.devices.push_back({.name = "head", .pose = head, .valuators = {}});
-    return outputs_.ray_at(cursor,
-                           viewer_poses(config_.installation, emulated, state_.eye_separation));
+    return outputs_.ray_at(cursor, viewer_poses(config_.installation, emulated,
+                                                state_.eye_separation, parallel_center()));
 }
 
 PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) const {
@@ -54,6 +67,8 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .undo = history_.undo(),
             .redo = history_.redo(),
             .data = data_frame(file_->info()),
+            .head = outputs_.audience().viewers.empty() ? interaction::Pose{}
+                                                        : outputs_.audience().viewers.front().head,
             .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
 }
 

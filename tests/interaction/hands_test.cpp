@@ -160,6 +160,42 @@ TEST(Navigator, TeleportBringsThePointedPlaceToTheFeet) {
     EXPECT_TRUE(desk.frame({head_at(head), wand_at(wand)}).empty());
 }
 
+TEST(Navigator, TeleportFollowsTheEyesRayUnderTheCursor) {
+    const Pose eye{{0, 1.6f, 0}, glm::angleAxis(-0.6f, glm::vec3(1, 0, 0))};
+    DeviceState pointer{.name = "pointer", .pose = eye, .valuators = {}};
+    const Pose wand{{0.2f, 1.2f, 0}, glm::angleAxis(-1.2f, glm::vec3(1, 0, 0))};
+    const auto target =
+        teleport_target({Seconds(0), {wand_at(wand, bit(WandButton::teleport)), pointer}});
+    ASSERT_TRUE(target);
+    expect_near(*target, *floor_point(eye, 20), 1e-9);
+}
+
+/// From anywhere to anywhere: who does not stand in the data sees them ahead.
+TEST(Navigator, ATeleportNeverLeavesTheDataOutOfSight) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> place(-6, 6), turn(-3.1f, 3.1f), down(-1.4f, -0.2f);
+    int turned = 0;
+    for (int i = 0; i < 500; ++i) {
+        Desk desk;
+        const Pose head{{place(random), 1.7f, place(random)},
+                        glm::angleAxis(turn(random), glm::vec3(0, 1, 0))};
+        const Pose wand{head.position + glm::vec3(0, -0.5f, 0),
+                        glm::angleAxis(turn(random), glm::vec3(0, 1, 0)) *
+                            glm::angleAxis(down(random), glm::vec3(1, 0, 0))};
+        desk.frame({head_at(head), wand_at(wand, bit(WandButton::teleport))});
+        const Similarity before = desk.volume();
+        desk.frame({head_at(head), wand_at(wand)});
+        glm::dvec3 way = desk.center() - glm::dvec3(head.position);
+        way.y = 0;
+        if (glm::length(way) < 0.75 * 0.6)
+            continue; // in the data
+        const double off = std::remainder(std::atan2(-way.x, -way.z) - heading(head), 6.283185307);
+        EXPECT_LT(std::abs(off), 0.61) << i;
+        turned += glm::length(before.rotation - desk.volume().rotation) > 1e-6;
+    }
+    EXPECT_GT(turned, 100);
+}
+
 TEST(Navigator, RecenterPutsTheVolumeAheadOfTheViewer) {
     Desk desk;
     const Pose head{{2, 1.8f, -3}, glm::angleAxis(1.57079633f, glm::vec3(0, 1, 0))};

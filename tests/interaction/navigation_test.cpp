@@ -1,4 +1,5 @@
 // Devices move the volume: orbit, move, scale, fly, grab, reset.
+#include "interaction/axis_views.h"
 #include "tests/interaction/control_desk.h"
 
 #include <cmath>
@@ -156,6 +157,67 @@ TEST(Controls, ResetReturnsHome) {
     desk.tap(bit(Action::reset));
     EXPECT_EQ(desk.volume(), desk.context.home);
     EXPECT_FALSE(desk.tap(bit(Action::reset)).room_from_physical);
+}
+
+TEST(Controls, ResetLeadsBackToTheStartInEverything) {
+    Desk desk;
+    Commands start;
+    start.isovalue = 12;
+    start.orthographic = false;
+    start.clip = ClipPlane{};
+    desk.context.start = &start;
+    const Commands commands = desk.tap(bit(Action::reset));
+    EXPECT_EQ(commands.isovalue, 12);
+    EXPECT_EQ(commands.orthographic, false);
+    EXPECT_TRUE(commands.clip);
+    EXPECT_FALSE(desk.frame({head_at(kStanding), keys_down(0)}).isovalue);
+}
+
+TEST(Navigator, AxisViewsShowEachAxisTowardsTheEyeInTheMiddle) {
+    const Pose viewer{{0.4f, 1.5f, 0.2f}, glm::angleAxis(0.7f, glm::normalize(glm::vec3(1, 3, 0)))};
+    const Similarity from{
+        {0.3, 1.1, -1.7}, glm::angleAxis(1.1, glm::normalize(glm::dvec3(1, 2, 3))), 0.02};
+    const glm::dvec3 center(30, 25, 30);
+    const double away = glm::length(transform(from, center) - glm::dvec3(viewer.position));
+    for (const AxisView& view : axis_views()) {
+        const Similarity seen = seen_from(view, from, center, viewer);
+        EXPECT_EQ(seen.scale, from.scale);
+        const glm::dvec3 at = transform(seen, center);
+        const glm::dquat eye(viewer.orientation);
+        expect_near(at, glm::dvec3(viewer.position) + eye * glm::dvec3(0, 0, -away), 1e-6);
+        const glm::dvec3 towards = seen.rotation * glm::normalize(view.towards_eye);
+        expect_near(towards, eye * glm::dvec3(0, 0, 1), 1e-6);
+        EXPECT_GT(glm::dot(seen.rotation * view.up, eye * glm::dvec3(0, 1, 0)), 0.5) << view.name;
+    }
+}
+
+TEST(Controls, AKeyGoesThroughTheAxisViewsAndOneIsIsometric) {
+    Desk desk;
+    for (std::size_t i = 0; i < 2 * kIsometric; ++i) { // at first they are seen from +z
+        desk.tap(bit(Action::axis_view));
+        const Similarity expected =
+            seen_from(axis_views()[(i + 5) % kIsometric], desk.volume(), desk.context.pivot, kStanding);
+        EXPECT_LT(glm::length(desk.volume().rotation - expected.rotation), 1e-6) << i;
+    }
+    desk.tap(bit(Action::isometric_view));
+    EXPECT_EQ(desk.volume(),
+              seen_from(axis_views()[kIsometric], desk.volume(), desk.context.pivot, kStanding));
+    EXPECT_EQ(desk.tap(bit(Action::orthographic)).orthographic, true);
+}
+
+TEST(Controls, PageKeysMoveTheIsovalueByTheSameStepsAsArrows) {
+    Desk desk;
+    desk.tap(bit(Action::isovalue_rise));
+    EXPECT_DOUBLE_EQ(desk.context.isovalue, 51);
+    desk.tap(bit(Action::isovalue_fall) | bit(Action::shift));
+    EXPECT_DOUBLE_EQ(desk.context.isovalue, 50.9);
+    // Recordings of before moved the wand's valuator, which counts once.
+    Desk old;
+    DeviceState wand = wand_at(kStanding);
+    wand.valuators = {1.0f};
+    old.frame({head_at(kStanding), keys_down(0)});
+    old.frame({head_at(kStanding), wand, keys_down(bit(Action::isovalue_rise))}, 0.04);
+    EXPECT_NEAR(old.context.isovalue, 51, 1e-9) << "a quarter of the range in a second";
 }
 
 TEST(Controls, NothingEverMakesTheVolumeInvalid) {

@@ -80,11 +80,11 @@ TEST(RoomPanel, CallingItShowsItSendsItAwayAndFetchesItFromBehind) {
     const Pose turned{kStanding.position, glm::angleAxis(3.0f, glm::vec3(0, 1, 0))};
     const RoomPanel first = called({}, kStanding, 0.65f);
     EXPECT_TRUE(first.shown);
-    EXPECT_EQ(first.pose, ahead_of(kStanding, 0.65f));
+    EXPECT_EQ(first.pose, beside(kStanding, 0.65f));
     EXPECT_EQ(called(first, kStanding, 0.65f), (RoomPanel{false, first.pose}));
-    EXPECT_EQ(called(first, turned, 0.65f), (RoomPanel{true, ahead_of(turned, 0.65f)}));
+    EXPECT_EQ(called(first, turned, 0.65f), (RoomPanel{true, beside(turned, 0.65f)}));
     const Pose away{{3, 1.6f, 2}, {1, 0, 0, 0}};
-    EXPECT_EQ(called(first, away, 0.65f), (RoomPanel{true, ahead_of(away, 0.65f)}));
+    EXPECT_EQ(called(first, away, 0.65f), (RoomPanel{true, beside(away, 0.65f)}));
 }
 
 TEST(RoomPanel, KeyAndWandButtonCallItOncePerPress) {

@@ -222,5 +222,35 @@ TEST(ScreenProblems, EveryKindIsNamed) {
     EXPECT_THAT(problems(unknown), ElementsAre(HasSubstr("not a number")));
 }
 
+/// Equal things are equally large at every depth, to a fraction of a pixel, and rays meet them.
+TEST(Screen, AParallelViewKeepsSizesAtAllDepthsAndItsRaysMeetWhatIsSeen) {
+    Screen screen;
+    screen.lower_left = {-0.5f, -0.5f, -1.2f};
+    screen.upper_left = {-0.5f, 0.5f, -1.2f};
+    screen.upper_right = {0.5f, 0.5f, -1.2f};
+    screen.carried_by_head = screen.fit_aspect = true;
+    const interaction::Pose head{{0.3f, 1.6f, -0.4f},
+                                 glm::angleAxis(0.8f, glm::normalize(glm::vec3(1, 2, 0)))};
+    const glm::ivec2 pixels(800, 600);
+    const render::View view = parallel_view_of(screen, head, 1.5f, 50.0f, pixels);
+    const auto pixel = [&](const glm::vec3& in_head) {
+        const glm::vec3 p = head.position + head.orientation * in_head;
+        const glm::vec4 clip = view.clip_from_eye * view.eye_from_room * glm::vec4(p, 1.0f);
+        EXPECT_LT(std::abs(clip.z), clip.w) << "within near and far";
+        return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(pixels);
+    };
+    for (const float depth : {-0.3f, -1.2f, -2.0f, -3.0f}) {
+        const glm::vec2 a = pixel({-0.25f, 0.1f, depth}), b = pixel({0.25f, 0.1f, depth});
+        EXPECT_NEAR(glm::distance(a, b), 240.0f, 1.5f) << depth; // as at 1.5 m in perspective
+        const interaction::Pose ray =
+            parallel_ray_through(screen, head, 1.5f, pixels, a / glm::vec2(pixels));
+        const glm::vec3 p = head.position + head.orientation * glm::vec3(-0.25f, 0.1f, depth);
+        const glm::vec3 way = ray.orientation * glm::vec3(0, 0, -1);
+        const glm::vec3 off = p - ray.position - glm::dot(p - ray.position, way) * way;
+        EXPECT_LT(glm::length(off), 1e-3f);
+        EXPECT_GT(glm::dot(p - ray.position, way), 0.0f);
+    }
+}
+
 } // namespace
 } // namespace isochron::stereo

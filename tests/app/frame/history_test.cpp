@@ -1,5 +1,7 @@
 // Undo and redo: any change comes back as it was, and a drag is one step.
 #include "app/frame/history.h"
+#include "interaction/actions.h"
+#include "interaction/navigation.h"
 
 #include "interaction/command_fields.h"
 #include "tests/interaction/recording/random_commands.h"
@@ -166,6 +168,33 @@ TEST(History, ThePanelAndTheQuestionWhetherToLeaveAreNoSteps) {
     commands.leaving = true;
     explorer.obey(commands, 0);
     EXPECT_FALSE(explorer.history.has_changes());
+}
+
+/// The key moves the emulated head, too: what undo brings back is what was seen.
+TEST(History, UndoAfterHomeShowsWhatWasSeen) {
+    History history;
+    ExplorerState away, home;
+    away.room_from_physical = {{0.4, 1.2, -2.0}, glm::dquat(glm::vec3(0.2f, 0.5f, 0.1f)), 0.3};
+    home.room_from_physical = {{0.1, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.2};
+    const auto frame = [](double time, const interaction::Pose& head, std::uint64_t keys) {
+        interaction::InputState input{interaction::Seconds(time), {}};
+        input.devices.push_back({.name = "head", .pose = head, .valuators = {}});
+        input.devices.push_back({.name = "keys", .buttons = keys, .valuators = {}});
+        input.devices.push_back({.name = "pointer", .pose = head, .valuators = {}});
+        return input;
+    };
+    const interaction::Pose there{{1.5f, 1.8f, 2.0f}, glm::angleAxis(0.9f, glm::vec3(0, 1, 0))};
+    const interaction::Pose start{{0, 1.6f, 0}, {1, 0, 0, 0}};
+    history.add(away, away, {}, frame(0, there, 0));
+    history.add(away, home, {}, frame(1, start, bit(interaction::Action::reset)));
+    ASSERT_TRUE(history.undo() && history.undo()->room_from_physical);
+    const auto seen_by = [](const interaction::Pose& head, const interaction::Similarity& volume) {
+        const glm::dvec3 in_room = interaction::transform(volume, {3, 2, 1});
+        return glm::conjugate(glm::dquat(head.orientation)) * (in_room - glm::dvec3(head.position));
+    };
+    EXPECT_LT(glm::distance(seen_by(there, away.room_from_physical),
+                            seen_by(start, *history.undo()->room_from_physical)),
+              1e-5);
 }
 
 } // namespace

@@ -1,0 +1,96 @@
+// The data's axes in a corner of the picture, and a bar of a round length.
+#include "app/scene/orientation.h"
+
+#include "app/config/placement.h"
+#include "app/scene/legend.h"
+#include "app/text.h"
+#include "interaction/navigation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+constexpr std::array<glm::vec4, 3> kAxisColors{glm::vec4(0.95f, 0.42f, 0.38f, 1.0f),
+                                               glm::vec4(0.50f, 0.85f, 0.45f, 1.0f),
+                                               glm::vec4(0.45f, 0.65f, 1.0f, 1.0f)};
+constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
+constexpr glm::vec4 kBarInk(0.90f, 0.92f, 0.95f, 1.0f), kBarPaper(0.05f, 0.06f, 0.07f, 0.72f);
+constexpr float kAxisLength = 2.6f; ///< heights of the text
+
+struct SeenAxis {
+    int axis;
+    glm::vec3 way; ///< in the eye's frame, of length 1
+};
+
+std::array<SeenAxis, 3> seen_axes(const render::View& view, const glm::dquat& turn) {
+    std::array<SeenAxis, 3> axes{};
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 unit(0.0);
+        unit[axis] = 1;
+        axes[static_cast<std::size_t>(axis)] = {axis, glm::mat3(view.eye_from_room) *
+                                                          glm::vec3(turn * unit)};
+    }
+    std::ranges::sort(axes, {}, [](const SeenAxis& each) { return each.way.z; });
+    return axes;
+}
+
+} // namespace
+
+std::optional<ScaleBar> scale_bar(const render::View& view,
+                                  const interaction::Similarity& room_from_physical,
+                                  const glm::dvec3& center) {
+    constexpr double kMostOfWidth = 0.2;
+    const glm::dvec4 at(interaction::transform(room_from_physical, center), 1.0);
+    const glm::dvec4 clip = glm::dmat4(view.clip_from_eye) * glm::dmat4(view.eye_from_room) * at;
+    if (!(clip.w > 0))
+        return std::nullopt;
+    // Pixels for a meter across the view, at the center's depth.
+    const double meter = 0.5 * view.size.x * static_cast<double>(view.clip_from_eye[0][0]) / clip.w;
+    const double unit = meter * room_from_physical.scale;
+    const double most = kMostOfWidth * view.size.x / unit;
+    if (!(most > 0) || !std::isfinite(most))
+        return std::nullopt;
+    const double power = std::pow(10.0, std::floor(std::log10(most)));
+    const double digit = most / power >= 5 ? 5 : most / power >= 2 ? 2 : 1;
+    return ScaleBar{digit * power, static_cast<float>(digit * power * unit)};
+}
+
+Orientation orientation_in(const render::View& view,
+                           const interaction::Similarity& room_from_physical,
+                           const index::SeriesInfo& info, const render::TextPass& text) {
+    const float height = text_height(view.size);
+    const glm::vec2 origin = glm::floor(glm::vec2((kAxisLength + 1.0f) * height));
+    Orientation shown;
+    for (const SeenAxis& each : seen_axes(view, room_from_physical.rotation)) {
+        const auto axis = static_cast<std::size_t>(each.axis);
+        const glm::vec2 end = origin + kAxisLength * height * glm::vec2(each.way);
+        shown.lines.push_back({glm::vec3(origin, 0), glm::vec3(end, 0), kAxisColors[axis]});
+        text.set({.text = kAxisNames[axis],
+                  .at = glm::vec3(origin + 1.22f * (end - origin), 0.0f),
+                  .color = kAxisColors[axis]},
+                 height, shown.quads);
+    }
+    const auto bar = scale_bar(view, room_from_physical, physical_center(info.grid));
+    if (!bar)
+        return shown;
+    const glm::vec3 left(glm::floor(glm::vec2(origin.x + (kAxisLength + 1.2f) * height, height)),
+                         0.0f);
+    const float tick = 0.25f * height, thick = std::max(1.0f, std::round(0.12f * height));
+    text.fill(left, {-0.5f * height, -0.6f * height}, {bar->pixels + 0.5f * height, 1.9f * height},
+              kBarPaper, shown.quads);
+    text.fill(left, {0, 0}, {bar->pixels, thick}, kBarInk, shown.quads);
+    for (const float at : {0.0f, bar->pixels - thick})
+        text.fill(left, {at, -tick}, {at + thick, tick + thick}, kBarInk, shown.quads);
+    text.set({.text = human_number(bar->length) + with_space(info.length_unit),
+              .at = left + glm::vec3(0.5f * bar->pixels, 0, 0),
+              .anchor = {0.5f, 0.0f},
+              .offset = {0.0f, 0.5f},
+              .color = kBarInk},
+             height, shown.quads);
+    return shown;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,55 @@
+// What a session's pictures show, and what they say of themselves.
+#include "app/session/session.h"
+
+#include "app/scene/caption.h"
+
+#include <fmt/format.h>
+
+namespace isochron::app {
+
+/// Whether the windows show the scene themselves: always, but beside a headset only once it has
+/// wanted no picture for a moment.
+bool Session::in_windows(const FrameReport& report) {
+    constexpr interaction::Seconds kMoment{0.5};
+    if (!outputs_.headset_eyes().empty())
+        in_headset_ = report.time;
+    return !in_headset_ || report.time - *in_headset_ > kMoment;
+}
+
+void Session::draw_views(const ScenePlace& place, std::span<const render::View> views) {
+    const bool aids = !place.kept || config_.picture_ray;
+    scene_.set_pointed(aids ? drawn_->pointed : std::nullopt);
+    scene_.set_orientation(place.kept ? config_.picture_caption : on_desktop());
+    scene_.set_caption(place.kept && config_.picture_caption && scene_.shown()
+                           ? caption_text(scene_.shown()->query, file_->info())
+                           : std::string());
+    scene_.draw(views, drawn_->room_from_physical, drawn_->footprint,
+                aids ? drawn_->audience.wand : std::nullopt);
+}
+
+/// In windows that stand for no wall: there people ask where they are.
+bool Session::on_desktop() const {
+    const auto& screens = config_.installation.windows.front().viewports;
+    return outputs_.windows().first().has_window() && outputs_.shows_windows() &&
+           !outputs_.room() && screens.front().screen.fit_aspect;
+}
+
+PictureNote Session::note() const {
+    PictureNote note;
+    note.data = data_name_;
+    note.data_hash = fmt::format("{:016x}", file_->content_hash());
+    note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
+    ExplorerState state = state_;
+    if (const index::ExtractionPtr& shown = scene_.shown()) { // while time plays, it may lag
+        state.step = shown->query.step;
+        for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
+             ++i)
+            state.isosurfaces[i].isovalue = shown->query.isovalues[i];
+    }
+    note.state = state.as_commands();
+    note.input = input_;
+    note.latched = latched_;
+    return note;
+}
+
+} // namespace isochron::app

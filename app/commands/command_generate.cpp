@@ -72,9 +72,17 @@ void add_generate(Command& program) {
         add_series<VorticitySeries>(command, "Vorticity magnitude of decaying turbulence");
     add_cube_options(vorticity, flow, 256);
     auto [fourier, modes] = add_series<FourierSeries>(
-        command, "Vorticity magnitude of 96 random Fourier modes: turbulence of any size, soon "
-                 "made");
+        command, "Vorticity magnitude of random Fourier modes: turbulence of any size, soon made");
     add_cube_options(fourier, modes, 1024);
+    fourier.option("--modes", modes->series.modes, "How many modes")
+        .between(std::size_t{1}, std::size_t{4096})
+        .shows_default();
+    fourier
+        .option("--longest", modes->series.longest,
+                "Longest wave vector of a mode, in waves along an axis: more is rougher, at most "
+                "half the size")
+        .between(2, 512)
+        .shows_default();
 }
 
 } // namespace isochron::app

@@ -120,7 +120,7 @@ void make_steps(const VorticitySeries& series, const StepSink& sink,
 
 void make_steps(const FourierSeries& series, const StepSink& sink,
                 const index::Progress& progress) {
-    const FourierModes flow(series.seed);
+    const FourierModes flow(series.seed, series.modes, series.longest);
     std::vector<float> values(series.size * series.size * series.size);
     const auto each_step = [&](std::string_view phase, const auto& use) {
         for (std::size_t step = 0; step < series.steps; ++step) {

@@ -52,6 +52,8 @@ struct FourierSeries {
     index::ValueType type = index::ValueType::f32; ///< or u8: 255 stands for the highest value
     std::size_t size = 128;                        ///< vertices along each axis, 16 to 1024
     std::size_t steps = 64;                        ///< at least 1; step t is at time t
+    std::size_t modes = 96;                        ///< 1 to 4096
+    int longest = 10;                              ///< longest wave vector, 2 to size / 2
 };
 
 /// Array name, grid and type; without times.

@@ -38,11 +38,17 @@ json recipe_of(const VorticitySeries& series) {
 }
 
 json recipe_of(const FourierSeries& series) {
-    return {{"series", series.kName},
-            {"seed", series.seed},
-            {"type", index::name_of(series.type)},
-            {"size", series.size},
-            {"steps", series.steps}};
+    json recipe{{"series", series.kName},
+                {"seed", series.seed},
+                {"type", index::name_of(series.type)},
+                {"size", series.size},
+                {"steps", series.steps}};
+    // Only where they are not what they were when there was no choice.
+    if (const FourierSeries usual; series.modes != usual.modes || series.longest != usual.longest) {
+        recipe["modes"] = series.modes;
+        recipe["longest"] = series.longest;
+    }
+    return recipe;
 }
 
 /// Where a series goes, and the note beside it of how it was made.

@@ -2,7 +2,7 @@
 #include "app/session/picker.h"
 
 #include "index/extraction/cell_ray.h"
-#include "index/volume/sample.h"
+#include "index/extraction/value_in_index.h"
 
 #include <glm/matrix.hpp>
 
@@ -91,8 +91,7 @@ std::optional<glm::dvec3> Picker::place_to_read(const InputState& input, const E
 
 void Picker::read_at(const glm::dvec3& at, const ExplorerState& state) {
     reading_.post([file = file_, slot = read_, at, step = state.step] {
-        const index::LoadedStep loaded = file->load(step);
-        const auto value = index::value_at(loaded.values, step, at);
+        const auto value = index::value_in(*file, step, at);
         const std::lock_guard lock(slot->mutex);
         slot->mark = value ? Mark{MarkedPoint{at, step, *value}} : Mark{};
         return std::string(value ? "" : "no data there");

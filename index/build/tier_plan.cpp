@@ -17,6 +17,8 @@ namespace {
 constexpr std::uint32_t kSampledChunks = 4, kSampledSteps = 17;
 /// Up to so many bytes of values cells are small beside a machine's memory, and always pay.
 constexpr std::uint64_t kSmallSeries = 32 << 20;
+/// As long as a step is read as a whole anyway: of larger ones bricks read less.
+constexpr std::uint64_t kSmallStep = 4 << 20;
 /// Of larger ones they pay where merging in time leaves at most this share of the entries: those
 /// of a search are read in place of the values around them.
 constexpr double kPayingCoherence = 0.8;
@@ -117,8 +119,8 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
                                        values.grid.cells()[0], Chunking::kMaxCells));
         return plan;
     }
-    const std::uint64_t bytes = values.grid.vertex_count() * size_of(values.type) * values.steps;
-    if (bytes > kSmallSeries) {
+    const std::uint64_t step_bytes = values.grid.vertex_count() * size_of(values.type);
+    if (step_bytes > kSmallStep || step_bytes * values.steps > kSmallSeries) {
         const double share = merged_share(values, levels);
         const std::string figures =
             fmt::format("{:.2f} entries for a cell and step, which is {} {:.1f}", share,

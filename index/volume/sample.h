@@ -5,6 +5,9 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <optional>
 
 namespace isochron::index {
@@ -13,5 +16,10 @@ namespace isochron::index {
 /// @param at physical space
 /// @return nothing beyond the grid, and where one of the vertices around is not a number
 std::optional<double> value_at(const StepValues& values, std::uint32_t step, const glm::dvec3& at);
+
+/// Gives the scaled value of a vertex, by its coordinates along x, y and z.
+using ScaledVertex = std::function<double(const std::array<std::uint32_t, 3>&)>;
+/// The same of values that lie anywhere.
+std::optional<double> value_at(const Grid& grid, const glm::dvec3& at, const ScaledVertex& vertex);
 
 } // namespace isochron::index

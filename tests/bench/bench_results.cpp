@@ -24,13 +24,14 @@ std::string read_text(const fs::path& path) {
 }
 
 struct ResultFiles {
-    fs::path index, render, artifacts, out;
+    fs::path index, render, artifacts, scale, out;
 };
 
 void run_bench_results(const ResultFiles& files) {
     const std::string page = whole_page({.index = files.index.string(),
                                          .render = files.render.string(),
-                                         .artifacts = files.artifacts.string()},
+                                         .artifacts = files.artifacts.string(),
+                                         .scale = files.scale.string()},
                                         read_text);
     if (files.out.empty())
         fmt::print("{}", page);
@@ -51,6 +52,8 @@ void add_results(app::Command& program) {
         .type_name("FILE.json");
     command.option("--artifacts", files->artifacts, "Results of `isochron-bench artifacts --json`")
         .type_name("FILE.json");
+    command.option("--scale", files->scale, "What `isochron-bench scale` printed")
+        .type_name("FILE.txt");
     command.option("-o,--out", files->out, "Markdown to write (default: print it)")
         .type_name("FILE.md");
     command.on_run([files] { run_bench_results(*files); });

@@ -167,6 +167,8 @@ std::string results_page(const Results& results, const ResultPaths& paths) {
         command += " --render " + paths.render;
     if (!paths.artifacts.empty())
         command += " --artifacts " + paths.artifacts;
+    if (!paths.scale.empty())
+        command += " --scale " + paths.scale;
     std::string text = fmt::format("# The index, measured\n\nMade from `{}` by `./run bench "
                                    "results {}`; not to be edited. "
                                    "Measured on {} with commit {}, {}, on {}, {} threads.\n\n",
@@ -203,6 +205,23 @@ std::string results_page(const Results& results, const ResultPaths& paths) {
     return text;
 }
 
+namespace {
+
+/// What `isochron-bench scale` printed, as it is.
+std::string scale_section(const std::string& lines, const std::string& path) {
+    return fmt::format(
+        "\n# Large grids, measured\n\n"
+        "What `./run bench scale` printed, kept in `{}`: one step of turbulence of 64 Fourier "
+        "modes, "
+        "*smooth* with wave numbers to 10, *rough* to a quarter of the grid. Index / data: the "
+        "default index, with all levels of detail. Cold: nothing of the file is in memory; bytes "
+        "are what the disk gave from opening on, to cells with positions and normals.\n\n"
+        "```\n{}```\n",
+        path, lines);
+}
+
+} // namespace
+
 std::string whole_page(const ResultPaths& paths,
                        const std::function<std::string(const std::string&)>& read) {
     std::string page = results_page(results_from_json(read(paths.index), paths.index), paths);
@@ -212,6 +231,8 @@ std::string whole_page(const ResultPaths& paths,
     if (!paths.artifacts.empty())
         page += artifact_section(artifacts_from_json(read(paths.artifacts), paths.artifacts),
                                  paths.artifacts);
+    if (!paths.scale.empty())
+        page += scale_section(read(paths.scale), paths.scale);
     return page;
 }
 

@@ -27,10 +27,12 @@ std::string read(const std::string& path) {
 TEST(ResultsPage, IsTheOneOfTheCommittedFigures) {
     const ResultPaths paths{.index = "docs/results/index.json",
                             .render = "docs/results/render.json",
-                            .artifacts = "docs/results/artifacts.json"};
+                            .artifacts = "docs/results/artifacts.json",
+                            .scale = "docs/results/scale.txt"};
     EXPECT_EQ(whole_page(paths, read), read("docs/RESULTS.md"))
         << "make it again: ./run bench results " << paths.index << " --render " << paths.render
-        << " --artifacts " << paths.artifacts << " -o docs/RESULTS.md";
+        << " --artifacts " << paths.artifacts << " --scale " << paths.scale
+        << " -o docs/RESULTS.md";
     for (const Header& header : {results_from_json(read(paths.index), "").header,
                                  render_results_from_json(read(paths.render), "").header,
                                  artifacts_from_json(read(paths.artifacts), "").header}) {

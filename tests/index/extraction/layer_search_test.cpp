@@ -3,6 +3,8 @@
 #include "index/error.h"
 #include "index/extraction/extraction.h"
 #include "index/extraction/index_search.h"
+#include "index/extraction/value_in_index.h"
+#include "index/volume/sample.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -141,6 +143,31 @@ TEST_F(LayerSearchTest, AStoppedSearchGivesNothing) {
     stop.request_stop();
     for (const SearchMethod method : kEveryWay)
         EXPECT_EQ(search_in(chunks, method)({0, 150.0}, stop.get_token()), nullptr);
+}
+
+TEST(ValueInIndex, OfALargeStepIsThatOfItsChunks) {
+    std::mt19937 random(test_seed());
+    test_support::TestFolder folder;
+    TestField field({131, 97, 101}, 2, ValueType::f32, turbulence(random), {2, -1});
+    field.at<float>(1, 131 * 97 * 50 + 5) = std::nanf("");
+    MemorySeries series(field.view());
+    series.info().grid.origin = {1, 2, 3};
+    series.info().grid.spacing = {0.5, 2, 1};
+    build_index(series, folder.path() / "a", {});
+    const auto file = IndexFile::open(folder.path() / "a");
+    ASSERT_FALSE(file->better_whole(1));
+    StepValues values = field.view();
+    values.grid = series.info().grid;
+    std::uniform_real_distribution<double> along(-0.02, 1.02);
+    int found = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 at(1 + 65 * along(random), 2 + 192 * along(random),
+                            3 + 100 * along(random));
+        const auto value = value_in(*file, 1, at);
+        EXPECT_EQ(value, value_at(values, 1, at));
+        found += value.has_value();
+    }
+    EXPECT_GT(found, 1500);
 }
 
 } // namespace

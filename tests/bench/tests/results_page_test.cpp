@@ -76,7 +76,7 @@ TEST(ResultsPage, PutsThePublishedFiguresNextToOurs) {
     Results results = results_of({row});
     results.details[0].percent_at_isovalue = 10.6;
     const std::string page =
-        results_page(results, {.index = "a.json", .render = {}, .artifacts = {}});
+        results_page(results, {.index = "a.json", .render = {}, .artifacts = {}, .scale = {}});
     EXPECT_THAT(page, HasSubstr("commit 0123abcd, some compiler, on some processor"));
     // Table 1 and Table 2 share this setting; others were not measured.
     EXPECT_THAT(page, HasSubstr("| 64 | 2 | 25 | paper | 37.2 | 1.3 | 2140 | 740 | 2.90 |\n"

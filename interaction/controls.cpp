@@ -183,7 +183,11 @@ struct Controls::State {
             commands.panel = !context.panel;
         if (now.pressed(Action::room_panel) || now.pressed(WandButton::room_panel) ||
             now.pressed(GamepadButton::back))
-            commands.room_panel = called(context.room_panel, now.viewer(), context.panel_distance);
+            commands.room_panel = called(context.room_panel, now.viewer(), context.panel_distance,
+                                         !Reading::hand(now.pointer));
+        // At arm's length it is read in perspective alone.
+        if (commands.room_panel && commands.room_panel->shown && context.orthographic)
+            commands.orthographic = false;
         if (now.pressed(Action::grid))
             commands.grid = !context.grid;
         if (now.pressed(Action::save_view))

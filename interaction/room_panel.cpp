@@ -58,7 +58,7 @@ Pose beside(const Pose& head, float distance) {
     return facing(head.position + glm::angleAxis(kAside, kRoomUp) * ahead, head.position);
 }
 
-RoomPanel called(const RoomPanel& panel, const Pose& head, float distance) {
+RoomPanel called(const RoomPanel& panel, const Pose& head, float distance, bool aside) {
     if (!is_finite(head))
         return panel;
     const glm::vec3 to_panel = panel.pose.position - head.position;
@@ -68,7 +68,7 @@ RoomPanel called(const RoomPanel& panel, const Pose& head, float distance) {
     const bool reads = glm::dot(panel.pose.orientation * glm::vec3(0, 0, 1), to_panel) < 0.0f;
     if (panel.shown && in_sight && reads && away < kInReach * distance)
         return {false, panel.pose};
-    return {true, beside(head, distance)};
+    return {true, aside ? beside(head, distance) : ahead_of(head, distance)};
 }
 
 } // namespace isochron::interaction

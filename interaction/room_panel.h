@@ -46,6 +46,7 @@ Pose ahead_of(const Pose& head, float distance);
 Pose beside(const Pose& head, float distance);
 
 /// What calling for the panel leads to: it comes to where it can be read, or goes if it is there.
-RoomPanel called(const RoomPanel& panel, const Pose& head, float distance);
+/// @param aside beside the way ahead, for who sees more than a desktop's window shows
+RoomPanel called(const RoomPanel& panel, const Pose& head, float distance, bool aside = true);
 
 } // namespace isochron::interaction

@@ -151,17 +151,19 @@ void playback_buttons(const PanelModel& model, Commands& commands) {
     ImGui::Checkbox("reverse", &playback.reverse);
     ImGui::SameLine();
     ImGui::Checkbox("loop", &playback.loop);
+    auto speed = static_cast<float>(playback.speed);
+    ImGui::SetNextItemWidth(-150.0f);
+    if (ImGui::SliderFloat("speed", &speed, 1.0f / 64, 64.0f, "x %.3g",
+                           ImGuiSliderFlags_Logarithmic))
+        playback.speed = speed;
     ImGui::SameLine();
     if (bool follow = model.asked.follow; ImGui::Checkbox("follow", &follow)) {
         commands.follow = follow;
         if (follow)
             commands.step = last;
     }
-    auto speed = static_cast<float>(playback.speed);
-    ImGui::SetNextItemWidth(-60.0f);
-    if (ImGui::SliderFloat("speed", &speed, 1.0f / 64, 64.0f, "x %.3g",
-                           ImGuiSliderFlags_Logarithmic))
-        playback.speed = speed;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("show the last step as new ones come (End)");
     if (playback != model.asked.playback)
         commands.playback = playback;
 }

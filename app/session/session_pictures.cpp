@@ -19,7 +19,8 @@ bool Session::in_windows(const FrameReport& report) {
 void Session::draw_views(const ScenePlace& place, std::span<const render::View> views) {
     const bool aids = !place.kept || config_.picture_ray;
     scene_.set_pointed(aids ? drawn_->pointed : std::nullopt);
-    scene_.set_orientation(place.kept ? config_.picture_caption : on_desktop());
+    scene_.set_orientation(place.kept ? config_.picture_caption
+                                      : on_desktop() && !state_.room_panel.shown);
     scene_.set_caption(place.kept && config_.picture_caption && scene_.shown()
                            ? caption_text(scene_.shown()->query, file_->info())
                            : std::string());

@@ -195,14 +195,17 @@ TEST(Controls, AKeyGoesThroughTheAxisViewsAndOneIsIsometric) {
     Desk desk;
     for (std::size_t i = 0; i < 2 * kIsometric; ++i) { // at first they are seen from +z
         desk.tap(bit(Action::axis_view));
-        const Similarity expected =
-            seen_from(axis_views()[(i + 5) % kIsometric], desk.volume(), desk.context.pivot, kStanding);
+        const Similarity expected = seen_from(axis_views()[(i + 5) % kIsometric], desk.volume(),
+                                              desk.context.pivot, kStanding);
         EXPECT_LT(glm::length(desk.volume().rotation - expected.rotation), 1e-6) << i;
     }
     desk.tap(bit(Action::isometric_view));
     EXPECT_EQ(desk.volume(),
               seen_from(axis_views()[kIsometric], desk.volume(), desk.context.pivot, kStanding));
     EXPECT_EQ(desk.tap(bit(Action::orthographic)).orthographic, true);
+    desk.context.orthographic = true;
+    EXPECT_EQ(desk.tap(bit(Action::room_panel)).orthographic, false)
+        << "the panel in the room is read in perspective";
 }
 
 TEST(Controls, PageKeysMoveTheIsovalueByTheSameStepsAsArrows) {

@@ -81,6 +81,8 @@ TEST(RoomPanel, CallingItShowsItSendsItAwayAndFetchesItFromBehind) {
     const RoomPanel first = called({}, kStanding, 0.65f);
     EXPECT_TRUE(first.shown);
     EXPECT_EQ(first.pose, beside(kStanding, 0.65f));
+    EXPECT_EQ(called({}, kStanding, 0.65f, false).pose, ahead_of(kStanding, 0.65f))
+        << "a desktop's window shows nothing beside";
     EXPECT_EQ(called(first, kStanding, 0.65f), (RoomPanel{false, first.pose}));
     EXPECT_EQ(called(first, turned, 0.65f), (RoomPanel{true, beside(turned, 0.65f)}));
     const Pose away{{3, 1.6f, 2}, {1, 0, 0, 0}};

@@ -34,6 +34,8 @@ Config configure(const ExploreOptions& options) {
         config.quality = quality_mode_from_name(*options.quality);
     if (options.footprint)
         config.settled_footprint = settled_footprint_from_name(*options.footprint);
+    if (options.shape)
+        config.cell_shape = cell_shape_from_name(*options.shape);
     if (!options.size.empty() && !options.emulate)
         for (stereo::Window& window : config.installation.windows) {
             window.size = {options.size[0], options.size[1]};

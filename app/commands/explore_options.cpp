@@ -55,6 +55,11 @@ void add_explore_options(Command& command, ExploreOptions& options) {
                 "What a settled picture is drawn with: auto (the best that fits the frame "
                 "budget), or always gaussian or surface")
         .one_of(settled_footprint_names());
+    command
+        .option("--shape", options.shape,
+                "What quads and splats stand for, instead of the configured: plane (flat "
+                "ellipses on the surface) or voxel (the paper's spheres)")
+        .one_of(cell_shape_names());
     command.option("--size", options.size, "Size of every window, or of the room's, in pixels")
         .values(2)
         .between(16, 16384);

@@ -13,7 +13,7 @@ namespace isochron::app {
 struct ExploreOptions {
     std::optional<std::string> data;
     std::string config = "desktop";
-    std::optional<std::string> check_config, context, stereo, quality, footprint;
+    std::optional<std::string> check_config, context, stereo, quality, footprint, shape;
     std::optional<std::string> record, report;
     std::optional<double> isovalue, seconds;
     std::optional<std::uint32_t> step;

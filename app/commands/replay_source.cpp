@@ -46,6 +46,11 @@ void add_replay_source(Command& command, ReplaySource& source) {
     command.flag("--ray", source.ray,
                  "Show the wand's ray and what is under the cursor, which pictures leave out");
     command.flag("--caption", source.caption, "Write isovalue and time into the pictures");
+    command
+        .option("--shape", source.shape,
+                "What quads and splats stand for, instead of the configured: plane (flat "
+                "ellipses on the surface) or voxel (the paper's spheres)")
+        .one_of(cell_shape_names());
     command.option("--config", source.config,
                    "TOML file or shipped name instead of the recorded configuration");
     command
@@ -66,6 +71,8 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
         config.installation.windows.front().size = {header.window[0], header.window[1]};
     if (options.footprint)
         config.settled_footprint = settled_footprint_from_name(*options.footprint);
+    if (options.shape)
+        config.cell_shape = cell_shape_from_name(*options.shape);
     config.picture_samples = options.samples.value_or(config.picture_samples);
     config.picture_ray = config.picture_ray || options.ray;
     config.picture_caption = config.picture_caption || options.caption;

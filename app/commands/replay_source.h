@@ -18,7 +18,7 @@ namespace isochron::app {
 
 struct ReplaySource {
     std::string recording;
-    std::optional<std::string> data, config, context, stereo, quality, footprint;
+    std::optional<std::string> data, config, context, stereo, quality, footprint, shape;
     bool any_data = false, emulate = false, live = false, ray = false, caption = false;
     std::optional<int> samples;
     std::vector<int> size;

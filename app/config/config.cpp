@@ -24,6 +24,7 @@ using interaction::QualityMode;
 constexpr std::uint64_t kMostBytes = 16 << 20; ///< of a configuration
 constexpr const char* kAnyFootprint = "auto";
 constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::surface};
+constexpr std::array kCellShapes{render::CellShape::plane, render::CellShape::voxel};
 
 void read_emulation(TomlReader& reader, interaction::EmulationOptions& emulation) {
     reader.number("walk_speed", 0.01, 100.0, emulation.walk_speed);
@@ -102,6 +103,8 @@ void read_lighting(TomlReader& reader, render::CellAppearance& look) {
 }
 
 void read_rendering(TomlReader& reader, Config& config) {
+    reader.word("footprint", cell_shape_names(),
+                [&](const std::string& word) { config.cell_shape = cell_shape_from_name(word); });
     reader.word("context", {"glfw", "egl", "osmesa"}, [&](const std::string& word) {
         config.context = *stereo::context_kind_from_name(word);
     });
@@ -178,6 +181,20 @@ std::vector<std::string> settled_footprint_names() {
     std::vector<std::string> names{kAnyFootprint};
     for (const render::Footprint footprint : kSettledFootprints)
         names.emplace_back(render::name_of(footprint));
+    return names;
+}
+
+render::CellShape cell_shape_from_name(const std::string& name) {
+    for (const render::CellShape shape : kCellShapes)
+        if (name == render::name_of(shape))
+            return shape;
+    throw ConfigError(fmt::format("unknown footprint '{}', expected plane or voxel", name));
+}
+
+std::vector<std::string> cell_shape_names() {
+    std::vector<std::string> names;
+    for (const render::CellShape shape : kCellShapes)
+        names.emplace_back(render::name_of(shape));
     return names;
 }
 

@@ -55,6 +55,8 @@ struct Config {
     /// What a settled picture is drawn with, whatever it costs; empty: the best that fits the
     /// budget (in a fixed-step replay, which measures nothing, the best there is).
     std::optional<render::Footprint> settled_footprint;
+    /// What quads and splats stand for.
+    render::CellShape cell_shape = render::CellShape::plane;
     double frame_budget_ms = 0;   ///< that drawing may take; 0: one period of the display
     double still_budget_ms = 500; ///< likewise, once, of a picture that has come to rest
     PlacementOptions placement;
@@ -96,5 +98,8 @@ std::vector<std::string> stereo_mode_names();
 /// `auto` (empty), `gaussian`, `surface`: what a settled picture is drawn with.
 std::optional<render::Footprint> settled_footprint_from_name(const std::string& name);
 std::vector<std::string> settled_footprint_names();
+/// `plane`, `voxel`. @throws ConfigError
+render::CellShape cell_shape_from_name(const std::string& name);
+std::vector<std::string> cell_shape_names();
 
 } // namespace isochron::app

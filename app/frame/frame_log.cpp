@@ -160,6 +160,8 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"candidates", frame.candidates},
                            {"reused", frame.reused},
                            {"uploaded", upload_json(frame.uploaded)}};
+        if (!frame.refused.empty())
+            row["refused"] = frame.refused;
         for (const auto& [name, member] : kStages)
             row[std::string(name) + "_ms"] = (frame.*member).count();
         for (const auto& [name, member] : kSometimes)

@@ -36,6 +36,7 @@ struct FrameReport {
     std::uint64_t cells = 0;              ///< drawn
     std::uint64_t candidates = 0;         ///< of the search behind them
     std::uint64_t reused = 0;             ///< of these, taken over by incremental search
+    std::string refused;                  ///< why the newest cells are not shown; empty: they are
     render::UploadCount uploaded;         ///< in this frame
     Milliseconds search{0}, gather{0};    ///< on the worker, of the shown set: cells, bricks
     Milliseconds wait{0};                 ///< for the worker; fixed-step replay only

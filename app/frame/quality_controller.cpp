@@ -39,6 +39,8 @@ const char* name_of(QualityReason reason) {
 }
 
 void QualityController::measured(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
+    if (load.cells <= 0)
+        return; // what it takes to draw nothing says nothing of cells
     Candidate& candidate = of(footprint);
     if (std::exchange(sampled_, footprint) != footprint && cost > budget_) {
         candidate.sampled.reset(); // to be measured again
@@ -69,6 +71,8 @@ QualityChoice QualityController::choose(const QualityInput& input) {
     if (input.settled)
         return regardless(std::min(*input.settled, input.best), QualityReason::configured,
                           input.load);
+    if (input.load.cells <= 0) // every footprint shows the same; the next set is met as new
+        return regardless(Footprint::quad, QualityReason::fits, input.load);
     if (input.mode == QualityMode::quality && !input.playing)
         return regardless(input.best, QualityReason::best_mode, input.load);
     return within_budget(input);

@@ -34,7 +34,8 @@ bool blends_light(const render::Gl& gl, Blending blending) {
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : gl_(gl), info_(info), upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame),
-      appearance_(config.appearance), cells_(gl, info.grid), cell_pass_(gl), line_pass_(gl),
+      appearance_(config.appearance), cells_(gl, info.grid),
+      cell_pass_(gl, {.shape = config.cell_shape}), line_pass_(gl),
       text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), veil_pass_(gl) {
     appearance_.linear_light = blends_light(gl, config.blending);
     // How values are held depends on their type only, not on their range.
@@ -56,8 +57,9 @@ std::vector<std::string> Scene::given_up() const {
 }
 
 render::Footprint Scene::best_footprint() const {
-    return cells_.size() <= cells_.corner_limit() ? render::kBestFootprint
-                                                  : render::Footprint::gaussian;
+    return cells_.has_volume() && cells_.size() <= cells_.corner_limit()
+               ? render::kBestFootprint
+               : render::Footprint::gaussian;
 }
 
 void Scene::look(const ExplorerState& state, const interaction::Pose& head,

@@ -36,8 +36,12 @@ class Scene {
     /// The same without showing it: the next `upload` of it does. @return true when it is there
     bool stage(const index::ExtractionPtr& set) { return cells_.stage(set, upload_bytes_); }
     const index::ExtractionPtr& shown() const { return cells_.shown(); }
-    /// Whether the shown cells can be drawn with any footprint.
-    bool has_volume() const { return cells_.has_volume(); }
+    /// Whether the shown cells have all that they can: their volume, unless it is too large.
+    bool is_complete() const { return !cells_.wants_volume(); }
+    /// Why this set is not shown, and never will be; empty where it is not so.
+    std::string refusal(const index::ExtractionPtr& set) const {
+        return set && set == cells_.refused() ? cells_.refusal() : std::string();
+    }
 
     const render::UploadCount& uploaded() const { return cells_.count(); }
 

@@ -150,11 +150,16 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     if (cells.show)
         scene_.upload(*cells.show, volume);
     // A replay shows what was asked for, however many upload budgets that takes.
-    while (waiting == Waiting::for_cells && *cells.show && scene_.shown() != *cells.show)
+    while (waiting == Waiting::for_cells && *cells.show && scene_.shown() != *cells.show) {
         scene_.upload(*cells.show);
+        if (const std::string refusal = scene_.refusal(*cells.show); !refusal.empty())
+            throw render::Error(refusal);
+    }
+    if (cells.show)
+        say_refused(*cells.show, report);
     if (cells.stage && scene_.stage(cells.stage))
         frames_->staged();
-    if (!scene_.has_volume()) // the picture has not come to rest
+    if (!scene_.is_complete()) // the picture has not come to rest
         report.pace = interaction::Pace::moving;
     report.upload = watch.lap();
     report.uploaded = scene_.uploaded().since(before);
@@ -166,6 +171,14 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
         report.search = shown->search_time();
         report.gather = shown->gather_time;
     }
+}
+
+/// A set that is too large is left out with a line, once.
+void Session::say_refused(const index::ExtractionPtr& set, FrameReport& report) {
+    report.refused = scene_.refusal(set);
+    if (!report.refused.empty() && report.refused != refused_)
+        show_messages({report.refused});
+    refused_ = report.refused;
 }
 
 /// Nothing as long as the cells that are drawn are not colored by what they are to be: their

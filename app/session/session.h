@@ -93,6 +93,7 @@ class Session {
 
     /// The panel shows the last of these until there is a newer one.
     void show_messages(std::vector<std::string> messages);
+    void say_refused(const index::ExtractionPtr& set, FrameReport& report);
     void set_recording(bool recording) { recording_ = recording; }
 
     /// The file name of the data, for pictures that say what they show.
@@ -188,6 +189,7 @@ class Session {
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
     bool recording_ = false;
     std::string message_;
+    std::string refused_; ///< why the newest set is not shown; empty where it is
     std::size_t messages_ = 0;
 };
 

@@ -32,4 +32,23 @@ glm::dvec3 cell_normal(const StepValues& values, std::uint32_t step, CellId cell
     });
 }
 
+CellPlane cell_plane(const StepValues& values, const Query& query, CellId cell) {
+    const std::array<std::uint32_t, 3> at = values.grid.cell_of(cell);
+    const double level = stored_value(values.scaling, query.isovalue);
+    return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
+        const CellDifferences<T> differences(values, query.step, at[1], at[2]);
+        const glm::dvec3 around = unit(differences(at[0]));
+        const CellSlope slope = differences.slope(at[0], level);
+        const double along = glm::dot(slope.own, around);
+        // Towards larger stored values, which are larger ones where the slope is positive.
+        const double least = CellPlane::kLeastCosine2 * glm::dot(slope.own, slope.own);
+        const double rise = along * std::abs(along) > least ? slope.rise / (2.0 * along) : 0.0;
+        const double offset = values.scaling.slope < 0 ? rise : -rise;
+        return CellPlane{unit(normal_from_difference(values) * around),
+                         std::isfinite(offset) || std::isinf(offset)
+                             ? std::clamp(offset, -CellPlane::kFarthest, CellPlane::kFarthest)
+                             : 0.0};
+    });
+}
+
 } // namespace isochron::index

@@ -1,6 +1,7 @@
 // The result of one query: immutable once frozen, shared between the worker and the renderer.
 #pragma once
 
+#include "index/extraction/cell_plane.h"
 #include "index/volume/query.h"
 #include "index/volume/step_values.h"
 
@@ -18,9 +19,9 @@ struct CellPoint {
     /// Bits 0 to 2: which surface, 0 to kMostSurfaces - 1; bits 3 to 15: where its color lies in a
     /// color map, 0 to 8191. Both 0 in a set of one query.
     std::uint16_t style;
-    /// Unit normal in physical space, pointing towards lower values, as GL_INT_2_10_10_10_REV;
-    /// all zero where the gradient vanishes or is not finite.
-    std::uint32_t normal;
+    /// The plane of the surface in the cell: see `pack` in cell_plane.h. All zero where the
+    /// gradient vanishes or is not finite.
+    std::uint32_t plane;
 };
 static_assert(sizeof(CellPoint) == 12);
 
@@ -46,10 +47,15 @@ using CellSetPtr = std::shared_ptr<const CellSet>;
 
 /// Fills `points` and `rows` from `ids`. The normal is the negated mean of the eight vertices'
 /// central-difference gradients (one-sided at the border) in physical space.
+/// The plane's offset is that of the set's isovalue.
 /// @return false when it was stopped and the set is incomplete
 bool shade_cells(const StepValues& values, CellSet& set, const std::stop_token& stop = {});
 
 /// The normal of one cell as above, unpacked, for tests and reports; zero where it has none.
 glm::dvec3 cell_normal(const StepValues& values, std::uint32_t step, CellId cell);
+
+/// The plane of one cell likewise; no offset where the cell's own slope does not rise along the
+/// normal.
+CellPlane cell_plane(const StepValues& values, const Query& query, CellId cell);
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// Positions and normals of active cells: differences cell by cell, normals many cells at a time.
+// Positions and planes of active cells: differences cell by cell, planes many cells at a time.
 #include "index/extraction/cell_set.h"
 #include "index/volume/cell_difference.h"
 #include "index/volume/cell_walk.h"
@@ -16,32 +16,33 @@
 #define HWY_TARGET_INCLUDE "index/extraction/cell_shading.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
 
-#include "index/extraction/cell_normals_inl.h"
+#include "index/extraction/cell_planes_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 namespace {
 
-/// Collects cells, and gives them their normals when there are enough.
+/// Collects cells, and gives them their planes when there are enough.
 template <class Batch>
 class Shader {
   public:
-    Shader(Batch batch, const glm::dmat3& matrix) : batch_(std::move(batch)), maker_(matrix) {}
+    Shader(Batch batch, const typename Batch::Maker& maker)
+        : batch_(std::move(batch)), maker_(maker) {}
 
-    template <class Values>
-    HWY_INLINE void add(const Values& values, CellPoint& point) {
-        batch_.set(size_, values);
+    template <class... Values>
+    HWY_INLINE void add(CellPoint& point, const Values&... values) {
+        batch_.set(size_, values...);
         points_[size_] = &point;
         if (++size_ == kBatch)
             finish();
     }
 
     void finish() {
-        std::array<std::uint32_t, kBatch> normals;
+        std::array<std::uint32_t, kBatch> planes;
         for (std::size_t i = 0; i < size_; i += hn::Lanes(typename Batch::Maker::D()))
-            batch_.make(maker_, i, normals.data() + i);
+            batch_.make(maker_, i, planes.data() + i);
         for (std::size_t i = 0; i < size_; ++i)
-            points_[i]->normal = normals[i];
+            points_[i]->plane = planes[i];
         size_ = 0;
     }
 
@@ -74,9 +75,11 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     constexpr bool kSmall = sizeof(T) <= 2;
     double smallest = 0;
     const glm::dmat3 matrix = scaled_to_one(normal_from_difference(values), smallest);
-    Shader<DifferenceBatch> exact({}, matrix);
+    const double level = stored_value(values.scaling, set.query.isovalue);
+    const bool reversed = values.scaling.slope < 0;
+    Shader<DifferenceBatch> exact({}, {matrix, reversed});
     using Batch = ValueBatch<std::conditional_t<kSmall, T, std::uint8_t>>;
-    Shader<Batch> fast(Batch(values.grid), matrix);
+    Shader<Batch> fast(Batch(values.grid, level), {matrix, reversed});
     const auto [width, height, depth] = values.grid.cells();
     const std::size_t row_size = values.grid.vertices[0];
     const std::size_t slice_size = row_size * values.grid.vertices[1];
@@ -109,12 +112,12 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
                      static_cast<std::uint16_t>(z), 0, 0};
         if constexpr (kSmall)
             if (x - 1u < inner_width) { // not so for x = 0 either: the numbers are unsigned
-                fast.add(of_row + x, points[i]);
+                fast.add(points[i], of_row + x);
                 continue;
             }
         if (!differences)
             differences.emplace(values, set.query.step, y, z);
-        exact.add((*differences)(x), points[i]);
+        exact.add(points[i], (*differences)(x), differences->slope(x, level));
     }
     fast.finish();
     exact.finish();

@@ -34,6 +34,17 @@ struct AxisTaps {
     double low_weight, high_weight;
 };
 
+/// The isovalue among a cell's own eight values.
+struct CellSlope {
+    glm::dvec3 own; ///< four times the mean difference along each axis, index space
+    double rise;    ///< eight times from the mean up to the isovalue
+};
+
+/// The stored value that stands for a scaled one.
+inline double stored_value(const Scaling& scaling, double scaled) {
+    return (scaled - scaling.intercept) / scaling.slope;
+}
+
 /// The cells of one row of a step.
 template <class T>
 class CellDifferences {
@@ -51,6 +62,21 @@ class CellDifferences {
         return {dx(v) + dx(v + row_) + dx(v + slice_) + dx(v + row_ + slice_),
                 dy_(v) + dy_(v + 1) + dy_(v + slice_) + dy_(v + 1 + slice_),
                 dz_(v) + dz_(v + 1) + dz_(v + row_) + dz_(v + 1 + row_)};
+    }
+
+    /// @param level isovalue among stored values
+    CellSlope slope(std::uint32_t x, double level) const {
+        std::array<double, 8> v;
+        double rise = 0;
+        for (int i = 0; i < 8; ++i) {
+            const std::ptrdiff_t at = x + (i & 1) + (i >> 1 & 1) * row_ + (i >> 2) * slice_;
+            v[i] = static_cast<double>(first_[at]);
+            rise += level - v[i];
+        }
+        return {{(v[1] - v[0]) + (v[3] - v[2]) + (v[5] - v[4]) + (v[7] - v[6]),
+                 (v[2] - v[0]) + (v[3] - v[1]) + (v[6] - v[4]) + (v[7] - v[5]),
+                 (v[4] - v[0]) + (v[5] - v[1]) + (v[6] - v[2]) + (v[7] - v[3])},
+                rise};
     }
 
   private:

@@ -48,6 +48,23 @@ void BrickPool::begin(const index::VolumeBricks& bricks) {
     pages_sent_ = 0;
 }
 
+bool BrickPool::has_room_for(const index::VolumeBricks& bricks) const {
+    std::size_t more = 0;
+    for (std::size_t i = 0; i < bricks.ids.size(); ++i) {
+        const std::uint32_t slot = slot_of_[bricks.ids[i]];
+        more += slot == kNoSlot || held_[slot].digest != bricks.digests[i];
+    }
+    return size() + more <= values_.limit();
+}
+
+void BrickPool::forget() {
+    for (const std::uint32_t slot : shown_) {
+        slot_of_[held_[slot].brick] = kNoSlot;
+        free_.push_back(slot);
+    }
+    shown_.clear();
+}
+
 std::uint32_t BrickPool::take_slot() {
     if (free_.empty()) {
         const std::size_t before = held_.size();

@@ -23,6 +23,12 @@ class BrickPool {
     /// @param bricks live until they are shown
     void begin(const index::VolumeBricks& bricks);
 
+    /// Whether these bricks and those of the shown set can be held at the same time.
+    bool has_room_for(const index::VolumeBricks& bricks) const;
+    /// Holds none, so that there is room for as many as the driver's textures hold; nothing is on
+    /// its way.
+    void forget();
+
     /// Sends at most `bytes`, of which there must be a unit of the ring, as far as the ring has
     /// room.
     /// @return bytes sent; complete or not, all that could be done now is done

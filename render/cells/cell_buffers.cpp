@@ -52,6 +52,7 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
     for (const index::CellPoint& point : points) {
         slots->slot_of_rank.push_back(static_cast<std::uint32_t>(slots->places.size()));
         slots->places.push_back({point.x, point.y, point.z, point.style});
+        slots->planes.push_back(point.plane);
     }
     cells.slots_ = std::move(slots);
     cells.version_ = next_version();
@@ -65,7 +66,7 @@ void CellBuffers::prepare(index::ValueType held) {
     compute_->enter_pages(*bricks_);
     compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, message_, points_);
     compute_->set_styles(none, styles_, points_);
-    compute_->fill_normals(none, *bricks_, points_);
+    compute_->fill_planes(none, *bricks_, points_);
     compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_);
 }
 
@@ -87,9 +88,14 @@ bool CellBuffers::stage(const index::ExtractionPtr& set, std::size_t byte_budget
     std::size_t sent = 0;
     const bool complete = take_up(set, SendVolume::with_cells, most, sent)
                               ? send_on(most, sent)
-                              : set == shown_ && has_volume();
+                              : set == refused_ || (set == shown_ && !wants_volume());
     ring_.end_frame();
     return complete;
+}
+
+/// Whether the shown set lacks its volume and could have it.
+bool CellBuffers::wants_volume() const {
+    return !has_volume() && shown_->bricks.ids.size() <= bricks_->values().limit();
 }
 
 /// Makes sure that something is on its way, if there is anything to send.
@@ -98,22 +104,47 @@ bool CellBuffers::take_up(const index::ExtractionPtr& newest, SendVolume volume,
                           std::size_t& sent) {
     if (arriving_)
         return true;
-    const bool shown = !newest || newest == shown_;
+    const bool shown = !newest || newest == shown_ || newest == refused_;
     if (sending_bricks_ || (shown && volume == SendVolume::with_cells))
         send_volume_of_shown(bytes, sent);
     if (sending_bricks_ || shown)
         return false;
-    begin(newest, volume);
+    return begin(newest, volume);
+}
+
+/// Gives up the bricks of the shown set where both do not fit. @return false when these do not
+bool CellBuffers::make_room_for(const index::VolumeBricks& bricks) {
+    if (bricks.ids.size() > bricks_->values().limit())
+        return false;
+    if (!bricks_->has_room_for(bricks)) {
+        bricks_->forget();
+        volume_version_ = 0; // of no set
+    }
     return true;
 }
 
-void CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
-    if (set->cells() > points_.limit())
-        throw Error(fmt::format("{} cells at step {}, this GL can draw at most {}", set->cells(),
-                                set->query.step, points_.limit()));
+/// @return false when the set is refused
+bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     if (!bricks_)
         prepare(set->bricks.held);
-    if (set->shaded())
+    const bool with_points = set->shaded();
+    refused_ = nullptr;
+    refusal_.clear();
+    if (set->cells() > points_.limit())
+        refusal_ = fmt::format("{} cells at step {}: this GL can draw at most {}, so the last ones "
+                               "stay",
+                               set->cells(), set->query.step, points_.limit());
+    else if (!with_points && !make_room_for(set->bricks))
+        refusal_ = fmt::format("{} bricks of the volume at step {}: this GL holds at most {}, so "
+                               "the last cells stay",
+                               set->bricks.ids.size(), set->query.step, bricks_->values().limit());
+    if (!refusal_.empty()) {
+        refused_ = std::move(set);
+        return false;
+    }
+    if (with_points && volume == SendVolume::with_cells && !make_room_for(set->bricks))
+        volume = SendVolume::never;
+    if (with_points)
         ranked_ = std::make_unique<RankedPoints>(*set);
     else
         plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
@@ -123,6 +154,7 @@ void CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     if (sending_bricks_)
         bricks_->begin(set->bricks);
     arriving_ = std::move(set);
+    return true;
 }
 
 /// Goes on with the set on its way. @return whether all of it is on the GPU
@@ -149,8 +181,12 @@ bool CellBuffers::send_bricks(std::size_t bytes, std::size_t& sent) {
 void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
     if (!shown_ || has_volume())
         return;
-    if (!std::exchange(sending_bricks_, true))
+    if (!sending_bricks_) {
+        if (!make_room_for(shown_->bricks))
+            return;
+        sending_bricks_ = true;
         bricks_->begin(shown_->bricks);
+    }
     if (!send_bricks(bytes, sent))
         return;
     compute_->enter_pages(*bricks_);
@@ -237,7 +273,7 @@ Slots CellBuffers::place_cells() {
     compute_->place_cells(*plan_, *arriving_, message_, points_);
     if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))
         compute_->set_styles(*arriving_, styles_, points_);
-    compute_->fill_normals(*arriving_, *bricks_, points_);
+    compute_->fill_planes(*arriving_, *bricks_, points_);
     count_.ids += plan_->ids();
     return plan_->take();
 }

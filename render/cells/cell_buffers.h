@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace isochron::render {
 
@@ -58,17 +59,21 @@ class CellBuffers {
     /// from ever changing; sets in between are skipped. Null changes nothing.
     /// @param volume never: cells with normals leave it behind. It follows as soon as it is asked
     /// for while no newer set is there.
+    /// A set that is larger than the driver's buffers can be is refused, and the last one kept: see
+    /// `refused`. Where only its volume is too large, its cells are shown without.
     /// @return true when another set is shown than before
-    /// @throws Error when the set is larger than the driver's buffers can be
     bool upload(const index::ExtractionPtr& newest, std::size_t byte_budget,
                 SendVolume volume = SendVolume::with_cells);
 
     /// The same for one set, without showing it: the next `upload` of it does.
-    /// @return true when everything of it is on the GPU
+    /// @return true when everything of it is on the GPU, or it is refused
     bool stage(const index::ExtractionPtr& set, std::size_t byte_budget);
 
     /// The set that is drawn, null before the first is complete.
     const index::ExtractionPtr& shown() const { return shown_; }
+    /// The last set that was too large, null where a later one was not; and why, in one line.
+    const index::ExtractionPtr& refused() const { return refused_; }
+    const std::string& refusal() const { return refusal_; }
     /// True while a set is on its way to the GPU.
     bool pending() const { return arriving_ != nullptr; }
     /// Grows with every change of the shown set; no two buffers ever have the same, but 0.
@@ -84,6 +89,8 @@ class CellBuffers {
 
     /// Whether the shown set's part of the volume is on the GPU, as the exact surface needs.
     bool has_volume() const { return volume_version_ == version_; }
+    /// Whether it is not, and the driver can hold it.
+    bool wants_volume() const;
     /// Computes the two textures below for the shown set, which has its volume, unless they are up
     /// to date.
     /// @throws Error when there are more than `corner_limit()` cells
@@ -108,7 +115,8 @@ class CellBuffers {
   private:
     bool take_up(const index::ExtractionPtr& newest, SendVolume volume, std::size_t bytes,
                  std::size_t& sent);
-    void begin(index::ExtractionPtr set, SendVolume volume);
+    bool begin(index::ExtractionPtr set, SendVolume volume);
+    bool make_room_for(const index::VolumeBricks& bricks);
     bool send_on(std::size_t bytes, std::size_t& sent);
     bool send_bricks(std::size_t bytes, std::size_t& sent);
     void send_volume_of_shown(std::size_t bytes, std::size_t& sent);
@@ -124,7 +132,8 @@ class CellBuffers {
     DeviceArray points_, message_, styles_, corner_values_, corner_gradients_;
     std::optional<BrickPool> bricks_;    ///< made when the type is known
     std::optional<CellCompute> compute_; ///< likewise
-    index::ExtractionPtr shown_;
+    index::ExtractionPtr shown_, refused_;
+    std::string refusal_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
     std::uint64_t version_ = 0, corners_version_ = 0, volume_version_ = 0;
     UploadCount count_;

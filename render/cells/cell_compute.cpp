@@ -67,7 +67,7 @@ CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType
       pages_(link_program(gl, {shader_file("brick_pages.comp")})),
       places_(link_program(gl, {shader_file("cell_places.comp")})),
       styles_(link_program(gl, {shader_file("cell_styles.comp")})),
-      normals_(link_program(gl, {shader_file("cell_normals.comp")}, sampler_of(held))),
+      planes_(link_program(gl, {shader_file("cell_planes.comp")}, sampler_of(held))),
       corners_(link_program(gl, {shader_file("cell_corners.comp")}, sampler_of(held))), volume_(gl),
       work_(gl) {}
 
@@ -147,11 +147,11 @@ void CellCompute::set_styles(const index::Extraction& set, const DeviceArray& st
     run(styles_, set.cells(), {.colored = !set.colors.empty()}, [](std::size_t, std::size_t) {});
 }
 
-void CellCompute::fill_normals(const index::Extraction& set, const BrickPool& bricks,
-                               const DeviceArray& points) const {
+void CellCompute::fill_planes(const index::Extraction& set, const BrickPool& bricks,
+                              const DeviceArray& points) const {
     use_volume(set, bricks);
     bind(0, points);
-    run(normals_, set.cells(), {}, [](std::size_t, std::size_t) {});
+    run(planes_, set.cells(), {}, [](std::size_t, std::size_t) {});
 }
 
 void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& bricks,

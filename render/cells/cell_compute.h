@@ -1,4 +1,4 @@
-// What the GPU computes for a new set: places, normals, and values and gradients at the vertices.
+// What the GPU computes for a new set: places, planes, and values and gradients at the vertices.
 #pragma once
 
 #include "index/extraction/extraction.h"
@@ -22,7 +22,7 @@ class CellCompute {
     void enter_pages(const BrickPool& bricks) const;
 
     /// Puts the cells of a slot plan's message into `points` (three words a slot, see
-    /// index::CellPoint); normals follow.
+    /// index::CellPoint); planes follow.
     void place_cells(const SlotPlan& plan, const index::Extraction& set, const DeviceArray& message,
                      const DeviceArray& points) const;
 
@@ -31,9 +31,9 @@ class CellCompute {
     void set_styles(const index::Extraction& set, const DeviceArray& styles,
                     const DeviceArray& points) const;
 
-    /// Writes the normals of all points. @param set whose bricks the pool holds
-    void fill_normals(const index::Extraction& set, const BrickPool& bricks,
-                      const DeviceArray& points) const;
+    /// Writes the planes of all points. @param set whose bricks the pool holds
+    void fill_planes(const index::Extraction& set, const BrickPool& bricks,
+                     const DeviceArray& points) const;
 
     /// Writes values and gradients at the vertices of all cells.
     void fill_corners(const index::Extraction& set, const BrickPool& bricks,
@@ -60,7 +60,7 @@ class CellCompute {
     const Gl* gl_;
     index::Grid grid_;
     std::size_t at_once_; ///< things that one dispatch does
-    Program pages_, places_, styles_, normals_, corners_;
+    Program pages_, places_, styles_, planes_, corners_;
     Buffer volume_, work_;
 };
 

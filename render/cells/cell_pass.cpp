@@ -54,8 +54,9 @@ struct Frame {
     std::int32_t drawn_surfaces;
     std::int32_t soft_near_eye;
     glm::vec2 padding{0.0f};
+    std::array<glm::vec4, 3> index_from_normal; ///< rows
 };
-static_assert(sizeof(Frame) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 7) * 16);
+static_assert(sizeof(Frame) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 10) * 16);
 static_assert(sizeof(Frame) <= kUniformBlockBytes);
 constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
 
@@ -142,7 +143,7 @@ bool hides_what_is_behind(const CellAppearance& look, const Placement& placement
 
 /// The part of the block that is the same for every eye.
 Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
-               std::int32_t surfaces, bool blended) {
+               std::int32_t surfaces, bool blended, const Placement& placement) {
     const bool gaussian = footprint == Footprint::gaussian;
     Frame frame{
         .eyes = {},
@@ -154,18 +155,21 @@ Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footpr
         .color_range = {},
         .colored = look.values.has_value(),
         .linear_light = blended && look.linear_light,
-        .radius = 0.5f * (gaussian ? shapes.gaussian_diameter : shapes.quad_diameter),
+        .radius = shapes.radius_of(footprint),
         .order_begin = 0,
         .order_step = 0,
         .blended = blended,
         .drawn_surfaces = surfaces,
         .soft_near_eye = gaussian,
+        .index_from_normal = {},
     };
+    const glm::mat3 rows = glm::transpose(placement.index_from_normal());
+    for (int i = 0; i < 3; ++i)
+        frame.index_from_normal[static_cast<std::size_t>(i)] = glm::vec4(rows[i], 0.0f);
     for (std::size_t i = 0; i < index::kMostSurfaces; ++i) {
         const auto& [color, opacity] = look.surfaces[i];
-        frame.surfaces[i] =
-            glm::vec4(linear_from_srgb(color),
-                      gaussian ? splat_opacity(opacity, shapes.gaussian_sigma) : opacity);
+        frame.surfaces[i] = glm::vec4(linear_from_srgb(color),
+                                      gaussian ? splat_opacity(opacity, shapes.sigma()) : opacity);
     }
     if (look.values) {
         const float width = std::max(look.values->high - look.values->low, 1e-6f);
@@ -175,20 +179,18 @@ Frame frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footpr
     return frame;
 }
 
-/// The dilogarithm of 0 to 1, for the larger half by Euler's reflection.
-float dilogarithm(float x) {
-    constexpr float kOfOne = std::numbers::pi_v<float> * std::numbers::pi_v<float> / 6.0f;
-    if (x >= 1.0f)
-        return kOfOne;
-    if (x > 0.5f)
-        return kOfOne - std::log(x) * std::log1p(-x) - dilogarithm(1.0f - x);
-    float sum = 0.0f, power = x;
-    for (int k = 1; k <= 20; ++k, power *= x)
-        sum += power / static_cast<float>(k * k);
-    return sum;
+} // namespace
+
+const char* name_of(CellShape shape) {
+    return shape == CellShape::plane ? "plane" : "voxel";
 }
 
-} // namespace
+float FootprintShapes::radius_of(Footprint footprint) const {
+    const bool gaussian = footprint == Footprint::gaussian;
+    if (shape == CellShape::plane)
+        return gaussian ? plane_gaussian_radius : plane_radius;
+    return 0.5f * (gaussian ? gaussian_diameter : quad_diameter);
+}
 
 const char* name_of(Footprint footprint) {
     switch (footprint) {
@@ -197,20 +199,6 @@ const char* name_of(Footprint footprint) {
     case Footprint::surface: break;
     }
     return "surface";
-}
-
-float splat_opacity(float surface_opacity, float sigma) {
-    if (surface_opacity >= 1.0f)
-        return 1.0f;
-    constexpr float kCellsPerArea = 1.5f; // mean of |nx| + |ny| + |nz| over all directions
-    const float depth = -std::log1p(-surface_opacity) /
-                        (kCellsPerArea * 2.0f * std::numbers::pi_v<float> * sigma * sigma);
-    float low = 0.0f, high = 1.0f;
-    for (int halving = 0; halving < 20; ++halving) {
-        const float middle = 0.5f * (low + high);
-        (dilogarithm(middle) < depth ? low : high) = middle;
-    }
-    return high;
 }
 
 CellPass::Programs CellPass::programs(std::string_view fragment_shader,
@@ -223,7 +211,10 @@ CellPass::Programs CellPass::programs(std::string_view fragment_shader,
 }
 
 CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragment_shader,
-                                                         const std::string& prelude) const {
+                                                         bool round) const {
+    const std::string prelude =
+        std::string(shapes_.shape == CellShape::plane ? "#define PLANE\n" : "") +
+        (round ? "#define ROUND\n" : "");
     return {programs(fragment_shader, prelude),
             programs(fragment_shader, prelude + "#define POINTS\n"), std::nullopt};
 }
@@ -231,11 +222,12 @@ CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragme
 CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
     : gl_(&gl), shapes_(shapes), two_views_at_once_(draws_to_two_viewports(gl)),
       seen_only_(takes_processor_ways(gl)), largest_point_(Limits(gl).largest_point),
-      quad_programs_(footprint_programs("cell_quad.frag", {})),
-      gaussian_programs_(footprint_programs("cell_gaussian.frag", "#define ROUND\n")),
+      quad_programs_(footprint_programs("cell_quad.frag", is_round(Footprint::quad))),
+      gaussian_programs_(footprint_programs("cell_gaussian.frag", is_round(Footprint::gaussian))),
       surface_(gl, two_views_at_once_), quads_(gl), orders_(gl), seen_slots_(gl),
       seen_texture_(gl, GL_TEXTURE_BUFFER), frame_(gl) {
-    quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
+    if (shapes.shape == CellShape::voxel)
+        quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
     const float falloff = gaussian_falloff();
     for (const Programs* programs : {&gaussian_programs_.quads, &gaussian_programs_.points}) {
         gl.ProgramUniform1f(programs->one.name(), 0, falloff);
@@ -244,14 +236,13 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
     }
 }
 
-float CellPass::radius_of(Footprint footprint) const {
-    return 0.5f *
-           (footprint == Footprint::gaussian ? shapes_.gaussian_diameter : shapes_.quad_diameter);
+bool CellPass::is_round(Footprint footprint) const {
+    return footprint == Footprint::gaussian || shapes_.shape == CellShape::plane;
 }
 
 /// log2 of a splat's opacity on its outline, where it is 1 in the middle.
 float CellPass::gaussian_falloff() const {
-    const float sigmas = 0.5f * shapes_.gaussian_diameter / shapes_.gaussian_sigma;
+    const float sigmas = shapes_.radius_of(Footprint::gaussian) / shapes_.sigma();
     return -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
 }
 
@@ -285,7 +276,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
                             const CellBuffers& cells, Footprint footprint, const Layer& layer,
                             const CellAppearance& appearance) {
     const bool blended = layer.blended;
-    Frame frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended);
+    Frame frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended, placement);
     if (appearance.near_fade)
         frame.near_fade = near_fade_of(*appearance.near_fade, placement.spacing());
     Sequence sequence;
@@ -332,13 +323,17 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
 
 CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& placement,
                                  Footprint footprint) const {
-    const float radius = radius_of(footprint);
-    const float reach = footprint == Footprint::quad ? kReachOfRectangle : 1.0f;
-    Form form = footprint == Footprint::quad ? Form::squares : Form::points;
+    const bool flat = shapes_.shape == CellShape::plane;
+    // Ellipsoids on planes lie up to a cell's half diagonal beside the cell's middle.
+    const float radius = shapes_.radius_of(footprint);
+    const float reach = flat                           ? 1.0f + kFarthestPlane / radius
+                        : footprint == Footprint::quad ? kReachOfRectangle
+                                                       : 1.0f;
+    Form form = is_round(footprint) ? Form::points : Form::squares;
     for (const View& view : views) {
         if (!points_serve(view, placement, radius, reach, largest_point_))
             return Form::quads;
-        if (!footprints_are_squares(view, placement, radius))
+        if (!is_round(footprint) && !footprints_are_squares(view, placement, radius))
             form = Form::points;
     }
     return form;
@@ -354,18 +349,19 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
     const glm::vec4 eye = eye_in_index(view, placement);
     const TraversalKey key = traversal_key(eye, glm::ivec3(placement.extent), placement.spacing());
     // In linear light less than a step of the display's values shows where these are dark.
-    const bool leaves_out = seen_only_ && !all_cells_ && footprint != Footprint::surface &&
-                            !(blended && appearance.linear_light) &&
-                            hides_what_is_behind(appearance, placement);
+    const bool leaves_out =
+        seen_only_ && !all_cells_ && footprint != Footprint::surface &&
+        !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&
+        (shapes_.shape == CellShape::voxel || cells.slots().planes.size() == cells.size());
     if (!leaves_out)
         return blended ? Sequence{cells.size(), orders_.texture(cells, key), 0, 1}
                        : Sequence{cells.size(), orders_.texture(cells, key), all - 1, -1};
-    const std::span<const CellPlace> places = cells.slots().places;
     const std::span<const std::uint32_t> order = orders_.order(cells, key);
-    const float radius = radius_of(footprint);
+    const SplatShape shape{shapes_.shape, shapes_.radius_of(footprint)};
     const std::span<const std::uint32_t> seen =
-        blended ? seen_splats_.find(view, placement, radius, gaussian_falloff(), places, order)
-                : seen_.find(view, placement, radius, places, order);
+        blended
+            ? seen_splats_.find(view, placement, shape, gaussian_falloff(), cells.slots(), order)
+            : seen_.find(view, placement, shape, cells.slots(), order);
     gl_->NamedBufferData(seen_slots_.name(), static_cast<GLsizeiptr>(seen.size_bytes()),
                          seen.data(), GL_STREAM_DRAW);
     gl_->TextureBuffer(seen_texture_.name(), GL_R32UI, seen_slots_.name());

@@ -3,10 +3,12 @@
 
 #include "index/volume/query.h"
 #include "render/cells/cell_buffers.h"
+#include "render/cells/cell_shape.h"
 #include "render/cells/order_cache.h"
 #include "render/cells/placement.h"
 #include "render/cells/quad_culling.h"
 #include "render/cells/splat_culling.h"
+#include "render/cells/splat_opacity.h"
 #include "render/cells/surface_pass.h"
 #include "render/gl/quad_indices.h"
 #include "render/gl/view.h"
@@ -42,9 +44,19 @@ const char* name_of(Footprint footprint);
 /// views of a surface crowd its cells: nothing shows through that does not through 1.6, and a fifth
 /// fewer pixels are drawn.
 struct FootprintShapes {
+    CellShape shape = CellShape::plane;
+    // Of spheres:
     float quad_diameter = 1.41421356f;
     float gaussian_diameter = 4.0f; ///< where the Gaussian is cut off
     float gaussian_sigma = 0.7f;
+    // Of ellipsoids on planes that pass near the middles of their cells:
+    float plane_radius = 0.8f;
+    float plane_gaussian_radius = 1.45f; ///< where the Gaussian is cut off
+    float plane_sigma = 0.5075f;
+
+    /// Half of the diameter with this footprint and shape.
+    float radius_of(Footprint footprint) const;
+    float sigma() const { return shape == CellShape::plane ? plane_sigma : gaussian_sigma; }
 };
 
 /// How one isosurface looks.
@@ -93,12 +105,6 @@ struct CellAppearance {
     bool linear_light = true;
 };
 
-/// Opacity of the middle of a Gaussian splat, such that the splats of a surface, about 1.5 cells
-/// for each unit of its area, let 1 - `surface_opacity` of the light through: their optical depths
-/// add up to 1.5 * 2 pi sigma^2 Li2(alpha), Li2 the dilogarithm.
-/// @param sigma of the splats, voxels
-float splat_opacity(float surface_opacity, float sigma);
-
 class CellPass {
   public:
     /// @throws Error when a shader does not compile
@@ -141,8 +147,9 @@ class CellPass {
         std::optional<Programs> squares;
     };
     Programs programs(std::string_view fragment_shader, const std::string& prelude) const;
-    FootprintPrograms footprint_programs(std::string_view fragment_shader,
-                                         const std::string& prelude) const;
+    FootprintPrograms footprint_programs(std::string_view fragment_shader, bool round) const;
+    /// Whether cells are ellipses rather than the rectangles around them.
+    bool is_round(Footprint footprint) const;
     /// What footprints are drawn as, from the most general to the fastest.
     enum class Form : std::uint8_t { quads, points, squares };
     /// Which cells a view draws, and in which order: the n-th is the one that the texel
@@ -174,7 +181,6 @@ class CellPass {
     Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
                          Footprint footprint, bool blended, const CellAppearance& appearance);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
-    float radius_of(Footprint footprint) const;
     float gaussian_falloff() const;
 
     const Gl* gl_;

@@ -2,6 +2,7 @@
 // at run time.
 #include "render/cells/cell_squares.h"
 
+#include "index/extraction/cell_plane.h"
 #include "render/cells/point_sprites.h"
 
 #include <glm/geometric.hpp>
@@ -19,11 +20,12 @@ struct SquareProjection {
     glm::vec4 row_x, row_y, row_z, row_w; ///< from index to clip space, x and y in pixels
     glm::vec2 middle;                     ///< of the viewport, pixels
     float radius;
+    glm::mat3 index_from_normal; ///< normals of planes from physical to index space
 };
 
 /// Where the results go.
 struct SquareArrays {
-    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc;
+    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc, *xx, *xy, *yy;
 };
 
 } // namespace isochron::render
@@ -85,17 +87,117 @@ HWY_INLINE V3 centers(const std::uint32_t* words) {
             middle(hn::And(z_style, low))};
 }
 
-/// The squares of the cells of the next words, to index `i` of the arrays.
-HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* words, std::size_t i,
-                             const SquareArrays& out) {
+/// Spheres of one radius.
+struct Spheres {
+    V radius2;
+    HWY_INLINE V form(const V3& u, const V3& v) const { return hn::Mul(radius2, dot(u, v)); }
+};
+
+/// As plane.glsl has it: `Splat` and `form`.
+struct Ellipsoids {
+    V3 normal, lengthwise;
+    V across2, normal2, lengthwise2; ///< square half axes; two less the first
+    HWY_INLINE V form(const V3& u, const V3& v) const {
+        const V flat = hn::Mul(normal2, hn::Mul(dot(u, normal), dot(v, normal)));
+        const V length = hn::Mul(lengthwise2, hn::Mul(dot(u, lengthwise), dot(v, lengthwise)));
+        return hn::MulAdd(across2, dot(u, v), hn::Add(flat, length));
+    }
+};
+
+HWY_INLINE V3 over_length(const V3& v) {
+    const V to_one = hn::Div(hn::Set(Floats(), 1.0f), hn::Sqrt(dot(v, v)));
+    return {hn::Mul(v.x, to_one), hn::Mul(v.y, to_one), hn::Mul(v.z, to_one)};
+}
+
+template <class M>
+HWY_INLINE V3 select(M which, const V3& yes, const V3& no) {
+    return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
+            hn::IfThenElse(which, yes.z, no.z)};
+}
+
+/// The ellipsoids on the planes of the next words. @param center of the cells; moved
+HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t* words,
+                                 V3& center) {
+    const Floats d;
+    const hn::RebindToUnsigned<Floats> du;
+    const hn::RebindToSigned<Floats> di;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const auto word = hn::LoadU(du, words);
+    const auto coordinate = [&](hn::Vec<decltype(du)> bits) HWY_ATTR {
+        const auto number = hn::BitCast(di, hn::And(bits, hn::Set(du, 0xfffu)));
+        const V steps = hn::ConvertTo(d, hn::Sub(number, hn::Set(di, index::packed_plane::kZero)));
+        return hn::Mul(steps, hn::Set(d, 1.0f / index::packed_plane::kOne));
+    };
+    V3 n{coordinate(word), coordinate(hn::ShiftRight<12>(word)), one};
+    n.z = hn::Sub(one, hn::Add(hn::Abs(n.x), hn::Abs(n.y)));
+    const V fold = hn::Max(hn::Neg(n.z), zero);
+    n.x = hn::Sub(n.x, hn::CopySign(fold, n.x));
+    n.y = hn::Sub(n.y, hn::CopySign(fold, n.y));
+    const auto row = [&](int i) {
+        const glm::vec3 r(p.index_from_normal[0][i], p.index_from_normal[1][i],
+                          p.index_from_normal[2][i]);
+        return dot({hn::Set(d, r.x), hn::Set(d, r.y), hn::Set(d, r.z)}, n);
+    };
+    const V3 in_index{row(0), row(1), row(2)};
+    const auto flat_bits = hn::Ne(hn::And(word, hn::Set(du, index::kNormalBits)), hn::Zero(du));
+    const auto is_flat =
+        hn::And(hn::RebindMask(d, flat_bits), hn::Gt(dot(in_index, in_index), zero));
+    const V3 any{zero, zero, one};
+    const V3 normal = over_length(select(is_flat, in_index, any));
+    constexpr float kStep = float(index::CellPlane::kFarthest / index::packed_plane::kFarthest);
+    const auto byte = hn::ShiftRight<24>(hn::BitCast(di, word));
+    const V offset = hn::Mul(hn::ConvertTo(d, byte), hn::Set(d, kStep));
+
+    const V tiny = hn::Set(d, 1e-6f), half = hn::Set(d, 0.5f);
+    const V3 size{hn::Max(hn::Abs(normal.x), tiny), hn::Max(hn::Abs(normal.y), tiny),
+                  hn::Max(hn::Abs(normal.z), tiny)};
+    const V sum = hn::Add(size.x, hn::Add(size.y, size.z));
+    const V rest = hn::Max(hn::MulSub(half, sum, hn::Abs(offset)), zero);
+    const V lower = hn::Min(size.x, size.y), upper = hn::Max(size.x, size.y);
+    const V least = hn::Min(lower, size.z), median = hn::Max(lower, hn::Min(upper, size.z));
+    const auto towards = [&](V of_size, V of_normal) HWY_ATTR {
+        const V third = hn::Div(rest, hn::Mul(hn::Set(d, 3.0f), of_size));
+        const V outwards = hn::Sub(half, hn::Min(third, half));
+        return hn::CopySign(outwards, hn::Xor(of_normal, offset));
+    };
+    V3 at{towards(size.x, normal.x), towards(size.y, normal.y), towards(size.z, normal.z)};
+    const V back = hn::Sub(offset, dot(normal, at));
+    at = {hn::MulAdd(back, normal.x, at.x), hn::MulAdd(back, normal.y, at.y),
+          hn::MulAdd(back, normal.z, at.z)};
+    center = {hn::Add(center.x, hn::IfThenElseZero(is_flat, at.x)),
+              hn::Add(center.y, hn::IfThenElseZero(is_flat, at.y)),
+              hn::Add(center.z, hn::IfThenElseZero(is_flat, at.z))};
+    const auto x_is = hn::Eq(size.x, least), y_is = hn::Eq(size.y, least);
+    const V3 edge = select(x_is, {one, zero, zero}, select(y_is, {zero, one, zero}, any));
+    const V lean = dot(edge, normal);
+    const V3 lengthwise =
+        over_length({hn::NegMulAdd(lean, normal.x, edge.x), hn::NegMulAdd(lean, normal.y, edge.y),
+                     hn::NegMulAdd(lean, normal.z, edge.z)});
+    const auto square = [&](V half_axis) HWY_ATTR {
+        const V length = hn::Mul(hn::Set(d, p.radius), hn::IfThenElse(is_flat, half_axis, one));
+        return hn::Mul(length, length);
+    };
+    const auto clamped = [&](V length) {
+        return hn::Clamp(length, hn::Set(d, SplatShape::kLeastWidth), one);
+    };
+    const V across2 = square(clamped(hn::Div(rest, median)));
+    const V length2 =
+        square(clamped(hn::Div(hn::Mul(rest, hn::Set(d, SplatShape::kLengthwise)), least)));
+    const V thickness2 = square(hn::Set(d, SplatShape::kThickness));
+    return {normal, lengthwise, across2, hn::Sub(thickness2, across2), hn::Sub(length2, across2)};
+}
+
+/// @param Shape of the cells: `form`
+template <bool kEllipses, class Shape>
+HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, const V3& center,
+                              std::size_t i, const SquareArrays& out) {
     const Floats d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
     const float radius2 = p.radius * p.radius;
     const float tilt2 = glm::dot(glm::vec3(p.row_w), glm::vec3(p.row_w));
-    const V rr = hn::Set(d, radius2);
-    const V3 center = centers(words), row_w = set(p.row_w);
+    const V3 row_w = set(p.row_w);
     const V w = at(p.row_w, center);
-    const V depth = hn::Sub(hn::Mul(w, w), hn::Set(d, radius2 * tilt2));
+    const V depth = hn::Sub(hn::Mul(w, w), cells.form(row_w, row_w));
     const auto is_near =
         hn::Or(hn::Le(w, zero), hn::Le(depth, hn::Mul(hn::Set(d, kLeastDepth), hn::Mul(w, w))));
     const auto behind = hn::Lt(w, hn::Set(d, -1.01f * p.radius * std::sqrt(tilt2)));
@@ -109,12 +211,12 @@ HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* wor
                   hn::NegMulAdd(along, row_w.z, all.z)};
     };
     const V3 a = off(p.row_x, x), b = off(p.row_y, y);
-    const V k = hn::Div(rr, depth);
-    const V shift_x = hn::Neg(hn::Mul(k, dot(a, row_w)));
-    const V shift_y = hn::Neg(hn::Mul(k, dot(b, row_w)));
-    const V xx = hn::MulAdd(shift_x, shift_x, hn::Mul(k, dot(a, a)));
-    const V xy = hn::MulAdd(shift_x, shift_y, hn::Mul(k, dot(a, b)));
-    const V yy = hn::MulAdd(shift_y, shift_y, hn::Mul(k, dot(b, b)));
+    const V k = hn::Div(one, depth);
+    const V shift_x = hn::Neg(hn::Mul(k, cells.form(a, row_w)));
+    const V shift_y = hn::Neg(hn::Mul(k, cells.form(b, row_w)));
+    const V xx = hn::MulAdd(shift_x, shift_x, hn::Mul(k, cells.form(a, a)));
+    const V xy = hn::MulAdd(shift_x, shift_y, hn::Mul(k, cells.form(a, b)));
+    const V yy = hn::MulAdd(shift_y, shift_y, hn::Mul(k, cells.form(b, b)));
     // Of a nearly round ellipse the quad is the image of a square under the symmetric root of its
     // shape, (s + sqrt(det s)) / sqrt(trace s + 2 sqrt(det s)).
     const V det = hn::Sqrt(hn::Max(hn::NegMulAdd(xy, xy, hn::Mul(xx, yy)), zero));
@@ -129,8 +231,10 @@ HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* wor
     const V outer = hn::IfThenElse(round, most, hn::Sqrt(hn::Add(trace, uneven)));
 
     const V major = hn::Sqrt(hn::Mul(hn::Set(d, 0.5f), hn::Add(trace, uneven)));
-    const auto whole = hn::And(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)),
-                               hn::Ge(depth, hn::Mul(hn::Set(d, kWholeDepth), hn::Mul(w, w))));
+    const V from_sphere = hn::Sub(hn::Mul(w, w), hn::Set(d, radius2 * tilt2));
+    const auto whole =
+        hn::And(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)),
+                hn::Ge(from_sphere, hn::Mul(hn::Set(d, kWholeDepth), hn::Mul(w, w))));
 
     const V far = hn::Set(d, kFar);
     const V everywhere = hn::IfThenZeroElse(behind, hn::Set(d, 2.0f * kFar));
@@ -140,18 +244,40 @@ HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* wor
     store(far, hn::Add(hn::Set(d, p.middle.x), hn::Add(x, shift_x)), out.x);
     store(far, hn::Add(hn::Set(d, p.middle.y), hn::Add(y, shift_y)), out.y);
     store(hn::Neg(far), z, out.z);
-    store(zero, inner, out.inner);
-    store(everywhere, outer, out.outer);
+    if constexpr (kEllipses) {
+        const V all = hn::Mul(everywhere, everywhere);
+        store(all, xx, out.xx);
+        store(zero, xy, out.xy);
+        store(all, yy, out.yy);
+        store(zero, hn::IfThenElseZero(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)), one), out.inner);
+    } else {
+        store(zero, inner, out.inner);
+        store(everywhere, outer, out.outer);
+    }
     store(zero, hn::IfThenElseZero(whole, hn::Div(det, major)), out.inner_disc);
     store(everywhere, major, out.outer_disc);
 }
 
+/// What is known of the cells of the next words, to index `i` of the arrays.
+/// @param planes null where the cells are spheres
+HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* words,
+                             const std::uint32_t* planes, std::size_t i, const SquareArrays& out) {
+    V3 center = centers(words);
+    if (planes) {
+        const Ellipsoids shape = ellipsoids(p, planes, center);
+        project_shape<true>(p, shape, center, i, out);
+    } else {
+        const Spheres shape{hn::Set(Floats(), p.radius * p.radius)};
+        project_shape<false>(p, shape, center, i, out);
+    }
+}
+
 } // namespace
 
-void project(const SquareProjection& projection, const std::uint32_t* words, std::size_t cells,
-             const SquareArrays& out) {
+void project(const SquareProjection& projection, const std::uint32_t* words,
+             const std::uint32_t* planes, std::size_t cells, const SquareArrays& out) {
     for (std::size_t i = 0; i < cells; i += hn::Lanes(Floats()))
-        project_next(projection, words + 2 * i, i, out);
+        project_next(projection, words + 2 * i, planes ? planes + i : nullptr, i, out);
 }
 
 } // namespace isochron::render::HWY_NAMESPACE
@@ -162,25 +288,34 @@ namespace isochron::render {
 
 HWY_EXPORT(project);
 
-void CellSquares::project(const View& view, const Placement& placement, float radius,
-                          std::span<const CellPlace> places,
-                          std::span<const std::uint32_t> back_to_front) {
+void CellSquares::project(const View& view, const Placement& placement, const SplatShape& shape,
+                          const Slots& slots, std::span<const std::uint32_t> back_to_front) {
+    const bool on_planes = shape.shape == CellShape::plane;
     size_ = back_to_front.size();
     const std::size_t whole = (size_ + kBlock - 1) / kBlock * kBlock;
     words_.resize(2 * whole);
-    for (std::vector<float>* array : {&x_, &y_, &z_, &inner_, &outer_, &inner_disc_, &outer_disc_})
+    planes_.resize(on_planes ? whole : 0);
+    for (std::vector<float>* array : {&x_, &y_, &z_, &inner_, &inner_disc_, &outer_disc_})
         array->resize(whole);
-    for (std::size_t i = 0; i < size_; ++i)
-        std::memcpy(&words_[2 * i], &places[back_to_front[size_ - 1 - i]], sizeof(CellPlace));
+    for (std::vector<float>* array : {&xx_, &xy_, &yy_})
+        array->resize(planes_.size());
+    outer_.resize(on_planes ? 0 : whole);
+    for (std::size_t i = 0; i < size_; ++i) {
+        const std::uint32_t slot = back_to_front[size_ - 1 - i];
+        std::memcpy(&words_[2 * i], &slots.places[slot], sizeof(CellPlace));
+        if (on_planes)
+            planes_[i] = slots.planes[slot];
+    }
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
     const glm::mat4 rows =
         glm::transpose(view.clip_from_eye * view.eye_from_room * placement.room_from_index);
     const SquareProjection projection{
-        half_size.x * rows[0], half_size.y * rows[1], rows[2], rows[3], half_size, radius};
+        half_size.x * rows[0], half_size.y * rows[1],        rows[2], rows[3], half_size,
+        shape.radius,          placement.index_from_normal()};
     HWY_DYNAMIC_DISPATCH(project)
-    (projection, words_.data(), whole,
+    (projection, words_.data(), on_planes ? planes_.data() : nullptr, whole,
      {x_.data(), y_.data(), z_.data(), inner_.data(), outer_.data(), inner_disc_.data(),
-      outer_disc_.data()});
+      outer_disc_.data(), xx_.data(), xy_.data(), yy_.data()});
 }
 
 } // namespace isochron::render

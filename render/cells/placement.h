@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 namespace isochron::render {
@@ -19,6 +20,11 @@ struct Placement {
     glm::vec3 spacing() const {
         const glm::mat3 axes(room_from_index);
         return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
+    }
+
+    /// Of planes' normals, of any length, from physical to index space: covectors.
+    glm::mat3 index_from_normal() const {
+        return glm::transpose(glm::inverse(room_from_physical) * glm::mat3(room_from_index));
     }
 
     /// Multiplied in double: physical origins may be far away.

@@ -33,4 +33,7 @@ constexpr float kLeastDepth = 0.1f;
 /// a little since perspective magnifies the nearer parts.
 constexpr float kReachOfRectangle = 1.5f;
 
+/// The middle of an ellipsoid on a plane is at most so far from its cell's middle [voxels].
+constexpr float kFarthestPlane = 0.87f;
+
 } // namespace isochron::render

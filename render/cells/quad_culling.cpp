@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -97,21 +98,177 @@ HWY_INLINE bool hidden(const TileNumbers& tiles, const Tiles& across, const Tile
     return true;
 }
 
+HWY_INLINE void cover_row(float* row, int first, int last, float z) {
+    const Row d;
+    all_of_row(row, first, last, [&](float* at, auto which) {
+        const auto before = hn::LoadU(d, at);
+        hn::StoreU(hn::IfThenElse(which, hn::Min(before, hn::Set(d, z)), before), d, at);
+        return true;
+    });
+}
+
 HWY_INLINE void cover(const TileNumbers& tiles, const Tiles& across, const Tiles& up, std::size_t i,
                       float z) {
-    const Row d;
-    const auto depth = hn::Set(d, z);
-    for (int y = up.first[i]; y <= up.last[i]; ++y) {
-        float* const row = tiles.numbers + static_cast<std::size_t>(y) * tiles.columns;
-        all_of_row(row, across.first[i], across.last[i], [&](float* at, auto which) {
-            const auto before = hn::LoadU(d, at);
-            hn::StoreU(hn::IfThenElse(which, hn::Min(before, depth), before), d, at);
-            return true;
+    for (int y = up.first[i]; y <= up.last[i]; ++y)
+        cover_row(tiles.numbers + static_cast<std::size_t>(y) * tiles.columns, across.first[i],
+                  across.last[i], z);
+}
+
+/// Larger ellipses neither hide nor are hidden: they are few.
+constexpr int kMostRows = 64;
+constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
+
+using Span = hn::CappedTag<float, 8>; // most ellipses have fewer rows of tiles
+using SpanV = hn::Vec<Span>;
+
+/// An ellipse and the rows of tiles that it touches.
+class TiledEllipse {
+  public:
+    /// Ranges of tiles by row, inclusive.
+    struct Ranges {
+        std::array<std::int32_t, kMostRows + 8> from, to;
+    };
+
+    /// @param n number of the ellipse
+    HWY_INLINE TiledEllipse(const CellSquares& ellipses, const TileNumbers& tiles, std::size_t n)
+        : tiles_(tiles), x_(ellipses.x()[n]), y_(ellipses.y()[n]) {
+        const float xy = ellipses.xy()[n], yy = ellipses.yy()[n];
+        lean_ = xy / yy;
+        half_ = std::sqrt(std::max(ellipses.xx()[n] - xy * lean_, 0.0f));
+        up_ = std::sqrt(yy);
+        first_ = std::max(tile_at(y_ - up_ - kMargin), 0);
+        count_ = std::min(tile_at(y_ + up_ + kMargin), tiles.rows - 1) - first_ + 1;
+    }
+
+    int rows() const { return count_; }
+    float* row(int i) const {
+        return tiles_.numbers + static_cast<std::size_t>(first_ + i) * tiles_.columns;
+    }
+    /// The tile of its middle, null where that is beside the view.
+    const float* middle() const {
+        const int column = tile_at(x_), at = tile_at(y_);
+        if (column < 0 || column >= tiles_.columns || at < 0 || at >= tiles_.rows)
+            return nullptr;
+        return tiles_.numbers + static_cast<std::size_t>(at) * tiles_.columns + column;
+    }
+
+    /// Tiles of which it may draw the middle of a pixel.
+    HWY_INLINE void touched(float xx, float xy, Ranges& out) const {
+        const float rightmost = xy / std::sqrt(xx); // height of the point farthest to the right
+        each_rows([&](int i, SpanV low, SpanV high) HWY_ATTR {
+            const auto least = hn::Clamp(hn::Sub(low, set(kMargin)), set(-up_), set(up_));
+            const auto most = hn::Clamp(hn::Add(high, set(kMargin)), set(-up_), set(up_));
+            const auto at_right = hn::Clamp(set(rightmost), least, most);
+            const auto at_left = hn::Clamp(set(-rightmost), least, most);
+            const auto right = hn::Add(right_at(at_right), set(kMargin));
+            const auto left = hn::Sub(left_at(at_left), set(kMargin));
+            const Ints di;
+            hn::StoreU(hn::Max(tile(left), hn::Zero(di)), di, out.from.data() + i);
+            hn::StoreU(hn::Min(tile(right), hn::Set(di, tiles_.columns - 1)), di,
+                       out.to.data() + i);
         });
     }
+
+    /// Tiles of which it surely draws the middles of all pixels.
+    HWY_INLINE void covered(Ranges& out) const {
+        const float size = static_cast<float>(1 << tiles_.bits);
+        each_rows([&](int i, SpanV low, SpanV high) HWY_ATTR {
+            // The middles of the first and the last row of pixels.
+            const auto first = hn::Add(low, set(0.5f - kMargin));
+            const auto last = hn::Sub(high, set(0.5f - kMargin));
+            const auto inside = hn::And(hn::Ge(first, set(-up_)), hn::Le(last, set(up_)));
+            const auto right = hn::Min(right_at(first), right_at(last));
+            const auto left = hn::Max(left_at(first), left_at(last));
+            const Ints di;
+            const auto from = tile(hn::Add(left, set(kMargin + size - 0.5f)));
+            const auto end = tile(hn::Sub(right, set(kMargin - 0.5f)));
+            const auto to = hn::Sub(hn::Min(end, hn::Set(di, tiles_.columns)), hn::Set(di, 1));
+            hn::StoreU(hn::Max(from, hn::Zero(di)), di, out.from.data() + i);
+            hn::StoreU(hn::IfThenElse(hn::RebindMask(di, inside), to, hn::Set(di, -1)), di,
+                       out.to.data() + i);
+        });
+    }
+
+  private:
+    using Ints = hn::RebindToSigned<Span>;
+
+    static HWY_INLINE SpanV set(float value) { return hn::Set(Span(), value); }
+    HWY_INLINE int tile_at(float at) const {
+        return static_cast<int>(std::floor(std::clamp(at, -kFarthest, kFarthest))) >> tiles_.bits;
+    }
+    HWY_INLINE hn::Vec<Ints> tile(SpanV at) const {
+        const auto near = hn::Clamp(at, set(-kFarthest), set(kFarthest));
+        return hn::ShiftRightSame(hn::ConvertTo(Ints(), hn::Floor(near)), tiles_.bits);
+    }
+    /// Half its width at a height above its middle.
+    HWY_INLINE SpanV reach(SpanV at) const {
+        const auto part = hn::Mul(at, set(1.0f / up_));
+        return hn::Mul(set(half_),
+                       hn::Sqrt(hn::Max(hn::NegMulAdd(part, part, set(1.0f)), hn::Zero(Span()))));
+    }
+    HWY_INLINE SpanV right_at(SpanV at) const {
+        return hn::Add(hn::MulAdd(set(lean_), at, set(x_)), reach(at));
+    }
+    HWY_INLINE SpanV left_at(SpanV at) const {
+        return hn::Sub(hn::MulAdd(set(lean_), at, set(x_)), reach(at));
+    }
+    /// The lower and upper ends of the rows above its middle, some rows at a time.
+    template <class Each>
+    HWY_INLINE void each_rows(Each&& each) const {
+        const auto size = static_cast<float>(1 << tiles_.bits);
+        for (int i = 0; i < count_; i += static_cast<int>(hn::Lanes(Span()))) {
+            const auto number = hn::Iota(Span(), static_cast<float>(first_ + i));
+            const auto low = hn::MulSub(number, set(size), set(y_));
+            each(i, low, hn::Add(low, set(size)));
+        }
+    }
+
+    const TileNumbers& tiles_;
+    float x_, y_, lean_, half_, up_;
+    int first_, count_;
+};
+
+HWY_INLINE bool hidden(const TiledEllipse& ellipse, const TiledEllipse::Ranges& touched, float z) {
+    const Row d;
+    const auto nearer = hn::Set(d, z - kLevel);
+    for (int i = 0; i < ellipse.rows(); ++i)
+        if (!all_of_row(
+                ellipse.row(i), touched.from[i], touched.to[i], [&](const float* at, auto which) {
+                    return hn::AllFalse(d, hn::And(which, hn::Ge(hn::LoadU(d, at), nearer)));
+                }))
+            return false;
+    return true;
 }
 
 } // namespace
+
+/// The same of ellipses.
+std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles,
+                          std::uint32_t* seen) {
+    TiledEllipse::Ranges ranges;
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < ellipses.size(); ++n) {
+        const TiledEllipse ellipse(ellipses, tiles, n);
+        const float z = ellipses.z()[n];
+        if (ellipse.rows() < 1)
+            continue;
+        const bool large = ellipse.rows() > kMostRows;
+        // Most that are seen are so in the middle.
+        const float* const middle = ellipse.middle();
+        if (!large && !(middle && *middle >= z - kLevel)) {
+            ellipse.touched(ellipses.xx()[n], ellipses.xy()[n], ranges);
+            if (hidden(ellipse, ranges, z))
+                continue;
+        }
+        seen[count++] = static_cast<std::uint32_t>(n);
+        if (large || ellipses.inner()[n] == 0.0f)
+            continue;
+        ellipse.covered(ranges);
+        for (int i = 0; i < ellipse.rows(); ++i)
+            cover_row(ellipse.row(i), ranges.from[i], ranges.to[i], z);
+    }
+    return count;
+}
 
 /// @param seen numbers of cells in the order of the squares: room for all of them
 /// @return how many
@@ -142,18 +299,22 @@ HWY_AFTER_NAMESPACE();
 namespace isochron::render {
 
 HWY_EXPORT(find);
+HWY_EXPORT(find_ellipses);
 
 std::span<const std::uint32_t> SeenCells::find(const View& view, const Placement& placement,
-                                               float radius, std::span<const CellPlace> places,
+                                               const SplatShape& shape, const Slots& slots,
                                                std::span<const std::uint32_t> back_to_front) {
-    squares_.project(view, placement, radius, places, back_to_front);
-    // Most quads cover some tiles.
-    constexpr float kTilesAcross = 1.5f; ///< half of a quad
+    squares_.project(view, placement, shape, slots, back_to_front);
+    // Most quads cover some tiles. Ellipses take longer for each row.
+    const bool ellipses = shape.shape == CellShape::plane;
+    const float tiles_across = ellipses ? 1.0f : 1.5f; // half of a quad
     constexpr int kMostTileBits = 4;
-    tiles_.lay_out(view, {squares_.inner(), squares_.size()}, kTilesAcross, kMostTileBits,
-                   std::numeric_limits<float>::max());
+    tiles_.lay_out(view, {ellipses ? squares_.inner_disc() : squares_.inner(), squares_.size()},
+                   tiles_across, kMostTileBits, std::numeric_limits<float>::max());
     seen_.resize(squares_.size());
-    seen_.resize(HWY_DYNAMIC_DISPATCH(find)(squares_, tiles_.numbers(), seen_.data()));
+    seen_.resize(ellipses
+                     ? HWY_DYNAMIC_DISPATCH(find_ellipses)(squares_, tiles_.numbers(), seen_.data())
+                     : HWY_DYNAMIC_DISPATCH(find)(squares_, tiles_.numbers(), seen_.data()));
     for (std::uint32_t& cell : seen_)
         cell = back_to_front[squares_.size() - 1 - cell];
     return seen_;

@@ -21,12 +21,11 @@ namespace isochron::render {
 /// 500 to 1000.
 class SeenCells {
   public:
-    /// @param radius of the footprint, voxels
-    /// @param places of the cells by slot
+    /// @param slots with their planes, where the shape is one
     /// @param back_to_front slots
     /// @return the slots of the others, nearest first; until the next call
-    std::span<const std::uint32_t> find(const View& view, const Placement& placement, float radius,
-                                        std::span<const CellPlace> places,
+    std::span<const std::uint32_t> find(const View& view, const Placement& placement,
+                                        const SplatShape& shape, const Slots& slots,
                                         std::span<const std::uint32_t> back_to_front);
 
   private:

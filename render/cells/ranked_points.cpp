@@ -8,6 +8,7 @@ namespace isochron::render {
 RankedPoints::RankedPoints(const index::Extraction& set) : set_(&set) {
     points_.reserve(set.cells());
     slots_.places.reserve(set.cells());
+    slots_.planes.reserve(set.cells());
     slots_.slot_of_rank.reserve(set.cells());
 }
 
@@ -20,6 +21,7 @@ bool RankedPoints::copy(std::size_t cells) {
             point.style = cell_style(surface_, set_->colors.empty() ? 0 : set_->colors[rank]);
             points_.push_back(point);
             slots_.places.push_back({point.x, point.y, point.z, point.style});
+            slots_.planes.push_back(point.plane);
             slots_.slot_of_rank.push_back(static_cast<std::uint32_t>(rank));
         }
         cells -= part.size();

@@ -31,6 +31,8 @@ struct Slots {
     /// By *rank*: surface after surface, in each in the order of its ids.
     std::vector<std::uint32_t> slot_of_rank;
     std::vector<CellPlace> places; ///< by slot
+    /// By slot, the third word of an index::CellPoint; empty where only the GPU knows it.
+    std::vector<std::uint32_t> planes;
 };
 
 /// Finds what changes from one set to the next, in portions that never take long: cells in both

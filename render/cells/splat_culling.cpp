@@ -186,10 +186,10 @@ namespace isochron::render {
 HWY_EXPORT(find);
 
 std::span<const std::uint32_t> SeenSplats::find(const View& view, const Placement& placement,
-                                                float radius, float falloff,
-                                                std::span<const CellPlace> places,
+                                                const SplatShape& shape, float falloff,
+                                                const Slots& slots,
                                                 std::span<const std::uint32_t> back_to_front) {
-    squares_.project(view, placement, radius, places, back_to_front);
+    squares_.project(view, placement, shape, slots, back_to_front);
     constexpr float kTilesAcross = 8.0f; ///< half of a splat
     constexpr int kMostTileBits = 3;
     tiles_.lay_out(view, {squares_.inner_disc(), squares_.size()}, kTilesAcross, kMostTileBits,

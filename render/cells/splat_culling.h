@@ -21,13 +21,12 @@ namespace isochron::render {
 class SeenSplats {
   public:
     /// Of opaque splats.
-    /// @param radius of the footprint, voxels
     /// @param falloff log2 of the opacity on the footprint's outline, negative; 1 in the middle
-    /// @param places of the cells by slot
+    /// @param slots with their planes, where the shape is one
     /// @param back_to_front slots
     /// @return the slots of the others, back to front; until the next call
-    std::span<const std::uint32_t> find(const View& view, const Placement& placement, float radius,
-                                        float falloff, std::span<const CellPlace> places,
+    std::span<const std::uint32_t> find(const View& view, const Placement& placement,
+                                        const SplatShape& shape, float falloff, const Slots& slots,
                                         std::span<const std::uint32_t> back_to_front);
 
   private:

@@ -4,9 +4,10 @@
 //
 // The paper (Vrolijk, Botha and Post 2004, section 5) projects the voxel sphere as a quadric,
 // Q' = M^-T Q M^-1, with the conic C = c A - b b^T for its outline, and draws the rectangle on the
-// conic's principal axes. The dual of that conic needs no inverse: for the sphere of radius r about
-// c, C* = r^2 K - p p^T with p = M c and K = M M^T (rows x, y and w; K without translation). It
-// holds for every frustum, off-axis and parallel too, and for any spacing.
+// conic's principal axes. Each cell may have a quadric of its own. The dual of that conic needs no
+// inverse: for an ellipsoid about c whose points are c + F s, |s| = 1, C* = K - p p^T with p = M c
+// and K = (M F) (M F)^T (rows x, y and w; without translation). It holds for every frustum,
+// off-axis and parallel too, and for any spacing.
 
 layout(binding = 0) uniform usamplerBuffer cells;
 
@@ -14,6 +15,7 @@ layout(binding = 0) uniform usamplerBuffer cells;
 #include "cell_order.glsl"
 #include "lighting.glsl"
 #include "appearance.glsl"
+#include "plane.glsl"
 #include "footprint.glsl"
 
 flat out vec4 shaded;
@@ -47,11 +49,6 @@ mat2 half_axes(float xx, float xy, float yy) {
     return mat2(u, vec2(-u.y, u.x)) * mat2(lengths.x, 0, 0, lengths.y) * mat2(c, -s, s, c);
 }
 
-vec3 unpack_normal(uint word) {
-    ivec3 n = ivec3(word << 22, word << 12, word << 2) >> 22;
-    return max(vec3(n) / 511.0, -1.0);
-}
-
 void main() {
     start_eye();
 #ifdef POINTS
@@ -61,11 +58,14 @@ void main() {
     disc = kCorners[gl_VertexID & 3];
 #endif
     uvec3 cell = texelFetch(cells, slot).xyz;
-    vec4 center = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
+    vec3 middle = vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5;
+    vec3 normal = plane_normal(cell.z);
+    Splat splat = splat_of(middle, normal, cell.z);
+    vec4 center = vec4(splat.center, 1.0);
 
     uint style = cell.y >> 16;
     vec3 in_eye = (EYE(eye_from_index) * center).xyz;
-    vec3 lit = shade(in_eye, unpack_normal(cell.z), base_color(style));
+    vec3 lit = shade(in_eye, normal, base_color(style));
     shaded = vec4(written(lit), surfaces[style & 7u].a * near_share(in_eye));
 
     if (!blended && shaded.a <= evenly(hash_of(cell))) {
@@ -74,22 +74,22 @@ void main() {
     }
 
     vec4 p = to_pixels(center);
-    float rr = radius * radius;
-    float d = p.w * p.w - rr * dot(EYE(row_w).xyz, EYE(row_w).xyz);
+    vec3 row_w = EYE(row_w).xyz;
+    float d = p.w * p.w - form(splat, row_w, row_w);
     vec3 from_center = EYE(eye_in_index).xyz - center.xyz;
-    float eye_distance2 = dot(from_center, from_center);
     if (soft_near_eye && EYE(eye_in_index).w != 0.0)
-        shaded.a *= smoothstep(1.0, 2.0, sqrt(eye_distance2 / rr));
+        shaded.a *= smoothstep(1.0, 2.0, length(from_center) / radius);
 
     if (p.w > 0.0 && d > 0.1 * p.w * p.w) {
         // Coordinates relative to the center's image keep small ellipses precise.
         vec2 m = p.xy / p.w;
-        vec3 a = EYE(row_x).xyz - m.x * EYE(row_w).xyz;
-        vec3 b = EYE(row_y).xyz - m.y * EYE(row_w).xyz;
-        float k = rr / d;
-        vec2 shift = -k * vec2(dot(a, EYE(row_w).xyz), dot(b, EYE(row_w).xyz));
-        vec3 shape = vec3(shift.x * shift.x + k * dot(a, a), shift.x * shift.y + k * dot(a, b),
-                          shift.y * shift.y + k * dot(b, b));
+        vec3 a = EYE(row_x).xyz - m.x * row_w;
+        vec3 b = EYE(row_y).xyz - m.y * row_w;
+        float k = 1.0 / d;
+        vec2 shift = -k * vec2(form(splat, a, row_w), form(splat, b, row_w));
+        vec3 shape = vec3(shift.x * shift.x + k * form(splat, a, a),
+                          shift.x * shift.y + k * form(splat, a, b),
+                          shift.y * shift.y + k * form(splat, b, b));
         vec2 at = m + shift;
 #ifdef SQUARE
         gl_PointSize = 2.0 * sqrt(max(shape.x, shape.z));
@@ -113,19 +113,24 @@ void main() {
 #endif
         gl_Position = vec4(at * EYE(clip_per_pixel).xy * p.w, p.z, p.w);
 #ifndef POINTS // which serve only where no cell comes that near
-    } else if (EYE(eye_in_index).w == 0.0 || eye_distance2 <= rr) {
-        gl_Position = vec4(0, 0, -2, 1); // around the eye: nothing to see from inside
     } else {
-        // The ellipsoid reaches behind the eye: its silhouette, a circle in index space, is drawn in
-        // its own plane and clipped there.
-        float along = rr / eye_distance2;
-        float size = radius * sqrt(1.0 - along);
-        vec3 v = abs(from_center);
+        // Where the ellipsoid is the unit sphere.
+        vec3 eye = stretched(splat, from_center, 1.0 / splat.half_axes);
+        float eye_distance2 = dot(eye, eye);
+        if (EYE(eye_in_index).w == 0.0 || eye_distance2 <= 1.0) {
+            gl_Position = vec4(0, 0, -2, 1); // around the eye: nothing to see from inside
+            return;
+        }
+        // The ellipsoid reaches behind the eye: its silhouette, a circle there, is drawn in its own
+        // plane and clipped.
+        float along = 1.0 / eye_distance2;
+        float size = sqrt(1.0 - along);
+        vec3 v = abs(eye);
         vec3 least = v.x <= v.y && v.x <= v.z ? vec3(1, 0, 0) : v.y <= v.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
-        vec3 e1 = normalize(cross(from_center, least));
-        vec3 e2 = normalize(cross(from_center, e1));
-        vec3 at = center.xyz + along * from_center + size * (disc.x * e1 + disc.y * e2);
-        vec4 q = to_pixels(vec4(at, 1.0));
+        vec3 e1 = normalize(cross(eye, least));
+        vec3 e2 = normalize(cross(eye, e1));
+        vec3 at = along * eye + size * (disc.x * e1 + disc.y * e2);
+        vec4 q = to_pixels(vec4(center.xyz + stretched(splat, at, splat.half_axes), 1.0));
         gl_Position = vec4(q.xy * EYE(clip_per_pixel).xy, q.zw);
 #endif
     }

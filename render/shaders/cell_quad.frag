@@ -1,5 +1,5 @@
 #version 450 core
-// A fast quad: one flat color, corners and all.
+// A fast quad: one flat color, corners and all; or with ROUND the ellipse in it.
 
 #include "footprint.glsl"
 
@@ -7,7 +7,11 @@ flat in vec4 shaded;
 out vec4 result;
 
 void main() {
-#if defined(POINTS) && !defined(SQUARE)
+#ifdef ROUND
+    vec2 at = position_on_disc();
+    if (dot(at, at) > 1.0)
+        discard;
+#elif defined(POINTS) && !defined(SQUARE)
     vec2 at = abs(position_on_disc());
     if (max(at.x, at.y) > 1.0)
         discard;

@@ -36,6 +36,7 @@ layout(std140, binding = 0) uniform Frame {
     bool blended;
     int drawn_surfaces; // a bit for each
     bool soft_near_eye; // fade what comes so near that it would veil the whole view
+    vec4 index_from_normal[3]; // rows: planes' normals from physical to index space
 };
 
 #ifdef TWO_EYES

@@ -3,6 +3,7 @@
 #include "index/error.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
+#include "tests/bench/measures/agreement.h"
 #include "tests/bench/measures/child.h"
 #include "tests/bench/measures/data_sets.h"
 #include "tests/bench/measures/isovalues.h"
@@ -36,7 +37,8 @@ struct RenderArguments {
     std::optional<std::size_t> steps;
     std::optional<double> isovalue;
     unsigned rounds = 3;
-    bool no_vtk = false, quick = false;
+    std::optional<std::uint32_t> step;
+    bool no_vtk = false, quick = false, agreement_only = false;
 };
 
 /// A series to draw, with its index on disk.
@@ -115,6 +117,30 @@ std::vector<Subject> make_subjects(const RenderArguments& arguments, const fs::p
     return subjects;
 }
 
+/// Silhouettes and light of quads and splats beside the exact surface's.
+void compare_with_exact(const RenderArguments& arguments, const std::vector<Subject>& subjects) {
+    AgreementResults results{this_machine(), {}};
+    for (const Subject& subject : subjects) {
+        const auto file = index::IndexFile::open(subject.file);
+        const auto last = static_cast<std::uint32_t>(file->info().steps() - 1);
+        AgreementOptions options{.data = subject.name,
+                                 .step = std::min(arguments.step.value_or(last / 3), last),
+                                 .isovalues = {subject.isovalue}};
+        if (arguments.quick)
+            options.pixels_per_voxel = {2.0};
+        else if (!arguments.isovalue)
+            for (const double share : {0.025, 0.12}) // and where surfaces crowd
+                options.isovalues.push_back(isovalue_with(
+                    file->values(), share * static_cast<double>(file->info().grid.cell_count())));
+        const auto rows = measure_agreement(file, options);
+        fmt::print("\n{}", table_of(rows));
+        std::fflush(stdout);
+        results.rows.insert(results.rows.end(), rows.begin(), rows.end());
+        if (!arguments.json.empty())
+            write_text(arguments.json, to_json_text(results));
+    }
+}
+
 void run_bench_render(RenderArguments arguments) {
     if (arguments.quick) {
         arguments.data = {"sphere-25"};
@@ -139,6 +165,10 @@ void run_bench_render(RenderArguments arguments) {
     fmt::print("commit {}, {}, {} threads, {}, {}\n", results.header.commit,
                results.header.processor, results.header.threads, results.header.compiler,
                results.header.date);
+    if (arguments.agreement_only) {
+        compare_with_exact(arguments, subjects);
+        return;
+    }
     RenderOptions options = options_of(arguments);
     for (const Subject& subject : subjects)
         for (const std::string& context : arguments.contexts)
@@ -228,13 +258,17 @@ void add_render(app::Command& program) {
         .existing_folder()
         .type_name("DIR")
         .shows_default();
+    command.flag("--agreement-only", arguments->agreement_only,
+                 "Instead of speeds: how far quads and splats agree with the exact surface");
+    command.option("--step", arguments->step, "Step to compare (default: at a third of the series)")
+        .between(0u, 100000u);
     command.flag("--quick", arguments->quick,
                  "Only look that it works: three steps of the sphere, small pictures");
     command.footer(
         "The camera's angle is 45 degrees and the volume's bounding sphere touches the picture. "
         "Every frame is waited\nfor. Times are wall-clock medians over the frames, each in turn "
         "with what it is compared with. Columns: fps of\nwhole frames; vtk: the same steps with "
-        "VTK; bare: drawing alone of plain quads of the same places and sizes;\np99: 99th "
+        "VTK; bare: drawing alone of plain quads as large as the largest cells;\np99: 99th "
         "percentile of frame over static draw while time plays and the isovalue is dragged.");
     command.on_run([arguments] { run_bench_render(*arguments); });
 }

@@ -24,14 +24,15 @@ std::string read_text(const fs::path& path) {
 }
 
 struct ResultFiles {
-    fs::path index, render, artifacts, scale, out;
+    fs::path index, render, artifacts, scale, agreement, out;
 };
 
 void run_bench_results(const ResultFiles& files) {
     const std::string page = whole_page({.index = files.index.string(),
                                          .render = files.render.string(),
                                          .artifacts = files.artifacts.string(),
-                                         .scale = files.scale.string()},
+                                         .scale = files.scale.string(),
+                                         .agreement = files.agreement.string()},
                                         read_text);
     if (files.out.empty())
         fmt::print("{}", page);
@@ -54,6 +55,10 @@ void add_results(app::Command& program) {
         .type_name("FILE.json");
     command.option("--scale", files->scale, "What `isochron-bench scale` printed")
         .type_name("FILE.txt");
+    command
+        .option("--agreement", files->agreement,
+                "Results of `isochron-bench render --agreement-only --json`")
+        .type_name("FILE.json");
     command.option("-o,--out", files->out, "Markdown to write (default: print it)")
         .type_name("FILE.md");
     command.on_run([files] { run_bench_results(*files); });

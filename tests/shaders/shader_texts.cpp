@@ -99,7 +99,7 @@ void make_all_passes(const Gl& gl) {
     for (const ValueType held : {ValueType::u8, ValueType::i16, ValueType::f32}) {
         const render::CellCompute compute(gl, {.vertices = {2, 2, 2}}, held);
     }
-    const render::CellPass cells(gl);
+    const render::CellPass cells(gl), spheres(gl, {.shape = render::CellShape::voxel});
     if (!cells.draws_two_views_at_once())
         throw render::Error("shader_texts: cells should be drawn for two eyes at once, too");
     const render::LinePass lines(gl);

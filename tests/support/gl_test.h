@@ -60,12 +60,9 @@ inline std::vector<index::CellPoint> cell_set(const std::vector<glm::ivec3>& cel
     return points;
 }
 
-/// GL_INT_2_10_10_10_REV.
-inline std::uint32_t packed_normal(const glm::vec3& n) {
-    std::uint32_t word = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        word |= (std::uint32_t(std::int32_t(std::lround(n[axis] * 511.0f))) & 0x3ffu) << 10 * axis;
-    return word;
+/// A plane through the cell's middle, or beside it. @param offset voxels
+inline std::uint32_t packed_normal(const glm::vec3& n, double offset = 0.0) {
+    return index::pack({glm::dvec3(n), offset});
 }
 
 /// Buffers that hold these cells.

@@ -79,6 +79,22 @@ TEST_F(QualityControllerTest, SettledEndsAtTheBestThatFitsAndSaysSo) {
     }
 }
 
+TEST_F(QualityControllerTest, AnEmptySceneTeachesNothingOfCells) {
+    // Each footprint takes next to nothing without cells, and the surface far too long with them.
+    SimulatedDisplay display(kBudget, [](Footprint footprint, const DrawLoad& load) {
+        constexpr std::array kPerCell{1e-4, 3e-4, 30e-4};
+        return 0.01 + load.cells * kPerCell[static_cast<std::size_t>(footprint)];
+    });
+    display.input.load.cells = 0;
+    const QualityChoice empty = display.run(200).choice;
+    EXPECT_TRUE(empty.final) << "a capture of nothing need not wait";
+    EXPECT_FALSE(empty.measure);
+    display.input.load.cells = 2e4;
+    EXPECT_NE(display.frame().choice.footprint, Footprint::surface) << "60 ms at a guess";
+    EXPECT_EQ(display.run(200).choice.footprint, Footprint::gaussian);
+    EXPECT_LE(display.over_budget(), 4);
+}
+
 TEST_F(QualityControllerTest, MotionAndFastModeDrawQuadsAtOnce) {
     SimulatedDisplay display(kBudget, constant({1, 2, 3}));
     display.run(100);

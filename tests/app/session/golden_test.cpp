@@ -16,14 +16,19 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
     struct Case {
         Footprint footprint;
         const char* name;
-        double swelling; ///< cells reach beyond the surface, splats by up to two voxels
+        double swelling; ///< voxels reach beyond the surface, their splats by up to two voxels
+        render::CellShape shape = render::CellShape::plane;
     };
+    constexpr auto kVoxel = render::CellShape::voxel;
     for (const Case& one :
-         {Case{Footprint::quad, "quad", 0.3}, Case{Footprint::gaussian, "gaussian", 0.42},
-          Case{Footprint::surface, "surface", 0.0}}) {
+         {Case{Footprint::quad, "quad", 0.05}, Case{Footprint::gaussian, "gaussian", 0.1},
+          Case{Footprint::surface, "surface", 0.0},
+          Case{Footprint::quad, "voxel_quad", 0.3, kVoxel},
+          Case{Footprint::gaussian, "voxel_gaussian", 0.42, kVoxel}}) {
         SCOPED_TRACE(one.name);
         Config config = one_window(StereoMode::quadbuffer);
         config.settled_footprint = one.footprint;
+        config.cell_shape = one.shape;
         const auto context = stereo::make_context(GetParam(), {.size = kPicture});
         Session session(config, file_, *context);
         Commands commands = showing(kPlacement);

@@ -125,8 +125,9 @@ ArtifactSets artifact_sets(const index::StepValues& values, const index::ThiTree
         const auto stored = shaded(values, {span.middle, query.isovalue}, span.cells);
         for (std::size_t i = 0; i < stored->ids.size(); ++i) {
             const auto at = std::lower_bound(kept->ids.begin(), kept->ids.end(), stored->ids[i]);
-            kept->points[static_cast<std::size_t>(at - kept->ids.begin())].normal =
-                stored->points[i].normal;
+            std::uint32_t& plane =
+                kept->points[static_cast<std::size_t>(at - kept->ids.begin())].plane;
+            plane = (plane & ~index::kNormalBits) | (stored->points[i].plane & index::kNormalBits);
         }
     }
     sets.kept_normals = std::move(kept);

@@ -66,14 +66,11 @@ render::SendVolume volume_for(Footprint footprint) {
                                         : render::SendVolume::with_cells;
 }
 
-/// Radius in voxels where the footprint is a rectangle around an ellipse.
+/// Radius in voxels of the largest cells where the footprint is an ellipse or a rectangle.
 std::optional<float> radius_of(Footprint footprint, const render::FootprintShapes& shapes) {
-    switch (footprint) {
-    case Footprint::quad: return 0.5f * shapes.quad_diameter;
-    case Footprint::gaussian: return 0.5f * shapes.gaussian_diameter;
-    case Footprint::surface: break;
-    }
-    return std::nullopt;
+    if (footprint == Footprint::surface)
+        return std::nullopt;
+    return shapes.radius_of(footprint);
 }
 
 /// All frames of one row, and the stages of the whole ones.

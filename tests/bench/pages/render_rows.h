@@ -22,7 +22,7 @@ struct RenderRow {
     double fps = 0;       ///< whole frames per second
     /// The same steps contoured by flying edges with normals and drawn by VTK's own renderer.
     std::optional<double> vtk_fps;
-    /// Only drawing, of plain quads with the positions and sizes of the footprints.
+    /// Only drawing, of plain quads at the cells, as large as the largest footprints.
     std::optional<double> bare_fps;
     /// While time plays and the isovalue is dragged, with the extraction on its own thread: frame
     /// over the median of draws of the same cells that follow it, 99th percentile and worst.

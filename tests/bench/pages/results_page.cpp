@@ -3,6 +3,7 @@
 
 #include "app/text.h"
 #include "tests/bench/measures/timing.h"
+#include "tests/bench/pages/agreement_rows.h"
 #include "tests/bench/pages/artifact_page.h"
 #include "tests/bench/pages/goals.h"
 #include "tests/bench/pages/paper_tables.h"
@@ -169,6 +170,8 @@ std::string results_page(const Results& results, const ResultPaths& paths) {
         command += " --artifacts " + paths.artifacts;
     if (!paths.scale.empty())
         command += " --scale " + paths.scale;
+    if (!paths.agreement.empty())
+        command += " --agreement " + paths.agreement;
     std::string text = fmt::format("# The index, measured\n\nMade from `{}` by `./run bench "
                                    "results {}`; not to be edited. "
                                    "Measured on {} with commit {}, {}, on {}, {} threads.\n\n",
@@ -233,6 +236,9 @@ std::string whole_page(const ResultPaths& paths,
                                  paths.artifacts);
     if (!paths.scale.empty())
         page += scale_section(read(paths.scale), paths.scale);
+    if (!paths.agreement.empty())
+        page += agreement_section(
+            agreement_results_from_json(read(paths.agreement), paths.agreement), paths.agreement);
     return page;
 }
 

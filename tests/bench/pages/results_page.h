@@ -10,7 +10,7 @@ namespace isochron::bench {
 
 /// Files of results, as the page names them; empty: that part is left out.
 struct ResultPaths {
-    std::string index, render, artifacts, scale;
+    std::string index, render, artifacts, scale = {}, agreement = {};
 };
 
 /// All parts, as Markdown; the same results give the same text.

@@ -69,10 +69,10 @@ std::string line_of(const Row& row, const ErrorDetail& detail) {
                        "{:>8} {:>8} {:>8} {:>7}\n",
                        row.structure, setting, app::human_bytes(static_cast<double>(row.bytes)),
                        row.percent_of_raw, row.percent_with_volume, detail.percent_at_isovalue,
-                       row.false_negatives, cell_text(row.search_runs_us), cell_text(row.search_ids_us),
-                       cell_text(row.search_full_us), cell_text(row.incremental_us),
-                       cell_text(row.incremental_full_us), cell_text(row.sweep_ms),
-                       cell_text(row.build_mcs_per_s));
+                       row.false_negatives, cell_text(row.search_runs_us),
+                       cell_text(row.search_ids_us), cell_text(row.search_full_us),
+                       cell_text(row.incremental_us), cell_text(row.incremental_full_us),
+                       cell_text(row.sweep_ms), cell_text(row.build_mcs_per_s));
 }
 
 } // namespace

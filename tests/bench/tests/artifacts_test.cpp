@@ -74,10 +74,12 @@ TEST(Artifacts, ComeFromTheNormalsOfTheMiddleOfTheSpanAndFromCandidates) {
             ASSERT_EQ(*at, stored.ids[i]);
             const auto& point =
                 sets.kept_normals->points[static_cast<std::size_t>(at - active.begin())];
-            EXPECT_EQ(point.normal, stored.points[i].normal);
+            EXPECT_EQ(point.plane & index::kNormalBits,
+                      stored.points[i].plane & index::kNormalBits);
             EXPECT_EQ(point.x, stored.points[i].x);
-            kept += point.normal !=
-                    sets.exact->points[static_cast<std::size_t>(at - active.begin())].normal;
+            const auto& exact = sets.exact->points[static_cast<std::size_t>(at - active.begin())];
+            EXPECT_EQ(point.plane & ~index::kNormalBits, exact.plane & ~index::kNormalBits);
+            kept += point.plane != exact.plane;
         }
         cells += span.cells.size();
     }

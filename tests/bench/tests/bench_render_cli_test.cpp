@@ -41,6 +41,26 @@ TEST_F(BenchRenderCommand, MeasuresEveryRowOfATinySeries) {
     EXPECT_EQ(j.at("rows").size(), kinds.size());
 }
 
+TEST_F(BenchRenderCommand, SaysHowFarFootprintsAgreeWithTheExactSurface) {
+    const ChildResult result =
+        bench({"render", "--quick", "--agreement-only", "--work", ".", "--json", "c.json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto j = nlohmann::json::parse(folder.read("c.json"));
+    ASSERT_EQ(j.at("rows").size(), 4u) << "two footprints of two shapes";
+    for (std::size_t i = 0; i < 4; i += 2) {
+        const auto &voxel = j.at("rows").at(i), &plane = j.at("rows").at(i + 1);
+        SCOPED_TRACE(voxel.dump() + plane.dump());
+        EXPECT_EQ(voxel.at("shape"), "voxel");
+        EXPECT_EQ(plane.at("shape"), "plane");
+        EXPECT_EQ(voxel.at("footprint"), plane.at("footprint"));
+        EXPECT_LT(plane.at("extra_percent"), 0.5 * voxel.at("extra_percent").get<double>());
+        EXPECT_LT(plane.at("missed_percent"), 1.0);
+        EXPECT_LT(plane.at("offset"), 0.5 * voxel.at("offset").get<double>());
+        EXPECT_GT(plane.at("luminance_percent"), 0.0);
+        EXPECT_GT(plane.at("exact_percent"), 5.0);
+    }
+}
+
 TEST_F(BenchRenderCommand, MeasuresAGivenIndexAndContext) {
     std::string values;
     for (int i = 0; i < 12 * 12 * 12; ++i)

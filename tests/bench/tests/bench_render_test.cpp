@@ -78,7 +78,7 @@ TEST_F(BenchRender, TheBoundingSphereTouchesThePicture) {
 TEST_F(BenchRender, BareQuadsLieWhereTheFootprintsAre) {
     const BenchCamera camera = bench_camera(file_->info(), 256, 2);
     render::RenderTarget target(*gl_, {512, 256});
-    render::CellPass pass(*gl_);
+    render::CellPass pass(*gl_, {.shape = render::CellShape::voxel});
     pass.draw_without_points();
     const render::CellBuffers cells = shown();
     target.bind();

@@ -65,17 +65,23 @@ glm::dvec3 slow_normal(const StepValues& values, std::size_t step, CellId id) {
     return length > 0 && std::isfinite(length) ? -mean / length : glm::dvec3(0.0);
 }
 
-glm::dvec3 unpacked(std::uint32_t normal) {
-    const auto component = [&](int shift) {
-        const int bits = int(normal >> shift & 0x3ff);
-        return double(bits >= 512 ? bits - 1024 : bits) / 511.0;
-    };
-    return {component(0), component(10), component(20)};
+glm::dvec3 unpacked(std::uint32_t plane) {
+    return unpack_plane(plane).normal;
 }
 
-CellSet all_cells(const StepValues& values, std::uint32_t step) {
+/// Where a normal lies on the octahedron that it is packed by, in its steps.
+glm::dvec2 on_octahedron(const glm::dvec3& n) {
+    const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    glm::dvec2 at = glm::dvec2(n) / sum;
+    if (n.z < 0)
+        at = {(1 - std::abs(n.y) / sum) * (n.x < 0 ? -1 : 1),
+              (1 - std::abs(n.x) / sum) * (n.y < 0 ? -1 : 1)};
+    return 2047.0 * at;
+}
+
+CellSet all_cells(const StepValues& values, std::uint32_t step, double isovalue = 0.0) {
     CellSet set;
-    set.query.step = step;
+    set.query = {step, isovalue};
     set.ids.resize(values.grid.cell_count());
     std::iota(set.ids.begin(), set.ids.end(), CellId{0});
     EXPECT_TRUE(shade_cells(values, set));
@@ -95,7 +101,7 @@ TEST(CellSet, NormalsAreTheMeanOfEightCentralDifferencesForEveryTypeAndPlacement
                 const glm::dvec3 expected = slow_normal(values, 1, id);
                 EXPECT_LT(glm::distance(cell_normal(values, 1, id), expected), 1e-9)
                     << name_of(type) << " cell " << id;
-                EXPECT_LT(glm::distance(unpacked(set.points[id].normal), expected), 0.002);
+                EXPECT_LT(glm::distance(unpacked(set.points[id].plane), expected), 0.002);
             }
         }
 }
@@ -106,10 +112,17 @@ void expect_packed_exactly(const StepValues& values, std::uint32_t step) {
     on_every_simd_target([&] {
         const CellSet set = all_cells(values, step);
         for (const CellId id : set.ids) {
-            const glm::dvec3 exact = cell_normal(values, step, id) * 511.0;
-            const glm::dvec3 packed = unpacked(set.points[id].normal) * 511.0;
-            for (int axis = 0; axis < 3; ++axis)
-                ASSERT_NEAR(packed[axis], exact[axis], 0.501) << "cell " << id;
+            const std::uint32_t word = set.points[id].plane;
+            const glm::dvec3 normal = cell_normal(values, step, id);
+            ASSERT_EQ((word & kNormalBits) == 0, normal == glm::dvec3(0.0)) << "cell " << id;
+            if (normal == glm::dvec3(0.0))
+                continue;
+            // At the seams of the fold either side is right.
+            if (std::abs(normal.z) < 1e-6)
+                continue;
+            const glm::dvec2 exact = on_octahedron(normal);
+            ASSERT_NEAR(int(word & 0xfff) - 2048, exact.x, 0.501) << "cell " << id;
+            ASSERT_NEAR(int(word >> 12 & 0xfff) - 2048, exact.y, 0.501) << "cell " << id;
         }
     });
 }
@@ -123,6 +136,62 @@ TEST(CellSet, PackedNormalsAreTheExactOnesRoundedForEveryTypeAndItsExtremes) {
             expect_packed_exactly(field.view(), 1);
             expect_packed_exactly(placed(field.view(), {0.5, 2.0, 1.25}, turned(true)), 0);
         }
+}
+
+TEST(CellSet, PlanesLieWhereTheMeanValueReachesTheIsovalueForEveryTypeAndBorder) {
+    std::mt19937 random(test_seed());
+    std::size_t beside = 0;
+    for (const ValueType type : kAllTypes)
+        for (const double slope : {1.0, -0.25}) {
+            SCOPED_TRACE(testing::Message() << name_of(type) << ' ' << slope);
+            const TestField field({23, 9, 8}, 2, type, scaled(turbulence(random), 60, 10),
+                                  {slope, 3.0});
+            const StepValues values = placed(field.view(), {0.5, 2.0, 1.25}, turned(slope < 0));
+            const auto isovalues = quantiles(sorted_values(values), 2);
+            for (const double isovalue : isovalues)
+                on_every_simd_target([&] {
+                    const CellSet set = all_cells(values, 1, isovalue);
+                    for (const CellId id : set.ids) {
+                        const CellPlane plane = cell_plane(values, set.query, id);
+                        const double step = CellPlane::kFarthest / packed_plane::kFarthest;
+                        const double packed = unpack_plane(set.points[id].plane).offset;
+                        if (plane.normal == glm::dvec3(0.0))
+                            continue;
+                        ASSERT_NEAR(packed / step, plane.offset / step, 0.51) << "cell " << id;
+                        beside += std::abs(plane.offset) > 0.1 && std::abs(plane.offset) < 0.8;
+                    }
+                });
+        }
+    EXPECT_GT(beside, 5000u);
+}
+
+TEST(CellSet, APlaneThroughALinearRampIsTheRampsOwn) {
+    // Slopes along one axis: the offset is where the isovalue lies between the two vertices.
+    for (const double at : {0.1, 0.5, 0.77}) {
+        const TestField ramp({6, 6, 6}, 1, ValueType::f32,
+                             [](double x, double, double, double) { return 10 * x; });
+        const CellSet set = all_cells(ramp.view(), 0, 10 * (2 + at));
+        const auto of = [&](std::size_t x) {
+            return unpack_plane(set.points[(1 * 5 + 2) * 5 + x].plane);
+        };
+        EXPECT_LT(glm::distance(of(2).normal, {-1, 0, 0}), 1e-3);
+        EXPECT_NEAR(of(2).offset, 0.5 - at, 0.004); // towards lower values
+        EXPECT_NEAR(of(4).offset, CellPlane::kFarthest, 0.004) << "beyond the cell";
+    }
+}
+
+TEST(CellSet, PlanesGoThroughTheirWordsToWithinAStep) {
+    std::mt19937 random(test_seed());
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (int round = 0; round < 10000; ++round) {
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(any(random), any(random), any(random)));
+        const double offset = CellPlane::kFarthest * any(random);
+        const CellPlane read = unpack_plane(pack({normal, offset}));
+        ASSERT_LT(glm::distance(read.normal, normal), 1e-3);
+        ASSERT_NEAR(read.offset, offset, 0.0035);
+        ASSERT_NE(pack({normal, offset}) & kNormalBits, 0u);
+    }
+    EXPECT_EQ(pack({glm::dvec3(0.0), 0.5}), 0u);
 }
 
 TEST(CellSet, PackedNormalsAreExactWhereSpacingsDifferByFarMoreThanFloatHasDigits) {
@@ -159,7 +228,7 @@ TEST(CellSet, PackedNormalsAreZeroExactlyWhereThereIsNoNormal) {
     on_every_simd_target([&] {
         const CellSet set = all_cells(field.view(), 0);
         for (const CellId id : set.ids)
-            ASSERT_EQ(set.points[id].normal == 0,
+            ASSERT_EQ(set.points[id].plane == 0,
                       cell_normal(field.view(), 0, id) == glm::dvec3(0.0))
                 << "cell " << id;
     });
@@ -194,7 +263,7 @@ TEST(CellSet, NormalsOfASphereThatIsBrightInsidePointOutwards) {
     for (const CellPoint& point : set.points) {
         const glm::dvec3 outwards = glm::normalize(
             glm::dvec3(point.x + 0.5, point.y + 0.5, point.z + 0.5) - glm::dvec3(22, 19, 22));
-        EXPECT_GT(glm::dot(glm::normalize(unpacked(point.normal)), outwards), 0.9999);
+        EXPECT_GT(glm::dot(glm::normalize(unpacked(point.plane)), outwards), 0.9999);
         EXPECT_EQ(point.style, 0);
     }
 }
@@ -202,7 +271,7 @@ TEST(CellSet, NormalsOfASphereThatIsBrightInsidePointOutwards) {
 TEST(CellSet, ANormalNeedsFiniteNeighborsAndAGradient) {
     TestField flat({6, 6, 6}, 1, ValueType::f32, [](double, double, double, double) { return 4; });
     for (const CellPoint& point : all_cells(flat.view(), 0).points)
-        EXPECT_EQ(point.normal, 0u);
+        EXPECT_EQ(point.plane, 0u);
     for (const float bad :
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         TestField ramp({6, 6, 6}, 1, ValueType::f32,
@@ -211,7 +280,7 @@ TEST(CellSet, ANormalNeedsFiniteNeighborsAndAGradient) {
         const StepValues values = ramp.view();
         const CellSet set = all_cells(values, 0);
         const auto normal = [&](std::size_t x, std::size_t y, std::size_t z) {
-            return set.points[(z * 5 + y) * 5 + x].normal;
+            return set.points[(z * 5 + y) * 5 + x].plane;
         };
         EXPECT_EQ(normal(2, 2, 2), 0u) << "a vertex of its own";
         EXPECT_EQ(normal(3, 2, 2), 0u) << "a neighbor along x";

@@ -49,7 +49,7 @@ void expect_same(const CellSet& a, const CellSet& b) {
     ASSERT_EQ(a.points.size(), b.points.size());
     for (std::size_t i = 0; i < a.points.size(); ++i) {
         const CellPoint &p = a.points[i], &q = b.points[i];
-        ASSERT_TRUE(p.x == q.x && p.y == q.y && p.z == q.z && p.normal == q.normal) << "cell " << i;
+        ASSERT_TRUE(p.x == q.x && p.y == q.y && p.z == q.z && p.plane == q.plane) << "cell " << i;
     }
     ASSERT_EQ(a.rows.size(), b.rows.size());
     for (std::size_t i = 0; i < a.rows.size(); ++i)

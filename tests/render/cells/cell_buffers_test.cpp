@@ -294,7 +294,7 @@ void APIENTRY small_textures(GLenum name, GLint* value) {
         *value = 100'000;
 }
 
-TEST_P(CellUpload, ASetThatTheDriverCannotHoldIsAClearError) {
+TEST_P(CellUpload, ASetThatTheDriverCannotHoldIsRefusedWithALineAndTheLastOneKept) {
     real_integer = gl_.GetIntegerv;
     gl_.GetIntegerv = small_textures;
     const TestField field({2, 400, 300}, 1, ValueType::u8, index::white_noise(random_));
@@ -304,11 +304,53 @@ TEST_P(CellUpload, ASetThatTheDriverCannotHoldIsAClearError) {
         all[i] = CellId(i);
     CellBuffers buffers(gl_, field.view().grid);
     EXPECT_EQ(buffers.corner_limit(), 25'000u);
-    try {
-        buffers.upload(extractions.of_cells(0, {all}), kEnough);
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "119301 cells at step 0, this GL can draw at most 100000");
+    const auto few = std::vector<CellId>(all.begin(), all.begin() + 900);
+    const auto fits = extractions.of_cells(0, {few}), too_many = extractions.of_cells(0, {all});
+    const auto too_much = extractions.of_cells(0, {{all.begin(), all.begin() + 90'000}});
+    ASSERT_TRUE(buffers.upload(fits, kEnough));
+    for (int frame = 0; frame < 3; ++frame) {
+        EXPECT_FALSE(buffers.upload(too_many, kEnough));
+        EXPECT_EQ(buffers.shown(), fits);
+        EXPECT_EQ(buffers.refused(), too_many);
+        EXPECT_EQ(buffers.refusal(), "119301 cells at step 0: this GL can draw at most 100000, so "
+                                     "the last ones stay");
+    }
+    // Of these there is room for the cells, and not for the volume around them.
+    const std::size_t bricks = too_much->bricks.ids.size();
+    ASSERT_GT(bricks, 100'000u / 512);
+    EXPECT_FALSE(buffers.upload(too_much, kEnough));
+    EXPECT_EQ(buffers.refusal(), std::to_string(bricks) +
+                                     " bricks of the volume at step 0: this GL holds at most 195, "
+                                     "so the last cells stay");
+    EXPECT_TRUE(buffers.stage(too_much, kEnough)) << "nothing is left to send";
+    EXPECT_FALSE(buffers.upload(fits, kEnough));
+    const auto shaded = extractions.shaded(too_much);
+    EXPECT_TRUE(buffers.upload(shaded, kEnough)) << "cells that come with their planes need none";
+    EXPECT_EQ(buffers.refused(), nullptr);
+    EXPECT_FALSE(buffers.has_volume());
+    EXPECT_FALSE(buffers.wants_volume());
+    EXPECT_FALSE(buffers.upload(shaded, kEnough));
+    ASSERT_TRUE(buffers.upload(fits, kEnough));
+    EXPECT_TRUE(buffers.has_volume());
+}
+
+TEST_P(CellUpload, SetsThatFitOneByOneFollowEachOtherWhereBothDoNot) {
+    real_integer = gl_.GetIntegerv;
+    gl_.GetIntegerv = small_textures;
+    const TestField field({70, 70, 9}, 2, ValueType::u8, index::white_noise(random_));
+    Extractions extractions(field.view());
+    CellBuffers buffers(gl_, field.view().grid);
+    const std::size_t cells = field.view().grid.cell_count();
+    std::vector<CellId> all(cells);
+    for (std::size_t i = 0; i < cells; ++i)
+        all[i] = CellId(i);
+    for (const std::uint32_t step : {0u, 1u, 0u}) {
+        const auto set = extractions.of_cells(step, {all});
+        ASSERT_GT(2 * set->bricks.ids.size(), 195u);
+        ASSERT_LE(set->bricks.ids.size(), 195u);
+        ASSERT_TRUE(buffers.upload(set, kEnough)) << buffers.refusal();
+        EXPECT_TRUE(buffers.has_volume());
+        EXPECT_LE(buffers.bricks()->capacity(), 195u);
     }
 }
 

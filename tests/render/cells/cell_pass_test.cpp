@@ -64,7 +64,7 @@ class CellPasses : public GlTest {
     Placement placement_;
     CellAppearance appearance_;
     RenderTarget target_{gl_, {kSize, kSize}};
-    CellPass pass_{gl_};
+    CellPass pass_{gl_, {.shape = CellShape::voxel}};
 };
 
 TEST_P(CellPasses, QuadsWriteTheDepthOfTheirCellsCenter) {
@@ -189,7 +189,7 @@ TEST_P(CellPasses, TwoViewsInOnePassLookAsInTwo) {
     // Another program, another viewport: a blended value may be rounded the other way.
     const auto nearly_equal = [](int a, int b) { return std::abs(a - b) <= 1; };
     ASSERT_EQ(pass_.draws_two_views_at_once(), draws_to_two_viewports(gl_));
-    CellPass apart(gl_);
+    CellPass apart(gl_, {.shape = CellShape::voxel});
     apart.draw_views_apart();
     std::vector<glm::ivec3> cells;
     for (int i = 0; i < 300; ++i)

@@ -27,9 +27,10 @@ class Extractions {
     }
     /// Of any cells, one ascending list for each surface.
     index::ExtractionPtr of_cells(std::uint32_t step,
-                                  std::vector<std::vector<index::CellId>> surfaces) {
+                                  std::vector<std::vector<index::CellId>> surfaces,
+                                  double isovalue = 0.0) {
         auto made = std::make_shared<index::Extraction>();
-        made->query = {step, std::vector<double>(surfaces.size(), 0.0)};
+        made->query = {step, std::vector<double>(surfaces.size(), isovalue)};
         for (auto& ids : surfaces)
             made->surfaces.emplace_back().ids = std::move(ids);
         return complete(std::move(made));
@@ -38,8 +39,9 @@ class Extractions {
     /// The same with the points that the worker makes where they are asked for.
     index::ExtractionPtr shaded(const index::ExtractionPtr& set) {
         auto with_points = std::make_shared<index::Extraction>(*set);
-        for (index::CellSet& surface : with_points->surfaces) {
-            surface.query.step = set->query.step;
+        for (std::size_t i = 0; i < with_points->surfaces.size(); ++i) {
+            index::CellSet& surface = with_points->surfaces[i];
+            surface.query = {set->query.step, set->query.isovalues[i]};
             index::shade_cells(values_, surface);
         }
         return with_points;

@@ -5,6 +5,7 @@
 #include "tests/render/cells/random_views.h"
 #include "tests/support/gl_test.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace isochron::render {
@@ -33,10 +34,13 @@ int wrong_pixels(const Image& image, int threshold,
 class FootprintGeometry : public GlTest {
   protected:
     /// Alpha tells what is covered: the target is cleared to nothing.
-    Image draw(const Scene& scene, Footprint footprint, const FootprintShapes& shapes) {
+    Image draw(const Scene& scene, Footprint footprint, FootprintShapes shapes,
+               std::uint32_t plane = 0) {
+        if (plane == 0)
+            shapes.shape = CellShape::voxel;
         CellPass pass(gl_, shapes);
         RenderTarget target(gl_, scene.view.size);
-        const CellBuffers cells = showing(gl_, cell_set({scene.cell}));
+        const CellBuffers cells = showing(gl_, cell_set({scene.cell}, plane));
         target.bind();
         target.clear({0, 0, 0, 0});
         pass.draw(scene.view, scene.placement, cells, footprint);
@@ -58,6 +62,98 @@ TEST_P(FootprintGeometry, ACellCoversTheProjectionOfItsEllipsoidWithinAPixel) {
                   0)
             << "round " << round;
     }
+}
+
+/// The ellipsoid that stands for a plane, step by step and in double.
+struct PlaneEllipsoid {
+    PlaneEllipsoid(const Scene& scene, std::uint32_t word, double radius) {
+        const index::CellPlane plane = index::unpack_plane(word);
+        const glm::dmat3 room_from_index(scene.placement.room_from_index); // physical is room
+        const glm::dvec3 n = glm::normalize(glm::transpose(room_from_index) * plane.normal);
+        const glm::dvec3 size = glm::abs(n);
+        const double rest =
+            std::max(0.5 * (size.x + size.y + size.z) - std::abs(plane.offset), 0.0);
+        std::array<int, 3> by_size{0, 1, 2};
+        std::ranges::sort(by_size, {}, [&](int i) { return size[i]; });
+        const double length = 1.3 * rest / size[by_size[0]], width = rest / size[by_size[1]];
+
+        glm::dvec3 corner, edge(0.0);
+        for (int i = 0; i < 3; ++i) {
+            corner[i] = std::copysign(0.5, n[i] * plane.offset);
+            corner[i] -= std::copysign(std::min(rest / (3.0 * size[i]), 0.5), corner[i]);
+        }
+        edge[by_size[0]] = 1.0;
+        center = glm::dvec3(scene.cell) + 0.5 + corner + (plane.offset - glm::dot(n, corner)) * n;
+        const glm::dvec3 lengthwise = glm::normalize(edge - glm::dot(edge, n) * n);
+        for (const auto& [axis, half] : {std::pair(n, 0.125),
+                                         {lengthwise, std::clamp(length, 0.15, 1.0)},
+                                         {glm::cross(n, lengthwise), std::clamp(width, 0.15, 1.0)}})
+            quadric += glm::outerProduct(axis, axis) / (radius * radius * half * half);
+    }
+    glm::dvec3 center;
+    glm::dmat3 quadric{0.0};
+};
+
+std::uint32_t random_plane(std::mt19937& random) {
+    std::uniform_real_distribution<double> any(-1, 1);
+    return packed_normal(glm::normalize(glm::dvec3(any(random), any(random), any(random))),
+                         index::CellPlane::kFarthest * any(random));
+}
+
+TEST_P(FootprintGeometry, ACellOnAPlaneCoversTheProjectionOfItsEllipsoidWithinAPixel) {
+    const FootprintShapes shapes{.plane_radius = 2.0f};
+    int covered = 0;
+    for (int round = 0; round < 150; ++round) {
+        const Scene scene = random_scene(random_, {200, 160}, 3.0);
+        const std::uint32_t plane = random_plane(random_);
+        const PlaneEllipsoid ellipsoid(scene, plane, 2.0);
+        const Ellipse ellipse =
+            paper_ellipse(scene.pixel_from_index(), ellipsoid.center, ellipsoid.quadric);
+        if (scene.eye_distance() < 4.0)
+            continue; // too near for an outline in the picture's plane
+        const Image image = draw(scene, Footprint::quad, shapes, plane);
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+            covered += image.rgba[i] > 127;
+        EXPECT_EQ(wrong_pixels(image, 127,
+                               [&](const glm::dvec2& at) { return ellipse.distance(at) < 1.0; }),
+                  0)
+            << "round " << round;
+    }
+    EXPECT_GT(covered, 4000);
+}
+
+TEST_P(FootprintGeometry, AnEllipsoidBesideTheEyeIsCutAtTheEyesPlane) {
+    // Rays from an eye whose plane crosses the ellipsoid, against the ellipsoid itself.
+    int cut = 0;
+    for (int round = 0; round < 40; ++round) {
+        Scene scene;
+        scene.view.size = {160, 160};
+        scene.view.clip_from_eye = glm::perspective(glm::radians(120.0f), 1.0f, 0.001f, 10.0f);
+        std::uniform_real_distribution<double> any(-1, 1);
+        const glm::dvec3 spacing(0.10, 0.12, 0.15);
+        const glm::dvec3 at(0.25 + 0.1 * any(random_), 0.05, -0.1 + 0.05 * any(random_));
+        scene.placement.room_from_index =
+            glm::mat4(glm::scale(glm::translate(glm::dmat4(1.0), at), spacing) *
+                      glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5)));
+        const std::uint32_t plane = random_plane(random_);
+        const PlaneEllipsoid ellipsoid(scene, plane, 2.0);
+        const glm::dmat4 index_from_eye = glm::inverse(glm::dmat4(scene.placement.room_from_index));
+        const glm::dvec3 from = glm::dvec3(index_from_eye[3]) - ellipsoid.center;
+        const double inside = glm::dot(from, ellipsoid.quadric * from);
+        if (inside < 1.1)
+            continue;
+        const Image image = draw(scene, Footprint::quad, {.plane_radius = 2.0f}, plane);
+        const auto hit = [&](const glm::dvec2& pixel) {
+            const double slope = std::tan(glm::radians(60.0)) / 80.0;
+            const glm::dvec3 ray(index_from_eye * glm::dvec4(pixel * slope, -1.0, 0.0));
+            const double a = glm::dot(ray, ellipsoid.quadric * ray);
+            const double b = glm::dot(from, ellipsoid.quadric * ray);
+            return b < 0.0 && b * b >= a * (inside - 1.0);
+        };
+        cut += hit({79.5, 0.5});
+        EXPECT_EQ(wrong_pixels(image, 127, hit), 0) << "round " << round;
+    }
+    EXPECT_GT(cut, 3);
 }
 
 TEST_P(FootprintGeometry, AGaussianHasItsHalfOpacityOnTheEllipseThatBelongsToIt) {

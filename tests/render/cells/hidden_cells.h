@@ -83,8 +83,13 @@ struct Shell {
         for (std::uint16_t z = 0; z < kCells; ++z)
             for (std::uint16_t y = 0; y < kCells; ++y)
                 for (std::uint16_t x = 0; x < kCells; ++x)
-                    if (std::abs(glm::length(glm::vec3(x, y, z) - 19.5f) - 16.0f) < 0.9f)
+                    if (const glm::vec3 at = glm::vec3(x, y, z) - 19.5f;
+                        std::abs(glm::length(at) - 16.0f) < 0.9f) {
                         slots.places.push_back({x, y, z, 0});
+                        slots.planes.push_back(
+                            packed_normal(glm::normalize(at),
+                                          std::clamp(16.0 - double(glm::length(at)), -0.8, 0.8)));
+                    }
         slots.slot_of_rank.resize(slots.places.size());
         std::iota(slots.slot_of_rank.begin(), slots.slot_of_rank.end(), 0u);
         const glm::vec4 eye = glm::inverse(volume.placement.room_from_index)[3];
@@ -103,8 +108,11 @@ class HiddenCellsTest : public GlTest {
         std::vector<index::CellPoint> points;
         for (const glm::ivec3& cell : volume.cells) {
             const glm::vec3 normal(float(random_() % 100) - 50, float(random_() % 100) - 50, 20);
+            // Few pass the cell's middle, and some have no plane.
+            const double offset = (double(random_() % 1000) - 500) / 600;
             points.push_back({std::uint16_t(cell.x), std::uint16_t(cell.y), std::uint16_t(cell.z),
-                              std::uint16_t(random_() % 3), packed_normal(glm::normalize(normal))});
+                              std::uint16_t(random_() % 3),
+                              random_() % 20 ? packed_normal(glm::normalize(normal), offset) : 0});
         }
         return showing(gl_, points);
     }
@@ -124,7 +132,16 @@ class HiddenCellsTest : public GlTest {
         look.surfaces[2].color = {0.3f, 0.2f, 1};
         return look;
     }
-    CellPass seen_{gl_}, all_{gl_};
+    /// Calls it with both shapes, and with passes that leave out hidden cells and that do not.
+    template <class Test>
+    void with_both_shapes(Test&& test) {
+        for (const CellShape shape : {CellShape::plane, CellShape::voxel}) {
+            SCOPED_TRACE(name_of(shape));
+            CellPass seen(gl_, {.shape = shape}), all(gl_, {.shape = shape});
+            all.draw_hidden_cells();
+            test(shape, seen, all);
+        }
+    }
 };
 
 } // namespace isochron::render

@@ -43,7 +43,7 @@ class Lights : public GlTest {
     Placement placement_;
     CellAppearance look_;
     RenderTarget target_{gl_, {kLitSize, kLitSize}};
-    CellPass pass_{gl_};
+    CellPass pass_{gl_, {.shape = CellShape::voxel}}, planes_{gl_};
 };
 
 TEST_P(Lights, BlendAsLightDoes) {

@@ -26,12 +26,14 @@ struct Ellipse {
 /// eigenvectors are the axes. Written in double and with inverses, as far from the shader's dual
 /// form as the same ellipse allows.
 /// @param pixel_from_index clip space, x and y scaled to pixels
+/// @param quadric of an ellipsoid: d . quadric d = 1 for the way d from its center to its surface
 inline Ellipse paper_ellipse(const glm::dmat4& pixel_from_index, const glm::dvec3& center,
-                             double radius) {
-    glm::dmat4 q(1.0);
-    q[3] = glm::dvec4(-center, glm::dot(center, center) - radius * radius);
+                             const glm::dmat3& quadric) {
+    const glm::dvec3 moved = quadric * center;
+    glm::dmat4 q(quadric);
+    q[3] = glm::dvec4(-moved, glm::dot(center, moved) - 1.0);
     for (int i = 0; i < 3; ++i)
-        q[i][3] = -center[i];
+        q[i][3] = -moved[i];
     const glm::dmat4 inverse = glm::inverse(pixel_from_index);
     const glm::dmat4 p = glm::transpose(inverse) * q * inverse;
     constexpr int kSeen[3] = {0, 1, 3}; // x, y, w
@@ -52,6 +54,11 @@ inline Ellipse paper_ellipse(const glm::dmat4& pixel_from_index, const glm::dvec
     if (along < across)
         std::swap(ellipse.major, ellipse.minor);
     return ellipse;
+}
+
+inline Ellipse paper_ellipse(const glm::dmat4& pixel_from_index, const glm::dvec3& center,
+                             double radius) {
+    return paper_ellipse(pixel_from_index, center, glm::dmat3(1.0 / (radius * radius)));
 }
 
 } // namespace isochron::render

@@ -81,25 +81,33 @@ class QuadCoverage : public GlTest {
 };
 
 TEST_P(QuadCoverage, QuadsLeaveNoGapInASurface) {
-    CellPass pass(gl_), smaller(gl_, {.quad_diameter = 1.25f});
+    CellPass planes(gl_), voxels(gl_, {.shape = CellShape::voxel});
+    CellPass smaller(gl_, {.plane_radius = 0.55f});
+    CellPass smaller_voxels(gl_, {.shape = CellShape::voxel, .quad_diameter = 1.15f});
     const TestField sphere({30, 28, 31}, 1, ValueType::u8, index::moving_sphere);
     const TestField smooth({24, 20, 22}, 1, ValueType::f32, index::turbulence(random_, 24));
     const TestField plane({20, 20, 20}, 1, ValueType::f32,
                           [](double, double, double z, double) { return z; });
-    int gaps_of_smaller = 0;
+    int gaps_of_smaller = 0, gaps_of_smaller_voxels = 0;
     for (const auto& [field, isovalue] :
          {std::pair(&sphere, 100.5), {&smooth, 0.03}, {&plane, 9.5}, {&plane, 9.99}}) {
         index::StepValues values = field->view();
         for (const double spacing : {1.0, 3.0}) {
             values.grid.spacing[0] = spacing;
-            const Count found = count(pass, values, isovalue);
-            EXPECT_GT(found.surface, 20000);
-            EXPECT_EQ(found.gaps, 0)
-                << "of " << found.surface << ", isovalue " << isovalue << ", spacing " << spacing;
+            for (CellPass* pass : {&planes, &voxels}) {
+                const Count found = count(*pass, values, isovalue);
+                EXPECT_GT(found.surface, 20000);
+                // One pixel in a few thousand may lie between ellipses of which two just meet.
+                EXPECT_LE(found.gaps, pass == &planes ? found.surface / 1000 : 0)
+                    << "of " << found.surface << (pass == &planes ? ", planes" : ", voxels")
+                    << ", isovalue " << isovalue << ", spacing " << spacing;
+            }
             gaps_of_smaller += count(smaller, values, isovalue).gaps;
+            gaps_of_smaller_voxels += count(smaller_voxels, values, isovalue).gaps;
         }
     }
-    EXPECT_GT(gaps_of_smaller, 1000) << "quads that are too small would be found";
+    EXPECT_GT(gaps_of_smaller, 1000) << "ellipses that are too small would be found";
+    EXPECT_GT(gaps_of_smaller_voxels, 1000) << "quads that are too small would be found";
 }
 
 INSTANTIATE_TEST_SUITE_P(, QuadCoverage, both_contexts(), context_name);

@@ -46,7 +46,7 @@ TEST(RankedPoints, AreAllOfTheSetInPortionsOfAnySize) {
                 ASSERT_EQ(point.x, from.x);
                 ASSERT_EQ(point.y, from.y);
                 ASSERT_EQ(point.z, from.z);
-                ASSERT_EQ(point.normal, from.normal);
+                ASSERT_EQ(point.plane, from.plane);
                 ASSERT_EQ(point.style & 7u, surface);
                 ASSERT_EQ(point.style >> kColorShift, set.colors.empty() ? 0u : set.colors[rank]);
                 ++rank;

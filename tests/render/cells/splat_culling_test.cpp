@@ -7,13 +7,11 @@
 namespace isochron::render {
 namespace {
 
-constexpr float kSplatRadius = 0.5f * FootprintShapes{}.gaussian_diameter;
+constexpr SplatShape kShape{CellShape::voxel, 0.5f * FootprintShapes{}.gaussian_diameter};
 constexpr float kFalloff = -5.9f; ///< about that of the standard splats
 
 class SeenSplatsPictures : public HiddenCellsTest {
   protected:
-    SeenSplatsPictures() { all_.draw_hidden_cells(); }
-
     /// In display values, where splats are left out.
     CellAppearance look() {
         CellAppearance look = three_colors();
@@ -39,46 +37,54 @@ constexpr int kUnseen = 1;
 constexpr int kUnseenResolved = 2;
 
 TEST_P(SeenSplatsPictures, AreThoseOfAllSplatsToWithinRounding) {
-    for (int round = 0; round < 200; ++round) {
-        const Volume volume = random_volume(random_);
-        const CellBuffers cells = shown(volume);
-        const int samples = round % 4 == 0 ? 4 : 1;
-        ASSERT_LE(largest_difference(draw(seen_, volume, cells, look(), samples),
-                                     draw(all_, volume, cells, look(), samples)),
-                  samples == 1 ? kUnseen : kUnseenResolved)
-            << "round " << round;
-    }
+    with_both_shapes([&](CellShape, CellPass& seen, CellPass& all) {
+        for (int round = 0; round < 200; ++round) {
+            const Volume volume = random_volume(random_);
+            const CellBuffers cells = shown(volume);
+            const int samples = round % 4 == 0 ? 4 : 1;
+            ASSERT_LE(largest_difference(draw(seen, volume, cells, look(), samples),
+                                         draw(all, volume, cells, look(), samples)),
+                      samples == 1 ? kUnseen : kUnseenResolved)
+                << "round " << round;
+        }
+    });
 }
 
 TEST_P(SeenSplatsPictures, AreTheSameOnEveryKindOfProcessor) {
-    for (int round = 0; round < 20; ++round) {
-        const Volume volume = random_volume(random_);
-        const CellBuffers cells = shown(volume);
-        const Image expected = draw(all_, volume, cells, look());
-        index::on_every_simd_target([&] {
-            ASSERT_LE(largest_difference(draw(seen_, volume, cells, look()), expected), kUnseen);
-        });
-    }
+    with_both_shapes([&](CellShape, CellPass& seen, CellPass& all) {
+        for (int round = 0; round < 20; ++round) {
+            const Volume volume = random_volume(random_);
+            const CellBuffers cells = shown(volume);
+            const Image expected = draw(all, volume, cells, look());
+            index::on_every_simd_target([&] {
+                ASSERT_LE(largest_difference(draw(seen, volume, cells, look()), expected), kUnseen);
+            });
+        }
+    });
 }
 
 TEST_P(SeenSplatsPictures, ShowAllWhereLightComesThrough) {
-    for (int round = 0; round < 20; ++round) {
-        const Volume volume = random_volume(random_);
-        const CellBuffers cells = shown(volume);
-        CellAppearance through = look();
-        if (round % 3 == 0)
-            through.surfaces[round % 2].opacity = 0.5f;
-        else if (round % 3 == 1)
-            through.near_fade = {.gone = 1.0f, .whole = 8.0f};
-        else
-            through.linear_light = true;
-        ASSERT_EQ(draw(seen_, volume, cells, through).rgba, draw(all_, volume, cells, through).rgba)
-            << "round " << round;
-    }
+    with_both_shapes([&](CellShape, CellPass& seen, CellPass& all) {
+        for (int round = 0; round < 20; ++round) {
+            const Volume volume = random_volume(random_);
+            const CellBuffers cells = shown(volume);
+            CellAppearance through = look();
+            if (round % 3 == 0)
+                through.surfaces[round % 2].opacity = 0.5f;
+            else if (round % 3 == 1)
+                through.near_fade = {.gone = 1.0f, .whole = 8.0f};
+            else
+                through.linear_light = true;
+            ASSERT_EQ(draw(seen, volume, cells, through).rgba,
+                      draw(all, volume, cells, through).rgba)
+                << "round " << round;
+        }
+    });
 }
 
 TEST_P(SeenSplatsPictures, OfSplatsThatAreCutOffEarlyAreThoseOfAll) {
-    const FootprintShapes shapes{.gaussian_diameter = 1.8f}; // half opaque at the outline
+    const FootprintShapes shapes{.shape = CellShape::voxel,
+                                 .gaussian_diameter = 1.8f}; // half opaque at the outline
     CellPass seen(gl_, shapes), all(gl_, shapes);
     all.draw_hidden_cells();
     for (int round = 0; round < 40; ++round) {
@@ -93,7 +99,8 @@ TEST_P(SeenSplatsPictures, OfSplatsThatAreCutOffEarlyAreThoseOfAll) {
 
 /// Splats within two radii of the eye fade: what is behind them is seen.
 TEST_P(SeenSplatsPictures, OfAWallBeforeTheEyeShowWhatIsBehind) {
-    const FootprintShapes shapes{.gaussian_sigma = 1.2f}; // which lets nothing through
+    const FootprintShapes shapes{.shape = CellShape::voxel,
+                                 .gaussian_sigma = 1.2f}; // which lets nothing through
     CellPass seen(gl_, shapes), all(gl_, shapes);
     all.draw_hidden_cells();
     constexpr int kAcross = 40;
@@ -122,8 +129,8 @@ TEST(SeenSplats, OfAClosedShellAreLittleMoreThanItsNearHalf) {
     const Shell shell;
     SeenSplats seen;
     index::on_every_simd_target([&] {
-        const auto found = seen.find(shell.volume.view, shell.volume.placement, kSplatRadius,
-                                     kFalloff, shell.slots.places, shell.order);
+        const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, kFalloff,
+                                     shell.slots, shell.order);
         const double share = double(found.size()) / double(shell.order.size());
         EXPECT_GT(share, 0.4);
         EXPECT_LT(share, 0.75);
@@ -136,8 +143,8 @@ TEST(SeenSplats, AreNotBesideOrBehindTheView) {
     shell.volume.placement.room_from_index = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 3)) *
                                              shell.volume.placement.room_from_index;
     SeenSplats seen;
-    const auto found = seen.find(shell.volume.view, shell.volume.placement, kSplatRadius, kFalloff,
-                                 shell.slots.places, shell.order);
+    const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, kFalloff,
+                                 shell.slots, shell.order);
     EXPECT_GT(found.size(), shell.order.size() / 100);
     EXPECT_LT(found.size(), shell.order.size() / 4);
 }
@@ -145,8 +152,8 @@ TEST(SeenSplats, AreNotBesideOrBehindTheView) {
 TEST(SeenSplats, ComeInTheOrderOfAll) {
     const Shell shell;
     SeenSplats seen;
-    const auto found = seen.find(shell.volume.view, shell.volume.placement, kSplatRadius, kFalloff,
-                                 shell.slots.places, shell.order);
+    const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, kFalloff,
+                                 shell.slots, shell.order);
     std::vector<std::uint32_t> rest = shell.order;
     std::erase_if(rest, [&](std::uint32_t slot) {
         return std::find(found.begin(), found.end(), slot) == found.end();
@@ -157,8 +164,8 @@ TEST(SeenSplats, ComeInTheOrderOfAll) {
 TEST(SeenSplats, OfNoneAreNone) {
     const Shell shell;
     SeenSplats seen;
-    EXPECT_TRUE(seen.find(shell.volume.view, shell.volume.placement, kSplatRadius, kFalloff, {}, {})
-                    .empty());
+    EXPECT_TRUE(
+        seen.find(shell.volume.view, shell.volume.placement, kShape, kFalloff, {}, {}).empty());
 }
 
 } // namespace

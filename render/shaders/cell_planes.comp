@@ -1,0 +1,62 @@
+#version 450 core
+// Gives every cell its plane, as index::CellPlane defines it: the normal from the mean of its
+// vertices' central differences, the offset from its own values.
+#ifndef BRICKS
+#define BRICKS samplerBuffer
+#endif
+#include "volume_bricks.glsl"
+#include "work.glsl"
+#include "slots.glsl"
+
+// Of the octahedron, from -1 to 1, into twelve bits; from CellPlane::kFarthest into a byte.
+uint coordinate(float c) { return uint(int(c * 2047.0 + 2048.5)); }
+uint byte_of(float offset) {
+    float steps = clamp(offset / 0.87, -1.0, 1.0) * 127.0;
+    return uint(int(steps + (steps < 0.0 ? -0.5 : 0.5))) << 24;
+}
+
+// How far from the cell's middle along a vector of differences, which points towards larger
+// values, the cell's mean value has risen to the isovalue [voxels].
+float rise_along(vec3 d, uint slot) {
+    uint surface = surface_of(slot);
+    float level = levels[surface >> 2][surface & 3u];
+    vec4 low = vec4(row_11.yz, row_21.yz), high = vec4(row_12.yz, row_22.yz); // x fastest
+    vec4 lacking = (level - low) + (level - high);
+    vec4 across = (low.yyww - low.xxzz) + (high.yyww - high.xxzz);
+    vec4 up = (low.zwzw - low.xyxy) + (high.zwzw - high.xyxy);
+    vec3 own = vec3(across.x + across.z, up.x + up.y, dot(high - low, vec4(1)));
+    float along = dot(own, d);
+    float rise = dot(lacking, vec4(1)) * sqrt(dot(d, d)) / (2.0 * along);
+    return along * abs(along) > 1e-6 * dot(d, d) * dot(own, own) ? rise : 0.0;
+}
+
+void main() {
+    uint slot = my_work();
+    if (slot >= work.y)
+        return;
+    ivec3 cell = cell_of(slot);
+    read_around(cell);
+    vec2 wx = difference_weights(cell.x, vertices.x);
+    vec2 wy = difference_weights(cell.y, vertices.y);
+    vec2 wz = difference_weights(cell.z, vertices.z);
+    // Differences first and sums of them then: values may be large and close to each other.
+    vec2 x = wx * ((row_11.zw - row_11.xy) + (row_21.zw - row_21.xy) +
+                   (row_12.zw - row_12.xy) + (row_22.zw - row_22.xy));
+    vec2 y = wy.x * ((row_21.yz - row_01) + (row_22.yz - row_02)) +
+             wy.y * ((row_31 - row_11.yz) + (row_32 - row_12.yz));
+    vec2 z = wz.x * ((row_12.yz - row_10) + (row_22.yz - row_20)) +
+             wz.y * ((row_13 - row_11.yz) + (row_23 - row_21.yz));
+    vec3 d = vec3(x.x + x.y, y.x + y.y, z.x + z.y);
+    float most = max(max(abs(d.x), abs(d.y)), abs(d.z));
+    uint word = 0u;
+    if (is_finite(d) && most > 0.0) {
+        d /= most; // no square may overflow or vanish
+        vec3 n = vec3(dot(from_difference_x.xyz, d), dot(from_difference_y.xyz, d),
+                      dot(from_difference_z.xyz, d));
+        vec2 at = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+        vec2 folded = (1.0 - abs(at.yx)) * vec2(at.x < 0.0 ? -1.0 : 1.0, at.y < 0.0 ? -1.0 : 1.0);
+        at = n.z < 0.0 ? folded : at;
+        word = coordinate(at.x) | coordinate(at.y) << 12 | byte_of(-rise_along(d, slot));
+    }
+    points[3u * slot + 2u] = word;
+}

@@ -1,0 +1,68 @@
+// What a cell's quad or splat stands for: an ellipsoid in index space; needs frame.glsl.
+//
+// With PLANE it is flat, on the plane of the surface in the cell (index::CellPlane), about the part
+// of the plane that lies in the cell; without, it is the voxel's sphere.
+
+struct Splat {
+    vec3 center;
+#ifdef PLANE
+    vec3 normal, lengthwise; // two axes; the third is across both
+#endif
+    vec3 half_axes; // along the normal, lengthwise, across [voxels]
+};
+
+// In physical space; zero where there is none.
+vec3 plane_normal(uint word) {
+    vec2 at = (vec2(word & 0xfffu, word >> 12 & 0xfffu) - 2048.0) / 2047.0;
+    vec3 n = vec3(at, 1.0 - abs(at.x) - abs(at.y));
+    float fold = max(-n.z, 0.0);
+    n.xy -= vec2(n.x < 0.0 ? -fold : fold, n.y < 0.0 ? -fold : fold);
+    return (word & 0xffffffu) == 0u ? vec3(0) : normalize(n);
+}
+
+#ifdef PLANE
+// As render/cells/cell_shape.h has them.
+const float kThickness = 0.125, kLeastWidth = 0.15, kLengthwise = 1.3;
+
+vec3 signs(vec3 v) { return vec3(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0, v.z < 0.0 ? -1.0 : 1.0); }
+
+// How far the plane lies before the cell's farthest corner is how much of it is in the cell: along
+// each edge from there it goes on for `rest` over the normal's part along the edge, at most for the
+// edge. The longest of the three is its length, the second its width, whose ends the neighbors'
+// overlap. Near its middle lies where each edge is followed for a third of that.
+Splat splat_of(vec3 middle, vec3 normal, uint word) {
+    vec3 n = vec3(dot(index_from_normal[0].xyz, normal), dot(index_from_normal[1].xyz, normal),
+                  dot(index_from_normal[2].xyz, normal));
+    bool flat_one = dot(n, n) > 0.0;
+    n = flat_one ? normalize(n) : vec3(0, 0, 1);
+    float offset = 0.87 / 127.0 * float(int(word) >> 24);
+    vec3 size = max(abs(n), 1e-6);
+    float rest = max(0.5 * (size.x + size.y + size.z) - abs(offset), 0.0);
+    float least = min(size.x, min(size.y, size.z));
+    float median = max(min(size.x, size.y), min(max(size.x, size.y), size.z));
+
+    vec3 at = signs(n) * (0.5 - min(rest / (3.0 * size), 0.5)) * (offset < 0.0 ? -1.0 : 1.0);
+    at += (offset - dot(n, at)) * n;
+    vec3 edge = size.x == least ? vec3(1, 0, 0) : size.y == least ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    vec2 lengths = clamp(rest * vec2(kLengthwise / least, 1.0 / median), kLeastWidth, 1.0);
+    return Splat(middle + (flat_one ? at : vec3(0)), n, normalize(edge - dot(edge, n) * n),
+                 radius * (flat_one ? vec3(kThickness, lengths) : vec3(1)));
+}
+
+// The bilinear form of the ellipsoid's shape: u . v for the unit sphere.
+float form(Splat s, vec3 u, vec3 v) {
+    vec3 squares = s.half_axes * s.half_axes;
+    return squares.z * dot(u, v) + (squares.x - squares.z) * dot(u, s.normal) * dot(v, s.normal) +
+           (squares.y - squares.z) * dot(u, s.lengthwise) * dot(v, s.lengthwise);
+}
+
+// Stretched along the ellipsoid's axes.
+vec3 stretched(Splat s, vec3 v, vec3 by) {
+    return by.z * v + (by.x - by.z) * dot(v, s.normal) * s.normal +
+           (by.y - by.z) * dot(v, s.lengthwise) * s.lengthwise;
+}
+#else
+Splat splat_of(vec3 middle, vec3 normal, uint word) { return Splat(middle, vec3(radius)); }
+float form(Splat s, vec3 u, vec3 v) { return s.half_axes.x * s.half_axes.x * dot(u, v); }
+vec3 stretched(Splat s, vec3 v, vec3 by) { return by * v; }
+#endif

@@ -45,7 +45,8 @@ void add_replay_source(Command& command, ReplaySource& source) {
         .one_of(settled_footprint_names());
     command.flag("--ray", source.ray,
                  "Show the wand's ray and what is under the cursor, which pictures leave out");
-    command.flag("--caption", source.caption, "Write isovalue and time into the pictures");
+    command.flag("--caption", source.caption,
+                 "Write isovalue and time into the pictures, with axes and a scale bar");
     command
         .option("--shape", source.shape,
                 "What quads and splats stand for, instead of the configured: plane (flat "

@@ -136,7 +136,7 @@ TEST_F(ReproduceTest, RaysAndCaptionsAreInPicturesThatAskForThem) {
     };
     EXPECT_GT(differ(plain, ray, 0, 64), 5);
     EXPECT_GT(differ(plain, caption, 0, 28), 100) << "at the top";
-    EXPECT_EQ(differ(plain, caption, 28, 64), 0);
+    EXPECT_GT(differ(plain, caption, 40, 64), 50) << "axes and scale bar below";
 }
 
 TEST_F(ReproduceTest, OtherDataAreToldByTheirHash) {

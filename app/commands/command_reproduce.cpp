@@ -63,6 +63,7 @@ Config config_for(const ReproduceOptions& options, const PictureNote& note) {
     config.picture_samples = note.samples;
     config.picture_ray = note.ray;
     config.picture_caption = note.caption;
+    config.cell_shape = cell_shape_from_name(note.shape);
     config.openxr.enabled = false;
     if (note.footprint != render::name_of(render::Footprint::quad))
         config.settled_footprint = settled_footprint_from_name(note.footprint);

@@ -187,6 +187,7 @@ PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
     frame.samples = picture_options(gl_, config_, frame.size).samples;
     frame.ray = config_.picture_ray;
     frame.caption = config_.picture_caption;
+    frame.shape = render::name_of(config_.cell_shape);
     return frame;
 }
 

@@ -70,6 +70,7 @@ PictureNote note_from_json(const json& value) {
     note.size = size_from(members.at("size"));
     note.samples = static_cast<int>(interaction::natural(members.at("samples"), "samples", 64));
     note.footprint = text("footprint");
+    note.shape = text("shape");
     note.ray = interaction::boolean(members.at("ray"), "ray");
     note.caption = interaction::boolean(members.at("caption"), "caption");
     note.state = interaction::commands_from(members.at("state"), "state");
@@ -79,8 +80,8 @@ PictureNote note_from_json(const json& value) {
     if (const json* movie = members.find("movie"))
         note.movie = movie_from(*movie);
     members.done({"format", "version", "program", "drawn_with", "configuration", "data",
-                  "data_hash", "part", "size", "samples", "footprint", "ray", "caption", "state",
-                  "frame", "movie"});
+                  "data_hash", "part", "size", "samples", "footprint", "shape", "ray", "caption",
+                  "state", "frame", "movie"});
     return note;
 }
 
@@ -124,6 +125,7 @@ std::string text_of(const PictureNote& note) {
                {"size", {note.size.x, note.size.y}},
                {"samples", note.samples},
                {"footprint", note.footprint},
+               {"shape", note.shape},
                {"ray", note.ray},
                {"caption", note.caption},
                {"state", interaction::commands_json(note.state)},

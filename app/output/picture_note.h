@@ -40,6 +40,7 @@ struct PictureNote {
     glm::ivec2 size{0};    ///< of the window or room, pixels
     int samples = 1;       ///< of each pixel
     std::string footprint; ///< that cells are drawn with
+    std::string shape;     ///< of quads and splats
     bool ray = false;      ///< wand's ray and what is under the cursor are shown
     bool caption = false;
     interaction::Commands state;      ///< everything that commands can set, set

@@ -104,6 +104,7 @@ TEST_F(ReproduceTest, EveryFootprintFormatAndStereoModeIsTheSame) {
     expect_same({});
     expect_same({"--format", "exr", "--samples", "1"});
     expect_same({"--quality", "fast"});
+    expect_same({"--quality", "fast", "--shape", "voxel"});
     expect_same({"--footprint", "gaussian", "--stereo", "anaglyph_red_cyan"});
     expect_same({"--stereo", "checkerboard", "--size", "80", "70", "--ray"});
     expect_same({"--caption"});

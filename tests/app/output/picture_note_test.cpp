@@ -23,6 +23,7 @@ PictureNote some_note() {
     note.size = {640, 480};
     note.samples = 4;
     note.footprint = "surface";
+    note.shape = "plane";
     note.state = ExplorerState{}.as_commands();
     note.input = head_at_rest(2.5);
     return note;

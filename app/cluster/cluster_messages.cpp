@@ -1,6 +1,7 @@
 // What the processes of a cluster say to each other in a frame, as bytes.
 #include "app/cluster/cluster_messages.h"
 
+#include "app/cluster/cbor_nesting.h"
 #include "interaction/recording/commands_json.h"
 #include "interaction/recording/json_values.h"
 #include "interaction/recording/recording_json.h"
@@ -22,6 +23,7 @@ constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
 constexpr std::size_t kMostSamples = 4096; ///< of one frame
 
 json decoded(std::span<const std::byte> bytes) {
+    expect_shallow_cbor(bytes); // the library recurses
     const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data());
     try {
         return json::from_cbor(first, first + bytes.size());

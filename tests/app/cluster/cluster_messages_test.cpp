@@ -107,5 +107,17 @@ TEST(ClusterMessages, OneMessageIsNotTakenForAnother) {
     EXPECT_THROW(decode_choice({}), interaction::Error);
 }
 
+TEST(ClusterMessages, WhatNestsWithoutEndIsRefusedBeforeTheStackEnds) {
+    // An array of one, a map of one with an empty key, text and bytes in pieces, a tag.
+    const std::vector<std::vector<unsigned char>> levels{{0x81}, {0xa1, 0x60}, {0x7f},
+                                                         {0x5f}, {0xc0},       {0x9f}};
+    for (const std::vector<unsigned char>& level : levels) {
+        MessageBytes bytes;
+        for (int i = 0; i < 1'000'000; ++i)
+            bytes.insert(bytes.end(), level.begin(), level.end());
+        EXPECT_THROW(decode_order(view(bytes)), interaction::Error) << int(level[0]);
+    }
+}
+
 } // namespace
 } // namespace isochron::app

@@ -62,8 +62,9 @@ void expect_shallow_cbor(std::span<const std::byte> message) {
             if (depth == kDeepestMessage)
                 throw interaction::Error(
                     fmt::format("message: nested deeper than {} levels", kDeepestMessage));
-            if (head->count > message.size())
-                return; // each item takes a byte
+            if (head->count > message.size()) // each item takes a byte
+                throw interaction::Error(
+                    fmt::format("message: {} items in {} bytes", head->count, message.size()));
             items[depth++] = head->count * (pairs ? 2 : 1);
         }
         while (depth > 0 && items[depth - 1] == 0)

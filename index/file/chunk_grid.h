@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace isochron::index {
@@ -20,6 +22,19 @@ constexpr std::array<std::uint32_t, 3> kChunkBricks{kChunkEdge / BrickGrid::kCel
                                                     kChunkEdge / BrickGrid::kCells[2]};
 constexpr std::size_t kBricksOfChunk =
     std::size_t{kChunkBricks[0]} * kChunkBricks[1] * kChunkBricks[2];
+
+/// Where brick i of a chunk stands among all of a grid, as `build_bricks` orders them; nothing where
+/// the grid has no such brick. @param at of the chunk, in chunks of the grid
+inline std::optional<std::size_t>
+brick_of_chunk(const BrickGrid& grid, const std::array<std::uint32_t, 3>& at, std::uint32_t i) {
+    const auto& n = grid.bricks();
+    const std::uint32_t x = at[0] * kChunkBricks[0] + i % kChunkBricks[0];
+    const std::uint32_t y = at[1] * kChunkBricks[1] + i / kChunkBricks[0] % kChunkBricks[1];
+    const std::uint32_t z = at[2] * kChunkBricks[2] + i / kChunkBricks[0] / kChunkBricks[1];
+    if (x >= n[0] || y >= n[1] || z >= n[2])
+        return {};
+    return (std::size_t{z} * n[1] + y) * n[0] + x;
+}
 
 /// Lowest ranks of a chunk's bricks, then the highest; 255 and 0 where the grid has no brick.
 using ChunkBricks = std::array<std::uint8_t, 2 * kBricksOfChunk>;

@@ -32,17 +32,11 @@ struct WholeStep {
 /// Puts a chunk's bricks where they are in the order of `build_bricks`.
 void place_bricks(const Chunk& chunk, const BrickGrid& grid, const std::array<std::uint32_t, 3>& at,
                   std::span<std::uint8_t> bricks) {
-    const auto& n = grid.bricks();
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
-        const std::uint32_t x = at[0] * kChunkBricks[0] + i % kChunkBricks[0];
-        const std::uint32_t y = at[1] * kChunkBricks[1] + i / kChunkBricks[0] % kChunkBricks[1];
-        const std::uint32_t z = at[2] * kChunkBricks[2] + i / kChunkBricks[0] / kChunkBricks[1];
-        if (x >= n[0] || y >= n[1] || z >= n[2])
-            continue;
-        const std::size_t brick = (std::size_t{z} * n[1] + y) * n[0] + x;
-        bricks[brick] = chunk.bricks[i];
-        bricks[grid.count() + brick] = chunk.bricks[kBricksOfChunk + i];
-    }
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
+        if (const auto brick = brick_of_chunk(grid, at, i)) {
+            bricks[*brick] = chunk.bricks[i];
+            bricks[grid.count() + *brick] = chunk.bricks[kBricksOfChunk + i];
+        }
 }
 
 } // namespace

@@ -23,17 +23,11 @@ ChunkBricks bricks_of_chunk(const BrickGrid& grid, std::span<const std::uint8_t>
     ChunkBricks out;
     std::fill_n(out.begin(), kBricksOfChunk, std::uint8_t{255});
     std::fill_n(out.begin() + kBricksOfChunk, kBricksOfChunk, std::uint8_t{0});
-    const auto& n = grid.bricks();
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
-        const std::uint32_t x = chunk[0] * kChunkBricks[0] + i % kChunkBricks[0];
-        const std::uint32_t y = chunk[1] * kChunkBricks[1] + i / kChunkBricks[0] % kChunkBricks[1];
-        const std::uint32_t z = chunk[2] * kChunkBricks[2] + i / kChunkBricks[0] / kChunkBricks[1];
-        if (x >= n[0] || y >= n[1] || z >= n[2])
-            continue;
-        const std::size_t brick = (std::size_t{z} * n[1] + y) * n[0] + x;
-        out[i] = bricks[brick];
-        out[kBricksOfChunk + i] = bricks[grid.count() + brick];
-    }
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
+        if (const auto brick = brick_of_chunk(grid, chunk, i)) {
+            out[i] = bricks[*brick];
+            out[kBricksOfChunk + i] = bricks[grid.count() + *brick];
+        }
     return out;
 }
 

@@ -75,23 +75,11 @@ const std::vector<NamedFootprint>& splats() {
 } // namespace
 
 std::string to_json_text(const ArtifactResults& results) {
-    ordered_json j{{"header", record_to_json(results.header)}, {"rows", ordered_json::array()}};
-    for (const ArtifactRow& row : results.rows)
-        j["rows"].push_back(record_to_json(row));
-    return json_text(j);
+    return results_text(results);
 }
 
 ArtifactResults artifacts_from_json(const std::string& text, const std::string& name) {
-    try {
-        const json j = json::parse(text);
-        ArtifactResults results{record_from_json<Header>(j.at("header")), {}};
-        for (const json& row : j.at("rows"))
-            results.rows.push_back(record_from_json<ArtifactRow>(row));
-        return results;
-    } catch (const json::exception& error) {
-        throw index::Error(
-            fmt::format("{}: no results of `isochron-bench artifacts`: {}", name, error.what()));
-    }
+    return results_from_text<ArtifactResults>(text, name, "isochron-bench artifacts");
 }
 
 PixelDifference difference(const render::Image& a, const render::Image& b) {

@@ -1,7 +1,6 @@
 // Rows of agreement as JSON and as a table.
 #include "tests/bench/pages/agreement_rows.h"
 
-#include "index/error.h"
 #include "tests/bench/pages/record_json.h"
 
 namespace isochron::bench {
@@ -26,23 +25,12 @@ void each_field(AnyRow& row,
 }
 
 std::string to_json_text(const AgreementResults& results) {
-    ordered_json j{{"header", record_to_json(results.header)}, {"rows", ordered_json::array()}};
-    for (const AgreementRow& row : results.rows)
-        j["rows"].push_back(record_to_json(row));
-    return json_text(j);
+    return results_text(results);
 }
 
 AgreementResults agreement_results_from_json(const std::string& text, const std::string& name) {
-    try {
-        const json j = json::parse(text);
-        AgreementResults results{record_from_json<Header>(j.at("header")), {}};
-        for (const json& row : j.at("rows"))
-            results.rows.push_back(record_from_json<AgreementRow>(row));
-        return results;
-    } catch (const json::exception& error) {
-        throw index::Error(fmt::format(
-            "{}: no results of `isochron-bench render --agreement-only`: {}", name, error.what()));
-    }
+    return results_from_text<AgreementResults>(text, name,
+                                               "isochron-bench render --agreement-only");
 }
 
 std::string agreement_section(const AgreementResults& results, const std::string& source) {

@@ -4,6 +4,7 @@
 // its figures in the order of the keys, for a record and for a const record.
 #pragma once
 
+#include "index/error.h"
 #include "tests/bench/pages/header.h"
 
 #include <fmt/format.h>
@@ -90,6 +91,31 @@ inline std::string json_text(const ordered_json& j) {
         text += "\n]";
     }
     return text + "\n}\n";
+}
+
+/// Results of a header and rows as text.
+template <class Results>
+std::string results_text(const Results& results) {
+    ordered_json j{{"header", record_to_json(results.header)}, {"rows", ordered_json::array()}};
+    for (const auto& row : results.rows)
+        j["rows"].push_back(record_to_json(row));
+    return json_text(j);
+}
+
+/// @param command whose results they are, @param name of the file, for errors
+/// @throws index::Error
+template <class Results>
+Results results_from_text(const std::string& text, const std::string& name, const char* command) {
+    using OwnRow = typename decltype(Results::rows)::value_type;
+    try {
+        const json j = json::parse(text);
+        Results results{record_from_json<Header>(j.at("header")), {}};
+        for (const json& row : j.at("rows"))
+            results.rows.push_back(record_from_json<OwnRow>(row));
+        return results;
+    } catch (const json::exception& error) {
+        throw index::Error(fmt::format("{}: no results of `{}`: {}", name, command, error.what()));
+    }
 }
 
 } // namespace isochron::bench

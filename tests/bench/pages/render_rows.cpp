@@ -1,7 +1,6 @@
 // Rows of rendering figures as JSON and as a table.
 #include "tests/bench/pages/render_rows.h"
 
-#include "index/error.h"
 #include "tests/bench/pages/record_json.h"
 #include "tests/bench/pages/short_number.h"
 
@@ -38,23 +37,11 @@ void each_field(AnyRow& row,
 }
 
 std::string to_json_text(const RenderResults& results) {
-    ordered_json j{{"header", record_to_json(results.header)}, {"rows", ordered_json::array()}};
-    for (const RenderRow& row : results.rows)
-        j["rows"].push_back(record_to_json(row));
-    return json_text(j);
+    return results_text(results);
 }
 
 RenderResults render_results_from_json(const std::string& text, const std::string& name) {
-    try {
-        const json j = json::parse(text);
-        RenderResults results{record_from_json<Header>(j.at("header")), {}};
-        for (const json& row : j.at("rows"))
-            results.rows.push_back(record_from_json<RenderRow>(row));
-        return results;
-    } catch (const json::exception& error) {
-        throw index::Error(
-            fmt::format("{}: no results of `isochron-bench render`: {}", name, error.what()));
-    }
+    return results_from_text<RenderResults>(text, name, "isochron-bench render");
 }
 
 std::string picture_name(const RenderRow& row) {

@@ -1,7 +1,7 @@
 // What an index holds, as text and as JSON.
 #include "app/commands/index_report.h"
 
-#include "app/config/placement.h"
+#include "app/config/first_placement.h"
 #include "app/text.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "app/panel/panel.h"
 
 #include "app/config/config.h"
-#include "app/config/placement.h"
+#include "app/config/first_placement.h"
 #include "app/panel/panel_colors.h"
 #include "app/panel/panel_tools.h"
 #include "app/scene/mark.h"

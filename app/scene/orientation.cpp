@@ -1,7 +1,7 @@
 // The data's axes in a corner of the picture, and a bar of a round length.
 #include "app/scene/orientation.h"
 
-#include "app/config/placement.h"
+#include "app/config/first_placement.h"
 #include "app/scene/legend.h"
 #include "app/text.h"
 #include "interaction/navigation.h"

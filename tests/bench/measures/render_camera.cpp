@@ -1,7 +1,7 @@
 // Placement and frusta of the rendering benchmark.
 #include "tests/bench/measures/render_camera.h"
 
-#include "app/config/placement.h"
+#include "app/config/first_placement.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

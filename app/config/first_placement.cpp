@@ -1,5 +1,5 @@
 // Where a volume first stands in the room.
-#include "app/config/placement.h"
+#include "app/config/first_placement.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>

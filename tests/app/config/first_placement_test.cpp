@@ -1,5 +1,5 @@
 // Where a volume first stands in the room: what is up in the data is up in the room.
-#include "app/config/placement.h"
+#include "app/config/first_placement.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -98,36 +98,51 @@ std::span<const KeyLine> key_lines() {
 }
 
 std::span<const ControlLine> control_lines() {
-    static constexpr std::array<ControlLine, 27> kLines{{
-        {"Click", "pick the surface there, or what the tool does (4 5 6)"},
-        {"Left drag", "orbit: turn the volume about its center"},
-        {"Middle drag, or Shift + left", "move the volume"},
-        {"Right drag", "look around"},
-        {"Wheel", "scale about the center of the volume"},
-        {"Ctrl + wheel", "isovalue by 0.1 % of the range"},
-        {"Mouse", "aims the wand"},
-        {"Wand button 1 (hold)", "grab: the volume follows the wand"},
-        {"Wand button 2 (hold)", "fly where the wand points"},
-        {"Wand valuator 1", "isovalue, the whole range in 4 s"},
-        {"Wand valuator 2", "scale, twice the size in 1 s"},
-        {"Wand button 3 (hold)", "aim at the floor; letting go teleports there"},
-        {"Wand buttons 4, 5", "recenter, next saved viewpoint"},
-        {"Wand buttons 6, 7, 8", "room panel, pick the surface, read the data at the tip"},
-        {"Wand buttons 9, 10, 11", "next tool for button 1, undo, redo"},
-        {"Wand on the room's panel", "button 1 clicks, drags; title moves it, stick scrolls"},
-        {"Wand valuator 3", "fly where the wand points, or back"},
-        {"Wand valuator 4", "turn by 30 degrees"},
-        {"Both wands' button 1", "move, turn and scale the volume between two hands"},
-        {"Gamepad back", "panel in the room"},
-        {"Gamepad thumb buttons", "recenter (left), next saved viewpoint (right)"},
-        {"Gamepad left stick", "fly forward, back and sideways"},
-        {"Gamepad right stick", "turn, rise and sink"},
-        {"Gamepad triggers", "lower, raise the isovalue"},
-        {"Gamepad bumpers", "one step back, forward"},
-        {"Gamepad A, B", "play or pause, reverse"},
-        {"Gamepad X, Y", "reset the volume, hold to grab it with the wand"},
+    using enum DeviceKind;
+    static constexpr std::array<ControlLine, 30> kLines{{
+        {mouse, "Click", "pick the surface there, or what the tool does (4 5 6)"},
+        {mouse, "Left drag", "orbit: turn the volume about its center"},
+        {mouse, "Middle drag, or Shift + left", "move the volume"},
+        {mouse, "Right drag", "look around"},
+        {mouse, "Wheel", "scale about the center of the volume"},
+        {mouse, "Ctrl + wheel", "isovalue by 0.1 % of the range"},
+        {mouse, "Mouse", "aims the wand"},
+        {keyboard, "F1 or ?", "what the devices at hand do"},
+        {keyboard, "F11", "whole screen on, off"},
+        {keyboard, "Ctrl + O", "open other data"},
+        {hands, "Wand button 1 (hold)", "grab: the volume follows the wand"},
+        {hands, "Wand button 2 (hold)", "fly where the wand points"},
+        {hands, "Wand valuator 1", "isovalue, the whole range in 4 s"},
+        {hands, "Wand valuator 2", "scale, twice the size in 1 s"},
+        {hands, "Wand button 3 (hold)", "aim at the floor; letting go teleports there"},
+        {hands, "Wand buttons 4, 5", "recenter, next saved viewpoint"},
+        {hands, "Wand buttons 6, 7, 8", "room panel, pick the surface, read the data at the tip"},
+        {hands, "Wand buttons 9, 10, 11", "next tool for button 1, undo, redo"},
+        {hands, "Wand on the room's panel",
+         "button 1 clicks, drags; title moves it, stick scrolls"},
+        {hands, "Wand valuator 3", "fly where the wand points, or back"},
+        {hands, "Wand valuator 4", "turn by 30 degrees"},
+        {hands, "Both wands' button 1", "move, turn and scale the volume between two hands"},
+        {gamepad, "back", "panel in the room"},
+        {gamepad, "thumb buttons", "recenter (left), next saved viewpoint (right)"},
+        {gamepad, "left stick", "fly forward, back and sideways"},
+        {gamepad, "right stick", "turn, rise and sink"},
+        {gamepad, "triggers", "lower, raise the isovalue"},
+        {gamepad, "bumpers", "one step back, forward"},
+        {gamepad, "A, B", "play or pause, reverse"},
+        {gamepad, "X, Y", "reset the volume, hold to grab it with the wand"},
     }};
     return kLines;
+}
+
+std::string_view words_of(DeviceKind device) {
+    switch (device) {
+    case DeviceKind::mouse: return "Mouse";
+    case DeviceKind::keyboard: return "Keyboard";
+    case DeviceKind::hands: return "Tracked hands (wands) and a headset's controllers";
+    case DeviceKind::gamepad: return "Gamepad";
+    }
+    return "";
 }
 
 } // namespace isochron::interaction

@@ -157,11 +157,24 @@ struct KeyLine {
 /// Every key there is. Shift and Ctrl are explained where they matter, so their line comes last.
 std::span<const KeyLine> key_lines();
 
-/// Mouse, wand and gamepad, one line per control: name, effect.
+/// What somebody holds or sits at.
+enum class DeviceKind : std::uint8_t { mouse, keyboard, hands, gamepad };
+/// For people: `Keyboard`, `Tracked hands and headset controllers`, ...
+std::string_view words_of(DeviceKind device);
+
+/// Mouse, wand, gamepad, and the keys that the window itself obeys, one line per control: name,
+/// effect.
 struct ControlLine {
+    DeviceKind device;
     std::string_view control, effect;
 };
 std::span<const ControlLine> control_lines();
+
+/// What one kind of device does, a line for each control: its name, a run of spaces, its effect.
+struct ControlGroup {
+    DeviceKind device;
+    std::vector<std::string> lines;
+};
 
 /// Actions that leave the picture of the data as it is: they do not disturb stillness.
 constexpr std::uint64_t quiet_actions() {

@@ -295,13 +295,22 @@ const std::vector<std::string>& Controls::notes() const {
     return state_->made.notes;
 }
 
-std::vector<std::string> Controls::documentation() {
-    std::vector<std::string> lines;
-    for (const KeyLine& line : key_lines())
-        lines.push_back(fmt::format("{:<30}{}", line.keys, line.effect));
-    for (const ControlLine& line : control_lines())
-        lines.push_back(fmt::format("{:<30}{}", line.control, line.effect));
-    return lines;
+std::vector<ControlGroup> Controls::documentation() {
+    const auto line_of = [](std::string_view control, std::string_view effect) {
+        return fmt::format("{:<30}{}", control, effect);
+    };
+    std::vector<ControlGroup> groups;
+    for (const DeviceKind kind :
+         {DeviceKind::mouse, DeviceKind::keyboard, DeviceKind::hands, DeviceKind::gamepad}) {
+        ControlGroup& group = groups.emplace_back(kind, std::vector<std::string>());
+        for (const ControlLine& line : control_lines())
+            if (line.device == kind)
+                group.lines.push_back(line_of(line.control, line.effect));
+        if (kind == DeviceKind::keyboard)
+            for (const KeyLine& line : key_lines())
+                group.lines.push_back(line_of(line.keys, line.effect));
+    }
+    return groups;
 }
 
 } // namespace isochron::interaction

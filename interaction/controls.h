@@ -1,6 +1,7 @@
 // Turns device states into commands: navigation, isovalue, time, and the program's switches.
 #pragma once
 
+#include "interaction/actions.h"
 #include "interaction/commands.h"
 #include "interaction/control_context.h"
 #include "interaction/tracked_input.h"
@@ -25,8 +26,8 @@ class Controls {
     /// What tools had to say in that frame, for people.
     const std::vector<std::string>& notes() const;
 
-    /// One line per key, button and valuator, for `--help` and the panel.
-    static std::vector<std::string> documentation();
+    /// What all devices do, for `--help` and the panel.
+    static std::vector<ControlGroup> documentation();
 
   private:
     struct State;

@@ -71,6 +71,9 @@ void run_change(const ChangeArguments& arguments) {
     const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
     const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),
                                     arguments.to_isovalue.value_or(arguments.isovalue));
+    warn_beyond(from.isovalue, *file);
+    if (to.isovalue != from.isovalue)
+        warn_beyond(to.isovalue, *file);
     index::ChangeSearch search(file);
     index::CellChange change;
     std::vector<std::chrono::duration<double, std::milli>> times;

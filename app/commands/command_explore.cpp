@@ -58,14 +58,18 @@ Config configure(const ExploreOptions& options) {
     return config;
 }
 
-ExplorerState start_from(ExplorerState state, const ExploreOptions& options,
-                         const index::SeriesInfo& info) {
-    const std::size_t steps = info.steps();
+void check_start(const ExploreOptions& options, const index::IndexFile& file) {
+    const std::size_t steps = file.info().steps();
     if (options.step && *options.step >= steps)
         throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
     if (options.isovalue && !std::isfinite(*options.isovalue))
         throw UsageError(
             fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
+    if (options.isovalue)
+        warn_beyond(*options.isovalue, file);
+}
+
+ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps) {
     state.set_isovalue(options.isovalue.value_or(state.isovalue()));
     state.steps = static_cast<std::uint32_t>(steps);
     state.follow = state.follow || options.follow;
@@ -105,11 +109,8 @@ void refuse_to_replace(const std::string& recording) {
 /// Refuses now what would fail, or destroy something, only when the session ends.
 void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
     namespace fs = std::filesystem;
-    std::error_code error, ignored;
-    fs::create_directories(options.screenshots, error);
-    if (error)
-        throw index::Error(
-            fmt::format("{}: cannot be made: {}", options.screenshots, error.message()));
+    std::error_code ignored;
+    index::make_folder(options.screenshots);
     if (!job.leads())
         return;
     for (const auto& out : {options.record, options.report, options.session})
@@ -119,8 +120,11 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
         refuse_to_replace(*options.record);
     if (options.record && fs::exists(*options.record, ignored))
         read_recording(*options.record); // only a recording may be replaced by one
-    if (options.report)
-        index::NewFile{*options.report};
+    if (options.session && fs::path(*options.session).has_parent_path())
+        index::make_folder(fs::path(*options.session).parent_path());
+    for (const auto& out : {options.record, options.report, options.session})
+        if (out)
+            index::NewFile{*out};
 }
 
 /// @param headset that the first window mirrors: it paces the frames, not that window's display
@@ -247,6 +251,8 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         if (job.leads())
             open_trackers(config, trackers);
         file = open_index(*options.data);
+        if (job.leads())
+            check_start(options, *file);
         check_outputs(options, job);
     });
     job.require_same(facts_of(config, *file));
@@ -266,9 +272,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
             earlier ? state_of(*earlier, opened->state(), held_hash(*file, earlier->data_hash),
                                steps, "--resume")
                     : opened->state();
-        if (options.isovalue)
-            warn_beyond(*options.isovalue, *file);
-        opened->set_state(start_from(start, options, file->info()));
+        opened->set_state(start_from(start, options, steps));
         opened->outputs().set_screenshots(options.screenshots);
         opened->set_data_name(std::filesystem::path(*options.data).filename().string());
         if (config.cluster.swap_group && job.size() > 1)

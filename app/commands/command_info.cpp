@@ -33,8 +33,10 @@ void add_info(Command& program) {
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer(
         "Sizes along axes are in the length unit of the files, times in their time unit, values\n"
-        "scaled and in their unit. Coherence is entries per cell-step in the same tree as --tree:\n"
-        "1 when nothing merges in time and every cell has two values. Raw is steps x cells x 24\n"
+        "scaled and in their unit. Coherence is entries for each cell and step, in the same tree "
+        "as\n"
+        "--tree: 1 when nothing merges in time and every cell has two values. Raw is steps x cells "
+        "x 24\n"
         "bytes. JSON keys: file, array, vertices, cells,\n"
         "spacing, origin, direction (three axes), handedness (right or left), physical_size,\n"
         "length_unit, anatomy (none, ras, lps or enu), steps, times, time_unit, uniform_time, "

@@ -22,6 +22,14 @@
 #include <utility>
 
 namespace isochron::app {
+namespace {
+
+/// What was perhaps meant, as the end of a complaint; empty where nothing is near.
+std::string meant(const std::string& near) {
+    return near.empty() ? near : fmt::format(", did you mean {}?", near);
+}
+
+} // namespace
 
 Option& Option::required() {
     option_->required();
@@ -68,8 +76,14 @@ template Option& Option::between(unsigned, unsigned);
 template Option& Option::between(std::size_t, std::size_t);
 
 Option& Option::one_of(const std::vector<std::string>& names) {
-    option_->check(CLI::IsMember(names));
-    return *this;
+    return accepted_by(
+        [names](const std::string& text) {
+            if (std::ranges::find(names, text) != names.end())
+                return std::string();
+            return fmt::format("expected one of {}, got {}{}", fmt::join(names, ", "), text,
+                               meant(nearest_word(text, names)));
+        },
+        fmt::format("{{{}}}", fmt::join(names, ",")));
 }
 
 Option& Option::positive() {
@@ -161,15 +175,41 @@ int fail(const std::string& program, const std::string& what, int status) {
     return status;
 }
 
+/// The command that is for a file.
+std::string_view command_for(const std::filesystem::path& file) {
+    const std::string suffix = file.extension().string();
+    if (suffix == ".isochron")
+        return "explore";
+    if (suffix == ".jsonl")
+        return "replay";
+    return suffix == ".png" || suffix == ".exr" ? "reproduce" : "build";
+}
+
 /// What a word that is no command may have been meant for.
 std::string mistaken(const std::string& word, const std::vector<std::string>& names) {
     std::error_code error;
     if (std::filesystem::exists(word, error))
         return fmt::format("{0}: a file, not a command; did you mean `isochron {1} {0}`?", word,
-                           std::filesystem::path(word).extension() == ".isochron" ? "explore"
-                                                                                  : "build");
+                           command_for(word));
     const std::string near = nearest_word(word, names);
-    return fmt::format("{}: unknown{}", word, near.empty() ? "" : ", did you mean " + near);
+    return fmt::format("{}: unknown{}", word,
+                       near.empty() ? fmt::format(", expected {}", fmt::join(names, ", "))
+                                    : meant(near));
+}
+
+/// What is said of arguments that the command does not know.
+std::string unexpected(const CLI::App& command) {
+    const std::vector<std::string> unknown = command.remaining();
+    const auto option = std::ranges::find_if(
+        unknown, [](const std::string& each) { return each.starts_with('-'); });
+    if (option == unknown.end())
+        return fmt::format("{}: one argument too many", fmt::join(unknown, " "));
+    std::vector<std::string> names;
+    for (const CLI::Option* known : command.get_options())
+        for (const std::string& name : known->get_lnames())
+            names.push_back("--" + name);
+    const std::string word = option->substr(0, option->find('='));
+    return fmt::format("{}: unknown option{}", word, meant(nearest_word(word, names)));
 }
 
 /// The parser's complaint in one line, with the command whose help explains more.
@@ -184,13 +224,20 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
     // Of a command that it does not know, the parser says only that one is missing.
     const std::vector<std::string> unknown = command->remaining();
     const auto known = command->get_subcommands([](const CLI::App*) { return true; });
-    if (!known.empty()) {
+    const bool is_option = !unknown.empty() && unknown.front().starts_with('-');
+    if (!known.empty() && !is_option) {
         std::vector<std::string> names;
         for (const CLI::App* candidate : known)
             names.push_back(candidate->get_name());
-        what = fmt::format("{}, expected {}",
-                           unknown.empty() ? what : mistaken(unknown.front(), names),
-                           fmt::join(names, ", "));
+        what = unknown.empty() ? fmt::format("{}, expected {}", what, fmt::join(names, ", "))
+                               : mistaken(unknown.front(), names);
+    } else if (!unknown.empty()) {
+        what = unexpected(*command);
+    } else if (const std::string_view wrong = "Could not convert: "; what.starts_with(wrong)) {
+        // It says `--name = text`; all that is converted are numbers.
+        what.erase(0, wrong.size());
+        if (const std::size_t equals = what.find(" = "); equals != std::string::npos)
+            what.replace(equals, 3, ": expected a number, got ");
     }
     return fmt::format("{} (see {} --help)", what, name);
 }

@@ -8,6 +8,7 @@
 #include "app/session/pattern_show.h"
 #include "app/session/recording_file.h"
 #include "app/text.h"
+#include "index/system/new_file.h"
 
 #include <fmt/format.h>
 
@@ -39,14 +40,6 @@ void write_pictures(Outputs& outputs, const Options& options, const PictureNames
                   outputs.write_image(std::move(image), written.back(),
                                       note.data_hash.empty() ? std::string() : text_of(note));
               });
-}
-
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-        throw interaction::Error(
-            fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
 }
 
 int report_differences(const std::vector<std::string>& lines, std::size_t frames) {
@@ -97,7 +90,7 @@ void replay_test_pattern(const Options& options, ClusterJob& job) {
         names = picture_names(config.installation);
         prepare_walls(config, job, options.emulate);
         if (options.out)
-            make_folder(*options.out);
+            index::make_folder(*options.out);
     });
     job.require_same(facts_of(config));
     job.set_limits(config.cluster.limits);
@@ -189,7 +182,7 @@ void replay(const Options& options, ClusterJob& job) {
         opened->set_state(
             start_of(all.recording.header, opened->state(), all.file->info().steps(), all.replay));
         if (options.out)
-            make_folder(*options.out);
+            index::make_folder(*options.out);
     });
     Session& session = *opened;
     job.require_same(start_fact(session));

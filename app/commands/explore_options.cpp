@@ -14,10 +14,14 @@ namespace isochron::app {
 namespace {
 
 std::string footer() {
-    std::string text = "Mouse and keyboard:\n";
-    for (const std::string& line : interaction::Controls::documentation())
-        text += "  " + line + "\n";
-    text += "\nWith --emulate:\n";
+    std::string text;
+    for (const interaction::ControlGroup& group : interaction::Controls::documentation()) {
+        text += fmt::format("{}:\n", words_of(group.device));
+        for (const std::string& line : group.lines)
+            text += "  " + line + "\n";
+        text += "\n";
+    }
+    text += "With --emulate:\n";
     for (const std::string& line : RoomCamera::documentation())
         text += "  " + line + "\n";
     text +=

@@ -63,7 +63,7 @@ std::uint64_t entries_of(const index::IndexFile& file) {
     return file.tree() ? file.tree()->entries() : file.stats().cell_entries;
 }
 
-/// Entries per cell-step.
+/// Entries for each cell and step.
 double coherence(const index::IndexFile& file) {
     return static_cast<double>(entries_of(file)) /
            (static_cast<double>(file.info().grid.cell_count()) *
@@ -196,12 +196,14 @@ std::string as_text(const IndexReport& report) {
                                   file.cells()->steps(), index::TimePath::kMaxSteps));
     line("ranks", levels_text(file));
     if (entries_of(file) > 0)
-        line("coherence", fmt::format("{:.4f} entries per cell-step ({} entries{})",
-                                      coherence(file), grouped(entries_of(file)),
-                                      file.tree() ? fmt::format("; lattice {}, max variation {}",
-                                                                file.tree_options().lattice,
-                                                                file.tree_options().max_variation)
-                                                  : ""));
+        line("coherence",
+             fmt::format("{:.4f} entries for each cell and step: the fewer, the longer "
+                         "cells stay as they are ({} entries{})",
+                         coherence(file), grouped(entries_of(file)),
+                         file.tree() ? fmt::format("; lattice {}, max variation {}",
+                                                   file.tree_options().lattice,
+                                                   file.tree_options().max_variation)
+                                     : ""));
     line("content hash", fmt::format("{:016x}", file.content_hash()));
     text += sources_text(info.sources);
     for (const std::string& note : info.notes)

@@ -24,6 +24,7 @@ void read_panel(TomlReader& root, PanelConfig& panel) {
         reader.flag("room", panel.room);
         reader.number("width", 0.2, 2.0, panel.width);
         reader.number("distance", 0.3, 5.0, panel.distance);
+        reader.number("font_scale", 0.5, 4.0, panel.font_scale);
     });
     root.table("console", [&](TomlReader& reader) { panel.console = read_console(reader); });
 }

@@ -12,6 +12,7 @@ struct PanelConfig {
     bool room = false;      ///< the panel stands in the room from the start
     float width = 0.46f;    ///< [m] of the panel in the room
     float distance = 0.65f; ///< [m] from the eyes at which it appears
+    float font_scale = 1; ///< size of the panels over pictures and in windows, times the desktop's
     /// A window that shows nothing but the panel; viewports and stereo mode count for nothing.
     std::optional<stereo::Window> console;
 };

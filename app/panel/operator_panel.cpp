@@ -5,10 +5,10 @@
 
 namespace isochron::app {
 
-OperatorPanel::OperatorPanel(const render::Gl& gl, const stereo::Windows& windows)
-    : first_(windows.first()), over_(gl) {
+OperatorPanel::OperatorPanel(const render::Gl& gl, const stereo::Windows& windows, float font_scale)
+    : first_(windows.first()), font_scale_(font_scale), over_(gl) {
     if (windows.console())
-        console_.emplace(gl, windows.drawing(), *windows.console());
+        console_.emplace(gl, windows.drawing(), *windows.console(), font_scale);
 }
 
 std::vector<interaction::WindowEvent>
@@ -28,8 +28,10 @@ interaction::Commands OperatorPanel::draw_over(glm::ivec2 picture, glm::ivec2 pl
     interaction::Commands commands;
     const glm::ivec2 part = picture / places;
     over_.repeat(places);
-    if (!std::exchange(laid_out_, true))
+    if (!std::exchange(laid_out_, true)) {
+        over_.set_scale(panel_scale(first_, font_scale_, part.x));
         commands = over_.lay_out(part, model(PanelPlace::over), time);
+    }
     for (int y = 0; y < places.y; ++y)
         for (int x = 0; x < places.x; ++x)
             over_.draw(part, glm::ivec2(x, y) * (picture - part));
@@ -45,7 +47,7 @@ int OperatorPanel::covered(int width) const {
         return 0;
     const PanelArea& area = over_.area();
     const bool folded = area.bottom - area.top < 2 * area.title;
-    const int right = static_cast<int>(area.right);
+    const int right = static_cast<int>(area.right * over_.scale());
     return folded || 2 * right > width ? 0 : right;
 }
 

@@ -18,7 +18,12 @@ class OperatorPanel {
     using Model = std::function<PanelModel(PanelPlace)>;
 
     /// @param gl outlives the panel, as do the windows' contexts
-    OperatorPanel(const render::Gl& gl, const stereo::Windows& windows);
+    /// @param font_scale its size, times what the desktop asks for
+    OperatorPanel(const render::Gl& gl, const stereo::Windows& windows, float font_scale = 1);
+
+    /// The first four lines stand over the first window until somebody has begun.
+    void introduce() { over_.introduce(); }
+    bool introduced() { return over_.introduced(); } ///< they have gone, told once
 
     /// Passes window events to the panel. @param shown it lies over the first window
     /// @return those that it has no use for
@@ -45,6 +50,7 @@ class OperatorPanel {
 
   private:
     stereo::GlContext& first_; ///< window
+    const float font_scale_;
     PanelLayer over_;
     bool laid_out_ = false; ///< in this frame, over one buffer of its window
     std::optional<Console> console_;

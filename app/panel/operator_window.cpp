@@ -14,9 +14,16 @@ glm::ivec2 drawable(glm::ivec2 size) {
 
 } // namespace
 
-Console::Console(const render::Gl& gl, stereo::GlContext& drawing, stereo::GlContext& window)
-    : window_(window), layer_(gl), picture_(gl, drawable(window.framebuffer_size())),
-      presenter_(gl, drawing, window) {}
+float panel_scale(const stereo::GlContext& window, float font_scale, int width) {
+    constexpr float kNarrowest = 300.0f;
+    const float room = std::max(1.0f, static_cast<float>(width) / kNarrowest);
+    return std::min(font_scale * window.content_scale(), room);
+}
+
+Console::Console(const render::Gl& gl, stereo::GlContext& drawing, stereo::GlContext& window,
+                 float font_scale)
+    : window_(window), font_scale_(font_scale), layer_(gl),
+      picture_(gl, drawable(window.framebuffer_size())), presenter_(gl, drawing, window) {}
 
 std::vector<interaction::WindowEvent> Console::take_events() {
     const auto events = window_.poll_events();
@@ -31,6 +38,7 @@ interaction::Commands Console::draw(const PanelModel& model, interaction::Second
     picture_.resize(drawable(window_.framebuffer_size()));
     picture_.clear({0, 0, 0, 1});
     picture_.bind();
+    layer_.set_scale(panel_scale(window_, font_scale_, picture_.size().x));
     interaction::Commands commands = layer_.lay_out(picture_.size(), model, time);
     layer_.draw(picture_.size());
     return commands;

@@ -9,11 +9,16 @@
 
 namespace isochron::app {
 
+/// Pixels of a window for each of its panel's own: what the desktop and the configuration ask for,
+/// as long as the panel has its least width. @param width of the picture under the panel, pixels
+float panel_scale(const stereo::GlContext& window, float font_scale, int width);
+
 class Console {
   public:
     /// @param drawing the context that draws, current; @param window the console's, which shares
     /// its textures; both, and `gl`, outlive the console
-    Console(const render::Gl& gl, stereo::GlContext& drawing, stereo::GlContext& window);
+    Console(const render::Gl& gl, stereo::GlContext& drawing, stereo::GlContext& window,
+            float font_scale);
 
     /// Takes what happened in the window since the last call.
     /// @return keys that the panel has no use for: they steer as in any other window
@@ -27,6 +32,7 @@ class Console {
 
   private:
     stereo::GlContext& window_;
+    const float font_scale_;
     PanelLayer layer_;
     render::RenderTarget picture_;
     stereo::Presenter presenter_;

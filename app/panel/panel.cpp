@@ -4,7 +4,9 @@
 #include "app/config/config.h"
 #include "app/config/first_placement.h"
 #include "app/panel/panel_colors.h"
+#include "app/panel/panel_help.h"
 #include "app/panel/panel_tools.h"
+#include "app/panel/panel_words.h"
 #include "app/scene/mark.h"
 #include "app/text.h"
 #include "interaction/axis_views.h"
@@ -25,36 +27,14 @@ constexpr float kDocked = 380.0f, kLeast = 260.0f; ///< width of the docked pane
 constexpr ImU32 kBarColor = IM_COL32(120, 128, 140, 255);
 constexpr ImU32 kAskedColor = IM_COL32(255, 196, 92, 255);
 constexpr ImU32 kShownColor = IM_COL32(120, 220, 160, 255);
-const ImVec4 kDim(0.62f, 0.65f, 0.70f, 1.0f);
 const ImVec4 kPaper(0.115f, 0.125f, 0.145f, 1.0f);
-const ImVec4 kWarning(1.0f, 0.55f, 0.40f, 1.0f);
 
-void text(const std::string& line) {
-    ImGui::TextUnformatted(line.c_str());
-}
-
-void note(const std::string& line, const ImVec4& color) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::PushTextWrapPos(0.0f);
-    text(line);
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
-}
-
-/// On what changes by itself. It never takes another line, which would move the controls below it
-/// away from the hand; in the room a replay must find them where the wand found them.
-void state_note(const std::string& line, const ImVec4& color) {
-    ImGui::TextColored(color, "%s", line.c_str());
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", line.c_str());
-}
-
-/// Histogram of all values on a logarithmic scale; pressing or dragging picks an isovalue.
 /// The picked surface among those shown, which may have been fewer.
 std::size_t shown_surface(const PanelModel& model) {
     return std::min<std::size_t>(model.asked.picked, model.frame.shown->isovalues.size() - 1);
 }
 
+/// Histogram of all values on a logarithmic scale; pressing or dragging picks an isovalue.
 void histogram(const PanelModel& model, Commands& commands) {
     const auto& bins = model.stats.histogram;
     const ImVec2 size(ImGui::GetContentRegionAvail().x, 64.0f);
@@ -101,6 +81,18 @@ std::string slider_format(const std::string& unit) {
     return format;
 }
 
+/// Lines are broken, and words left out.
+bool is_narrow() {
+    return ImGui::GetWindowWidth() < 340.0f;
+}
+
+/// What is asked for, and what is shown of it. @param what it is
+void asked_and_shown(const char* what, const std::string& asked, const std::string& shown) {
+    state_note(fmt::format("{}asked {}{}shown {}", is_narrow() ? "" : fmt::format("{}: ", what),
+                           asked, is_narrow() ? " " : "   ", shown),
+               kDim);
+}
+
 void isovalue_section(const PanelModel& model, Commands& commands) {
     histogram(model, commands);
     ImGui::SetNextItemWidth(-1.0f);
@@ -112,6 +104,8 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
     if (ImGui::SliderScalar("##isovalue", ImGuiDataType_Double, &value, &low, &high,
                             slider_format(model.info.value_unit).c_str()))
         commands.isovalue = value;
+    tip("isovalue of the surface that is marked below (Up, Down); Ctrl + click takes a typed "
+        "number");
     const auto& shown = model.frame.shown;
     const double asked = model.asked.isovalue();
     if (asked < model.stats.low || asked > model.stats.high)
@@ -119,11 +113,9 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
                                       human_number(model.stats.low),
                                       with_unit(model.stats.high, model.info.value_unit)),
                           kWarning);
-    state_note(
-        fmt::format("isovalue: asked {}   shown {}", with_unit(asked, model.info.value_unit),
+    asked_and_shown("isovalue", with_unit(asked, model.info.value_unit),
                     shown ? with_unit(shown->isovalues[shown_surface(model)], model.info.value_unit)
-                          : "nothing yet"),
-        kDim);
+                          : "nothing yet");
 }
 
 void playback_buttons(const PanelModel& model, Commands& commands) {
@@ -135,35 +127,46 @@ void playback_buttons(const PanelModel& model, Commands& commands) {
     };
     if (ImGui::Button("|<"))
         go_to(0);
+    tip("first step");
     ImGui::SameLine();
     if (ImGui::Button("<"))
         go_to(model.asked.step == 0 ? (playback.loop ? last : 0) : model.asked.step - 1);
+    tip("one step back (Left)");
     ImGui::SameLine();
     if (ImGui::Button(playback.playing ? "Pause" : " Play "))
         playback.playing = !playback.playing;
+    tip("play or pause (Space)");
     ImGui::SameLine();
     if (ImGui::Button(">"))
         go_to(model.asked.step == last ? (playback.loop ? 0 : last) : model.asked.step + 1);
+    tip("one step forward (Right)");
     ImGui::SameLine();
     if (ImGui::Button(">|"))
         go_to(last);
-    ImGui::SameLine();
+    tip("last step");
+    if (!is_narrow())
+        ImGui::SameLine();
     ImGui::Checkbox("reverse", &playback.reverse);
+    tip("play backwards (R)");
     ImGui::SameLine();
     ImGui::Checkbox("loop", &playback.loop);
+    tip("begin again at the end (L)");
     auto speed = static_cast<float>(playback.speed);
-    ImGui::SetNextItemWidth(-150.0f);
+    if (is_narrow())
+        ImGui::SameLine();
+    ImGui::SetNextItemWidth(is_narrow() ? 60.0f : -150.0f);
     if (ImGui::SliderFloat("speed", &speed, 1.0f / 64, 64.0f, "x %.3g",
                            ImGuiSliderFlags_Logarithmic))
         playback.speed = speed;
-    ImGui::SameLine();
+    tip("how fast time plays (+, -)");
+    if (!is_narrow())
+        ImGui::SameLine();
     if (bool follow = model.asked.follow; ImGui::Checkbox("follow", &follow)) {
         commands.follow = follow;
         if (follow)
             commands.step = last;
     }
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("show the last step as new ones come (End)");
+    tip("show the last step as new ones come (End)");
     if (playback != model.asked.playback)
         commands.playback = playback;
 }
@@ -178,12 +181,10 @@ void time_section(const PanelModel& model, Commands& commands) {
     const std::string format = fmt::format("step {} of {}", step + 1, last + 1);
     if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
         commands.step = static_cast<std::uint32_t>(step);
+    tip("step that is shown (Left, Right)");
     const auto& shown = model.frame.shown;
-    state_note(
-        fmt::format("time: asked {}   shown {}",
-                    with_unit(times[model.asked.step], model.info.time_unit),
-                    shown ? with_unit(times[shown->step], model.info.time_unit) : "nothing yet"),
-        kDim);
+    asked_and_shown("time", with_unit(times[model.asked.step], model.info.time_unit),
+                    shown ? with_unit(times[shown->step], model.info.time_unit) : "nothing yet");
     playback_buttons(model, commands);
     ImGui::EndDisabled();
 }
@@ -194,15 +195,13 @@ void view_buttons(const PanelModel& model, Commands& commands) {
         if (ImGui::SmallButton(view.name))
             commands.room_from_physical = seen_from(view, model.asked.room_from_physical,
                                                     physical_center(model.info.grid), model.head);
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("see the data from there (8, 9)");
+        tip("see the data from there (8, 9)");
         ImGui::SameLine();
     }
     bool orthographic = model.asked.orthographic;
     if (ImGui::Checkbox("parallel", &orthographic))
         commands.orthographic = orthographic;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("parallel (orthographic) projection (0)");
+    tip("parallel (orthographic) projection (0)");
 }
 
 void view_section(const PanelModel& model, Commands& commands) {
@@ -215,6 +214,8 @@ void view_section(const PanelModel& model, Commands& commands) {
     };
     if (ImGui::Combo("quality", &mode, mode_name, nullptr, static_cast<int>(kModes.size())))
         commands.quality = static_cast<interaction::QualityMode>(mode);
+    tip("auto (1): quads while something moves, then the best that fits the frame's time\n"
+        "fast (2): always quads\nquality (3): always the best, however long it takes");
     const bool settled = model.frame.pace == interaction::Pace::settled;
     if (model.place == PanelPlace::in_room)
         ImGui::SameLine();
@@ -224,7 +225,10 @@ void view_section(const PanelModel& model, Commands& commands) {
                settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
     ImGui::SetNextItemWidth(-60.0f);
     const std::string current(stereo::name_of(model.asked.stereo));
-    if (ImGui::BeginCombo("stereo", current.c_str())) {
+    const bool open = ImGui::BeginCombo("stereo", current.c_str());
+    if (!open)
+        tip("how both eyes' pictures share the window (V)");
+    if (open) {
         for (stereo::StereoMode candidate : stereo::all_stereo_modes()) {
             if (upright(candidate) == stereo::StereoMode::quadbuffer && !model.quad_buffered)
                 continue;
@@ -242,6 +246,7 @@ void view_section(const PanelModel& model, Commands& commands) {
     if (ImGui::SliderFloat("eyes", &millimeters, 0.0f, interaction::kWidestEyes * 1000.0f,
                            "%.0f mm", ImGuiSliderFlags_AlwaysClamp))
         commands.eye_separation = millimeters / 1000.0f;
+    tip("distance between the eyes ( [ and ] )");
 }
 
 void measurements(const PanelModel& model) {
@@ -283,28 +288,12 @@ void mark_section(const PanelModel& model, Commands& commands) {
     note(fmt::format("picked: {}", mark_text(*point, model.info)), kDim);
     if (ImGui::SmallButton("isovalue through it"))
         commands.isovalue = point->value;
+    tip("show the surface that goes through the picked place");
     ImGui::SameLine();
     if (ImGui::SmallButton("forget it"))
         commands.mark = interaction::Mark{};
+    tip("remove the mark");
     ImGui::Separator();
-}
-
-/// In two columns: the control, and behind the run of spaces that pads it, its effect.
-void keys_and_mouse(const std::vector<std::string>& lines) {
-    if (!ImGui::BeginTable("controls", 2))
-        return;
-    ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthFixed, 130.0f);
-    ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthStretch);
-    for (const std::string& line : lines) {
-        const std::size_t end = line.find("  ");
-        const std::size_t effect = line.find_first_not_of(' ', end);
-        ImGui::TableNextColumn();
-        note(line.substr(0, end), ImGui::GetStyleColorVec4(ImGuiCol_Text));
-        ImGui::TableNextColumn();
-        if (effect != std::string::npos)
-            note(line.substr(effect), kDim);
-    }
-    ImGui::EndTable();
 }
 
 } // namespace
@@ -332,7 +321,10 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
         const ImVec2 picture = ImGui::GetIO().DisplaySize;
         ImGui::SetNextWindowPos({0.0f, 0.0f});
         ImGui::SetNextWindowSize(
-            {std::min(kDocked, std::max(kLeast, 0.45f * picture.x)), picture.y});
+            {std::min({kDocked, std::max(kLeast, 0.45f * picture.x), 0.9f * picture.x}),
+             picture.y});
+        // It would hide the data.
+        ImGui::SetNextWindowCollapsed(picture.x < 1.5f * kLeast, ImGuiCond_Once);
         ImGui::SetNextWindowBgAlpha(0.86f);
         flags |= ImGuiWindowFlags_NoMove;
     } else {
@@ -347,6 +339,7 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
     ImGui::SameLine();
     if (ImGui::Button("Screenshot"))
         commands.screenshot = true;
+    tip("of every window, with more samples (P)");
     if (model.recording) {
         ImGui::SameLine();
         state_note("recording", kWarning);
@@ -370,8 +363,8 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
             measurements(model);
         complaints(model);
     }
-    if (ImGui::CollapsingHeader("keys and mouse"))
-        keys_and_mouse(model.controls);
+    if (in_room && ImGui::CollapsingHeader("hands"))
+        controls_of(std::array{interaction::DeviceKind::hands}, model.controls);
     if (model.place == PanelPlace::in_room) // below all controls, which it must not move
         complaints(model);
     const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();

@@ -8,7 +8,7 @@
 
 namespace isochron::app {
 
-/// The rectangle that the panel covers: pixels from the top left.
+/// The rectangle that the panel covers: its own pixels from the top left.
 struct PanelArea {
     float left = 0, top = 0, right = 0, bottom = 0;
     float title = 0; ///< height of its title

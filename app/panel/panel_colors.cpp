@@ -1,6 +1,7 @@
 // The panel's sections on surfaces and on what their colors mean.
 #include "app/panel/panel_colors.h"
 
+#include "app/panel/panel_words.h"
 #include "app/text.h"
 #include "render/passes/color_map.h"
 
@@ -35,18 +36,22 @@ bool surface_line(const PanelModel& model, std::uint32_t i, std::vector<Isosurfa
     const std::string value = with_unit(surface.isovalue, model.info.value_unit);
     if (ImGui::RadioButton("##pick", model.asked.picked == i))
         commands.picked = i;
+    tip("the isovalue moves this surface (I)");
     ImGui::SameLine();
     ImGui::ColorEdit3("##color", &surface.color.x, ImGuiColorEditFlags_NoInputs);
+    tip("its color");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(90.0f);
     ImGui::SliderFloat("##opacity", &surface.opacity, 0.0f, 1.0f, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
+    tip("its opacity: 0 is invisible");
     ImGui::SameLine();
     ImGui::TextUnformatted(value.c_str());
     bool removed = false;
     if (surfaces.size() > 1) {
         ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - 22.0f);
         removed = ImGui::SmallButton("x");
+        tip("remove this surface");
     }
     ImGui::PopID();
     return removed;
@@ -59,6 +64,7 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
         if (!automatic)
             coloring.range = model.whole_range;
     }
+    tip("the colors span all values; off: a range of your own");
     if (!coloring.range)
         return;
     std::array<double, 2> range = *coloring.range;
@@ -67,6 +73,7 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
                             "%.6g") &&
         range[0] < range[1])
         coloring.range = range;
+    tip("values at the two ends of the colors");
 }
 
 } // namespace
@@ -82,7 +89,11 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
         if (model.asked.picked > *removed)
             commands.picked = model.asked.picked - 1;
     }
-    if (surfaces.size() < interaction::kMostIsosurfaces && ImGui::SmallButton("add a surface")) {
+    const bool more = surfaces.size() < interaction::kMostIsosurfaces;
+    const bool added = more && ImGui::SmallButton("add a surface");
+    if (more)
+        tip("one more isovalue beside these; all become half transparent");
+    if (added) {
         commands.picked = static_cast<std::uint32_t>(surfaces.size());
         // Seen at once: through those that may lie around it.
         constexpr float kSeenThrough = 0.45f;
@@ -97,10 +108,12 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
 void coloring_section(const PanelModel& model, Commands& commands) {
     interaction::Coloring coloring = model.asked.coloring;
     const auto choice = [](const char* label, const std::string& current, auto&& names,
-                           auto&& choose) {
+                           const char* effect, auto&& choose) {
         ImGui::SetNextItemWidth(-60.0f);
-        if (!ImGui::BeginCombo(label, current.c_str()))
+        if (!ImGui::BeginCombo(label, current.c_str())) {
+            tip(effect);
             return;
+        }
         for (std::size_t i = 0; i < names.size(); ++i)
             if (ImGui::Selectable(std::string(names[i]).c_str(), names[i] == current))
                 choose(i);
@@ -109,7 +122,7 @@ void coloring_section(const PanelModel& model, Commands& commands) {
     constexpr std::array<std::string_view, 3> kWords{"which surface", "second array",
                                                      "first crossing"};
     choice("color", std::string(kWords[static_cast<std::size_t>(coloring.by)]), kWords,
-           [&](std::size_t i) {
+           "what the colors of surfaces say (U)", [&](std::size_t i) {
                const auto by = static_cast<interaction::ColorBy>(i);
                if (by == interaction::ColorBy::value && !model.second_array)
                    return;
@@ -118,7 +131,7 @@ void coloring_section(const PanelModel& model, Commands& commands) {
                coloring.by = by;
            });
     if (coloring.by != interaction::ColorBy::surface) {
-        choice("map", coloring.map, render::kColorMapNames,
+        choice("map", coloring.map, render::kColorMapNames, "colors from the low to the high end",
                [&](std::size_t i) { coloring.map = render::kColorMapNames[i]; });
         range_of_map(model, coloring);
     }
@@ -127,6 +140,7 @@ void coloring_section(const PanelModel& model, Commands& commands) {
     bool shown = model.asked.bounding_box;
     if (ImGui::Checkbox("box with numbers", &shown))
         commands.bounding_box = shown;
+    tip("the data's box, with ticks in their units (O)");
 }
 
 } // namespace isochron::app

@@ -1,6 +1,7 @@
 // Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
 #include "app/panel/panel_layer.h"
 
+#include "app/panel/panel_help.h"
 #include "app/panel/panel_tools.h"
 #include "app/scene/font.h"
 #include "render/gl/limits.h"
@@ -63,6 +64,8 @@ struct Taker {
     glm::ivec2 places;   ///< of the panel in its window
     bool popups = false; ///< something is open over the panel, which Escape closes
     bool& closes_popup;
+    bool& help;                ///< its page is open
+    bool& begun;               ///< somebody uses the program
     std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
     bool clicked = false;      ///< one of them on the panel
     bool typed = false;        ///< characters came
@@ -84,6 +87,9 @@ struct Taker {
     }
     bool operator()(const KeyEvent& event) {
         const auto code = static_cast<std::size_t>(event.key);
+        begun = begun || event.down;
+        if (event.key == Key::f1 && event.down)
+            return help = !help, true;
         if (is_read(event.key))
             changed.insert(event.key);
         if (code < std::size(io.KeysDown))
@@ -98,6 +104,8 @@ struct Taker {
     }
     bool operator()(const TextEvent& event) {
         typed = true;
+        if (event.character == U'?' && !io.WantTextInput)
+            return help = !help, true;
         if (io.WantTextInput)
             io.AddInputCharacter(event.character);
         return io.WantTextInput;
@@ -106,6 +114,7 @@ struct Taker {
         const auto button = static_cast<std::size_t>(event.button);
         const std::uint32_t bit = 1u << button;
         // ImGui sees levels, once per frame: a click within one frame lasts until the next.
+        begun = begun || event.down;
         if (event.down)
             pressed |= bit;
         if (!event.down && (pressed & bit))
@@ -154,7 +163,7 @@ PanelLayer::PanelLayer(const render::Gl& gl, float scale)
     : gl_(gl), imgui_(ImGui::CreateContext()), scale_(scale),
       program_(render::link_program(
           gl, {render::shader_file("panel.vert"), render::shader_file("panel.frag")})),
-      vertex_array_(gl), vertices_(gl), elements_(gl), font_(gl, GL_TEXTURE_2D) {
+      vertex_array_(gl), vertices_(gl), elements_(gl) {
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
@@ -184,16 +193,26 @@ PanelLayer::~PanelLayer() {
 
 void PanelLayer::make_font_texture() {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+    fonts.Clear();
     add_font(fonts, kFontPixels * scale_);
     ImGui::GetIO().FontGlobalScale = 1.0f / scale_;
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     fonts.GetTexDataAsRGBA32(&pixels, &width, &height);
     render::expect_texture(render::Limits(gl_), "panel's font", {width, height});
-    gl_.TextureStorage2D(font_.name(), 1, GL_RGBA8, width, height);
-    gl_.TextureSubImage2D(font_.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
-    gl_.TextureParameteri(font_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl_.TextureParameteri(font_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    font_.emplace(gl_, GL_TEXTURE_2D);
+    gl_.TextureStorage2D(font_->name(), 1, GL_RGBA8, width, height);
+    gl_.TextureSubImage2D(font_->name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    gl_.TextureParameteri(font_->name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_.TextureParameteri(font_->name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+void PanelLayer::set_scale(float scale) {
+    if (scale == scale_)
+        return;
+    ImGui::SetCurrentContext(imgui_);
+    scale_ = scale;
+    make_font_texture();
 }
 
 std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, bool shown) {
@@ -209,14 +228,17 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
                 .late_releases = late_releases_,
                 .cursor = cursor_,
                 .places = places_,
-                .popups = imgui_->OpenPopupStack.Size > 0,
-                .closes_popup = closes_popup_};
+                .popups = imgui_->OpenPopupStack.Size > 0 || help_,
+                .closes_popup = closes_popup_,
+                .help = help_,
+                .begun = begun_};
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
         const WindowEvent event = waiting_.front();
         waiting_.pop_front();
+        const bool open = shown || help_;
         const bool taken = std::visit(taker, event);
-        if (!taken || !shown)
+        if (!taken || !open)
             left.push_back(event);
     }
     return left;
@@ -242,8 +264,12 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     const Seconds elapsed = time - std::exchange(laid_out_, time);
     io.DeltaTime = static_cast<float>(std::clamp(elapsed.count(), kShortest, kLongest));
     ImGui::NewFrame();
-    if (std::exchange(closes_popup_, false) && imgui_->OpenPopupStack.Size > 0)
-        ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
+    if (std::exchange(closes_popup_, false)) {
+        if (imgui_->OpenPopupStack.Size > 0)
+            ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
+        else
+            help_ = false;
+    }
     Commands commands;
     area_ = {};
     // The panel in the room stands for the one over the picture.
@@ -251,12 +277,31 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         commands = draw_panel(model, area_);
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
+    lay_out_pages(model, time);
     if (std::exchange(messages_, model.messages) != model.messages)
         said_ = time;
     if (model.place == PanelPlace::over)
         message_window(model.standing, model.message, time - said_);
     ImGui::Render();
     return commands;
+}
+
+/// What lies over the picture beside the panel.
+void PanelLayer::lay_out_pages(const PanelModel& model, Seconds time) {
+    if (help_ && model.place != PanelPlace::in_room)
+        help_ = help_window(model);
+    if (!newcomer_ || help_ || model.place != PanelPlace::over)
+        return;
+    constexpr Seconds kLeast{6.0}; // long enough to be read
+    if (!introduced_at_)
+        introduced_at_ = time;
+    if (begun_ && time - *introduced_at_ >= kLeast) {
+        newcomer_ = false;
+        introduced_ = true;
+        return;
+    }
+    const bool docked = area_.bottom - area_.top > 2 * area_.title;
+    first_use_window(docked ? area_.right : 0.0f);
 }
 
 bool PanelLayer::covers(glm::vec2 at) const {
@@ -303,7 +348,7 @@ void PanelLayer::draw(glm::ivec2 picture, glm::ivec2 corner) {
     gl_.UseProgram(program_.name());
     gl_.ProgramUniform2f(program_.name(), gl_.GetUniformLocation(program_.name(), "display_size"),
                          data.DisplaySize.x, data.DisplaySize.y);
-    gl_.BindTextureUnit(0, font_.name());
+    gl_.BindTextureUnit(0, font_->name());
     gl_.BindVertexArray(vertex_array_.name());
     static_assert(sizeof(ImDrawIdx) == 2);
     for (int n = 0; n < data.CmdListsCount; ++n) {

@@ -11,6 +11,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 struct ImGuiContext;
@@ -21,11 +22,20 @@ class PanelLayer {
   public:
     static constexpr float kFontPixels = 15.0f; ///< height of a line, in the panel's own pixels
 
-    /// @param scale pixels of what is drawn on for each of the panel's own
+    /// @param scale pixels of what is drawn on for each of the panel's own, see `set_scale`
     explicit PanelLayer(const render::Gl& gl, float scale = 1.0f);
     ~PanelLayer();
     PanelLayer(const PanelLayer&) = delete;
     PanelLayer& operator=(const PanelLayer&) = delete;
+
+    /// Draws the panel larger or smaller from the next frame on, with letters as sharp.
+    /// @param scale pixels of what is drawn on for each of the panel's own
+    void set_scale(float scale);
+    float scale() const { return scale_; }
+    /// From now on the first four lines stand in the picture, until somebody has begun to use it.
+    void introduce() { newcomer_ = true; }
+    /// Whether they have gone, once.
+    bool introduced() { return std::exchange(introduced_, false); }
 
     /// Takes events into account. Dear ImGui sees levels, once a frame: what it could not tell
     /// apart, such as a key that goes down twice, or Enter before a digit, waits for the next
@@ -56,7 +66,7 @@ class PanelLayer {
 
     /// Of all that `draw` would draw: a panel that looks the same has the same one.
     std::size_t digest() const;
-    const PanelArea& area() const { return area_; }
+    const PanelArea& area() const { return area_; } ///< the panel's own pixels
     /// Whether the panel, or what it has opened, is there. @param at fractions of the picture from
     /// the top left
     bool covers(glm::vec2 at) const;
@@ -66,6 +76,7 @@ class PanelLayer {
 
   private:
     void make_font_texture();
+    void lay_out_pages(const PanelModel& model, interaction::Seconds time);
 
     const render::Gl& gl_;
     ImGuiContext* imgui_;
@@ -79,10 +90,13 @@ class PanelLayer {
     std::size_t messages_ = 0;        ///< said so far
     interaction::Seconds said_{-1e9}; ///< when the newest one came
     bool closes_popup_ = false;       ///< Escape was pressed
+    bool help_ = false;               ///< its page is open
+    bool newcomer_ = false, begun_ = false, introduced_ = false;
+    std::optional<interaction::Seconds> introduced_at_; ///< when the first four lines came
     render::Program program_;
     render::VertexArray vertex_array_;
     render::Buffer vertices_, elements_;
-    render::Texture font_;
+    std::optional<render::Texture> font_;
 };
 
 } // namespace isochron::app

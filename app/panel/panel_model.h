@@ -3,6 +3,7 @@
 
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
+#include "interaction/actions.h"
 #include "interaction/control_context.h"
 
 #include <array>
@@ -31,11 +32,12 @@ struct PanelModel {
     double frames_per_second = 0;
     bool searching = false; ///< the worker has not answered yet
     bool recording = false;
-    std::string failure;                      ///< of the worker; empty when all is well
-    std::string message;                      ///< newest note, such as a saved screenshot
-    std::size_t messages = 0;                 ///< how many there were
-    std::string standing;                     ///< stands in the picture for as long as it is true
-    const std::vector<std::string>& controls; ///< one line per key
+    std::string failure;      ///< of the worker; empty when all is well
+    std::string message;      ///< newest note, such as a saved screenshot
+    std::size_t messages = 0; ///< how many there were
+    std::string standing;     ///< stands in the picture for as long as it is true
+    const std::vector<interaction::ControlGroup>& controls;
+    std::vector<interaction::DeviceKind> at_hand; ///< which of them there are
     PanelPlace place = PanelPlace::over;
     const interaction::Commands* undo = nullptr; ///< null: there is nothing to undo
     const interaction::Commands* redo = nullptr;

@@ -1,6 +1,7 @@
 // The panel's sections on tools, undo and leaving.
 #include "app/panel/panel_tools.h"
 
+#include "app/panel/panel_words.h"
 #include "interaction/clip_tool.h"
 #include "interaction/tool_table.h"
 
@@ -15,11 +16,13 @@ namespace {
 using interaction::Commands;
 using interaction::ToolKind;
 
-void step_button(const char* words, const Commands* change, Commands& commands) {
+void step_button(const char* words, const char* effect, const Commands* change,
+                 Commands& commands) {
     ImGui::BeginDisabled(!change);
     if (ImGui::Button(words) && change)
         commands = *change;
     ImGui::EndDisabled();
+    tip(effect);
 }
 
 /// @return whether another one was chosen
@@ -35,6 +38,8 @@ bool tool_choice(const char* hand, ToolKind& tool) {
                 ImGui::SetTooltip("%s", std::string(row.effect).c_str());
         }
         ImGui::EndCombo();
+    } else {
+        tip("what a click, or this hand's first button, does (4, 5, 6)");
     }
     return tool != before;
 }
@@ -45,8 +50,7 @@ void clip_buttons(const PanelModel& model, Commands& commands) {
         ImGui::PushID(axis);
         if (ImGui::SmallButton(kAxes[static_cast<std::size_t>(axis)]))
             commands.clip = snapped(model.asked.clip, axis, model.data);
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("clip plane across this axis; again: the other side");
+        tip("clip plane across this axis; again: the other side (7)");
         ImGui::PopID();
         ImGui::SameLine();
     }
@@ -54,14 +58,15 @@ void clip_buttons(const PanelModel& model, Commands& commands) {
     if (ImGui::SmallButton("no clip plane"))
         commands.clip = interaction::ClipPlane{};
     ImGui::EndDisabled();
+    tip("show all of the data again (Delete)");
 }
 
 } // namespace
 
 void history_section(const PanelModel& model, Commands& commands) {
-    step_button("Undo", model.undo, commands);
+    step_button("Undo", "take back what changed last (Ctrl + Z)", model.undo, commands);
     ImGui::SameLine();
-    step_button("Redo", model.redo, commands);
+    step_button("Redo", "do again what was taken back (Ctrl + Shift + Z)", model.redo, commands);
 }
 
 void tools_section(const PanelModel& model, Commands& commands) {
@@ -76,6 +81,7 @@ void tools_section(const PanelModel& model, Commands& commands) {
         ImGui::SameLine();
         if (ImGui::SmallButton("no ruler"))
             commands.ruler = interaction::Ruler{};
+        tip("remove the ruler (Delete)");
     }
 }
 

@@ -40,7 +40,8 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       extractor_(extract ? std::move(extract)
                          : index::extract_from_newest(
                                newest_, render::CellBuffers::wanted_shading(outputs_.gl()))),
-      scene_(outputs_.gl(), file_->info(), config_), panel_(outputs_.gl(), outputs_.windows()),
+      scene_(outputs_.gl(), file_->info(), config_),
+      panel_(outputs_.gl(), outputs_.windows(), config_.panel.font_scale),
       room_panel_(outputs_.gl(), config_.panel), picker_(file_),
       // A headset has its own rate, which the configuration tells.
       quality_(outputs_.gl(), config_,

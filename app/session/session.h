@@ -150,6 +150,7 @@ class Session {
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     void draw_views(const ScenePlace& place, std::span<const render::View> views);
+    std::vector<interaction::DeviceKind> devices_at_hand() const;
     OperatorPanel::Model panel_models(const FrameReport& report) const;
     glm::ivec2 panel_places() const;
     bool on_desktop() const;
@@ -176,7 +177,8 @@ class Session {
     PanelInRoom room_panel_;
     Picker picker_;
     History history_;
-    const std::vector<std::string> documentation_ = interaction::Controls::documentation();
+    const std::vector<interaction::ControlGroup> documentation_ =
+        interaction::Controls::documentation();
     interaction::Commands panel_commands_;
     interaction::InputState input_; ///< of the last frame
     interaction::InputState latched_;

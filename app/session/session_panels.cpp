@@ -35,7 +35,7 @@ Session::panel_events(std::span<const interaction::WindowEvent> events) {
 
 std::optional<interaction::Pose> Session::ray_at(const interaction::MouseMoveEvent& cursor,
                                                  const interaction::Pose& head) const {
-    if ((flat_panel() || state_.leaving) && panel_.covers(cursor))
+    if (panel_.covers(cursor))
         return std::nullopt;
     interaction::InputState emulated;
     emulated.devices.push_back({.name = "head", .pose = head, .valuators = {}});
@@ -63,6 +63,7 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
                                   outputs_.headset()->description()
                             : std::string(),
             .controls = documentation_,
+            .at_hand = devices_at_hand(),
             .place = place,
             .undo = history_.undo(),
             .redo = history_.redo(),
@@ -70,6 +71,16 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .head = outputs_.audience().viewers.empty() ? interaction::Pose{}
                                                         : outputs_.audience().viewers.front().head,
             .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
+}
+
+std::vector<interaction::DeviceKind> Session::devices_at_hand() const {
+    using enum interaction::DeviceKind;
+    std::vector<interaction::DeviceKind> kinds{mouse, keyboard};
+    if (!config_.devices.empty() || outputs_.headset())
+        kinds.push_back(hands);
+    if (input_.find("gamepad"))
+        kinds.push_back(gamepad);
+    return kinds;
 }
 
 OperatorPanel::Model Session::panel_models(const FrameReport& report) const {

@@ -94,10 +94,7 @@ SeriesWriter::SeriesWriter(fs::path dir, std::string name, SeriesInfo info)
     if (info_.scaling != Scaling{})
         throw Error(fmt::format("{}: a .vti carries no scaling, slope {} and intercept {} given",
                                 name_, info_.scaling.slope, info_.scaling.intercept));
-    std::error_code failure;
-    fs::create_directories(dir_, failure);
-    if (failure)
-        throw Error(fmt::format("{}: cannot be created: {}", dir_.string(), failure.message()));
+    make_folder(dir_);
 }
 
 SeriesWriter::~SeriesWriter() {

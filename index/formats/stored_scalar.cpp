@@ -27,17 +27,22 @@ bool is_ghost_flag(const StoredArray& array) {
     return array.name == "vtkGhostType" || array.name == "vtkGhostLevels";
 }
 
+/// Nobody is offered flags of the library, nor what holds no numbers.
+bool is_offered(const StoredArray& array) {
+    return array.type && !is_ghost_flag(array);
+}
+
 std::string listed(std::span<const StoredArray> arrays) {
     constexpr std::size_t kShown = 20;
     std::string list;
     std::size_t count = 0;
     for (const StoredArray& array : arrays) {
-        if (is_ghost_flag(array) || ++count > kShown)
+        if (!is_offered(array) || ++count > kShown)
             continue;
-        list += fmt::format("{}{} ({}{}{})", list.empty() ? "" : ", ", array.name,
-                            array.type ? name_of(*array.type) : "no number",
-                            array.components == 1 ? "" : fmt::format(" x {}", array.components),
-                            array.on_cells ? ", cell data" : "");
+        list +=
+            fmt::format("{}{} ({}{}{})", list.empty() ? "" : ", ", array.name, name_of(*array.type),
+                        array.components == 1 ? "" : fmt::format(" x {}", array.components),
+                        array.on_cells ? ", cell data" : "");
     }
     if (count > kShown)
         list += fmt::format(" and {} more", count - kShown);
@@ -165,7 +170,8 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
     const StoredArray* found = nullptr;
     bool open = false;
     for (const StoredArray& array : arrays) {
-        if (is_ghost_flag(array) || (options.array && array.name != *options.array))
+        if (is_ghost_flag(array) ||
+            (options.array ? array.name != *options.array : !is_offered(array)))
             continue;
         if (!found || (found->name == array.name && found->on_cells))
             found = &array;
@@ -173,8 +179,9 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
             open = true;
     }
     const std::string list = listed(arrays);
-    if (list.empty())
-        throw Error(fmt::format("{}: holds no array", file));
+    if (list.empty() && !found)
+        throw Error(fmt::format("{}: holds no array{}", file,
+                                arrays.empty() ? "" : " of numbers that can be read"));
     if (open)
         throw Error(fmt::format("{}: several arrays, choose one with --array: {}", file, list));
     if (!found)

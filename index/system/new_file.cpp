@@ -25,7 +25,20 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+/// What the system said. Of a folder that is there and takes nothing new, as below /proc, it says
+/// that something is missing.
+std::string refusal(int error) {
+    return error == ENOENT ? "its folder takes nothing new" : std::strerror(error);
+}
+
 } // namespace
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw Error(fmt::format("{}: cannot be made: {}", folder.string(), refusal(error.value())));
+}
 
 NewFile::NewFile(fs::path target) : target_(std::move(target)) {
     std::error_code ignored;
@@ -88,7 +101,7 @@ void NewFile::remove_remains() const {
 }
 
 void NewFile::fail(int error) const {
-    throw Error(fmt::format("{}: cannot be written: {}", target_.string(), std::strerror(error)));
+    throw Error(fmt::format("{}: cannot be written: {}", target_.string(), refusal(error)));
 }
 
 void NewFile::reserve(std::uint64_t bytes) {

@@ -13,6 +13,10 @@ namespace isochron::index {
 /// Writes all bytes to an open file. @return 0, or the system's error
 int write_all(int file, std::uint64_t offset, std::span<const std::byte> bytes);
 
+/// Makes a folder, and those above it, where it is missing.
+/// @throws Error naming it and what the system said
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes to `.NAME.XXXX.tmp` in the folder of NAME; `commit` gives it its name. Destroyed before
 /// that, it removes what it wrote and an older file of that name stays as it was. Every function
 /// throws Error with the final name and what the system said (disk full, folder not writable, ...).

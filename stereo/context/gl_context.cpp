@@ -90,6 +90,8 @@ std::unique_ptr<GlContext> make_context(ContextKind kind, const ContextOptions& 
                 if (describe_current(context->loader()).find("llvmpipe") != std::string::npos)
                     spread_raster_threads();
                 return context;
+            } catch (const NoDisplay&) {
+                throw;
             } catch (const render::Error& error) {
                 throw render::Error(fmt::format("context {}: {}; other contexts: {}", row.name,
                                                 error.what(), other_kinds(kind)));

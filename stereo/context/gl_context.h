@@ -44,6 +44,8 @@ class GlContext {
     virtual void present() = 0; ///< swaps a window's buffers; else does nothing
     /// Whether the window has a left and a right buffer.
     virtual bool has_stereo_buffers() const { return false; }
+    /// Pixels for each of a plain display's 96 to the inch, as the desktop has it set.
+    virtual float content_scale() const { return 1.0f; }
     /// [Hz] of the display that shows the window; empty where nothing tells it.
     virtual std::optional<double> refresh_rate() const { return std::nullopt; }
     virtual bool should_close() const = 0;

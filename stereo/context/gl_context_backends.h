@@ -9,6 +9,12 @@
 
 namespace isochron::stereo {
 
+/// There is no display, so that no other kind of context would bring a window either.
+class NoDisplay : public render::Error {
+  public:
+    using render::Error::Error;
+};
+
 /// Each makes its context current. @throws render::Error with the reason alone (`make_context` adds
 /// the kind and the alternatives)
 std::unique_ptr<GlContext> make_glfw_context(const ContextOptions& options);

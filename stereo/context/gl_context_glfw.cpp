@@ -42,7 +42,9 @@ class GlfwLibrary {
         glfw_complaint().clear();
         glfwSetErrorCallback([](int, const char* text) { glfw_complaint() = text; });
         if (!glfwInit())
-            fail("no display to open a window on (`isochron replay` draws pictures without one)");
+            throw NoDisplay(fmt::format("no display to open a window on ({}); `isochron replay` "
+                                        "draws pictures of a recording without one",
+                                        glfw_complaint()));
     }
     ~GlfwLibrary() { glfwTerminate(); }
     GlfwLibrary(const GlfwLibrary&) = delete;
@@ -174,6 +176,11 @@ class GlfwContext final : public GlContext {
     bool has_window() const override { return true; }
     bool has_stereo_buffers() const override { return stereo_buffers_; }
     void present() override { glfwSwapBuffers(window_); }
+    float content_scale() const override {
+        float x = 1, y = 1;
+        glfwGetWindowContentScale(window_, &x, &y);
+        return std::clamp(std::min(x, y), 0.5f, 4.0f);
+    }
     std::optional<double> refresh_rate() const override {
         GLFWmonitor* monitor = monitor_under_window();
         const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;

@@ -177,12 +177,18 @@ TEST(Controls, EveryActionHasAKeyAndEveryKeyOneLineOfDocumentation) {
             EXPECT_TRUE(keys.insert({binding.key, binding.chord}).second) << line.keys;
         }
     EXPECT_EQ(actions.size(), static_cast<std::size_t>(Action::count));
-    const std::vector<std::string> lines = Controls::documentation();
-    EXPECT_EQ(lines.size(), key_lines().size() + control_lines().size());
-    for (const std::string& line : lines) {
-        EXPECT_LE(line.size(), 90u);
-        EXPECT_EQ(line.find('\n'), std::string::npos);
+    std::size_t lines = 0;
+    std::set<DeviceKind> devices;
+    for (const ControlGroup& group : Controls::documentation()) {
+        EXPECT_TRUE(devices.insert(group.device).second);
+        lines += group.lines.size();
+        for (const std::string& line : group.lines) {
+            EXPECT_LE(line.size(), 90u);
+            EXPECT_EQ(line.find('\n'), std::string::npos);
+        }
     }
+    EXPECT_EQ(lines, key_lines().size() + control_lines().size());
+    EXPECT_EQ(devices.size(), 4u);
 }
 
 TEST(Commands, MergingKeepsTheLaterAndCollectsStamps) {

@@ -98,6 +98,44 @@ TEST_F(CommandLine, AnIsovalueBeyondTheDataIsToldWithTheirRange) {
         "");
 }
 
+TEST_F(CommandLine, AnIsovalueBeyondTheDataIsToldByChangeToo) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const auto change = [&](const std::string& from, const std::string& to) {
+        return isochron(
+                   {"change", "a.isochron", "--isovalue", from, "--step", "0", "--to-isovalue", to})
+            .err;
+    };
+    EXPECT_THAT(change("0", "50"), HasSubstr("isochron: isovalue 50 lies beyond the data, -"));
+    EXPECT_THAT(change("-50", "0"), HasSubstr("isochron: isovalue -50 lies beyond the data, -"));
+    EXPECT_EQ(change("0", "0.5"), "");
+}
+
+TEST_F(CommandLine, WhereNoFileCanBeTheErrorSaysThatTheFolderTakesNone) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    std::vector<std::string> build = build_of("t*.raw");
+    build.back() = "/proc/a.isochron";
+    for (const auto& [arguments, message] :
+         std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {build, "/proc/a.isochron: cannot be written: its folder takes nothing new"},
+             {{"query", "a.isochron", "--isovalue", "0", "--step", "0", "--ids", "/proc/ids.bin"},
+              "/proc/ids.bin: cannot be written: its folder takes nothing new"},
+             {{"generate", "sphere", "--out", "/proc/no"}, "/proc/no: cannot be made: its folder"},
+             {{"explore", "a.isochron", "--record", "/proc/walk.jsonl"},
+              "/proc/walk.jsonl: cannot be written: its folder"},
+             {{"explore", "a.isochron", "--session", "/proc/no/a.isochron-session"},
+              "/proc/no: cannot be made: its folder"},
+             {{"explore", "a.isochron", "--screenshots", "/proc/no"},
+              "/proc/no: cannot be made: its folder"}})
+        expect_failure(isochron(arguments), 1, message);
+}
+
+TEST_F(CommandLine, WhatIsNoRecordingIsToldAsSuch) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const std::string message = "a.isochron: not a recording, which `isochron explore --record`";
+    expect_failure(isochron({"replay", "a.isochron"}), 1, message);
+    expect_failure(isochron({"movie", "a.isochron", "-o", "a.mp4"}), 1, message);
+}
+
 TEST_F(CommandLine, TimesAreTextWithoutTheDigitsOfRounding) {
     ASSERT_EQ(isochron(build_of("t*.raw", {"--time-step", "0.1", "--time-unit", "s"})).status, 0);
     const ChildResult query =
@@ -155,13 +193,30 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
                    "expected a positive number, got 0");
     expect_failure(isochron(build_of("t*.raw", {"--time-step", "nan"})), 2, "got nan");
     expect_failure(isochron({}), 2, "expected build, query");
-    expect_failure(isochron({"bild"}), 2,
-                   "bild: unknown, did you mean build, expected build, query");
-    expect_failure(isochron({"exlpore"}), 2, "exlpore: unknown, did you mean explore");
-    expect_failure(isochron({"t0.raw"}), 2, "a file, not a command; did you mean `isochron build");
+    expect_failure(isochron({"xyzzy"}), 2, "xyzzy: unknown, expected build, query");
+    for (const char* file : {"a.isochron", "walk.jsonl", "picture.png"})
+        folder.write(file, "?");
+    for (const auto& [arguments, message] :
+         std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"bild"}, "isochron: bild: unknown, did you mean build? (see isochron --help)\n"},
+             {{"exlpore", "a.isochron"}, "exlpore: unknown, did you mean explore? (see"},
+             {{"t0.raw"}, "a file, not a command; did you mean `isochron build t0.raw`? (see"},
+             {{"a.isochron"}, "did you mean `isochron explore a.isochron`?"},
+             {{"walk.jsonl"}, "did you mean `isochron replay walk.jsonl`?"},
+             {{"picture.png"}, "did you mean `isochron reproduce picture.png`?"},
+             {{"explore", "--isovlaue", "3", "a.isochron"},
+              "--isovlaue: unknown option, did you mean --isovalue? (see isochron explore --help)"},
+             {{"build", "--ouput=b", "t0.raw", "-o", "b"}, "--ouput: unknown option, did you mean"},
+             {{"info", "a.isochron", "b.isochron"}, "b.isochron: one argument too many"},
+             {{"query", "a.isochron", "--isovalue", "x", "--step", "1"},
+              "--isovalue: expected a number, got x"},
+             {{"explore", "a.isochron", "--quality", "fsat"},
+              "--quality: expected one of auto, fast, quality, got fsat, did you mean fast?"}})
+        expect_failure(isochron(arguments), 2, message);
     expect_failure(isochron({"change", "a.isochron", "--isovalue", "0", "--step", "1"}), 2,
                    "--to-step or --to-isovalue is missing");
-    expect_failure(isochron({"generate", "cube"}), 2, "cube: unknown, expected sphere, vorticity");
+    expect_failure(isochron({"generate", "cubes"}), 2,
+                   "cubes: unknown, expected sphere, vorticity");
     expect_failure(isochron({"replay", "walk.jsonl", "--out", "pictures"}), 2,
                    "--every N or --stamps");
 }

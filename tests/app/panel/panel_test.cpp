@@ -41,7 +41,8 @@ class PanelTest : public testing::Test {
                                    .frame_times = {},
                                    .failure = {},
                                    .message = {},
-                                   .controls = controls_},
+                                   .controls = controls_,
+                                   .at_hand = {}},
                                   area);
             ImGui::Render();
         }
@@ -56,7 +57,8 @@ class PanelTest : public testing::Test {
     index::IndexStats stats_;
     ExplorerState asked_;
     FrameReport frame_;
-    std::vector<std::string> controls_{"Up Down   isovalue by 100 % of %s"};
+    std::vector<interaction::ControlGroup> controls_{
+        {interaction::DeviceKind::hands, {"Up Down   isovalue by 100 % of %s"}}};
 };
 
 TEST_F(PanelTest, TakesUnitsAsTextAndNotAsFormats) {

@@ -247,5 +247,40 @@ TEST(Pvd, RefusesPartsSameTimesAndMissingFiles) {
                 HasSubstr("t.pvd"));
 }
 
+/// Of 3 x 3 x 3 vertices.
+std::string image_with(const std::string& arrays) {
+    return "<VTKFile type='ImageData' version='0.1' byte_order='LittleEndian'><ImageData "
+           "WholeExtent='0 2 0 2 0 2' Origin='0 0 0' Spacing='1 1 1'><Piece Extent='0 2 0 2 0 2'>"
+           "<PointData>" +
+           arrays + "</PointData></Piece></ImageData></VTKFile>";
+}
+
+std::string array_of(const std::string& type, const std::string& name, const std::string& value) {
+    std::string text = "<DataArray type='" + type + "' Name='" + name + "' format='ascii'>";
+    for (int i = 0; i < 27; ++i)
+        text += value + " ";
+    return text + "</DataArray>";
+}
+
+TEST(VtiArrays, ThoseWithoutNumbersThatCanBeReadAreNotOffered) {
+    const TestFolder folder;
+    const std::string flags = array_of("Bit", "flags", "1"), value = array_of("Float32", "p", "2");
+    const auto opened = [&](const std::string& arrays, const ReadOptions& options = {}) {
+        folder.write("a.vti", image_with(arrays));
+        try {
+            return open_series({folder.path() / "a.vti"}, options)->info().array;
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+    };
+    EXPECT_EQ(opened(flags + value), "p");
+    EXPECT_THAT(opened(flags + value + array_of("Int16", "q", "3")),
+                AllOf(HasSubstr("choose one with --array: p (f32), q (i16)"),
+                      testing::Not(HasSubstr("flags"))));
+    EXPECT_THAT(opened(flags), HasSubstr("a.vti: holds no array of numbers that can be read"));
+    EXPECT_THAT(opened(flags + value, {.array = "flags"}),
+                HasSubstr("array flags does not hold numbers that can be read"));
+}
+
 } // namespace
 } // namespace isochron::index

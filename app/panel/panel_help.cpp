@@ -1,0 +1,76 @@
+// What the devices at hand do, on a page of its own, and the first four lines that anybody needs.
+#include "app/panel/panel_help.h"
+
+#include "app/panel/panel_words.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace isochron::app {
+namespace {
+
+/// In two columns: the control, and behind the run of spaces that pads it, its effect.
+void table_of(const interaction::ControlGroup& group) {
+    if (!ImGui::BeginTable(words_of(group.device).data(), 2))
+        return;
+    ImGui::TableSetupColumn("control", ImGuiTableColumnFlags_WidthStretch, 0.36f);
+    ImGui::TableSetupColumn("effect", ImGuiTableColumnFlags_WidthStretch, 0.64f);
+    for (const std::string& line : group.lines) {
+        const std::size_t end = line.find("  ");
+        const std::size_t effect = line.find_first_not_of(' ', end);
+        ImGui::TableNextColumn();
+        note(line.substr(0, end), ImGui::GetStyleColorVec4(ImGuiCol_Text));
+        ImGui::TableNextColumn();
+        if (effect != std::string::npos)
+            note(line.substr(effect), kDim);
+    }
+    ImGui::EndTable();
+}
+
+} // namespace
+
+void controls_of(std::span<const interaction::DeviceKind> kinds,
+                 std::span<const interaction::ControlGroup> groups) {
+    for (const interaction::ControlGroup& group : groups) {
+        if (std::ranges::find(kinds, group.device) == kinds.end())
+            continue;
+        if (kinds.size() > 1)
+            text(std::string(words_of(group.device)));
+        table_of(group);
+        ImGui::Separator();
+    }
+}
+
+bool help_window(const PanelModel& model) {
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(0.96f * picture.x, 620.0f), 0.92f * picture.y});
+    ImGui::SetNextWindowBgAlpha(0.97f);
+    bool open = true;
+    ImGui::Begin("What the devices at hand do (F1)###help", &open,
+                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoSavedSettings);
+    controls_of(model.at_hand, model.controls);
+    ImGui::End();
+    return open;
+}
+
+void first_use_window(float left) {
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({(left + picture.x) / 2, 0.08f * picture.y}, ImGuiCond_Always,
+                            {0.5f, 0.0f});
+    ImGui::SetNextWindowBgAlpha(0.86f);
+    ImGui::Begin("###first use", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    for (const char* line : {"Drag with the left button to turn the data; the wheel scales them.",
+                             "Up and Down change the isovalue, or drag in the histogram.",
+                             "Space plays the steps; Left and Right go through them.",
+                             "F1 tells what all keys do. This goes away once you begin."})
+        ImGui::TextUnformatted(line);
+    ImGui::End();
+}
+
+} // namespace isochron::app

@@ -55,6 +55,15 @@ inline std::uint32_t pack(const CellPlane& plane) {
     return coordinate(u) | coordinate(v) << 12 | static_cast<std::uint32_t>(byte) << 24;
 }
 
+/// The unit vector of a point on the octahedron.
+inline glm::dvec3 unfolded(double u, double v) {
+    glm::dvec3 n(u, v, 1 - std::abs(u) - std::abs(v));
+    const double fold = std::max(-n.z, 0.0);
+    n.x -= n.x < 0 ? -fold : fold;
+    n.y -= n.y < 0 ? -fold : fold;
+    return n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+}
+
 inline CellPlane unpack_plane(std::uint32_t word) {
     const double offset =
         CellPlane::kFarthest * (static_cast<std::int32_t>(word) >> 24) / packed_plane::kFarthest;
@@ -64,12 +73,7 @@ inline CellPlane unpack_plane(std::uint32_t word) {
         return (static_cast<int>(word >> shift & 0xfffu) - packed_plane::kZero) /
                double{packed_plane::kOne};
     };
-    glm::dvec3 n(coordinate(0), coordinate(12), 0.0);
-    n.z = 1 - std::abs(n.x) - std::abs(n.y);
-    const double fold = std::max(-n.z, 0.0);
-    n.x -= n.x < 0 ? -fold : fold;
-    n.y -= n.y < 0 ? -fold : fold;
-    return {n / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z), offset};
+    return {unfolded(coordinate(0), coordinate(12)), offset};
 }
 
 } // namespace isochron::index

@@ -53,20 +53,6 @@ class Shader {
     std::size_t size_ = 0;
 };
 
-/// Scaled to a largest entry of 1, which does not change the direction of what it gives.
-glm::dmat3 scaled_to_one(glm::dmat3 matrix, double& smallest_column) {
-    double largest = 0;
-    smallest_column = std::numeric_limits<double>::infinity();
-    for (int column = 0; column < 3; ++column) {
-        const glm::dvec3 v = glm::abs(matrix[column]);
-        const double most = std::max({v.x, v.y, v.z});
-        largest = std::max(largest, most);
-        smallest_column = std::min(smallest_column, most);
-    }
-    smallest_column /= largest;
-    return matrix / largest;
-}
-
 /// With less than this between the spacings `float` has no digits to spare.
 constexpr double kFloatIsEnough = 1e-4;
 

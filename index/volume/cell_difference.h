@@ -3,13 +3,16 @@
 
 #include "index/volume/step_values.h"
 
+#include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace isochron::index {
 
@@ -92,6 +95,20 @@ inline glm::dmat3 normal_from_difference(const StepValues& values) {
     const glm::dmat3 physical_from_index(values.grid.physical_from_index());
     return glm::transpose(glm::inverse(physical_from_index)) *
            (values.scaling.slope < 0 ? 1.0 : -1.0);
+}
+
+/// Scaled to a largest entry of 1, which does not change the direction of what it gives.
+inline glm::dmat3 scaled_to_one(glm::dmat3 matrix, double& smallest_column) {
+    double largest = 0;
+    smallest_column = std::numeric_limits<double>::infinity();
+    for (int column = 0; column < 3; ++column) {
+        const glm::dvec3 v = glm::abs(matrix[column]);
+        const double most = std::max({v.x, v.y, v.z});
+        largest = std::max(largest, most);
+        smallest_column = std::min(smallest_column, most);
+    }
+    smallest_column /= largest;
+    return matrix / largest;
 }
 
 } // namespace isochron::index

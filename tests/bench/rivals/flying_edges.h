@@ -4,8 +4,12 @@
 #include "index/volume/query.h"
 #include "index/volume/step_values.h"
 
+#include <glm/vec3.hpp>
+
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace isochron::bench {
 
@@ -19,6 +23,14 @@ class FlyingEdges {
     };
     /// Contours a step from the start.
     virtual Surface contour(const index::Query& query, bool normals) = 0;
+
+    /// What it makes of a step, with normals.
+    struct Geometry {
+        std::vector<glm::vec3> points; ///< in units of the grid's spacing
+        std::vector<glm::vec3> normals;
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+    };
+    virtual Geometry geometry(const index::Query& query) = 0;
 };
 
 /// @param values must outlive it

@@ -42,6 +42,26 @@ class VtkFlyingEdges : public FlyingEdges {
                 given ? static_cast<std::uint64_t>(given->GetNumberOfTuples()) : 0};
     }
 
+    Geometry geometry(const index::Query& query) override {
+        contour(query, true);
+        vtkPolyData& surface = *with_normals_->GetOutput();
+        Geometry result;
+        const auto vec3 = [](const double* v) { return glm::vec3(v[0], v[1], v[2]); };
+        const auto* spacing = steps_[query.step]->GetSpacing();
+        for (vtkIdType i = 0; i < surface.GetNumberOfPoints(); ++i) {
+            result.points.push_back(vec3(surface.GetPoint(i)) / vec3(spacing));
+            result.normals.push_back(vec3(surface.GetPointData()->GetNormals()->GetTuple(i)));
+        }
+        vtkCellArray& polygons = *surface.GetPolys();
+        vtkIdType corners = 0;
+        const vtkIdType* at = nullptr;
+        for (polygons.InitTraversal(); polygons.GetNextCell(corners, at);)
+            result.triangles.push_back({static_cast<std::uint32_t>(at[0]),
+                                        static_cast<std::uint32_t>(at[1]),
+                                        static_cast<std::uint32_t>(at[2])});
+        return result;
+    }
+
   private:
     vtkFlyingEdges3D& filter(bool normals) { return normals ? *with_normals_ : *plain_; }
 

@@ -82,7 +82,8 @@ std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
     expect_unchanged(name, *all, held.steps(), index->checksums(), index->source_states());
     if (given.steps() == held.steps())
         return nullptr;
-    return std::make_unique<AppendedSeries>(std::move(index), std::move(all), &IndexFile::load);
+    return std::make_unique<AppendedSeries>(std::move(index), std::move(all),
+                                            static_cast<Load>(&IndexFile::load));
 }
 
 std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> index,
@@ -103,7 +104,7 @@ std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> 
     expect_unchanged(name, *all, index->info().steps(), index->color_checksums(),
                      index->source_states());
     return std::make_unique<AppendedSeries>(std::move(index), std::move(all),
-                                            &IndexFile::load_color);
+                                            static_cast<Load>(&IndexFile::load_color));
 }
 
 } // namespace isochron::index

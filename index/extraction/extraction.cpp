@@ -36,7 +36,11 @@ class Extracting {
                 return nullptr;
             result->surfaces.push_back(*set);
         }
-        return fill(*result, stop) ? result : nullptr;
+        try {
+            return fill(*result, stop) ? result : nullptr;
+        } catch (const Stopped&) {
+            return nullptr;
+        }
     }
 
   private:
@@ -56,7 +60,7 @@ class Extracting {
             if (!gatherer_.gather(file_->chunks(), step, levels, result.bricks, stop))
                 return false;
         } else {
-            whole = file_->load(step);
+            whole = file_->load(step, stop);
             if (!gatherer_.gather(whole->values, step, levels, result.bricks, stop))
                 return false;
         }

@@ -37,13 +37,21 @@ class IndexSearch {
         set->method = method_at(query.step);
         by_chunks_ = !file_->better_whole(query.step);
         step_.reset();
-        const bool searched = !std::isfinite(query.isovalue) || search(*set, stop);
-        const auto found = Clock::now();
-        if (!searched || (shading_ == Shading::cells && !set->ids.empty() && !shade(*set, stop)))
+        try {
+            if (std::isfinite(query.isovalue) && !search(*set, stop))
+                return nullptr;
+            // A search layer by layer shades, too, and says how long each took.
+            if (set->ids.empty() || set->points.empty()) {
+                const auto found = Clock::now();
+                if (shading_ == Shading::cells && !set->ids.empty() && !shade(*set, stop))
+                    return nullptr;
+                set->search_time = found - started;
+                set->shading_time = Clock::now() - found;
+            }
+        } catch (const Stopped&) {
             return nullptr;
+        }
         file_->chunks().worked_on(query.step);
-        set->search_time = found - started;
-        set->shading_time = Clock::now() - found;
         return set;
     }
 
@@ -69,13 +77,13 @@ class IndexSearch {
 
     bool shade(CellSet& set, const std::stop_token& stop) {
         return by_chunks_ ? layers_.shade_cells(set, stop)
-                          : shade_cells(whole(set.query.step).values, set, stop);
+                          : shade_cells(whole(set.query.step, stop).values, set, stop);
     }
 
     /// Loaded when it is needed: that may decode a file, and a step without cells does without.
-    const LoadedStep& whole(std::uint32_t step) {
+    const LoadedStep& whole(std::uint32_t step, const std::stop_token& stop) {
         if (!step_)
-            step_ = file_->load(step);
+            step_ = file_->load(step, stop);
         return *step_;
     }
 
@@ -102,8 +110,8 @@ class IndexSearch {
 
     bool search_bricks_of(CellSet& set, const std::stop_token& stop) {
         if (by_chunks_)
-            return layers_.search(set.query, true, set.ids, set.candidates, stop);
-        const LoadedStep& loaded = whole(set.query.step);
+            return layers_.search(set, true, shading_ == Shading::cells, stop);
+        const LoadedStep& loaded = whole(set.query.step, stop);
         set.candidates = search_bricks(loaded.values, *file_->chunks().levels(set.query.step),
                                        loaded.bricks, set.query, set.ids);
         sort_ids(set.ids, file_->info().grid.cell_count());
@@ -129,7 +137,7 @@ class IndexSearch {
             set.ids.insert(set.ids.end(), candidates_.begin(), candidates_.end());
             return true;
         }
-        const StepValues& values = whole(set.query.step).values;
+        const StepValues& values = whole(set.query.step, stop).values;
         set.ids.reserve(set.ids.size() + candidates_.size());
         for (std::size_t at = 0; at < candidates_.size(); at += kCandidatesPerLook) {
             if (stop.stop_requested())
@@ -146,8 +154,8 @@ class IndexSearch {
     /// Slab by slab of whole z layers, so that a stop is noticed within one.
     bool search_all(CellSet& set, const std::stop_token& stop) {
         if (by_chunks_)
-            return layers_.search(set.query, false, set.ids, set.candidates, stop);
-        const StepValues& values = whole(set.query.step).values;
+            return layers_.search(set, false, shading_ == Shading::cells, stop);
+        const StepValues& values = whole(set.query.step, stop).values;
         StepValues slab = values;
         const auto [width, height, depth] = slab.grid.cells();
         const std::uint64_t layer_cells = std::uint64_t{width} * height;

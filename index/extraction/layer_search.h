@@ -23,10 +23,10 @@ class LayerSearch {
     /// @param level of detail; colors are those of level 0
     explicit LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t level = 0);
 
-    /// Finds the active cells, ascending: by bricks where the index has them, else by a scan.
-    /// @param candidates number of cells that were tested
-    bool search(const Query& query, bool by_bricks, std::vector<CellId>& out,
-                std::uint64_t& candidates, const std::stop_token& stop);
+    /// Finds the active cells of `set.query`, ascending.
+    /// @param by_bricks needs an index that has them; else by a scan
+    /// @param shaded whether they get points and rows too, each layer while it is at hand
+    bool search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop);
     /// @param ids ascending
     bool keep_active(const Query& query, std::vector<CellId>& ids, const std::stop_token& stop);
     bool shade_cells(CellSet& set, const std::stop_token& stop);
@@ -36,7 +36,13 @@ class LayerSearch {
 
   private:
     using Work = std::function<void(StepSlab& slab, std::uint32_t layer)>;
-    bool for_each_layer(std::uint32_t step, const Work& work, const std::stop_token& stop);
+    struct Part;
+    /// Ascending, of a layer.
+    using PlacesOf = std::function<std::vector<std::uint32_t>(std::uint32_t layer)>;
+    bool for_each_layer(std::uint32_t step, const PlacesOf& places, const Work& work,
+                        const std::stop_token& stop);
+    bool for_each_layer_of(std::uint32_t step, std::span<const CellId> cells, const Work& work,
+                           const std::stop_token& stop);
     std::span<const CellId> of_layer(std::span<const CellId> ids, std::uint32_t layer) const;
 
     std::shared_ptr<const IndexFile> file_;

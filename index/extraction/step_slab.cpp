@@ -5,7 +5,9 @@
 #include "index/volume/cell_walk.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -43,13 +45,33 @@ std::uint32_t candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut)
     return bits;
 }
 
+template <std::size_t kWidth>
+void copy_rows_of(const std::byte* from, std::uint32_t rows, std::byte* to, std::size_t stride) {
+    for (std::uint32_t y = 0; y < rows; ++y, from += kWidth, to += stride)
+        std::memcpy(to, from, kWidth);
+}
+
+/// From rows back to back to rows `stride` bytes apart. The usual widths are known to the compiler.
+void copy_rows(const std::byte* from, std::size_t width, std::uint32_t rows, std::byte* to,
+               std::size_t stride) {
+    switch (width) {
+    case kChunkEdge: return copy_rows_of<kChunkEdge>(from, rows, to, stride);
+    case 2 * kChunkEdge: return copy_rows_of<2 * kChunkEdge>(from, rows, to, stride);
+    case 4 * kChunkEdge: return copy_rows_of<4 * kChunkEdge>(from, rows, to, stride);
+    case 8 * kChunkEdge: return copy_rows_of<8 * kChunkEdge>(from, rows, to, stride);
+    default: break;
+    }
+    for (std::uint32_t y = 0; y < rows; ++y, from += width, to += stride)
+        std::memcpy(to, from, width);
+}
+
 } // namespace
 
 StepSlab::StepSlab(const ChunkStore& store)
     : store_(store), chunks_(store.grid()), grid_(store.info().grid),
       plane_cells_(grid_.cells()[0] * grid_.cells()[1]),
       words_((bytes(store.info()) + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t)) {
-    for (auto& layer : needed_)
+    for (auto& layer : state_)
         layer.resize(chunks_.chunks_of_layer());
 }
 
@@ -58,7 +80,11 @@ std::uint64_t StepSlab::bytes(const SeriesInfo& info) {
     return std::uint64_t{n[0]} * n[1] * std::min(n[2], kMostPlanes) * size_of(info.type);
 }
 
-void StepSlab::begin(std::uint32_t step, std::uint32_t layer) {
+void StepSlab::begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop) {
+    for (auto& of_layer : state_)
+        std::ranges::fill(of_layer, std::uint8_t{kEmpty});
+    stop_ = std::move(stop);
+    asked_.reset();
     step_ = step;
     layer_ = layer;
     const std::uint32_t first = layer * kChunkEdge;
@@ -106,18 +132,24 @@ void StepSlab::set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y,
     }
 }
 
-bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
-    const ChunkLayerPtr table = store_.layer(step_, layer_);
+std::vector<std::uint32_t> StepSlab::candidate_chunks(const ChunkLayer& table,
+                                                      const LevelMap::Cut& cut) {
     std::vector<std::uint32_t> places;
-    for (std::uint32_t place = 0; place < table->low.size(); ++place)
-        if (may_hold(table->low[place], table->high[place], cut))
+    for (std::uint32_t place = 0; place < table.low.size(); ++place)
+        if (may_hold(table.low[place], table.high[place], cut))
             places.push_back(place);
+    return places;
+}
+
+bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
+    asked_ = cut;
+    const std::vector<std::uint32_t> places = candidate_chunks(*store_.layer(step_, layer_), cut);
     if (places.empty())
         return false;
     const BrickGrid grid(cells().grid);
     bricks_.assign(grid.bytes_per_step(), 0);
     std::fill_n(bricks_.begin(), grid.count(), std::uint8_t{255});
-    const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer_, places);
+    const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer_, places, stop_);
     bool any = false;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const std::uint32_t candidates = candidates_of(chunks[i]->bricks, cut);
@@ -135,14 +167,21 @@ bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
             if (reach >> d & 1 && at[0] < n[0] && at[1] < n[1] && at[2] < n[2])
                 need(at[0], at[1], at[2]);
         }
+        // At hand already: looked up no more.
+        if (std::uint8_t& state = state_[1][places[i]]; state != kFilled) {
+            copy(*chunks[i], layer_, places[i]);
+            state = kFilled;
+        }
     }
     fill();
     return any;
 }
 
+/// Goes through the cells in stretches that need the same chunks.
 void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
     struct Range {
         std::uint32_t first, last; ///< chunks
+        bool operator==(const Range&) const = default;
     };
     const auto& n = grid_.vertices;
     const auto inner = [](std::uint32_t cell) {
@@ -159,58 +198,92 @@ void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
                     need(cx, cy, cz);
     };
     CellWalk walk(around().grid);
+    Range inner_y{}, outer_y{}, inner_z{}, outer_z{};
+    std::uint32_t same_from = 1, same_to = 0; // cells of the row that need what the last one did
     for (const CellId id : cells) {
-        walk.to(id);
-        const std::uint32_t x = walk.x(), y = walk.y(), z = walk.z() + first_plane_;
-        need_all(inner(x), inner(y), inner(z));
-        if (!normals)
+        if (walk.to(id)) {
+            const std::uint32_t z = walk.z() + first_plane_;
+            inner_y = inner(walk.y());
+            outer_y = normals ? outer(walk.y(), 1) : inner_y;
+            inner_z = inner(z);
+            outer_z = normals ? outer(z, 2) : inner_z;
+            same_from = 1;
+            same_to = 0;
+        }
+        const std::uint32_t x = walk.x();
+        if (x >= same_from && x <= same_to)
             continue;
-        need_all(outer(x, 0), inner(y), inner(z));
-        need_all(inner(x), outer(y, 1), inner(z));
-        need_all(inner(x), inner(y), outer(z, 2));
+        const Range inner_x = inner(x), outer_x = normals ? outer(x, 0) : inner_x;
+        need_all(outer_x, inner_y, inner_z);
+        if (outer_y != inner_y)
+            need_all(inner_x, outer_y, inner_z);
+        if (outer_z != inner_z)
+            need_all(inner_x, inner_y, outer_z);
+        if (outer_x.first == outer_x.last) { // so do all cells that lie as deep within the chunk
+            same_from = x;
+            same_to = outer_x.first * kChunkEdge + kChunkEdge - 3;
+        }
     }
     fill();
 }
 
 void StepSlab::fill_all() {
-    std::ranges::fill(needed_[1], std::uint8_t{1});
-    if (layer_ + 1 < chunks_.layers())
-        std::ranges::fill(needed_[2], std::uint8_t{1});
+    const std::uint32_t end = std::min(layer_ + 2, chunks_.layers());
+    for (std::uint32_t layer = layer_; layer < end; ++layer)
+        for (std::uint8_t& state : state_[layer + 1 - layer_])
+            if (state == kEmpty)
+                state = kNeeded;
     fill();
 }
 
-/// Copies the chunks that are needed to their places, as far as the slab reaches.
+/// Copies the chunks that are needed to their places.
 void StepSlab::fill() {
-    const std::size_t size = size_of(store_.info().type);
-    const std::size_t row = grid_.vertices[0] * size, plane = grid_.vertices[1] * row;
-    auto* const out = reinterpret_cast<std::byte*>(words_.data());
-    std::vector<std::uint32_t> places;
-    for (std::uint32_t i = 0; i < needed_.size(); ++i) {
-        places.clear();
-        for (std::uint32_t place = 0; place < needed_[i].size(); ++place)
-            if (needed_[i][place])
-                places.push_back(place);
-        if (places.empty())
+    std::array<std::vector<std::uint32_t>, 3> places;
+    for (std::uint32_t i = 0; i < state_.size(); ++i) {
+        for (std::uint32_t place = 0; place < state_[i].size(); ++place)
+            if (state_[i][place] == kNeeded)
+                places[i].push_back(place);
+        if (!places[i].empty()) // all of them before waiting for any
+            expect(layer_ + i - 1, places[i]);
+    }
+    for (std::uint32_t i = 0; i < state_.size(); ++i) {
+        if (places[i].empty())
             continue;
-        std::ranges::fill(needed_[i], std::uint8_t{0});
         const std::uint32_t layer = layer_ + i - 1;
-        const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer, places);
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            const Chunk& chunk = *chunks[k];
-            const auto [x, y] = chunks_.at(places[k]);
-            const std::uint32_t bottom = layer * kChunkEdge;
-            const std::size_t width = chunk.size[0] * size;
-            const std::uint32_t first = std::max(bottom, first_plane_);
-            const std::uint32_t end = std::min(bottom + chunk.size[2], end_plane_);
-            for (std::uint32_t z = first; z < end; ++z) {
-                const std::byte* from = chunk.values.data() + (z - bottom) * chunk.size[1] * width;
-                std::byte* to =
-                    out + (z - first_plane_) * plane + y * kChunkEdge * row + x * kChunkEdge * size;
-                for (std::uint32_t dy = 0; dy < chunk.size[1]; ++dy, from += width, to += row)
-                    std::memcpy(to, from, width);
-            }
+        const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer, places[i], stop_);
+        for (std::size_t k = 0; k < places[i].size(); ++k) {
+            copy(*chunks[k], layer, places[i][k]);
+            state_[i][places[i][k]] = kFilled;
         }
     }
+}
+
+/// Asks for those that nobody has asked for.
+void StepSlab::expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
+    if (!asked_)
+        return void(store_.expect(step_, layer, places));
+    const ChunkLayerPtr table = store_.layer(step_, layer);
+    std::vector<std::uint32_t> others;
+    std::ranges::copy_if(places, std::back_inserter(others), [&](std::uint32_t place) {
+        return !may_hold(table->low[place], table->high[place], *asked_);
+    });
+    store_.expect(step_, layer, others);
+}
+
+/// As far as the slab reaches.
+void StepSlab::copy(const Chunk& chunk, std::uint32_t layer, std::uint32_t place) {
+    const std::size_t size = size_of(store_.info().type);
+    const std::size_t row = grid_.vertices[0] * size, plane = grid_.vertices[1] * row;
+    const auto [x, y] = chunks_.at(place);
+    const std::uint32_t bottom = layer * kChunkEdge;
+    const std::size_t width = chunk.size[0] * size;
+    const std::uint32_t first = std::max(bottom, first_plane_);
+    const std::uint32_t end = std::min(bottom + chunk.size[2], end_plane_);
+    auto* const out =
+        reinterpret_cast<std::byte*>(words_.data()) + y * kChunkEdge * row + x * kChunkEdge * size;
+    for (std::uint32_t z = first; z < end; ++z)
+        copy_rows(chunk.values.data() + (z - bottom) * chunk.size[1] * width, width, chunk.size[1],
+                  out + (z - first_plane_) * plane, row);
 }
 
 } // namespace isochron::index

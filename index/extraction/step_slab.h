@@ -8,14 +8,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace isochron::index {
 
 /// The cells whose lowest vertex lies in one layer of chunks, and the vertices that they and their
-/// normals need. What was not filled has values of no meaning. Keeps its memory: one for each
-/// thread. Every function that fills throws Error as ChunkStore does.
+/// normals need. What was not filled has values of no meaning; what was filled stays until the next
+/// `begin`. Keeps its memory: one for each thread. Every function that fills throws as ChunkStore
+/// does.
 class StepSlab {
   public:
     /// @param store outlives this
@@ -28,9 +31,14 @@ class StepSlab {
     /// Memory that a slab of this grid takes.
     static std::uint64_t bytes(const SeriesInfo& info);
 
-    void begin(std::uint32_t step, std::uint32_t layer);
+    /// @param stop fills throw Stopped when it is set
+    void begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop = {});
 
-    /// Fills what a search in bricks needs. @return whether any brick may hold active cells
+    /// The chunks of a layer whose ranks say that there may be active cells, ascending.
+    static std::vector<std::uint32_t> candidate_chunks(const ChunkLayer& table,
+                                                       const LevelMap::Cut& cut);
+    /// Fills what a search in bricks needs; somebody has asked for the candidates of this layer and
+    /// those around it. @return whether any brick may hold active cells
     bool fill_candidates(const LevelMap::Cut& cut);
     /// Of `cells()`, as from `build_bricks`; none but those that may hold active cells.
     std::span<const std::uint8_t> bricks() const { return bricks_; }
@@ -49,11 +57,17 @@ class StepSlab {
 
   private:
     StepValues planes(std::uint32_t first, std::uint32_t end) const;
+    enum State : std::uint8_t { kEmpty, kNeeded, kFilled };
+
     void need(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
-        needed_[layer + 1 - layer_][chunks_.place(x, y)] = 1;
+        std::uint8_t& state = state_[layer + 1 - layer_][chunks_.place(x, y)];
+        if (state == kEmpty)
+            state = kNeeded;
     }
     void set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y, std::uint32_t candidates);
     void fill();
+    void expect(std::uint32_t layer, std::span<const std::uint32_t> places) const;
+    void copy(const Chunk& chunk, std::uint32_t layer, std::uint32_t place);
 
     const ChunkStore& store_;
     const ChunkGrid& chunks_;
@@ -62,7 +76,9 @@ class StepSlab {
     std::uint32_t step_ = 0, layer_ = 0, first_plane_ = 0, end_plane_ = 0;
     std::vector<std::uint64_t> words_; ///< the values
     std::vector<std::uint8_t> bricks_;
-    std::array<std::vector<std::uint8_t>, 3> needed_; ///< by layer (below, this, above) and place
+    std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
+    std::stop_token stop_;
+    std::optional<LevelMap::Cut> asked_; ///< whose candidate chunks the disk has been asked for
 };
 
 } // namespace isochron::index

@@ -47,7 +47,7 @@ bool SurfaceColors::color_by_value(const Query& query, std::span<const CellId> c
     if (!step)
         return layers_.color_cells(query, cells, out, stop);
     const ColorArray& array = *file_->color();
-    const LoadedStep colors = file_->load_color(query.step);
+    const LoadedStep colors = file_->load_color(query.step, stop);
     return color_cells(*step, colors.values, query, cells, array.low, array.high, out, stop);
 }
 

@@ -176,7 +176,9 @@ bool BrickGatherer::gather(const ChunkStore& chunks, std::uint32_t number,
             std::transform(first, last, std::back_inserter(places), place_of);
             std::ranges::sort(places);
             places.erase(std::unique(places.begin(), places.end()), places.end());
-            const auto found = chunks.chunks(number, static_cast<std::uint32_t>(layer), places);
+            const auto at_layer = static_cast<std::uint32_t>(layer);
+            chunks.expect(number, at_layer, places);
+            const auto found = chunks.chunks(number, at_layer, places, stop);
             for (auto brick = first; brick != last; ++brick) {
                 const auto place = std::ranges::lower_bound(places, place_of(*brick));
                 const Chunk& chunk = *found[static_cast<std::size_t>(place - places.begin())];

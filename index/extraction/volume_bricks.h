@@ -63,7 +63,7 @@ class BrickGatherer {
     bool gather(const StepValues& step, std::uint32_t number, const BrickLevels& levels,
                 VolumeBricks& bricks, const std::stop_token& stop = {});
 
-    /// The same from the chunks of a step, with all cores. @throws Error as ChunkStore does
+    /// The same from the chunks of a step, with all cores. @throws as ChunkStore does
     bool gather(const ChunkStore& chunks, std::uint32_t number, const BrickLevels& levels,
                 VolumeBricks& bricks, const std::stop_token& stop = {});
 

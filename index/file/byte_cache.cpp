@@ -1,12 +1,9 @@
 // Eviction of what was not used for longest.
 #include "index/file/byte_cache.h"
 
-#include <vector>
-
 namespace isochron::index {
 
-std::shared_ptr<const void> ByteCache::find_any(const Key& key) {
-    const std::scoped_lock lock(mutex_);
+std::shared_ptr<const void> ByteCache::take(const Key& key) {
     const auto found = by_key_.find(key);
     ++(found == by_key_.end() ? use_.misses : use_.hits);
     if (found == by_key_.end())
@@ -15,14 +12,16 @@ std::shared_ptr<const void> ByteCache::find_any(const Key& key) {
     return found->second->value;
 }
 
-void ByteCache::add(const Key& key, std::shared_ptr<const void> value, std::uint64_t bytes) {
+void ByteCache::add_all(std::vector<Entry> entries) {
     std::vector<std::shared_ptr<const void>> dropped; // freed after the lock
     const std::scoped_lock lock(mutex_);
-    if (by_key_.contains(key)) // somebody else was faster
-        return;
-    entries_.push_front({key, std::move(value), bytes});
-    by_key_[key] = entries_.begin();
-    use_.held += bytes;
+    for (Entry& entry : entries) {
+        if (by_key_.contains(entry.key)) // somebody else was faster
+            continue;
+        use_.held += entry.bytes;
+        entries_.push_front(std::move(entry));
+        by_key_[entries_.front().key] = entries_.begin();
+    }
     while (use_.held > use_.budget) {
         Entry& last = entries_.back();
         use_.held -= last.bytes;
@@ -30,6 +29,14 @@ void ByteCache::add(const Key& key, std::shared_ptr<const void> value, std::uint
         by_key_.erase(last.key);
         entries_.pop_back();
     }
+}
+
+std::vector<bool> ByteCache::held(std::span<const Key> keys) const {
+    std::vector<bool> held(keys.size());
+    const std::scoped_lock lock(mutex_);
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        held[i] = by_key_.contains(keys[i]);
+    return held;
 }
 
 ByteCache::Use ByteCache::use() const {

@@ -6,7 +6,10 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace isochron::index {
 
@@ -29,21 +32,40 @@ class ByteCache {
     std::shared_ptr<const T> find(const Key& key) {
         return std::static_pointer_cast<const T>(find_any(key));
     }
-    void add(const Key& key, std::shared_ptr<const void> value, std::uint64_t bytes);
-    Use use() const;
-
-  private:
+    /// The same for many keys at once, in their order.
+    template <class T>
+    std::vector<std::shared_ptr<const T>> find_all(std::span<const Key> keys) {
+        std::vector<std::shared_ptr<const T>> found;
+        found.reserve(keys.size());
+        const std::scoped_lock lock(mutex_);
+        for (const Key& key : keys)
+            found.push_back(std::static_pointer_cast<const T>(take(key)));
+        return found;
+    }
+    void add(const Key& key, std::shared_ptr<const void> value, std::uint64_t bytes) {
+        add_all({{key, std::move(value), bytes}});
+    }
     struct Entry {
         Key key;
         std::shared_ptr<const void> value;
         std::uint64_t bytes;
     };
+    void add_all(std::vector<Entry> entries);
+    /// Which of them are held; counts as no use of them.
+    std::vector<bool> held(std::span<const Key> keys) const;
+    Use use() const;
+
+  private:
     struct Hash {
         std::size_t operator()(const Key& key) const {
             return (key.high * 0x9e3779b97f4a7c15u) ^ (key.low * 0xc2b2ae3d27d4eb4fu);
         }
     };
-    std::shared_ptr<const void> find_any(const Key& key);
+    std::shared_ptr<const void> find_any(const Key& key) {
+        const std::scoped_lock lock(mutex_);
+        return take(key);
+    }
+    std::shared_ptr<const void> take(const Key& key); ///< with the lock held
 
     mutable std::mutex mutex_;
     Use use_;

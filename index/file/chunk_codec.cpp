@@ -1,6 +1,9 @@
 // Packing of chunks: differences of neighbors, bytes of equal weight together, then a library.
 #include "index/file/chunk_codec.h"
 
+#include "index/file/chunk_sums.h"
+#include "index/file/packed_rows.h"
+
 #include <lz4.h>
 #include <zstd.h>
 
@@ -13,7 +16,7 @@ namespace {
 
 enum class Form : unsigned { constant, stored, lz4, zstd };
 
-constexpr unsigned kFormMask = 3, kShuffled = 32, kKnownBits = 63;
+constexpr unsigned kFormMask = 3, kShuffled = 32, kRows = 64, kKnownBits = 127;
 /// Bits for differences along x, y and z.
 constexpr std::array<unsigned, 3> kAlong{4, 8, 16};
 /// Differences that `fitting` tries: along x; x and y; all.
@@ -51,29 +54,6 @@ void to_differences(T* values, const Size& size, std::size_t axis) {
             values[first + i] = static_cast<T>(values[first + i] - values[first + i - step]);
 }
 
-template <class T>
-void from_differences(T* values, const Size& size, std::size_t axis) {
-    const std::size_t row = size[0], plane = row * size[1], count = plane * size[2];
-    if (axis == 2) {
-        for (std::size_t at = plane; at < count; at += plane)
-            for (std::size_t i = at; i < at + plane; ++i) // no two of a plane depend on each other
-                values[i] = static_cast<T>(values[i] + values[i - plane]);
-        return;
-    }
-    if (axis == 1) {
-        for (std::size_t first = 0; first < count; first += plane)
-            for (std::size_t at = first + row; at < first + plane; at += row)
-                for (std::size_t i = at; i < at + row; ++i)
-                    values[i] = static_cast<T>(values[i] + values[i - row]);
-        return;
-    }
-    for (std::size_t first = 0; first < count; first += row) {
-        T sum = 0;
-        for (std::size_t i = first; i < first + row; ++i)
-            values[i] = sum = static_cast<T>(sum + values[i]);
-    }
-}
-
 /// About the bits that the differences take.
 template <class T>
 std::uint64_t cost(std::span<const T> differences) {
@@ -96,15 +76,13 @@ void shuffle(std::span<const T> values, std::byte* out) {
             *out++ = bytes[i * sizeof(T) + byte];
 }
 
-void unshuffle(std::span<const std::byte> shuffled, std::size_t size, std::byte* out) {
-    const std::size_t count = shuffled.size() / size;
-    for (std::size_t byte = 0; byte < size; ++byte)
-        for (std::size_t i = 0; i < count; ++i)
-            out[i * size + byte] = shuffled[byte * count + i];
-}
-
 bool all_equal(std::span<const std::byte> values, std::size_t size) {
     return std::memcmp(values.data(), values.data() + size, values.size() - size) == 0;
+}
+
+/// The most that packed bytes may take.
+std::size_t limit_of(std::size_t bytes) {
+    return bytes - bytes / kLeastGain;
 }
 
 struct FreeUnpacker {
@@ -150,7 +128,7 @@ struct ChunkPacker::State {
 
     /// @return its length; 0 where it does not get shorter
     std::size_t press(Form form, std::span<const std::byte> bytes) {
-        const std::size_t limit = bytes.size() - bytes.size() / kLeastGain;
+        const std::size_t limit = limit_of(bytes.size());
         packed.resize(limit);
         if (form == Form::lz4) {
             const int size = LZ4_compress_default(
@@ -193,6 +171,14 @@ void ChunkPacker::pack(ValueType type, const Size& size, std::span<const std::by
             }
         });
         const auto& bytes = head & kShuffled ? state_->shuffled : state_->best;
+        if (state_->codec == Codec::fitting && word == 1) {
+            head = static_cast<unsigned>(Form::stored) | kRows | (head & ~kFormMask);
+            state_->packed.clear();
+            pack_rows(bytes, state_->packed);
+            if (state_->packed.size() <= limit_of(values.size()))
+                return put(head, state_->packed);
+            return put(static_cast<unsigned>(Form::stored), values);
+        }
         if (const std::size_t length = state_->press(form, bytes))
             return put(head, std::span(state_->packed).first(length));
     }
@@ -207,7 +193,9 @@ bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> p
     const std::span<const std::byte> body = packed.subspan(1);
     const std::size_t word = size_of(type);
     const Form form = static_cast<Form>(head & kFormMask);
-    if (head & ~kKnownBits || (form <= Form::stored && head & ~kFormMask))
+    const bool rows = head & kRows;
+    if (head & ~kKnownBits || (form <= Form::stored && head & ~kFormMask && !rows) ||
+        (rows && (form != Form::stored || head & kShuffled || word != 1)))
         return false;
     if (form == Form::constant) {
         if (body.size() != word)
@@ -216,7 +204,7 @@ bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> p
             std::memcpy(out.data() + at, body.data(), word);
         return true;
     }
-    if (form == Form::stored) {
+    if (form == Form::stored && !rows) {
         if (body.size() != out.size())
             return false;
         std::memcpy(out.data(), body.data(), out.size());
@@ -229,7 +217,10 @@ bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> p
         shuffled.resize(out.size());
         plain = shuffled;
     }
-    if (form == Form::lz4) {
+    if (rows) {
+        if (!unpack_rows(body, plain))
+            return false;
+    } else if (form == Form::lz4) {
         const int length = LZ4_decompress_safe(
             reinterpret_cast<const char*>(body.data()), reinterpret_cast<char*>(plain.data()),
             static_cast<int>(body.size()), static_cast<int>(plain.size()));
@@ -241,11 +232,9 @@ bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> p
     }
     if (head & kShuffled)
         unshuffle(plain, word, out.data());
-    visit_words(type, [&]<class T>(std::type_identity<T>) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (head & kAlong[axis])
-                from_differences(reinterpret_cast<T*>(out.data()), size, axis);
-    });
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (head & kAlong[axis])
+            from_differences(type, size, axis, out);
     return true;
 }
 

@@ -24,7 +24,8 @@ std::optional<Codec> codec_from_name(std::string_view name);
 /// A packed chunk begins with a byte: its low two bits say 0 one value for all, 1 values as they
 /// are, 2 LZ4, 3 Zstandard; bits 2, 3 and 4 that bit patterns are differences along x, y and z (of
 /// unsigned numbers of the type's size, modulo 2^bits); bit 5 that the first bytes of all values
-/// come first, then their second bytes, and so on.
+/// come first, then their second bytes, and so on; bit 6, with 1, that they are in packed rows
+/// (packed_rows.h), of types of one byte.
 class ChunkPacker {
   public:
     explicit ChunkPacker(Codec codec);

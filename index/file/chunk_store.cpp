@@ -6,6 +6,7 @@
 #include "index/file/metadata.h"
 #include "index/file/step_levels.h"
 #include "index/system/parallel.h"
+#include "index/system/read_ahead.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +18,13 @@ namespace {
 
 enum Kind : unsigned { kChunk, kLayer, kWhole, kLevels };
 
-/// Records with less than this between them touch the same pages of the disk: read together.
-constexpr std::uint64_t kSamePages = 4096;
+/// Records with less than this between them are read together: a disk gives so much in the time
+/// that one more request takes.
+constexpr std::uint64_t kNear = 16 << 10;
+/// And no more than this at a time, so that what was read is still near when it is decoded.
+constexpr std::uint64_t kTogether = 256 << 10;
+/// Tables that are read at a time.
+constexpr std::uint64_t kTables = 1 << 20;
 /// A step up to this size is decoded as a whole: less time than it takes to choose.
 constexpr std::uint64_t kSmallStep = 4 << 20;
 /// And up to this one when it is visited again: searching it is then faster than by chunks.
@@ -28,6 +34,28 @@ struct WholeStep {
     std::vector<std::uint64_t> words; ///< the values; their padding is zero
     std::vector<std::uint8_t> bricks;
 };
+
+/// Records that are read together.
+struct Run {
+    std::size_t first, last; ///< of the places
+    std::uint64_t begin, end;
+};
+
+/// @param places ascending
+std::vector<Run> runs_of(const ChunkLayer& table, std::span<const std::uint32_t> places) {
+    std::vector<Run> runs;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::uint64_t begin = table.offsets[places[i]], end = table.offsets[places[i] + 1];
+        if (!runs.empty() && begin - runs.back().end < kNear &&
+            end - runs.back().begin <= kTogether) {
+            runs.back().last = i;
+            runs.back().end = end;
+        } else {
+            runs.push_back({i, i, begin, end});
+        }
+    }
+    return runs;
+}
 
 /// Puts a chunk's bricks where they are in the order of `build_bricks`.
 void place_bricks(const Chunk& chunk, const BrickGrid& grid, const std::array<std::uint32_t, 3>& at,
@@ -59,33 +87,59 @@ void ChunkStore::damaged(std::uint32_t step, const std::string& what) const {
         fmt::format("{}: damaged: {}, step {}: {}", source_.name(), array_.called, step, what));
 }
 
+std::vector<ByteCache::Key> ChunkStore::keys(std::uint32_t step, std::uint32_t layer,
+                                             std::span<const std::uint32_t> places) const {
+    std::vector<ByteCache::Key> keys(places.size());
+    std::ranges::transform(places, keys.begin(),
+                           [&](std::uint32_t place) { return key(kChunk, step, layer, place); });
+    return keys;
+}
+
 ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
-    const ByteCache::Key at = key(kLayer, step, layer);
-    if (auto known = cache_.find<ChunkLayer>(at))
+    if (auto known = cache_.find<ChunkLayer>(key(kLayer, step, layer)))
         return known;
+    const std::uint32_t count = grid_.chunks_of_layer();
+    const std::uint64_t size = layer_table_bytes(count);
+    const auto together = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kTables / size));
+    const std::uint32_t first = layer / together * together;
+    const std::uint32_t end = std::min(first + together, grid_.layers());
+    std::vector<std::byte> bytes((end - first) * size);
+    const StepEntry& entry = array_.steps[step];
+    source_.read(entry.offset + entry.tables + first * size, bytes);
+    std::vector<ByteCache::Entry> tables;
+    for (std::uint32_t i = first; i < end; ++i)
+        tables.push_back({key(kLayer, step, i),
+                          table_from(step, i, std::span(bytes).subspan((i - first) * size, size)),
+                          count * (sizeof(std::uint64_t) + 2)});
+    auto asked = std::static_pointer_cast<const ChunkLayer>(tables[layer - first].value);
+    cache_.add_all(std::move(tables));
+    return asked;
+}
+
+ChunkLayerPtr ChunkStore::table_from(std::uint32_t step, std::uint32_t layer,
+                                     std::span<const std::byte> bytes) const {
     const StepEntry& entry = array_.steps[step];
     const std::uint32_t count = grid_.chunks_of_layer();
-    std::vector<std::byte> bytes(layer_table_bytes(count));
-    const std::uint64_t begin = entry.offset;
-    source_.read(begin + entry.tables + layer * bytes.size(), bytes);
     LayerHead head;
     std::memcpy(&head, bytes.data(), sizeof head);
-    if (checksum_of(std::span(bytes).subspan(sizeof head.checksum)) != head.checksum)
+    if (checksum_of(bytes.subspan(sizeof head.checksum)) != head.checksum)
         damaged(step, fmt::format("the checksum of the table of layer {} does not match", layer));
     auto table = std::make_shared<ChunkLayer>();
+    table->offsets.resize(count + 1);
+    table->low.resize(count);
+    table->high.resize(count);
     std::uint64_t end = head.records;
     for (std::uint32_t place = 0; place < count; ++place) {
         ChunkEntry chunk;
         std::memcpy(&chunk, bytes.data() + sizeof head + place * sizeof chunk, sizeof chunk);
-        table->offsets.push_back(begin + end);
-        table->low.push_back(chunk.low);
-        table->high.push_back(chunk.high);
+        table->offsets[place] = entry.offset + end;
+        table->low[place] = chunk.low;
+        table->high[place] = chunk.high;
         end += chunk.bytes;
     }
-    table->offsets.push_back(begin + end);
+    table->offsets[count] = entry.offset + end;
     if (head.records > entry.tables || end > entry.tables)
         damaged(step, fmt::format("layer {} lies outside its step", layer));
-    cache_.add(at, table, count * (sizeof(std::uint64_t) + 2));
     return table;
 }
 
@@ -109,30 +163,34 @@ LevelMapPtr ChunkStore::levels(std::uint32_t step) const {
     return kept;
 }
 
+std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t layer,
+                                 std::span<const std::uint32_t> places) const {
+    const std::vector<bool> held = cache_.held(keys(step, layer, places));
+    std::vector<std::uint32_t> missing;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (!held[i])
+            missing.push_back(places[i]);
+    std::uint64_t bytes = 0;
+    if (missing.empty())
+        return bytes;
+    for (const Run& run : runs_of(*this->layer(step, layer), missing)) {
+        source_.expect(run.begin, run.end - run.begin);
+        bytes += run.end - run.begin;
+    }
+    return bytes;
+}
+
 /// Calls `f(i, record)` for every place, `i` counting from 0.
 template <class F>
 void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
-                              F&& f) const {
-    struct Run {
-        std::size_t first, last; ///< of `places`
-        std::uint64_t begin, end;
-    };
-    std::vector<Run> runs;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const std::uint64_t begin = table.offsets[places[i]], end = table.offsets[places[i] + 1];
-        if (!runs.empty() && begin - runs.back().end < kSamePages) {
-            runs.back().last = i;
-            runs.back().end = end;
-        } else {
-            runs.push_back({i, i, begin, end});
-        }
-    }
-    for (const Run& run : runs)
-        source_.expect(run.begin, run.end - run.begin);
-    std::vector<std::byte> bytes;
-    for (const Run& run : runs) {
-        bytes.resize(run.end - run.begin);
-        source_.read(run.begin, bytes);
+                              const std::stop_token& stop, F&& f) const {
+    thread_local std::vector<std::byte> bytes;
+    for (const Run& run : runs_of(table, places)) {
+        if (stop.stop_requested())
+            throw Stopped();
+        if (const std::uint64_t size = run.end - run.begin; bytes.size() < size)
+            bytes.resize(size);
+        source_.read(run.begin, std::span(bytes).first(run.end - run.begin));
         for (std::size_t i = run.first; i <= run.last; ++i) {
             const std::uint64_t begin = table.offsets[places[i]];
             f(i, std::span<const std::byte>(bytes).subspan(begin - run.begin,
@@ -168,30 +226,32 @@ ChunkPtr ChunkStore::decoded(std::uint32_t step, std::uint32_t layer, std::uint3
 }
 
 std::vector<ChunkPtr> ChunkStore::chunks(std::uint32_t step, std::uint32_t layer,
-                                         std::span<const std::uint32_t> places) const {
-    std::vector<ChunkPtr> found(places.size());
+                                         std::span<const std::uint32_t> places,
+                                         const std::stop_token& stop) const {
+    const std::vector<ByteCache::Key> known = keys(step, layer, places);
+    std::vector<ChunkPtr> found = cache_.find_all<Chunk>(known);
     std::vector<std::uint32_t> missing;
     std::vector<std::size_t> where;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        found[i] = cache_.find<Chunk>(key(kChunk, step, layer, places[i]));
+    for (std::size_t i = 0; i < places.size(); ++i)
         if (!found[i]) {
             missing.push_back(places[i]);
             where.push_back(i);
         }
-    }
     if (missing.empty())
         return found;
     const ChunkLayerPtr table = this->layer(step, layer);
-    read_records(*table, missing, [&](std::size_t i, std::span<const std::byte> record) {
+    std::vector<ByteCache::Entry> added;
+    added.reserve(missing.size());
+    read_records(*table, missing, stop, [&](std::size_t i, std::span<const std::byte> record) {
         const ChunkPtr chunk = decoded(step, layer, missing[i], record);
-        cache_.add(key(kChunk, step, layer, missing[i]), chunk,
-                   sizeof(Chunk) + chunk->values.size());
+        added.push_back({known[where[i]], chunk, sizeof(Chunk) + chunk->values.size()});
         found[where[i]] = chunk;
     });
+    cache_.add_all(std::move(added));
     return found;
 }
 
-LoadedStep ChunkStore::whole(std::uint32_t step) const {
+LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) const {
     const SeriesInfo& info = array_.info;
     const std::size_t stride = step_stride(info.step_bytes());
     auto held = cache_.find<WholeStep>(key(kWhole, step));
@@ -208,23 +268,27 @@ LoadedStep ChunkStore::whole(std::uint32_t step) const {
         std::vector<std::uint32_t> places(grid_.chunks_of_layer());
         for (std::uint32_t place = 0; place < places.size(); ++place)
             places[place] = place;
+        ReadAhead ahead(grid_.layers(),
+                        [&](std::uint32_t layer) { return expect(step, layer, places); });
         const auto take = [&](std::size_t at, unsigned) {
             const auto layer = static_cast<std::uint32_t>(at);
+            ahead.reach(layer);
             const ChunkLayerPtr table = this->layer(step, layer);
-            read_records(*table, places, [&](std::size_t i, std::span<const std::byte> record) {
-                const ChunkPtr chunk = decoded(step, layer, places[i], record);
-                const auto [x, y] = grid_.at(places[i]);
-                if (array_.has_bricks)
-                    place_bricks(*chunk, bricks, {x, y, layer}, all->bricks);
-                const std::byte* from = chunk->values.data();
-                for (std::uint32_t dz = 0; array_.has_values && dz < chunk->size[2]; ++dz)
-                    for (std::uint32_t dy = 0; dy < chunk->size[1]; ++dy) {
-                        std::memcpy(out + (layer * kChunkEdge + dz) * plane +
-                                        (y * kChunkEdge + dy) * row + x * kChunkEdge * size,
-                                    from, chunk->size[0] * size);
-                        from += chunk->size[0] * size;
-                    }
-            });
+            read_records(
+                *table, places, stop, [&](std::size_t i, std::span<const std::byte> record) {
+                    const ChunkPtr chunk = decoded(step, layer, places[i], record);
+                    const auto [x, y] = grid_.at(places[i]);
+                    if (array_.has_bricks)
+                        place_bricks(*chunk, bricks, {x, y, layer}, all->bricks);
+                    const std::byte* from = chunk->values.data();
+                    for (std::uint32_t dz = 0; array_.has_values && dz < chunk->size[2]; ++dz)
+                        for (std::uint32_t dy = 0; dy < chunk->size[1]; ++dy) {
+                            std::memcpy(out + (layer * kChunkEdge + dz) * plane +
+                                            (y * kChunkEdge + dy) * row + x * kChunkEdge * size,
+                                        from, chunk->size[0] * size);
+                            from += chunk->size[0] * size;
+                        }
+                });
         };
         // Threads take time to start: not for the smallest steps.
         parallel_for(grid_.layers(), stride > kSmallStep ? thread_count(0) : 1, take, {});

@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct ChunkLayer {
 using LevelMapPtr = std::shared_ptr<const LevelMap>;
 using ChunkLayerPtr = std::shared_ptr<const ChunkLayer>;
 
+/// Thrown by reading that was given up because it was asked to stop.
+struct Stopped {};
+
 /// What is to be known of an array before its chunks can be read.
 struct ChunkArray {
     std::string called;       ///< for messages: `volume`
@@ -51,15 +55,23 @@ class ChunkStore {
     const SeriesInfo& info() const { return array_.info; }
     const ChunkGrid& grid() const { return grid_; }
 
+    /// Reads the tables of the layers around with it, where they are not known yet.
     ChunkLayerPtr layer(std::uint32_t step, std::uint32_t layer) const;
     /// What the bricks of a step are ranks among; of an index that has bricks.
     LevelMapPtr levels(std::uint32_t step) const;
     /// @param places ascending @return in the same order
+    /// @throws Stopped as well
     std::vector<ChunkPtr> chunks(std::uint32_t step, std::uint32_t layer,
-                                 std::span<const std::uint32_t> places) const;
+                                 std::span<const std::uint32_t> places,
+                                 const std::stop_token& stop = {}) const;
+    /// Says that chunks will be asked for soon, so that the disk works on many requests at once.
+    /// @param places ascending @return bytes that are to be read for them
+    std::uint64_t expect(std::uint32_t step, std::uint32_t layer,
+                         std::span<const std::uint32_t> places) const;
 
     /// The values and bricks of one step as a whole, for work that needs all of it.
-    LoadedStep whole(std::uint32_t step) const;
+    /// @throws Stopped as well
+    LoadedStep whole(std::uint32_t step, const std::stop_token& stop = {}) const;
     /// Whether working on the whole step is better than on the chunks that are needed: where it is
     /// small, is kept already, or is of moderate size and has been worked on before.
     bool better_whole(std::uint32_t step) const;
@@ -72,7 +84,12 @@ class ChunkStore {
     ChunkPtr decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                      std::span<const std::byte> record) const;
     template <class F>
-    void read_records(const ChunkLayer& table, std::span<const std::uint32_t> places, F&& f) const;
+    void read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
+                      const std::stop_token& stop, F&& f) const;
+    std::vector<ByteCache::Key> keys(std::uint32_t step, std::uint32_t layer,
+                                     std::span<const std::uint32_t> places) const;
+    ChunkLayerPtr table_from(std::uint32_t step, std::uint32_t layer,
+                             std::span<const std::byte> bytes) const;
     [[noreturn]] void damaged(std::uint32_t step, const std::string& what) const;
 
     const ByteSource& source_;

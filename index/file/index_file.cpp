@@ -225,12 +225,12 @@ bool IndexFile::has_had(std::uint64_t content_hash) const {
     return false;
 }
 
-LoadedStep IndexFile::load(std::uint32_t step) const {
+LoadedStep IndexFile::load(std::uint32_t step, const std::stop_token& stop) const {
     if (!source_)
-        return chunks().whole(step);
+        return chunks().whole(step, stop);
     auto both = std::make_shared<JoinedStep>(JoinedStep{source_->load(step), {}});
     if (metadata_.plan.tiers.has(Tier::bricks))
-        both->bricks = chunks().whole(step);
+        both->bricks = chunks().whole(step, stop);
     return {both->values.values, both->bricks.bricks, both};
 }
 
@@ -238,8 +238,8 @@ bool IndexFile::better_whole(std::uint32_t step) const {
     return source_ || chunks().better_whole(step);
 }
 
-LoadedStep IndexFile::load_color(std::uint32_t step) const {
-    return color_source_ ? color_source_->load(step) : colors_.front()->whole(step);
+LoadedStep IndexFile::load_color(std::uint32_t step, const std::stop_token& stop) const {
+    return color_source_ ? color_source_->load(step) : colors_.front()->whole(step, stop);
 }
 
 const StepValues& IndexFile::values() const {

@@ -56,8 +56,10 @@ class IndexFile {
     const Metadata& metadata() const { return metadata_; }
 
     /// One step as a whole; decoded, from its source where the file refers to it: not for the
-    /// thread that draws. @throws Error when it cannot be read, is damaged or is not as it was
-    LoadedStep load(std::uint32_t step) const;
+    /// thread that draws. @throws Error when it cannot be read, is damaged or is not as it was;
+    /// Stopped
+    LoadedStep load(std::uint32_t step, const std::stop_token& stop) const;
+    LoadedStep load(std::uint32_t step) const { return load(step, {}); }
     /// Whether that is better than working on the chunks that are needed.
     bool better_whole(std::uint32_t step) const;
     /// How many levels of detail there are, the volume itself included: 0 is the finest
@@ -77,7 +79,8 @@ class IndexFile {
         return colors_.empty() || (level == 0 && color_source_) ? nullptr : colors_[level].get();
     }
     /// One step of it, as `load`. There must be one.
-    LoadedStep load_color(std::uint32_t step) const;
+    LoadedStep load_color(std::uint32_t step, const std::stop_token& stop) const;
+    LoadedStep load_color(std::uint32_t step) const { return load_color(step, {}); }
 
     /// Null where the plan does without them; with the deltas, if any. They may hold the first
     /// steps only.

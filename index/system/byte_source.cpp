@@ -6,10 +6,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <fcntl.h>
 
 namespace isochron::index {
 namespace {
+
+/// The kernel may take up no more than this of what it is told at a time, without a word.
+constexpr std::uint64_t kAdvised = 128 << 10;
 
 class OpenFile final : public ByteSource {
   public:
@@ -21,8 +26,10 @@ class OpenFile final : public ByteSource {
     const std::string& name() const override { return name_; }
     std::uint64_t size() const override { return file_.size(); }
     void expect(std::uint64_t offset, std::uint64_t bytes) const override {
-        ::posix_fadvise(file_.descriptor(), static_cast<off_t>(offset), static_cast<off_t>(bytes),
-                        POSIX_FADV_WILLNEED);
+        for (const std::uint64_t end = offset + bytes; offset < end; offset += kAdvised)
+            ::posix_fadvise(file_.descriptor(), static_cast<off_t>(offset),
+                            static_cast<off_t>(std::min(end - offset, kAdvised)),
+                            POSIX_FADV_WILLNEED);
     }
 
   protected:

@@ -1,0 +1,137 @@
+// Sums along an axis, a row of a whole chunk at a time.
+#include "index/file/chunk_sums.h"
+
+#include "index/file/chunk_grid.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "index/file/chunk_sums.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace isochron::index::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Size = std::array<std::uint32_t, 3>;
+
+#if HWY_TARGET != HWY_SCALAR
+/// Sums along rows of `kChunkEdge` values.
+template <class T>
+void sum_whole_rows(T* values, std::size_t count) {
+    const hn::CappedTag<T, 16 / sizeof(T)> d;
+    constexpr std::size_t kLanes = hn::MaxLanes(d);
+    static_assert(kChunkEdge % kLanes == 0);
+    for (std::size_t first = 0; first < count; first += kChunkEdge) {
+        auto before = hn::Zero(d); // the sum up to here
+        for (std::size_t i = first; i < first + kChunkEdge; i += kLanes) {
+            auto sum = hn::LoadU(d, values + i);
+            sum = hn::Add(sum, hn::ShiftLeftLanes<1>(d, sum));
+            if constexpr (kLanes > 2)
+                sum = hn::Add(sum, hn::ShiftLeftLanes<2>(d, sum));
+            if constexpr (kLanes > 4)
+                sum = hn::Add(sum, hn::ShiftLeftLanes<4>(d, sum));
+            if constexpr (kLanes > 8)
+                sum = hn::Add(sum, hn::ShiftLeftLanes<8>(d, sum));
+            sum = hn::Add(sum, before);
+            hn::StoreU(sum, d, values + i);
+            if constexpr (kLanes < kChunkEdge)
+                before = hn::Set(d, values[i + kLanes - 1]);
+        }
+    }
+}
+#endif
+
+template <class T>
+void sum_rows(T* values, std::size_t row, std::size_t count) {
+#if HWY_TARGET != HWY_SCALAR
+    if (row == kChunkEdge)
+        return sum_whole_rows(values, count);
+#endif
+    for (std::size_t first = 0; first < count; first += row) {
+        T sum = 0;
+        for (std::size_t i = first; i < first + row; ++i)
+            values[i] = sum = static_cast<T>(sum + values[i]);
+    }
+}
+
+/// Adds to each of `count` values the one that lies `back` before it, `width` at a time: no two of
+/// them depend on each other.
+template <class T, class Width>
+void sum_back(T* values, std::size_t count, std::size_t back, Width width) {
+    for (std::size_t at = back; at < count; at += width)
+        for (std::size_t i = 0; i < width; ++i)
+            values[at + i] = static_cast<T>(values[at + i] + values[at + i - back]);
+}
+
+template <class T>
+void sum_along(T* values, const Size& size, std::size_t axis) {
+    const std::size_t row = size[0], plane = row * size[1], count = plane * size[2];
+    constexpr std::integral_constant<std::size_t, kChunkEdge> kWhole;
+    if (axis == 0)
+        return sum_rows(values, row, count);
+    if (axis == 2)
+        return sum_back(values, count, plane, plane);
+    for (std::size_t first = 0; first < count; first += plane)
+        if (row == kChunkEdge)
+            sum_back(values + first, plane, row, kWhole);
+        else
+            sum_back(values + first, plane, row, row);
+}
+
+/// The compiler turns this into moves of whole vectors.
+template <class T>
+void join_bytes(const std::byte* bytes, std::size_t count, std::byte* out) {
+    auto* const words = reinterpret_cast<T*>(out);
+    for (std::size_t i = 0; i < count; ++i) {
+        T word = 0;
+        for (std::size_t byte = 0; byte < sizeof(T); ++byte)
+            word |= static_cast<T>(static_cast<T>(bytes[byte * count + i]) << 8 * byte);
+        words[i] = word;
+    }
+}
+
+void sum_values(std::size_t bytes, const Size& size, std::size_t axis, std::byte* values) {
+    switch (bytes) {
+    case 1: return sum_along(reinterpret_cast<std::uint8_t*>(values), size, axis);
+    case 2: return sum_along(reinterpret_cast<std::uint16_t*>(values), size, axis);
+    case 4: return sum_along(reinterpret_cast<std::uint32_t*>(values), size, axis);
+    default: return sum_along(reinterpret_cast<std::uint64_t*>(values), size, axis);
+    }
+}
+
+void join_values(std::size_t bytes, const std::byte* shuffled, std::size_t count, std::byte* out) {
+    switch (bytes) {
+    case 1: std::copy_n(shuffled, count, out); return;
+    case 2: return join_bytes<std::uint16_t>(shuffled, count, out);
+    case 4: return join_bytes<std::uint32_t>(shuffled, count, out);
+    default: return join_bytes<std::uint64_t>(shuffled, count, out);
+    }
+}
+
+} // namespace
+} // namespace isochron::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace isochron::index {
+
+HWY_EXPORT(sum_values);
+HWY_EXPORT(join_values);
+
+void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size, std::size_t axis,
+                      std::span<std::byte> values) {
+    HWY_DYNAMIC_DISPATCH(sum_values)(size_of(type), size, axis, values.data());
+}
+
+void unshuffle(std::span<const std::byte> shuffled, std::size_t size, std::byte* out) {
+    HWY_DYNAMIC_DISPATCH(join_values)(size, shuffled.data(), shuffled.size() / size, out);
+}
+
+} // namespace isochron::index
+#endif

@@ -1,0 +1,23 @@
+// From the differences that a packed chunk holds back to its values.
+#pragma once
+
+#include "index/volume/value_type.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace isochron::index {
+
+/// Replaces differences along an axis by values, the first ones staying: sums of unsigned numbers
+/// of the type's size, modulo 2^bits. Axes may be undone in any order.
+/// @param values [z][y][x], x fastest, `size` of them along x, y and z
+void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size, std::size_t axis,
+                      std::span<std::byte> values);
+
+/// From the first bytes of all values, then all second bytes and so on, to the values.
+/// @param size bytes of a value @param out as long as `shuffled`
+void unshuffle(std::span<const std::byte> shuffled, std::size_t size, std::byte* out);
+
+} // namespace isochron::index

@@ -50,7 +50,7 @@ TEST(PackedRows, AreWhatTheirDescriptionSaysForEveryWidthAndLength) {
     std::mt19937 random(test_seed());
     for (int round = 0; round < 400; ++round) {
         Bytes numbers(round < 40 ? round + 1 : 1 + random() % 4200);
-        const unsigned widest = random() % 9;
+        const auto widest = static_cast<unsigned>(random() % 9);
         for (std::byte& number : numbers)
             number = static_cast<std::byte>(random() % (1u << random() % (widest + 1)) -
                                             (random() % 2 ? 0 : (1u << widest) / 2));

@@ -8,12 +8,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace isochron::index {
 namespace {
 
 constexpr std::size_t kKept = 4; // the step on screen, the one asked for, and a neighbor of each
+
+std::size_t words_of(const SeriesInfo& info) {
+    return step_stride(info.step_bytes()) / sizeof(std::uint64_t);
+}
 
 } // namespace
 
@@ -37,14 +42,31 @@ void StepSource::open_sources() {
     series_ = std::move(series);
 }
 
+std::shared_ptr<std::uint64_t[]> StepSource::room_for_a_step() {
+    std::shared_ptr<std::uint64_t[]> words;
+    if (kept_.size() == kKept) {
+        words = std::move(kept_.front().words);
+        kept_.erase(kept_.begin());
+    }
+    // Its pages are there already, which saves as much time as a fast reader takes.
+    if (words && words.use_count() == 1)
+        return words;
+    words = std::make_shared_for_overwrite<std::uint64_t[]>(words_of(info_));
+    // Behind the values, to the end of the stride.
+    std::ranges::fill(
+        std::as_writable_bytes(std::span(words.get(), words_of(info_))).subspan(info_.step_bytes()),
+        std::byte{0});
+    return words;
+}
+
 LoadedStep StepSource::load(std::uint32_t step) {
     const std::lock_guard lock(mutex_);
     auto found = std::find_if(kept_.begin(), kept_.end(),
                               [&](const Decoded& decoded) { return decoded.step == step; });
     if (found == kept_.end()) {
-        auto words = std::make_shared<std::vector<std::uint64_t>>(step_stride(info_.step_bytes()) /
-                                                                  sizeof(std::uint64_t));
-        const auto stored = std::as_writable_bytes(std::span(*words)).first(info_.step_bytes());
+        auto words = room_for_a_step();
+        const auto stored = std::as_writable_bytes(std::span(words.get(), words_of(info_)))
+                                .first(info_.step_bytes());
         if (!series_)
             open_sources();
         try {
@@ -59,8 +81,6 @@ LoadedStep StepSource::load(std::uint32_t step) {
                 "{}: its source {} has changed since it was built (step {})", index_.string(),
                 info_.sources.size() == info_.steps() ? info_.sources[step] : info_.sources.back(),
                 step));
-        if (kept_.size() == kKept)
-            kept_.erase(kept_.begin());
         kept_.push_back({step, std::move(words)});
         found = kept_.end() - 1;
     }
@@ -70,8 +90,8 @@ LoadedStep StepSource::load(std::uint32_t step) {
              .type = info_.type,
              .scaling = info_.scaling,
              .steps = info_.steps(),
-             .first = reinterpret_cast<const std::byte*>(decoded.words->data()),
-             .stride = decoded.words->size() * sizeof(std::uint64_t),
+             .first = reinterpret_cast<const std::byte*>(decoded.words.get()),
+             .stride = words_of(info_) * sizeof(std::uint64_t),
              .first_step = step},
             {},
             decoded.words};

@@ -25,10 +25,12 @@ class StepSource {
   private:
     struct Decoded {
         std::uint32_t step;
-        std::shared_ptr<const std::vector<std::uint64_t>> words;
+        std::shared_ptr<std::uint64_t[]> words;
     };
 
     void open_sources();
+    /// Memory for a step: of one that was read long ago and that nobody looks at any more, else new.
+    std::shared_ptr<std::uint64_t[]> room_for_a_step();
 
     std::filesystem::path index_;
     const SeriesInfo& info_;

@@ -5,9 +5,16 @@
 #include <bit>
 
 namespace isochron::index {
+namespace {
+
+struct Marks {
+    std::vector<std::uint64_t> of_ids, of_words; ///< bits: of each id; of words that are not zero
+};
+
+} // namespace
 
 void sort_ids(std::vector<CellId>& ids, std::uint64_t cells) {
-    if (ids.size() < cells / 1024) { // going through the words would take longer than comparing
+    if (ids.size() < cells / 4096) { // going through the words would take longer than comparing
         std::sort(ids.begin(), ids.end());
         ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
         ids.erase(std::lower_bound(ids.begin(), ids.end(), cells), ids.end());
@@ -15,20 +22,27 @@ void sort_ids(std::vector<CellId>& ids, std::uint64_t cells) {
     }
     // All zero between calls where they are kept: fresh memory costs more than the marks.
     constexpr std::size_t kKeptWords = 1 << 20;
-    thread_local std::vector<std::uint64_t> kept;
+    thread_local Marks kept;
+    Marks fresh;
     const std::size_t words = (cells + 63) / 64;
-    std::vector<std::uint64_t> fresh;
-    std::vector<std::uint64_t>& marked = words > kKeptWords ? fresh : kept;
-    if (marked.size() < words)
-        marked.resize(words);
+    Marks& marks = words > kKeptWords ? fresh : kept;
+    if (marks.of_ids.size() < words) {
+        marks.of_ids.resize(words);
+        marks.of_words.resize((words + 63) / 64);
+    }
     for (const CellId id : ids)
-        if (id < cells)
-            marked[id / 64] |= std::uint64_t{1} << id % 64;
+        if (id < cells) {
+            marks.of_ids[id / 64] |= std::uint64_t{1} << id % 64;
+            marks.of_words[id / 4096] |= std::uint64_t{1} << id / 64 % 64;
+        }
     std::size_t out = 0;
-    for (std::size_t word = 0; word < words; ++word) {
-        for (std::uint64_t bits = marked[word]; bits != 0; bits &= bits - 1)
-            ids[out++] = static_cast<CellId>(word * 64 + std::countr_zero(bits));
-        marked[word] = 0;
+    for (std::size_t first = 0; first < words; first += 64) {
+        std::uint64_t& some = marks.of_words[first / 64];
+        for (; some != 0; some &= some - 1) {
+            const std::size_t word = first + std::countr_zero(some);
+            for (std::uint64_t& bits = marks.of_ids[word]; bits != 0; bits &= bits - 1)
+                ids[out++] = static_cast<CellId>(word * 64 + std::countr_zero(bits));
+        }
     }
     ids.resize(out);
 }

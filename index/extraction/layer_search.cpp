@@ -32,60 +32,16 @@ std::vector<CellId> counted_from(CellId first, std::span<const CellId> ids) {
 
 } // namespace
 
-/// What is found in one layer.
-struct LayerSearch::Part {
-    std::vector<CellId> ids; ///< of the step
-    std::vector<CellPoint> points;
-    std::vector<CellRow> rows; ///< beginning within the part
-    std::uint64_t tested = 0;
-    std::chrono::nanoseconds searching{0}, shading{0};
-
-    /// Gives the cells their points and rows.
-    bool shade(const Query& query, StepSlab& slab, const std::stop_token& stop) {
-        const auto started = Clock::now();
-        CellSet local;
-        local.query = query;
-        local.ids = counted_from(slab.first_around(), ids);
-        slab.fill_around(local.ids, true);
-        if (!index::shade_cells(slab.around(), local, stop))
-            return false;
-        points = std::move(local.points);
-        rows = std::move(local.rows);
-        for (CellPoint& point : points)
-            point.z = static_cast<std::uint16_t>(point.z + slab.first_plane());
-        for (CellRow& row : rows)
-            row.z = static_cast<std::uint16_t>(row.z + slab.first_plane());
-        shading = Clock::now() - started;
-        return true;
-    }
-
-    /// @return false when stopped
-    static bool join(std::vector<Part>& parts, CellSet& set, const std::stop_token& stop) {
-        std::size_t ids = 0, points = 0, rows = 0;
-        for (const Part& part : parts) {
-            ids += part.ids.size();
-            points += part.points.size();
-            rows += part.rows.size();
-        }
-        set.ids.clear();
-        set.points.clear();
-        set.rows.clear();
-        set.ids.reserve(ids);
-        set.points.reserve(points);
-        set.rows.reserve(rows);
-        for (Part& part : parts) {
-            if (stop.stop_requested())
-                return false;
-            const auto first = static_cast<std::uint32_t>(set.ids.size());
-            set.ids.insert(set.ids.end(), part.ids.begin(), part.ids.end());
-            set.points.insert(set.points.end(), part.points.begin(), part.points.end());
-            for (const CellRow& row : part.rows)
-                set.rows.push_back({row.y, row.z, first + row.begin});
-            part = {};
-        }
-        return true;
-    }
-};
+/// Gives what was found its points and rows. @throws Stopped
+void LayerSearch::shade(StepSlab& slab, const Query& query, LayerResult& result,
+                        const std::stop_token& stop) {
+    const auto started = Clock::now();
+    result.cells.query = query;
+    slab.fill_around(result.cells.ids, true);
+    if (!index::shade_cells(slab.around(), result.cells, stop))
+        throw Stopped();
+    result.shading = Clock::now() - started;
+}
 
 LayerSearch::LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t level)
     : file_(std::move(file)), store_(file_->chunks(level)) {
@@ -155,7 +111,7 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
     if (levels && !cut)
         return true;
     const auto started = Clock::now();
-    std::vector<Part> parts(StepSlab::layers(store_.info().grid));
+    LayerResults results(set, StepSlab::layers(store_.info().grid));
     const auto places = [&](std::uint32_t layer) {
         if (cut)
             return StepSlab::candidate_chunks(*store_.layer(query.step, layer), *cut);
@@ -164,40 +120,34 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
         return all;
     };
     const auto work = [&](StepSlab& slab, std::uint32_t layer) {
-        Part& part = parts[layer];
+        LayerResult result = results.begin();
+        std::vector<CellId>& ids = result.cells.ids;
         const auto begun = Clock::now();
-        if (by_bricks) {
-            if (!slab.fill_candidates(*cut))
-                return;
-            part.tested = test_bricks(slab.cells(), *levels, slab.bricks(), query, part.ids);
-            sort_ids(part.ids, slab.cells().grid.cell_count());
-        } else {
+        if (!by_bricks) {
             slab.fill_all();
-            scan(slab.cells(), query, part.ids);
-            part.tested = part.ids.size();
+            scan(slab.cells(), query, ids);
+            result.cells.candidates = ids.size();
+        } else if (slab.fill_candidates(*cut)) {
+            result.cells.candidates = test_bricks(slab.cells(), *levels, slab.bricks(), query, ids);
+            sort_ids(ids, slab.cells().grid.cell_count());
         }
-        for (CellId& id : part.ids)
-            id += slab.first_cell();
-        part.searching = Clock::now() - begun;
-        if (shaded && !part.ids.empty() && !part.shade(query, slab, stop))
-            throw Stopped();
+        result.first = slab.first_around();
+        result.first_plane = slab.first_plane();
+        for (CellId& id : ids)
+            id += slab.first_cell() - slab.first_around();
+        result.searching = Clock::now() - begun;
+        if (shaded && !ids.empty())
+            shade(slab, query, result, stop);
+        results.add(layer, std::move(result));
     };
     if (!for_each_layer(query.step, places, work, stop))
         return false;
-    std::chrono::nanoseconds searching{0}, shading{0};
-    set.candidates = 0;
-    for (const Part& part : parts) {
-        set.candidates += part.tested;
-        searching += part.searching;
-        shading += part.shading;
-    }
-    if (!Part::join(parts, set, stop))
-        return false;
     // Both went on side by side: each gets its share of the time that passed.
     const auto passed = std::chrono::duration<double>(Clock::now() - started);
-    const auto both = std::max<double>(1, static_cast<double>((searching + shading).count()));
+    const auto both =
+        std::max<double>(1, static_cast<double>((results.searching + results.shading).count()));
     set.search_time = std::chrono::duration_cast<std::chrono::nanoseconds>(
-        passed * (static_cast<double>(searching.count()) / both));
+        passed * (static_cast<double>(results.searching.count()) / both));
     set.shading_time =
         std::chrono::duration_cast<std::chrono::nanoseconds>(passed) - set.search_time;
     return true;
@@ -223,17 +173,24 @@ bool LayerSearch::keep_active(const Query& query, std::vector<CellId>& ids,
 }
 
 bool LayerSearch::shade_cells(CellSet& set, const std::stop_token& stop) {
-    std::vector<Part> parts(StepSlab::layers(store_.info().grid));
+    CellSet shaded;
+    LayerResults results(shaded, StepSlab::layers(store_.info().grid));
     const bool finished = for_each_layer_of(
         set.query.step, set.ids,
         [&](StepSlab& slab, std::uint32_t layer) {
+            LayerResult result = results.begin();
             const auto ids = of_layer(set.ids, layer);
-            parts[layer].ids.assign(ids.begin(), ids.end());
-            if (!ids.empty() && !parts[layer].shade(set.query, slab, stop))
-                throw Stopped();
+            result.cells.ids = counted_from(slab.first_around(), ids);
+            result.first = slab.first_around();
+            result.first_plane = slab.first_plane();
+            if (!ids.empty())
+                shade(slab, set.query, result, stop);
+            results.add(layer, std::move(result));
         },
         stop);
-    return finished && Part::join(parts, set, stop);
+    set.points = std::move(shaded.points);
+    set.rows = std::move(shaded.rows);
+    return finished;
 }
 
 bool LayerSearch::color_cells(const Query& query, std::span<const CellId> cells,

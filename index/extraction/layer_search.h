@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/extraction/cell_set.h"
+#include "index/extraction/layer_results.h"
 #include "index/extraction/step_slab.h"
 #include "index/file/index_file.h"
 #include "index/volume/query.h"
@@ -36,7 +37,8 @@ class LayerSearch {
 
   private:
     using Work = std::function<void(StepSlab& slab, std::uint32_t layer)>;
-    struct Part;
+    static void shade(StepSlab& slab, const Query& query, LayerResult& result,
+                      const std::stop_token& stop);
     /// Ascending, of a layer.
     using PlacesOf = std::function<std::vector<std::uint32_t>(std::uint32_t layer)>;
     bool for_each_layer(std::uint32_t step, const PlacesOf& places, const Work& work,

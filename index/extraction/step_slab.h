@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -74,7 +75,7 @@ class StepSlab {
     Grid grid_;
     CellId plane_cells_;
     std::uint32_t step_ = 0, layer_ = 0, first_plane_ = 0, end_plane_ = 0;
-    std::vector<std::uint64_t> words_; ///< the values
+    std::unique_ptr<std::uint64_t[]> words_; ///< the values; not set before they are filled
     std::vector<std::uint8_t> bricks_;
     std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
     std::stop_token stop_;

@@ -1,0 +1,79 @@
+// Appending with room for what is still to come.
+#include "index/extraction/layer_results.h"
+
+#include "index/system/huge_pages.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+/// Makes room for `more` values, and for as many as are likely to follow.
+/// @param done share of all that will have come with them
+template <class T>
+void make_room(std::vector<T>& values, std::size_t more, double done) {
+    const std::size_t size = values.size() + more;
+    if (size <= values.capacity())
+        return;
+    const auto likely = static_cast<std::size_t>(1.1 * static_cast<double>(size) / done);
+    values.reserve(std::max(likely, size + size / 2));
+    ask_for_huge_pages(values.data() + values.size(),
+                       (values.capacity() - values.size()) * sizeof(T));
+}
+
+} // namespace
+
+LayerResults::LayerResults(CellSet& set, std::uint32_t layers)
+    : set_(set), waiting_(layers), came_(layers) {
+    set_.ids.clear();
+    set_.points.clear();
+    set_.rows.clear();
+    set_.candidates = 0;
+}
+
+LayerResult LayerResults::begin() {
+    const std::scoped_lock lock(mutex_);
+    if (free_.empty())
+        return {};
+    LayerResult result = std::move(free_.back());
+    free_.pop_back();
+    return result;
+}
+
+void LayerResults::add(std::uint32_t layer, LayerResult result) {
+    const std::scoped_lock lock(mutex_);
+    waiting_[layer] = std::move(result);
+    came_[layer] = true;
+    for (; next_ < came_.size() && came_[next_]; ++next_)
+        append(waiting_[next_]);
+}
+
+void LayerResults::append(LayerResult& result) {
+    CellSet& from = result.cells;
+    const double done = (next_ + 1.0) / static_cast<double>(came_.size());
+    const auto before = static_cast<std::uint32_t>(set_.ids.size());
+    const auto plane = result.first_plane;
+    make_room(set_.ids, from.ids.size(), done);
+    make_room(set_.points, from.points.size(), done);
+    make_room(set_.rows, from.rows.size(), done);
+    for (const CellId id : from.ids)
+        set_.ids.push_back(result.first + id);
+    for (CellPoint point : from.points) {
+        point.z = static_cast<std::uint16_t>(point.z + plane);
+        set_.points.push_back(point);
+    }
+    for (const CellRow& row : from.rows)
+        set_.rows.push_back({row.y, static_cast<std::uint16_t>(row.z + plane), before + row.begin});
+    set_.candidates += from.candidates;
+    searching += result.searching;
+    shading += result.shading;
+    from.ids.clear();
+    from.points.clear();
+    from.rows.clear();
+    from.candidates = 0;
+    result.searching = result.shading = {};
+    free_.push_back(std::move(result));
+}
+
+} // namespace isochron::index

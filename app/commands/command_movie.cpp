@@ -10,6 +10,7 @@
 #include "index/error.h"
 #include "index/file/file_layout.h"
 #include "index/system/input_file.h"
+#include "render/gl/driver.h"
 
 #include <fmt/format.h>
 
@@ -38,6 +39,7 @@ class Movies {
 
     /// What the frame drawn last shows, for so many frames of the movie.
     void add(Outputs& outputs, const PictureNote& frame, std::size_t times) {
+        hurried_ = render::draws_in_software(outputs.gl());
         each_part(outputs, options_.eyes == "each", names_, frame,
                   [&](const PictureNote& note, const std::string& suffix, render::Image image) {
                       add(note, suffix, std::move(image), times);
@@ -58,25 +60,33 @@ class Movies {
 
   private:
     fs::path path_with(const std::string& suffix) const {
-        const fs::path out(options_.out);
+        fs::path out(options_.out);
+        if (!out.has_filename()) // a folder that ends in a slash
+            out = out.parent_path();
         return out.parent_path() / (out.stem().string() + suffix + out.extension().string());
     }
 
-    void add(PictureNote note, const std::string& suffix, render::Image image, std::size_t times) {
+    std::shared_ptr<Movie> open(const fs::path& path, PictureNote note, glm::ivec2 size) const {
+        if (is_movie_folder(path))
+            return std::make_shared<MovieFolder>(path);
+        note.movie = about_;
+        return std::make_shared<MovieFile>(path, size, options_.rate, text_of(note), hurried_);
+    }
+
+    void add(const PictureNote& note, const std::string& suffix, render::Image image,
+             std::size_t times) {
         const fs::path path = path_with(suffix);
         auto& movie = movies_[path];
         if (!movie) {
-            if (fs::exists(path) && !options_.force)
+            if (holds_movie(path) && !options_.force)
                 throw index::Error(
                     fmt::format("{}: exists already; --force replaces it", path.string()));
-            note.movie = about_;
-            movie = std::make_shared<MovieFile>(path, glm::ivec2(image.width, image.height),
-                                                options_.rate, text_of(note));
+            movie = open(path, note, glm::ivec2(image.width, image.height));
         }
         writing_.wait_for_room();
-        writing_.post([movie = movie, image = std::move(image), times] {
+        writing_.post([movie = movie, image = std::move(image), times, text = text_of(note)] {
             for (std::size_t i = 0; i < times; ++i)
-                movie->add(image);
+                movie->add(image, text);
             return std::string();
         });
     }
@@ -85,7 +95,8 @@ class Movies {
     const PictureNames& names_;
     const MovieNote about_;
     BackgroundWork& writing_;
-    std::map<fs::path, std::shared_ptr<MovieFile>> movies_;
+    bool hurried_ = false; ///< what encodes takes processors away from what draws
+    std::map<fs::path, std::shared_ptr<Movie>> movies_;
 };
 
 /// How many frames of the movie show a recorded one: those whose times come before the next one.
@@ -126,7 +137,8 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     const interaction::Recording recording = read_recording(options.recording);
     if (recording.frames.empty())
         throw interaction::Error(options.recording + ": it has no frames");
-    const Config config = config_of(options, recording.header);
+    Config config = config_of(options, recording.header);
+    config.only_kept = true;
     const auto file = data_of(options, recording.header);
     Session session(config, file, windows_of(options, config, recording.header, job));
     const ReplayOptions replay = replay_options(options);
@@ -156,15 +168,19 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
 
 void add_movie(Command& program) {
     auto options = std::make_shared<MovieOptions>();
-    Command command =
-        program.subcommand("movie", "Make a movie of a recording (needs the program ffmpeg).");
+    Command command = program.subcommand(
+        "movie", "Make a movie of a recording, by the program ffmpeg, or its frames.");
     add_replay_source(command, *options);
-    command.option("-o,--out", options->out, "Movie to write: .mp4, .mkv or .mov (H.264), or .gif")
+    command
+        .option("-o,--out", options->out,
+                "Movie to write: .mp4, .mkv or .mov (H.264), .gif, or a folder for its frames "
+                "(.png)")
         .required();
     command.option("--rate", options->rate, "Frames per second").positive().shows_default();
     command
         .option("--eyes", options->eyes,
-                "window: as the stereo mode composes it; each: a movie for each eye and viewport")
+                "window: as the stereo mode composes it; each: a movie for each eye and viewport, "
+                "their names behind that of --out")
         .one_of({"window", "each"})
         .shows_default();
     command.flag("--force", options->force, "Replace a movie that is there");

@@ -74,6 +74,8 @@ struct Config {
     bool wand_ray = true;
     bool picture_ray = false;     ///< pictures that are written show it, too
     bool picture_caption = false; ///< and say isovalue and time
+    /// Nobody looks on: what is drawn is written, so that each picture is drawn once, as it is kept.
+    bool only_kept = false;
 };
 
 /// @param name stands before the line number in messages

@@ -47,7 +47,9 @@ stereo::DisplayOptions display_options(const render::Gl& gl, const Config& confi
     return {.near_plane = config.installation.near_plane,
             .far_plane = config.installation.far_plane,
             .background = config.background,
-            .samples = samples_of(config, gl)};
+            .samples = config.only_kept ? picture_samples_of(
+                                              config, gl, config.installation.windows.front().size)
+                                        : samples_of(config, gl)};
 }
 
 stereo::DisplayOptions picture_options(const render::Gl& gl, const Config& config,

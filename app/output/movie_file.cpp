@@ -32,7 +32,7 @@ fs::path temporary_of(const fs::path& path) {
 }
 
 std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, double rate,
-                                       const std::string& note) {
+                                       const std::string& note, bool hurried) {
     std::vector<std::string> all{"ffmpeg",    "-hide_banner",
                                  "-nostdin",  "-y",
                                  "-loglevel", "error",
@@ -47,8 +47,9 @@ std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, dou
     if (out.extension() == ".gif")
         add({"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"});
     else // players want even sides and halved color
-        add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset", "veryfast",
-             "-crf", "16", "-pix_fmt", "yuv420p", "-movflags", "+faststart"});
+        add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset",
+             hurried ? "ultrafast" : "veryfast", "-crf", "16", "-pix_fmt", "yuv420p", "-movflags",
+             "+faststart"});
     if (!note.empty())
         all.insert(all.end(), {"-metadata", "comment=" + note});
     all.push_back(out.string());
@@ -85,11 +86,11 @@ struct MovieFile::State {
     std::size_t frames = 0;
     bool whole = false;
 
-    State(fs::path target, glm::ivec2 pixels, double rate, std::string text)
+    State(fs::path target, glm::ivec2 pixels, double rate, std::string text, bool hurried)
         : path(std::move(target)), temporary(temporary_of(path)), size(pixels),
           note(std::move(text)) {
         std::signal(SIGPIPE, SIG_IGN); // an ffmpeg that is gone is told as an error
-        std::vector<std::string> words = arguments_for(temporary, size, rate, note);
+        std::vector<std::string> words = arguments_for(temporary, size, rate, note, hurried);
         std::vector<char*> arguments;
         for (std::string& word : words)
             arguments.push_back(word.data());
@@ -138,11 +139,11 @@ struct MovieFile::State {
     }
 };
 
-MovieFile::MovieFile(fs::path path, glm::ivec2 size, double rate, std::string note)
-    : state_(std::make_unique<State>(std::move(path), size, rate, std::move(note))) {}
+MovieFile::MovieFile(fs::path path, glm::ivec2 size, double rate, std::string note, bool hurried)
+    : state_(std::make_unique<State>(std::move(path), size, rate, std::move(note), hurried)) {}
 MovieFile::~MovieFile() = default;
 
-void MovieFile::add(const render::Image& image) {
+void MovieFile::add(const render::Image& image, const std::string&) {
     State& s = *state_;
     if (image.width != s.size.x || image.height != s.size.y)
         throw index::Error(fmt::format("{}: a picture of {} x {}, the movie has {} x {}",

@@ -101,7 +101,7 @@ DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& ove
     };
     const bool in_windows = shows_windows();
     for (std::size_t i = 0; in_windows && i < displays_.size(); ++i)
-        draw_window(displays_[i], counted, overlay_of(i, overlay));
+        draw_window(displays_[i], counted, overlay_of(i, overlay), config_.only_kept);
     if (headset_)
         headset_display_->draw(audience.eyes, [&](std::span<const render::View> views) {
             counted(ScenePlace{}, views);
@@ -172,7 +172,8 @@ render::Image Outputs::headset_picture() {
 }
 
 bool Outputs::kept_differ() const {
-    return config_.picture_caption || (drawn_.audience.aids && !config_.picture_ray);
+    return !config_.only_kept &&
+           (config_.picture_caption || (drawn_.audience.aids && !config_.picture_ray));
 }
 
 PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <set>
 
 namespace isochron::app {
 namespace {
@@ -60,6 +61,29 @@ TEST_F(MovieTest, AnAbandonedMovieLeavesNothing) {
     EXPECT_EQ(files, 0u);
 }
 
+TEST_F(MovieTest, AFolderHasItsFramesWhenAllAreThereAndReplacesThoseOfAnEarlierOne) {
+    const auto path = folder_.path() / "frames";
+    folder_.write("note.txt", "");
+    {
+        MovieFolder movie(path);
+        for (int i = 0; i < 3; ++i)
+            movie.add(picture());
+        EXPECT_FALSE(holds_movie(path));
+        movie.finish();
+        EXPECT_TRUE(holds_movie(path));
+    }
+    std::filesystem::rename(folder_.path() / "note.txt", path / "note.txt");
+    MovieFolder again(path);
+    again.add(picture());
+    EXPECT_THROW(again.add({2, 2, std::vector<std::uint8_t>(16, 7)}), index::Error);
+    EXPECT_TRUE(std::filesystem::exists(path / "frame_00002.png")) << "the earlier one, until then";
+    again.finish();
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path))
+        names.insert(entry.path().filename().string());
+    EXPECT_EQ(names, (std::set<std::string>{"frame_00000.png", "note.txt"}));
+}
+
 TEST_F(MovieTest, WhatFfmpegComplainsOfIsTold) {
     folder_.write("ffmpeg", "#!/bin/sh\ncat > /dev/null\necho 'no such codec' >&2\nexit 1\n");
     MovieFile movie(folder_.path() / "a.mp4", {4, 2}, 25);
@@ -94,6 +118,12 @@ TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
     EXPECT_EQ(program({"movie", recording, "-o", movie, "--rate", "20"}).status, 0);
     EXPECT_EQ(bytes_of("walk.mp4"), 21u * 64 * 48 * 4) << "0, 0.05, ... 1 s";
     EXPECT_EQ(program({"movie", recording, "-o", movie}).status, 1) << "it is there already";
+    // A folder holds the same frames; each can be made again.
+    EXPECT_EQ(
+        program({"movie", recording, "-o", "frames/", "--rate", "20", "--eyes", "each"}).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "frames_center/frame_00020.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "frames_center/frame_00021.png"));
+    EXPECT_EQ(program({"reproduce", "frames_center/frame_00020.png"}).status, 0);
     // It says what it shows, without a path of this machine.
     const PictureNote note = note_from(note_text_in(movie));
     EXPECT_EQ(note.data, "sphere.isochron");

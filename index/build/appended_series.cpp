@@ -2,6 +2,7 @@
 #include "index/build/appended_series.h"
 
 #include "index/error.h"
+#include "index/system/running_checksum.h"
 
 #include <fmt/format.h>
 
@@ -28,6 +29,12 @@ class AppendedSeries final : public VolumeSeries {
         std::memcpy(out.data(), held.values.step_bytes(step).data(), out.size());
     }
 
+    void stream(std::size_t step, const TakePiece& take) override {
+        if (step >= index_->info().steps())
+            return all_->stream(step, take);
+        VolumeSeries::stream(step, take);
+    }
+
     std::uint64_t state(std::size_t step) const override { return all_->state(step); }
 
   private:
@@ -45,13 +52,12 @@ bool begins_with(const std::vector<T>& all, const std::vector<T>& first) {
 void expect_unchanged(const std::string& name, VolumeSeries& all, std::size_t held,
                       std::span<const std::uint64_t> checksums,
                       std::span<const std::uint64_t> states) {
-    std::vector<std::byte> stored;
+    RunningChecksum checksum;
     for (std::size_t step = 0; step < held; ++step) {
         if (states[step] != 0 && all.state(step) == states[step])
             continue;
-        stored.resize(all.info().step_bytes());
-        all.read(step, stored);
-        if (checksum_of(stored) == checksums[step])
+        all.stream(step, [&](std::span<const std::byte> piece) { checksum.add(piece); });
+        if (checksum.take() == checksums[step])
             continue;
         const std::vector<std::string>& sources = all.info().sources;
         throw Error(

@@ -4,7 +4,7 @@
 #include "index/build/value_stats.h"
 #include "index/error.h"
 #include "index/file/detail_levels.h"
-#include "index/file/file_layout.h"
+#include "index/system/running_checksum.h"
 
 #include <fmt/format.h>
 
@@ -20,9 +20,7 @@ void expect_colors_of(const SeriesInfo& colors, const SeriesInfo& volume) {
 }
 
 ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorArray* held,
-                          const ChunkContents& contents, ByteSink& file, std::uint64_t& end,
-                          const std::filesystem::path& spill, unsigned threads, Team& team,
-                          const Progress& progress) {
+                          const PassTarget& target, Team& team, const Progress& progress) {
     const SeriesInfo& info = series.info();
     ValueRange range;
     if (held && team.rank() == 0) {
@@ -33,34 +31,39 @@ ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorAr
         }
     }
     std::vector<std::uint64_t> checksums;
+    RunningChecksum checksum;
     std::optional<PartWriter> parts;
     std::vector<StepEntry> steps;
     team.together([&] {
-        parts.emplace(file, end, spill, team);
-        StepWriter writer(info, {false, contents.values, contents.codec}, threads);
+        parts.emplace(target.file, target.end, target.means.beside, team);
+        StepWriter writer(info, target.contents, target.means);
         const auto [mine, mine_end] = team.share(info.steps() - first);
-        std::vector<std::uint64_t> words((info.step_bytes() + 7) / 8); // aligned for every type
-        const auto stored = std::as_writable_bytes(std::span(words)).first(info.step_bytes());
-        for (std::size_t i = mine; i < mine_end; ++i) {
-            if (progress)
-                progress("reading colors",
-                         static_cast<double>(i - mine) / static_cast<double>(mine_end - mine));
-            series.read(first + i, stored);
-            add_range(info.type, info.scaling, stored, range.low, range.high, range.nan_values);
-            checksums.push_back(checksum_of(stored));
-            writer.write(stored, *parts, steps);
-        }
+        stream_layers(
+            series, first + mine, first + mine_end,
+            [&](std::size_t, const LayerView& layer) {
+                const auto stored = layer.own();
+                add_range(info.type, info.scaling, stored, range.low, range.high, range.nan_values);
+                checksum.add(stored);
+                writer.take(layer, *parts, steps);
+                if (layer.end == info.grid.vertices[2])
+                    checksums.push_back(checksum.take());
+            },
+            [&](double done) {
+                if (progress)
+                    progress("reading colors", done);
+            });
     });
     const ValueRange all = agreed_range(range, team);
-    return {{.array = info.array,
-             .value_unit = info.value_unit,
-             .type = info.type,
-             .scaling = info.scaling,
-             .low = all.low,
-             .high = all.high,
-             .nan_values = all.nan_values},
-            placed_steps(*parts, std::move(steps), detail_grids(info.grid).size(), end, team),
-            team.gather_items(checksums)};
+    return {
+        {.array = info.array,
+         .value_unit = info.value_unit,
+         .type = info.type,
+         .scaling = info.scaling,
+         .low = all.low,
+         .high = all.high,
+         .nan_values = all.nan_values},
+        placed_steps(*parts, std::move(steps), detail_grids(info.grid).size(), target.end, team),
+        team.gather_items(checksums)};
 }
 
 } // namespace isochron::index

@@ -1,10 +1,9 @@
 // The pass of a build that reads the array to color by.
 #pragma once
 
-#include "index/build/chunk_pass.h"
+#include "index/build/volume_pass.h"
 #include "index/file/index_contents.h"
 #include "index/progress.h"
-#include "index/system/byte_sink.h"
 #include "index/system/team.h"
 
 namespace isochron::index {
@@ -19,13 +18,10 @@ struct ColorFindings {
     std::vector<std::uint64_t> checksums; ///< of the stored values of every step
 };
 
-/// Reads each member's share of the steps from `first` on and packs their values where `contents`
-/// says so.
+/// Reads each member's share of the steps from `first` on and packs their values where the contents
+/// say so.
 /// @param held what is known of the steps before, if there are any
-/// @param end of the file so far; moves behind what was written
 ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorArray* held,
-                          const ChunkContents& contents, ByteSink& file, std::uint64_t& end,
-                          const std::filesystem::path& spill, unsigned threads, Team& team,
-                          const Progress& progress);
+                          const PassTarget& target, Team& team, const Progress& progress);
 
 } // namespace isochron::index

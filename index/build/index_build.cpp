@@ -2,7 +2,6 @@
 #include "index/build/index_build.h"
 
 #include "index/build/build_target.h"
-#include "index/build/chunk_pass.h"
 #include "index/build/color_pass.h"
 #include "index/build/tier_plan.h"
 #include "index/build/unit_pass.h"
@@ -54,7 +53,6 @@ class Build {
           const Progress& progress, Team& team, BuildTarget& target, const IndexFile* held)
         : series_(series), out_(out), options_(options), progress_(progress), team_(team),
           threads_(thread_count(options.threads)), target_(target),
-          scratch_(team, out.string() + ".volume"),
           held_(held), metadata_{.info = series.info(),
                                  .codec = options.codec,
                                  .tree = options.tree,
@@ -70,25 +68,24 @@ class Build {
     /// @return false where appending would give cells that miss values
     bool run() {
         plan_cells();
+        plan_tiers_ahead();
         read_steps();
         if (held_ && !fits_held_levels())
             return false;
-        team_.together([&] { written_.emplace(scratch_.sink().temporary()); });
         const SeriesInfo& info = metadata_.info;
         values_ = {.grid = info.grid,
                    .type = info.type,
                    .scaling = info.scaling,
                    .steps = info.steps(),
-                   .first = written_->bytes().data(),
+                   .first = nullptr,
                    .stride = step_stride(info.step_bytes()),
                    .first_step = window_};
+        if (kept_.file) {
+            team_.together([&] { written_.emplace(scratch_->sink().temporary()); });
+            values_.first = written_->bytes().data();
+        }
         if (!held_)
             plan();
-        align();
-        const auto entries =
-            write_chunks(info, values_, fresh_, *written_, contents(), target_.sink(), end_,
-                         spill(".chunks"), threads_, team_, progress_);
-        append_steps(volume_steps_, entries);
         write_colors();
         write_cells();
         team_.together([&] {
@@ -156,18 +153,46 @@ class Build {
         window_ = std::min(window_, begin - before);
     }
 
+    /// What has to be known before the first step is read: whether chunks have bricks, and whether
+    /// cells or the tree may be built of the values later.
+    void plan_tiers_ahead() {
+        const SeriesInfo& info = metadata_.info;
+        const auto& known = held_ ? std::optional(metadata_.plan) : options_.plan;
+        bricks_ = known ? known->tiers.has(Tier::bricks)
+                        : !options_.tiers || options_.tiers->has(Tier::bricks);
+        if (held_) {
+            kept_.always = covered_ != held_->metadata().cell_steps && has(Tier::cells);
+        } else if (known) {
+            kept_.always =
+                options_.with_tree || known->tiers.has(Tier::cells) || known->tiers.has(Tier::tree);
+        } else {
+            kept_.always =
+                options_.with_tree || (options_.tiers && asks_for_values(*options_.tiers));
+        }
+        if (!kept_.always && (held_ || known || options_.tiers || !cells_may_pay(info)))
+            return;
+        scratch_.emplace(team_, spill(".volume"));
+        team_.together([&] {
+            kept_.file = &scratch_->sink();
+            if (team_.rank() == 0 && kept_.always)
+                scratch_->sink().reserve((info.steps() - window_) * step_stride(info.step_bytes()));
+        });
+    }
+
+    static bool asks_for_values(const TierSet& tiers) {
+        return tiers.has(Tier::cells) || tiers.has(Tier::tree);
+    }
+
     void read_steps() {
         const SeriesInfo& info = metadata_.info;
-        team_.together([&] {
-            if (team_.rank() == 0)
-                scratch_.sink().reserve((info.steps() - window_) * step_stride(info.step_bytes()));
-        });
-        VolumeFindings found =
-            read_volume(series_, window_, fresh_, scratch_.sink(), team_, progress_);
+        align();
+        VolumeFindings found = read_volume(series_, window_, fresh_, kept_,
+                                           target(".chunks", contents()), team_, progress_);
         counts_.merge(info.type, found.counts);
         set_counts(metadata_, counts_);
         append_to(checksums_, found.checksums);
         append_to(states_, found.states);
+        append_steps(volume_steps_, found.steps);
         found_levels_ = std::move(found.levels);
         header_.content_hash = content_hash_of(info, checksums_);
     }
@@ -191,15 +216,18 @@ class Build {
                 keeps ? *options_.plan : plan_tiers(values_, *found_levels_, options_.tiers);
             if (options_.with_tree)
                 metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::tree);
-            if (!keeps)
+            if (!keeps) {
                 metadata_.plan.steps = steps_;
+                metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::bricks, bricks_);
+            }
         });
         if (has(Tier::cells))
             metadata_.levels = found_levels_;
     }
 
-    ChunkContents contents() const {
-        return {has(Tier::bricks), !options_.referral, options_.codec};
+    ChunkContents contents() const { return {bricks_, !options_.referral, options_.codec}; }
+    PassTarget target(const char* what, const ChunkContents& in) {
+        return {target_.sink(), end_, in, {threads_, options_.waiting_bytes, spill(what)}};
     }
     std::string spill(const char* what) const { return out_.string() + what; }
     /// Where the next part begins.
@@ -209,9 +237,10 @@ class Build {
         if (!options_.color)
             return;
         align();
-        ColorFindings found =
-            read_colors(*options_.color, fresh_, held_ ? held_->color() : nullptr, contents(),
-                        target_.sink(), end_, spill(".colors"), threads_, team_, progress_);
+        ChunkContents values_alone = contents();
+        values_alone.bricks = false;
+        ColorFindings found = read_colors(*options_.color, fresh_, held_ ? held_->color() : nullptr,
+                                          target(".colors", values_alone), team_, progress_);
         append_steps(color_steps_, found.steps);
         append_to(color_checksums_, found.checksums);
         metadata_.color = std::move(found.array);
@@ -269,7 +298,9 @@ class Build {
     Team& team_;
     unsigned threads_;
     BuildTarget& target_;
-    NewTarget scratch_; ///< the values as they are read; never gets its name
+    std::optional<NewTarget> scratch_; ///< the values as they are read; never gets its name
+    KeptValues kept_;
+    bool bricks_ = true; ///< in the chunks
     const IndexFile* held_;
     Metadata metadata_;
     FileHeader header_;

@@ -17,6 +17,9 @@ struct BuildOptions {
     bool with_tree = false; ///< besides
     ThiOptions tree = {};
     unsigned threads = 0; ///< 0 for as many as there are processors
+    /// Of planes of a level of detail, and of steps whose values have more than 8 bits, that wait in
+    /// memory to be packed; more wait in a file.
+    std::uint64_t waiting_bytes = 64 << 20;
     Codec codec = Codec::fitting;
     /// When set the file refers to these instead of carrying a copy of the values.
     std::optional<Referral> referral = {};
@@ -31,9 +34,10 @@ struct BuildOptions {
 /// Reads a series once and writes NAME.isochron under a temporary name, then renames it.
 /// On any failure, also a canceled one, nothing is left behind. An existing index is replaced;
 /// any other existing file is refused. The same series and options give the same bytes, whatever
-/// the number of threads and of processes. Memory: one decoded step for each process, and some
-/// 150 MiB for each thread; the paper's tree, where asked for, takes 30 bytes for each cell-step
-/// more.
+/// the number of threads and of processes. Memory of each process: a few layers of 16 planes, where
+/// the format can be read piece by piece, and a little more than twice `waiting_bytes`; where cells
+/// are built some 150 MiB for each thread; the paper's tree, where asked for, takes 30 bytes for
+/// each cell-step more.
 /// @param team all of whose members call this with the same series and options
 /// @throws Error: as the series reads, unwritable, disk full, larger than `CellId` can count
 void build_index(VolumeSeries& series, const std::filesystem::path& out,

@@ -134,32 +134,37 @@ std::vector<std::uint64_t> LevelChooser::state() const {
     return state;
 }
 
-void LevelChooser::add(std::size_t step, std::span<const std::byte> stored) {
+void LevelChooser::add(std::size_t step, const Part& part, std::span<const std::byte> stored) {
+    assert(stored.size() == (part.end - part.first) * size_of(type_));
     if (size_of(type_) == 1)
         return;
     visit_value_type(type_, [&]<class T>(std::type_identity<T>) {
-        add_values<T>(step, {reinterpret_cast<const T*>(stored.data()), stored.size() / sizeof(T)});
+        add_values<T>(step, part, reinterpret_cast<const T*>(stored.data()));
     });
 }
 
 template <class T>
-void LevelChooser::add_values(std::size_t step, std::span<const T> values) {
+void LevelChooser::add_values(std::size_t step, const Part& part, const T* values) {
     if (!many_) {
         DistinctSet distinct;
         bool few = true;
-        for (std::size_t i = 0; i < values.size() && few; ++i)
+        for (std::size_t i = 0; i < part.end - part.first && few; ++i)
             if (!is_nan(values[i]) && (i == 0 || values[i] != values[i - 1]))
                 few = distinct.add(ordinal(values[i]));
         take_distinct(distinct.take());
     }
     // One value at random out of each of equal stretches.
-    const std::size_t count = std::min(values.size(), samples_per_step_);
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t first = i * values.size() / count;
-        const std::size_t end = (i + 1) * values.size() / count;
+    const std::size_t count = std::min(part.all, samples_per_step_);
+    for (std::size_t i = part.first * count / part.all; i < count; ++i) {
+        const std::size_t first = i * part.all / count;
+        const std::size_t end = (i + 1) * part.all / count;
+        if (first >= part.end)
+            break;
         const std::uint64_t hash = hash_of(step * samples_per_step_ + i);
-        const T value = values[first + hash_of(hash) % (end - first)];
-        if (!is_nan(value))
+        const std::size_t place = first + hash_of(hash) % (end - first);
+        if (place < part.first || place >= part.end)
+            continue;
+        if (const T value = values[place - part.first]; !is_nan(value))
             samples_.push_back({hash, ordinal(value)});
     }
     if (samples_.size() > 2 * kSamples)
@@ -204,13 +209,6 @@ LevelMap LevelChooser::choose() const {
         ordinals.push_back(sample.ordinal);
     std::sort(ordinals.begin(), ordinals.end());
     return LevelMap::of_thresholds(type_, even_thresholds(weighted(type_, ordinals)));
-}
-
-LevelMap levels_of_step(ValueType type, std::span<const std::byte> stored) {
-    constexpr std::size_t kSamplesOfOneStep = 1 << 14;
-    LevelChooser chooser(type, kSamplesOfOneStep);
-    chooser.add(0, stored);
-    return chooser.choose();
 }
 
 } // namespace isochron::index

@@ -32,10 +32,21 @@ class LevelChooser {
         : type_(type), samples_per_step_(samples_per_step) {}
 
     /// @param step number in the series @param stored all values of the step
-    void add(std::size_t step, std::span<const std::byte> stored);
+    void add(std::size_t step, std::span<const std::byte> stored) {
+        const std::size_t values = stored.size() / size_of(type_);
+        add(step, {0, values, values}, stored);
+    }
+    /// Which of the values of a step: those from `first` to `end`, of `all`.
+    struct Part {
+        std::size_t first, end, all;
+    };
+    /// A part of the values of a step; what is chosen is the same however it is cut.
+    void add(std::size_t step, const Part& part, std::span<const std::byte> stored);
     /// Takes over what another one of the same type has seen of other steps.
     void merge(const LevelChooser& other);
     LevelMap choose() const;
+    /// Whether what it has seen so far has levels that lose nothing.
+    bool lossless() const { return !many_; }
 
     /// All that it has seen, to be sent to another process; a few to 130,000 numbers.
     std::vector<std::uint64_t> state() const;
@@ -48,7 +59,7 @@ class LevelChooser {
     };
 
     template <class T>
-    void add_values(std::size_t step, std::span<const T> values);
+    void add_values(std::size_t step, const Part& part, const T* values);
     void take_distinct(std::vector<std::uint64_t> ordinals);
     static void keep_lowest_hashes(std::vector<Sample>& samples);
 
@@ -59,7 +70,11 @@ class LevelChooser {
     std::vector<Sample> samples_;         ///< now and then cut down to the lowest hashes
 };
 
-/// The levels for the bricks of one step alone, which depend on its values and nothing else.
-LevelMap levels_of_step(ValueType type, std::span<const std::byte> stored);
+/// Chooses the levels for the bricks of one step alone, which depend on its values and nothing
+/// else: these are added as step 0.
+inline LevelChooser chooser_of_one_step(ValueType type) {
+    constexpr std::size_t kSamplesOfOneStep = 1 << 14;
+    return LevelChooser(type, kSamplesOfOneStep);
+}
 
 } // namespace isochron::index

@@ -9,6 +9,8 @@
 namespace isochron::index {
 namespace {
 
+constexpr std::uint64_t kFlushed = 32 << 20; ///< [bytes] after so many the disk may begin
+
 /// Copies what a member has spilled to its place, a piece at a time.
 void copy_spilled(const ScratchFile& from, std::uint64_t bytes, ByteSink& to,
                   std::uint64_t offset) {
@@ -32,11 +34,14 @@ PartWriter::PartWriter(ByteSink& file, std::uint64_t offset, const std::filesyst
 
 std::uint64_t PartWriter::append(std::span<const std::byte> bytes) {
     const std::uint64_t at = end_;
-    if (spilled_)
-        spilled_->write_at(at, bytes);
-    else
-        file_.write_at(offset_ + at, bytes);
     end_ += bytes.size();
+    if (spilled_) {
+        spilled_->write_at(at, bytes);
+        return at;
+    }
+    file_.write_at(offset_ + at, bytes);
+    if (at / kFlushed != end_ / kFlushed)
+        file_.begin_flush();
     return at;
 }
 

@@ -1,12 +1,18 @@
 // A step and its levels of detail as they go into the file.
 #pragma once
 
+#include "index/build/layer_stream.h"
+#include "index/build/level_choice.h"
 #include "index/build/part_writer.h"
+#include "index/build/plane_store.h"
 #include "index/file/chunk_codec.h"
-#include "index/file/step_packer.h"
-#include "index/volume/volume_series.h"
+#include "index/file/detail_levels.h"
+#include "index/file/layer_packer.h"
 
 #include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,28 +25,52 @@ struct ChunkContents {
     Codec codec = Codec::fitting;
 };
 
-/// Writes steps of one array, each with all threads. Keeps its work space.
+/// What writing may take.
+struct WriterMeans {
+    unsigned threads = 1;
+    std::uint64_t waiting_bytes = 64 << 20; ///< of planes of a level that wait in memory
+    std::filesystem::path beside;           ///< where files may be that nobody sees
+};
+
+/// Writes steps of one array layer by layer, each with all threads: memory holds a few layers of
+/// the finest level, and planes that wait for their level to be packed. Keeps its work space.
 class StepWriter {
   public:
-    StepWriter(const SeriesInfo& info, const ChunkContents& contents, unsigned threads);
+    StepWriter(const SeriesInfo& info, const ChunkContents& contents, const WriterMeans& means);
 
-    /// Writes the step, then its levels of detail, each from a multiple of 64.
-    /// @param stored aligned for the type
-    /// @param entries gets one for each level, offsets from the first of `parts`
-    void write(std::span<const std::byte> stored, PartWriter& parts,
-               std::vector<StepEntry>& entries);
+    /// Takes the next layer of the step; with its last one the step is written, then its levels of
+    /// detail, each from a multiple of 64.
+    /// @param entries gets one for each level then, offsets from the first of `parts`
+    void take(const LayerView& layer, PartWriter& parts, std::vector<StepEntry>& entries);
 
   private:
-    void write_level(std::size_t level, std::span<const std::byte> stored, PartWriter& parts,
-                     std::vector<StepEntry>& entries);
+    /// A level of detail, the step itself included.
+    struct Level {
+        Level(const Grid& level_grid, ValueType type, Codec codec, const WriterMeans& means);
+
+        Grid grid;
+        LayerPacker packer;
+        std::vector<Coarsener> coarseners; ///< by thread
+        /// Levels for its bricks, where they depend on the values.
+        LevelChooser chooser;
+        std::optional<LevelMap> map;
+        PlaneStore waiting; ///< planes that cannot be packed yet
+    };
+
+    bool waits(std::size_t level) const;
+    void look(Level& level, std::uint32_t first_plane, std::span<const std::byte> planes) const;
+    void pack(std::size_t level, const LayerView& layer, PartWriter& parts);
+    void pack_waiting(std::size_t level, PartWriter& parts);
+    StepEntry finish(std::size_t level, std::uint64_t begin, PartWriter& parts);
 
     ValueType type_;
     ChunkContents contents_;
     unsigned threads_;
-    std::vector<Grid> grids_; ///< by level
-    std::vector<StepPacker> packers_;
-    std::vector<std::vector<std::uint64_t>> coarse_; ///< values of the levels from the first on
+    bool own_levels_;          ///< each step's bricks have levels of their own
+    std::deque<Level> levels_; ///< they do not move
+    std::uint64_t begin_ = 0;  ///< of the step in `parts`
     std::vector<std::uint8_t> bricks_;
+    std::vector<std::uint64_t> coarse_; ///< planes of the next level
 };
 
 /// Entries step by step become entries array by array.

@@ -4,6 +4,7 @@
 #include "index/file/tiers.h"
 #include "index/volume/level_map.h"
 #include "index/volume/step_values.h"
+#include "index/volume/volume_series.h"
 
 #include <optional>
 
@@ -13,10 +14,15 @@ namespace isochron::index {
 /// @throws Error when it cannot
 void check_tiers(const Grid& grid, const TierSet& asked);
 
+/// Whether steps are so small that cells may pay: of larger ones bricks read less, however slowly
+/// they change.
+bool cells_may_pay(const SeriesInfo& info);
+
 /// Bricks always; cells where levels are lossless, so that an entry never needs the volume, and
 /// where the series is small or merging in time saves enough; deltas where a step changes fewer
 /// cells than a search finds. What was asked for overrides that.
-/// Looks at a sample of the steps and chunks, which depends on the series alone.
+/// Looks at a sample of the steps and chunks, which depends on the series alone; at none of the
+/// values where cells cannot pay or levels are not lossless.
 /// @throws Error when something was asked for that cannot be
 TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
                     const std::optional<TierSet>& asked);

@@ -1,13 +1,15 @@
-// The first pass of a build: every step is read once, kept and looked at.
+// The pass of a build over the series: every step is read once, looked at, and packed.
 #include "index/build/volume_pass.h"
 
+#include "index/build/layer_stream.h"
 #include "index/build/level_choice.h"
 #include "index/build/value_stats.h"
-#include "index/file/file_layout.h"
+#include "index/file/detail_levels.h"
 #include "index/file/metadata.h"
+#include "index/system/running_checksum.h"
 
 #include <algorithm>
-#include <future>
+#include <optional>
 
 namespace isochron::index {
 namespace {
@@ -15,81 +17,92 @@ namespace {
 /// What one member has seen of its steps.
 class Observer {
   public:
-    Observer(const SeriesInfo& info, std::size_t first, std::size_t fresh, ByteSink& file)
-        : info_(info), first_(first), fresh_(fresh), file_(file), chooser_(info.type) {}
+    explicit Observer(const SeriesInfo& info) : info_(info), chooser_(info.type) {}
 
-    /// @param step padded to its stride
-    void look(std::size_t t, std::span<const std::byte> step, std::uint64_t state) {
-        file_.write_at((t - first_) * step.size(), step);
-        if (t < fresh_)
-            return;
-        const auto stored = step.first(info_.step_bytes());
-        counts_.add(info_.type, info_.scaling, stored);
-        chooser_.add(t, stored);
-        checksums_.push_back(checksum_of(stored));
-        states_.push_back(state);
+    void look(std::size_t step, const LayerView& layer) {
+        counts_.add(info_.type, info_.scaling, layer.own());
+        const std::size_t plane = layer.plane / size_of(info_.type);
+        chooser_.add(step, {layer.begin * plane, layer.end * plane, info_.grid.vertex_count()},
+                     layer.own());
+        checksum_.add(layer.own());
+        if (layer.end == info_.grid.vertices[2])
+            checksums_.push_back(checksum_.take());
     }
 
-    VolumeFindings agreed(Team& team) {
+    bool lossless() const { return chooser_.lossless(); }
+
+    VolumeFindings agreed(std::vector<std::uint64_t> states, Team& team) {
         LevelChooser chooser(info_.type);
         const std::vector<std::uint64_t> seen = chooser_.state();
         for (const auto& bytes : team.gather(std::as_bytes(std::span(seen)))) {
             const auto* state = reinterpret_cast<const std::uint64_t*>(bytes.data());
             chooser.merge(LevelChooser(info_.type, {state, bytes.size() / sizeof *state}));
         }
-        return {agreed_counts(counts_, info_.type, team), team.gather_items(checksums_),
-                team.gather_items(states_), chooser.choose()};
+        return {agreed_counts(counts_, info_.type, team),
+                team.gather_items(checksums_),
+                team.gather_items(states),
+                chooser.choose(),
+                {}};
     }
 
   private:
     const SeriesInfo& info_;
-    std::size_t first_, fresh_;
-    ByteSink& file_;
     ValueCounts counts_;
     LevelChooser chooser_;
-    std::vector<std::uint64_t> checksums_, states_;
+    RunningChecksum checksum_;
+    std::vector<std::uint64_t> checksums_;
 };
-
-constexpr std::size_t kReadAhead = 64 << 20; ///< [bytes] of a step
-constexpr std::size_t kTooSmall = 32 << 10;  ///< [bytes] starting a thread takes longer
 
 } // namespace
 
+std::vector<StepEntry> placed_steps(PartWriter& parts, std::vector<StepEntry> mine,
+                                    std::size_t levels, std::uint64_t& end, Team& team) {
+    const PartWriter::Placed placed = parts.place(team);
+    for (StepEntry& step : mine)
+        step.offset += end + placed.start;
+    end += placed.bytes;
+    return by_level(team.gather_items(mine), levels);
+}
+
 VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t fresh,
-                           ByteSink& file, Team& team, const Progress& progress) {
+                           const KeptValues& kept, const PassTarget& target, Team& team,
+                           const Progress& progress) {
     const SeriesInfo& info = series.info();
     const std::size_t stride = step_stride(info.step_bytes());
-    Observer observer(info, first, fresh, file);
+    Observer observer(info);
+    std::optional<PartWriter> parts;
+    std::vector<StepEntry> steps;
+    std::vector<std::uint64_t> states;
     team.together([&] {
-        const auto [begin, end] = team.share(info.steps() - first);
-        std::array<std::vector<std::byte>, 2> buffers; // their padding stays zero
-        // Large steps are not read ahead: with a reader that decodes there would be three of them.
-        const std::size_t steps_at_once = stride <= kReadAhead ? 2 : 1;
-        std::future<void> looking; // its end is waited for when this is left
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t t = first + i;
-            if (progress)
-                progress("reading",
-                         static_cast<double>(i - begin) / static_cast<double>(end - begin));
-            std::vector<std::byte>& step = buffers[t % steps_at_once];
-            if (steps_at_once == 1 && looking.valid())
-                looking.get();
-            step.resize(stride);
-            series.read(t, std::span(step).first(info.step_bytes()));
-            const std::uint64_t state = series.state(t);
-            if (looking.valid())
-                looking.get();
-            if (stride <= kTooSmall) {
-                observer.look(t, step, state);
-                continue;
-            }
-            looking = std::async(std::launch::async,
-                                 [&observer, t, &step, state] { observer.look(t, step, state); });
-        }
-        if (looking.valid())
-            looking.get();
+        parts.emplace(target.file, target.end, target.means.beside, team);
+        StepWriter writer(info, target.contents, target.means);
+        const auto keep = [&](std::size_t step, const LayerView& layer) {
+            if (kept.file && (kept.always || observer.lossless()))
+                kept.file->write_at((step - first) * stride + layer.begin * layer.plane,
+                                    layer.own());
+        };
+        const auto stream = [&](std::size_t begin, std::size_t end, const auto& take) {
+            stream_layers(series, begin, end, take, [&](double done) {
+                if (progress)
+                    progress("reading", done);
+            });
+        };
+        // Every step that is held is seen by one member alone, and so is every new one.
+        if (const auto [begin, end] = team.share(fresh - first); begin < end)
+            stream(first + begin, first + end, keep);
+        const auto [begin, end] = team.share(info.steps() - fresh);
+        stream(fresh + begin, fresh + end, [&](std::size_t step, const LayerView& layer) {
+            observer.look(step, layer);
+            keep(step, layer);
+            writer.take(layer, *parts, steps);
+        });
+        for (std::size_t step = fresh + begin; step < fresh + end; ++step)
+            states.push_back(series.state(step));
     });
-    return observer.agreed(team);
+    VolumeFindings found = observer.agreed(std::move(states), team);
+    found.steps =
+        placed_steps(*parts, std::move(steps), detail_grids(info.grid).size(), target.end, team);
+    return found;
 }
 
 } // namespace isochron::index

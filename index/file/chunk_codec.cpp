@@ -1,6 +1,7 @@
 // Packing of chunks: differences of neighbors, bytes of equal weight together, then a library.
 #include "index/file/chunk_codec.h"
 
+#include "index/file/chunk_differences.h"
 #include "index/file/chunk_sums.h"
 #include "index/file/packed_rows.h"
 
@@ -8,7 +9,6 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 namespace isochron::index {
@@ -26,55 +26,6 @@ constexpr int kZstdLevel = 1;
 constexpr std::size_t kLeastGain = 16;
 
 using Size = std::array<std::uint32_t, 3>;
-
-/// Calls `f` with the unsigned type of a value's size.
-template <class F>
-decltype(auto) visit_words(ValueType type, F&& f) {
-    switch (size_of(type)) {
-    case 1: return f(std::type_identity<std::uint8_t>{});
-    case 2: return f(std::type_identity<std::uint16_t>{});
-    case 4: return f(std::type_identity<std::uint32_t>{});
-    default: break;
-    }
-    return f(std::type_identity<std::uint64_t>{});
-}
-
-/// Replaces values by their differences along an axis, the first ones staying.
-template <class T>
-void to_differences(T* values, const Size& size, std::size_t axis) {
-    const std::size_t row = size[0], plane = row * size[1], count = plane * size[2];
-    if (axis == 2) {
-        for (std::size_t i = count; i-- > plane;)
-            values[i] = static_cast<T>(values[i] - values[i - plane]);
-        return;
-    }
-    const std::size_t block = axis == 0 ? row : plane, step = axis == 0 ? 1 : row;
-    for (std::size_t first = 0; first < count; first += block)
-        for (std::size_t i = block; i-- > step;)
-            values[first + i] = static_cast<T>(values[first + i] - values[first + i - step]);
-}
-
-/// About the bits that the differences take.
-template <class T>
-std::uint64_t cost(std::span<const T> differences) {
-    std::uint64_t sum = 0;
-    for (const T d : differences) {
-        const auto folded = static_cast<T>((d << 1) ^ (d >> (8 * sizeof(T) - 1) ? ~T{0} : T{0}));
-        if constexpr (sizeof(T) == 1)
-            sum += folded; // small numbers: their sum tells as much, and takes less time
-        else
-            sum += static_cast<std::uint64_t>(std::bit_width(folded));
-    }
-    return sum;
-}
-
-template <class T>
-void shuffle(std::span<const T> values, std::byte* out) {
-    const auto* bytes = reinterpret_cast<const std::byte*>(values.data());
-    for (std::size_t byte = 0; byte < sizeof(T); ++byte)
-        for (std::size_t i = 0; i < values.size(); ++i)
-            *out++ = bytes[i * sizeof(T) + byte];
-}
 
 bool all_equal(std::span<const std::byte> values, std::size_t size) {
     return std::memcmp(values.data(), values.data() + size, values.size() - size) == 0;
@@ -105,26 +56,8 @@ struct ChunkPacker::State {
 
     Codec codec;
     std::unique_ptr<ZSTD_CCtx, Free> zstd{ZSTD_createCCtx()};
-    std::vector<std::byte> best, tried, shuffled, packed; // kept for their memory
-
-    /// Leaves the differences that cost least in `best`. @return their bits
-    template <class T>
-    unsigned differences(const Size& size, std::span<const std::byte> values) {
-        tried.assign(values.begin(), values.end());
-        T* words = reinterpret_cast<T*>(tried.data());
-        const std::span<const T> all(words, values.size() / sizeof(T));
-        std::uint64_t least = ~std::uint64_t{0};
-        unsigned bits = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            to_differences(words, size, axis);
-            if (const std::uint64_t found = cost(all); found < least) {
-                least = found;
-                bits = kTried[axis];
-                best = tried;
-            }
-        }
-        return bits;
-    }
+    ChunkDifferences differences;
+    std::vector<std::byte> packed; // kept for its memory
 
     /// @return its length; 0 where it does not get shorter
     std::size_t press(Form form, std::span<const std::byte> bytes) {
@@ -159,26 +92,18 @@ void ChunkPacker::pack(ValueType type, const Size& size, std::span<const std::by
         return put(static_cast<unsigned>(Form::constant), values.first(word));
     if (state_->codec != Codec::none) {
         const Form form = state_->codec == Codec::lz4 ? Form::lz4 : Form::zstd;
-        unsigned head = static_cast<unsigned>(form);
-        visit_words(type, [&]<class T>(std::type_identity<T>) {
-            head |= state_->differences<T>(size, values);
-            if constexpr (sizeof(T) > 1) {
-                head |= kShuffled;
-                state_->shuffled.resize(values.size());
-                shuffle(std::span(reinterpret_cast<const T*>(state_->best.data()),
-                                  values.size() / sizeof(T)),
-                        state_->shuffled.data());
-            }
-        });
-        const auto& bytes = head & kShuffled ? state_->shuffled : state_->best;
+        const unsigned axes = state_->differences.find(size, word, values);
+        const auto bytes = state_->differences.shuffled();
         if (state_->codec == Codec::fitting && word == 1) {
-            head = static_cast<unsigned>(Form::stored) | kRows | (head & ~kFormMask);
             state_->packed.clear();
             pack_rows(bytes, state_->packed);
             if (state_->packed.size() <= limit_of(values.size()))
-                return put(head, state_->packed);
+                return put(static_cast<unsigned>(Form::stored) | kRows | kTried[axes - 1],
+                           state_->packed);
             return put(static_cast<unsigned>(Form::stored), values);
         }
+        const unsigned head =
+            static_cast<unsigned>(form) | kTried[axes - 1] | (word > 1 ? kShuffled : 0);
         if (const std::size_t length = state_->press(form, bytes))
             return put(head, std::span(state_->packed).first(length));
     }

@@ -2,154 +2,244 @@
 #include "index/file/detail_levels.h"
 
 #include "index/file/chunk_grid.h"
-#include "index/system/parallel.h"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "index/file/detail_levels.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+#include <hwy/highway.h>
+
+// Plain loops, which the compiler makes vectors of, for each processor anew.
+HWY_BEFORE_NAMESPACE();
+namespace isochron::index::HWY_NAMESPACE {
+namespace {
+
+using Taps = Coarsener::Taps;
+
+/// Wide enough for 64 values.
+template <class T>
+using Sum = std::conditional_t<
+    std::is_floating_point_v<T>, double,
+    std::conditional_t<sizeof(T) == 1, std::int16_t,
+                       std::conditional_t<sizeof(T) == 2, std::int32_t, std::int64_t>>>;
+
+/// (a + 2 b) + c of rows, without those that are not there.
+template <class From, class S>
+void add_rows(const Taps& taps, const From* middle, std::size_t stride, std::size_t count, S* out) {
+    const From* below = taps.below ? middle - stride : middle;
+    const From* above = taps.above ? middle + stride : middle;
+    if (taps.below && taps.above)
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = static_cast<S>((S(below[i]) + 2 * S(middle[i])) + S(above[i]));
+    else if (taps.below)
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = static_cast<S>(S(below[i]) + 2 * S(middle[i]));
+    else
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] = static_cast<S>(2 * S(middle[i]) + (taps.above ? S(above[i]) : S(0)));
+}
+
+template <class From, class S>
+void reduce_row(const From* HWY_RESTRICT row, std::uint32_t from, std::uint32_t to,
+                S* HWY_RESTRICT out) {
+    for (const std::uint32_t x : {0u, to - 1}) {
+        const Taps taps(x, from);
+        add_rows(taps, row + taps.middle, 1, 1, out + x);
+    }
+    for (std::uint32_t x = 1; x + 1 < to; ++x)
+        out[x] = static_cast<S>((S(row[2 * x - 1]) + 2 * S(row[2 * x])) + S(row[2 * x + 1]));
+}
+
+template <class T>
+bool has_nan(const T* values, std::size_t count) {
+    bool found = false;
+    for (std::size_t i = 0; i < count; ++i)
+        found |= values[i] != values[i];
+    return found;
+}
+
+template <class S>
+S* room(std::vector<std::uint64_t>& words, std::size_t count) {
+    words.resize(std::max(words.size(), (count * sizeof(S) + 7) / 8));
+    return reinterpret_cast<S*>(words.data());
+}
+
+/// Along x, then y. @param from values of a row, one after the other
+template <class S, class Rows>
+void reduce_plane(Coarsener::Work& work, const Rows& reduced_row, std::vector<std::uint64_t>& out) {
+    const auto& from = work.from;
+    const auto& to = work.to;
+    S* rows = room<S>(work.rows, std::size_t{to[0]} * from[1]);
+    for (std::uint32_t y = 0; y < from[1]; ++y)
+        reduced_row(y, rows + std::size_t{y} * to[0]);
+    S* sums = room<S>(out, std::size_t{to[0]} * to[1]);
+    for (std::uint32_t y = 0; y < to[1]; ++y) {
+        const Taps taps(y, from[1]);
+        add_rows(taps, rows + std::size_t{taps.middle} * to[0], to[0], to[0],
+                 sums + std::size_t{y} * to[0]);
+    }
+}
+
+template <class T>
+void reduce_plane_of(Coarsener::Work& work, const T* plane, Coarsener::Plane& out) {
+    using S = Sum<T>;
+    const std::size_t length = work.from[0];
+    if constexpr (std::is_floating_point_v<T>) {
+        out.gaps = has_nan(plane, length * work.from[1]);
+        if (out.gaps) {
+            S* values = room<S>(work.values, length);
+            S* weights = room<S>(work.weights, length);
+            reduce_plane<S>(
+                work,
+                [&](std::uint32_t y, S* to) {
+                    const T* row = plane + y * length;
+                    for (std::size_t x = 0; x < length; ++x)
+                        values[x] = row[x] == row[x] ? static_cast<S>(row[x]) : S(0);
+                    reduce_row(values, work.from[0], work.to[0], to);
+                },
+                out.values);
+            reduce_plane<S>(
+                work,
+                [&](std::uint32_t y, S* to) {
+                    const T* row = plane + y * length;
+                    for (std::size_t x = 0; x < length; ++x)
+                        weights[x] = row[x] == row[x] ? 1 : 0;
+                    reduce_row(weights, work.from[0], work.to[0], to);
+                },
+                out.weights);
+            return;
+        }
+    }
+    reduce_plane<S>(
+        work,
+        [&](std::uint32_t y, S* to) {
+            reduce_row(plane + y * length, work.from[0], work.to[0], to);
+        },
+        out.values);
+}
+
+/// Weights of a plane without gaps.
+void fill_weights(const Coarsener::Work& work, Coarsener::Plane& plane) {
+    double* weights = room<double>(plane.weights, std::size_t{work.to[0]} * work.to[1]);
+    for (std::uint32_t y = 0; y < work.to[1]; ++y)
+        for (std::uint32_t x = 0; x < work.to[0]; ++x)
+            *weights++ = Taps(y, work.from[1]).weight() * Taps(x, work.from[0]).weight();
+}
+
+std::int64_t rounded(std::int64_t sum, std::int64_t weight) {
+    const std::int64_t a = 2 * sum + weight, b = 2 * weight;
+    return a / b - (a % b < 0 ? 1 : 0);
+}
+
+/// One plane of the next level. @param planes those around it, reduced; of those that are not
+/// there nothing is read
+template <class T>
+void finish_plane(Coarsener::Work& work, const Taps& taps,
+                  const std::array<Coarsener::Plane*, 3>& planes, T* out) {
+    using S = Sum<T>;
+    const std::uint32_t width = work.to[0];
+    S* row = room<S>(work.values, std::max(width, work.from[0]));
+    S* weight = room<S>(work.weights, std::max(width, work.from[0]));
+    bool gaps = false;
+    for (const Coarsener::Plane* plane : planes)
+        gaps |= plane && plane->gaps;
+    if (gaps)
+        for (Coarsener::Plane* plane : planes)
+            if (plane && !plane->gaps)
+                fill_weights(work, *plane);
+    // Rows of three planes, which do not lie behind each other.
+    const auto sum_of = [&](std::size_t at, auto member, S* to) {
+        const auto row_of = [&](std::size_t i) {
+            return reinterpret_cast<const S*>((planes[i]->*member).data()) + at;
+        };
+        const S* HWY_RESTRICT middle = row_of(1);
+        const S* below = taps.below ? row_of(0) : middle;
+        const S* above = taps.above ? row_of(2) : middle;
+        if (taps.below && taps.above)
+            for (std::uint32_t x = 0; x < width; ++x)
+                to[x] = static_cast<S>((below[x] + 2 * middle[x]) + above[x]);
+        else if (taps.below)
+            for (std::uint32_t x = 0; x < width; ++x)
+                to[x] = static_cast<S>(below[x] + 2 * middle[x]);
+        else
+            for (std::uint32_t x = 0; x < width; ++x)
+                to[x] = static_cast<S>(2 * middle[x] + (taps.above ? above[x] : S(0)));
+    };
+    for (std::uint32_t y = 0; y < work.to[1]; ++y, out += width) {
+        const std::size_t at = std::size_t{y} * width;
+        sum_of(at, &Coarsener::Plane::values, row);
+        const int yz = taps.weight() * Taps(y, work.from[1]).weight();
+        if constexpr (std::is_floating_point_v<T>) {
+            if (gaps) {
+                sum_of(at, &Coarsener::Plane::weights, weight);
+            } else {
+                std::fill_n(weight, width, S(4 * yz));
+                weight[0] = weight[width - 1] = S(3 * yz);
+            }
+            for (std::uint32_t x = 0; x < width; ++x)
+                out[x] = static_cast<T>(row[x] / weight[x]);
+        } else {
+            if (yz == 16)
+                for (std::uint32_t x = 0; x < width; ++x)
+                    out[x] = static_cast<T>((row[x] + 32) >> 6); // 64 is most of them's weight
+            else
+                for (std::uint32_t x = 1; x + 1 < width; ++x)
+                    out[x] = static_cast<T>(rounded(row[x], 4 * yz));
+            for (const std::uint32_t x : {0u, width - 1})
+                out[x] = static_cast<T>(rounded(row[x], 3 * yz));
+        }
+    }
+}
+
+template <class T>
+void make_planes(Coarsener::Work& work, const T* held, std::uint32_t first, std::uint32_t begin,
+                 std::uint32_t end, T* out) {
+    const std::size_t size = std::size_t{work.from[0]} * work.from[1];
+    for (Coarsener::Plane& plane : work.planes)
+        plane.number.reset(); // the level may be that of another step
+    for (std::uint32_t z = begin; z < end; ++z) {
+        const Taps taps(z, work.from[2]);
+        std::array<Coarsener::Plane*, 3> planes{};
+        for (std::uint32_t i = taps.below ? 0 : 1; i < (taps.above ? 3u : 2u); ++i) {
+            const std::uint32_t number = taps.middle + i - 1;
+            Coarsener::Plane& plane = work.planes[number % 3];
+            if (plane.number != number)
+                reduce_plane_of(work, held + (number - first) * size, plane);
+            plane.number = number;
+            planes[i] = &plane;
+        }
+        finish_plane(work, taps, planes, out + std::size_t{z - begin} * work.to[0] * work.to[1]);
+    }
+}
+
+void make_level(ValueType type, Coarsener::Work& work, const std::byte* held, std::uint32_t first,
+                std::uint32_t begin, std::uint32_t end, std::byte* out) {
+    visit_value_type(type, [&]<class T>(std::type_identity<T>) {
+        make_planes(work, reinterpret_cast<const T*>(held), first, begin, end,
+                    reinterpret_cast<T*>(out));
+    });
+}
+
+} // namespace
+} // namespace isochron::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace isochron::index {
+
+HWY_EXPORT(make_level);
+
 namespace {
 
 /// Vertices of the next level along an axis.
 constexpr std::uint32_t coarser(std::uint32_t vertices) {
     return vertices / 2 + 1;
 }
-
-/// What a vertex of the next level is made of along one axis.
-struct Taps {
-    Taps(std::uint32_t place, std::uint32_t vertices)
-        : middle(std::min(2 * place, vertices - 1)), below(middle > 0),
-          above(middle + 1 < vertices) {}
-    int weight() const { return 2 + (below ? 1 : 0) + (above ? 1 : 0); }
-
-    std::uint32_t middle;
-    bool below, above; ///< whether there are such neighbors
-};
-
-/// Sums of values, and of the weights of those that are not missing.
-template <class Sum>
-struct Sums {
-    std::vector<Sum> values, weights;
-    void resize(std::size_t size, bool weighted) {
-        values.resize(size);
-        weights.resize(weighted ? size : 0);
-    }
-};
-
-/// (a + 2 b) + c of rows, without those that are not there.
-template <class Sum>
-void add_rows(const Taps& taps, const Sum* middle, std::size_t stride, std::size_t count,
-              Sum* out) {
-    const Sum* below = taps.below ? middle - stride : middle;
-    const Sum* above = taps.above ? middle + stride : middle;
-    if (taps.below && taps.above)
-        for (std::size_t i = 0; i < count; ++i)
-            out[i] = (below[i] + 2 * middle[i]) + above[i];
-    else if (taps.below)
-        for (std::size_t i = 0; i < count; ++i)
-            out[i] = below[i] + 2 * middle[i];
-    else
-        for (std::size_t i = 0; i < count; ++i)
-            out[i] = 2 * middle[i] + (taps.above ? above[i] : Sum(0));
-}
-
-template <class T>
-class Coarsening {
-  public:
-    static constexpr bool kFloat = std::is_floating_point_v<T>;
-    using Sum = std::conditional_t<kFloat, double, std::int64_t>;
-
-    Coarsening(const Grid& grid, const T* stored, T* out)
-        : from_(grid.vertices), to_{coarser(from_[0]), coarser(from_[1]), coarser(from_[2])},
-          stored_(stored), out_(out) {}
-
-    std::uint32_t planes() const { return to_[2]; }
-
-    /// Makes one plane of the next level.
-    void plane(std::uint32_t z) {
-        const Taps taps(z, from_[2]);
-        const std::size_t size = std::size_t{to_[0]} * to_[1];
-        sum_.resize(3 * size, kFloat);
-        // Those that are not there stay out of the sum below.
-        for (std::uint32_t i = taps.below ? 0 : 1; i < (taps.above ? 3u : 2u); ++i)
-            reduce(taps.middle + i - 1, i * size);
-        result_.resize(size, kFloat);
-        add_rows(taps, sum_.values.data() + size, size, size, result_.values.data());
-        if constexpr (kFloat)
-            add_rows(taps, sum_.weights.data() + size, size, size, result_.weights.data());
-        T* const out = out_ + z * size;
-        for (std::uint32_t y = 0; y < to_[1]; ++y)
-            for (std::uint32_t x = 0; x < to_[0]; ++x) {
-                const std::size_t i = std::size_t{y} * to_[0] + x;
-                if constexpr (kFloat) {
-                    out[i] = static_cast<T>(result_.values[i] / result_.weights[i]);
-                } else {
-                    const std::int64_t weight =
-                        taps.weight() * Taps(y, from_[1]).weight() * Taps(x, from_[0]).weight();
-                    out[i] = static_cast<T>(floor_div(2 * result_.values[i] + weight, 2 * weight));
-                }
-            }
-    }
-
-  private:
-    static std::int64_t floor_div(std::int64_t a, std::int64_t b) {
-        return a / b - (a % b < 0 ? 1 : 0);
-    }
-
-    /// One plane of the level below, along x and y.
-    void reduce(std::uint32_t z, std::size_t at) {
-        rows_.resize(std::size_t{to_[0]} * from_[1], kFloat);
-        for (std::uint32_t y = 0; y < from_[1]; ++y)
-            reduce_row(stored_ + (std::size_t{z} * from_[1] + y) * from_[0],
-                       std::size_t{y} * to_[0]);
-        for (std::uint32_t y = 0; y < to_[1]; ++y) {
-            const Taps taps(y, from_[1]);
-            const std::size_t row = std::size_t{taps.middle} * to_[0];
-            const std::size_t out = at + std::size_t{y} * to_[0];
-            add_rows(taps, rows_.values.data() + row, to_[0], to_[0], sum_.values.data() + out);
-            if constexpr (kFloat)
-                add_rows(taps, rows_.weights.data() + row, to_[0], to_[0],
-                         sum_.weights.data() + out);
-        }
-    }
-
-    void reduce_row(const T* row, std::size_t at) {
-        values_.resize(from_[0]);
-        weights_.resize(kFloat ? from_[0] : 0);
-        for (std::uint32_t x = 0; x < from_[0]; ++x) {
-            if constexpr (kFloat) {
-                const bool there = row[x] == row[x];
-                values_[x] = there ? static_cast<Sum>(row[x]) : Sum(0);
-                weights_[x] = there ? 1 : 0;
-            } else {
-                values_[x] = row[x];
-            }
-        }
-        reduce_along_x(values_, rows_.values.data() + at);
-        if constexpr (kFloat)
-            reduce_along_x(weights_, rows_.weights.data() + at);
-    }
-
-    void reduce_along_x(const std::vector<Sum>& row, Sum* out) const {
-        for (const std::uint32_t x : {0u, to_[0] - 1}) {
-            const Taps taps(x, from_[0]);
-            add_rows(taps, row.data() + taps.middle, 1, 1, out + x);
-        }
-        for (std::uint32_t x = 1; x + 1 < to_[0]; ++x)
-            out[x] = (row[2 * x - 1] + 2 * row[2 * x]) + row[2 * x + 1];
-    }
-
-    std::array<std::uint32_t, 3> from_, to_;
-    const T* stored_;
-    T* out_;
-    Sums<Sum> rows_;                    ///< of a plane below, reduced along x
-    Sums<Sum> sum_;                     ///< of up to three planes, along x and y
-    Sums<Sum> result_;                  ///< of the plane
-    std::vector<Sum> values_, weights_; ///< of a row below
-};
 
 } // namespace
 
@@ -166,20 +256,23 @@ std::vector<Grid> detail_grids(const Grid& grid) {
     return grids;
 }
 
-void coarsen(ValueType type, const Grid& grid, std::span<const std::byte> stored,
-             std::span<std::byte> out, unsigned threads) {
-    visit_value_type(type, [&]<class T>(std::type_identity<T>) {
-        const Coarsening<T> work(grid, reinterpret_cast<const T*>(stored.data()),
-                                 reinterpret_cast<T*>(out.data()));
-        // Threads take time to start: not for the smallest steps.
-        const unsigned used = stored.size() > (std::size_t{1} << 20) ? threads : 1;
-        std::vector<Coarsening<T>> workers(used, work);
-        parallel_for(work.planes(), used,
-                     [&](std::size_t z, unsigned worker) {
-                         workers[worker].plane(static_cast<std::uint32_t>(z));
-                     },
-                     {});
-    });
+Coarsener::Coarsener(ValueType type, const Grid& grid) : type_(type) {
+    work_.from = grid.vertices;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        work_.to[axis] = coarser(grid.vertices[axis]);
+}
+
+std::uint32_t Coarsener::made_of(std::uint32_t planes) const {
+    // The last plane of a level is one of the next, too, whatever its number.
+    return planes < work_.from[2] ? (planes + 1) / 2 : work_.to[2];
+}
+
+void Coarsener::make(std::span<const std::byte> held, std::uint32_t first, std::uint32_t begin,
+                     std::uint32_t end, std::span<std::byte> out) {
+    assert(out.size() == (end - begin) * std::size_t{work_.to[0]} * work_.to[1] * size_of(type_));
+    HWY_DYNAMIC_DISPATCH(make_level)
+    (type_, work_, held.data(), first, begin, end, out.data());
 }
 
 } // namespace isochron::index
+#endif

@@ -13,7 +13,10 @@
 #include "index/volume/grid.h"
 #include "index/volume/value_type.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +27,48 @@ namespace isochron::index {
 /// axis, which may be nearer to each other.
 std::vector<Grid> detail_grids(const Grid& grid);
 
-/// Values of the next level. With all threads. @param stored values of a level on `grid`,
-/// [z][y][x], x fastest @param out as many as the next grid has vertices
-void coarsen(ValueType type, const Grid& grid, std::span<const std::byte> stored,
-             std::span<std::byte> out, unsigned threads);
+/// Makes planes of the next level, in any order. Keeps its work space: one for each thread.
+class Coarsener {
+  public:
+    /// @param grid of the level that the next one is made of
+    Coarsener(ValueType type, const Grid& grid);
+
+    /// How many planes of the next level have their middle among so many first planes of this one.
+    std::uint32_t made_of(std::uint32_t planes) const;
+
+    /// Makes the planes from `begin` to `end` of the next level.
+    /// @param held planes of this level from number `first` on, [z][y][x], x fastest: those at
+    ///        twice these numbers (at most the last), the ones before and the ones behind
+    void make(std::span<const std::byte> held, std::uint32_t first, std::uint32_t begin,
+              std::uint32_t end, std::span<std::byte> out);
+
+    /// What a vertex of the next level is made of along one axis.
+    struct Taps {
+        Taps(std::uint32_t place, std::uint32_t vertices)
+            : middle(2 * place < vertices ? 2 * place : vertices - 1), below(middle > 0),
+              above(middle + 1 < vertices) {}
+        int weight() const { return 2 + (below ? 1 : 0) + (above ? 1 : 0); }
+
+        std::uint32_t middle;
+        bool below, above; ///< whether there are such neighbors
+    };
+    /// A plane of this level, reduced along x and y: sums of values, and of the weights of those
+    /// that are not missing where it has gaps.
+    struct Plane {
+        std::optional<std::uint32_t> number;
+        bool gaps = false;
+        std::vector<std::uint64_t> values, weights;
+    };
+    struct Work {
+        std::array<std::uint32_t, 3> from{}, to{}; ///< vertices of this level and the next
+        std::array<Plane, 3> planes;
+        std::vector<std::uint64_t> rows;            ///< of a plane, reduced along x
+        std::vector<std::uint64_t> values, weights; ///< of a row
+    };
+
+  private:
+    ValueType type_;
+    Work work_;
+};
 
 } // namespace isochron::index

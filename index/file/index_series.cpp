@@ -3,11 +3,13 @@
 
 #include "index/error.h"
 #include "index/file/index_file.h"
+#include "index/system/running_checksum.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace isochron::index {
 namespace {
@@ -89,13 +91,68 @@ class IndexSeries final : public VolumeSeries {
             std::memcpy(out.data(), loaded.values.step_bytes(step).data(), out.size());
             return;
         }
-        const auto& sums = as_colors_ ? color_checksums_ : checksums_;
         bytes_->read((as_colors_ ? colors_ : volume_) + step * step_stride(out.size()), out);
-        if (checksum_of(out) != sums[step])
-            refuse(fmt::format("damaged: the checksum of step {} does not match", step));
+        expect_checksum(step, checksum_of(out));
+    }
+
+    void stream(std::size_t step, const TakePiece& take) override {
+        const std::uint64_t bytes = info_.step_bytes();
+        if (file_)
+            return stream_chunks(static_cast<std::uint32_t>(step), take);
+        RunningChecksum checksum;
+        std::vector<std::byte> piece;
+        const std::uint64_t begin = (as_colors_ ? colors_ : volume_) + step * step_stride(bytes);
+        constexpr std::uint64_t kPiece = 1 << 20;
+        for (std::uint64_t at = 0; at < bytes; at += piece.size()) {
+            piece.resize(std::min(kPiece, bytes - at));
+            bytes_->read(begin + at, piece);
+            checksum.add(piece);
+            take(piece);
+        }
+        expect_checksum(step, checksum.take());
     }
 
   private:
+    /// A layer of chunks at a time.
+    void stream_chunks(std::uint32_t step, const TakePiece& take) {
+        const ChunkStore& store = as_colors_ ? *file_->color_chunks() : file_->chunks();
+        const ChunkGrid& grid = store.grid();
+        const std::size_t size = size_of(info_.type);
+        const std::size_t row = info_.grid.vertices[0] * size, plane = info_.grid.vertices[1] * row;
+        std::vector<std::uint32_t> places(grid.chunks_of_layer());
+        std::iota(places.begin(), places.end(), 0u);
+        std::vector<std::byte> planes;
+        for (std::uint32_t layer = 0; layer < grid.layers(); ++layer) {
+            planes.resize(grid.size(layer, 0)[2] * plane);
+            // Some at a time: the cache may be small.
+            constexpr std::size_t kAtOnce = 1024;
+            for (std::size_t first = 0; first < places.size(); first += kAtOnce) {
+                const auto some =
+                    std::span(places).subspan(first, std::min(kAtOnce, places.size() - first));
+                const std::vector<ChunkPtr> chunks = store.chunks(step, layer, some);
+                for (std::size_t i = 0; i < some.size(); ++i)
+                    put(*chunks[i], grid.at(some[i]), row, plane, planes);
+            }
+            take(planes);
+        }
+    }
+
+    static void put(const Chunk& chunk, const std::array<std::uint32_t, 2>& at, std::size_t row,
+                    std::size_t plane, std::span<std::byte> planes) {
+        const auto [nx, ny, nz] = chunk.size;
+        const std::size_t bytes = chunk.values.size() / nz / ny;
+        const std::byte* from = chunk.values.data();
+        std::byte* to = planes.data() + at[1] * kChunkEdge * row + at[0] * kChunkEdge * bytes / nx;
+        for (std::uint32_t z = 0; z < nz; ++z)
+            for (std::uint32_t y = 0; y < ny; ++y, from += bytes)
+                std::memcpy(to + z * plane + y * row, from, bytes);
+    }
+
+    void expect_checksum(std::size_t step, std::uint64_t checksum) const {
+        if (checksum != (as_colors_ ? color_checksums_ : checksums_)[step])
+            refuse(fmt::format("damaged: the checksum of step {} does not match", step));
+    }
+
     [[noreturn]] void refuse(const std::string& what) const {
         throw Error(fmt::format("{}: {}", name_, what));
     }

@@ -27,13 +27,17 @@ constexpr std::optional<Tier> tier_from_name(std::string_view name) {
 
 class TierSet {
   public:
-    bool has(Tier tier) const { return bits_ & 1u << static_cast<unsigned>(tier); }
-    TierSet with(Tier tier) const { return TierSet(bits_ | 1u << static_cast<unsigned>(tier)); }
+    bool has(Tier tier) const { return bits_ & bit(tier); }
+    TierSet with(Tier tier) const { return TierSet(bits_ | bit(tier)); }
+    TierSet with(Tier tier, bool has_it) const {
+        return TierSet(has_it ? bits_ | bit(tier) : bits_ & ~bit(tier));
+    }
     bool operator==(const TierSet&) const = default;
 
     TierSet() = default;
 
   private:
+    static unsigned bit(Tier tier) { return 1u << static_cast<unsigned>(tier); }
     explicit TierSet(unsigned bits) : bits_(bits) {}
     unsigned bits_ = 0;
 };

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -119,14 +120,27 @@ class FileSeries final : public VolumeSeries {
     const SeriesInfo& info() const override { return info_; }
 
     void read(std::size_t step, std::span<std::byte> out) override {
-        const Place place = places_.at(step);
-        named(files_[place.file].path, [&] {
-            expect_unchanged(found_[place.file]);
-            if (!open_ || place.file != open_index_)
-                reopen(place.file);
-            open_->read(place.step, out);
-            expect_unchanged(found_[place.file]);
-        });
+        with_file_of(step, [&](std::size_t number) { open_->read(number, out); });
+    }
+
+    void stream(std::size_t step, const TakePiece& take) override {
+        // What the taker throws is not about the file.
+        std::exception_ptr failure;
+        struct Stop {};
+        try {
+            with_file_of(step, [&](std::size_t number) {
+                open_->stream(number, [&](std::span<const std::byte> piece) {
+                    try {
+                        take(piece);
+                    } catch (...) {
+                        failure = std::current_exception();
+                        throw Stop();
+                    }
+                });
+            });
+        } catch (const Stop&) {
+            std::rethrow_exception(failure);
+        }
     }
 
     std::uint64_t state(std::size_t step) const override {
@@ -140,6 +154,19 @@ class FileSeries final : public VolumeSeries {
     struct Place {
         std::size_t file, step;
     };
+
+    /// Calls `work` with the number of the step in its file, which is open then.
+    template <class Work>
+    void with_file_of(std::size_t step, const Work& work) {
+        const Place place = places_.at(step);
+        named(files_[place.file].path, [&] {
+            expect_unchanged(found_[place.file]);
+            if (!open_ || place.file != open_index_)
+                reopen(place.file);
+            work(place.step);
+            expect_unchanged(found_[place.file]);
+        });
+    }
 
     std::string name(std::size_t file) const { return files_[file].path.string(); }
 

@@ -127,7 +127,15 @@ class ForeignFile final : public VolumeFile {
     std::size_t steps() const override { return described_.steps; }
 
     void read(std::size_t step, std::span<std::byte> out) override {
-        lease_.work([this] { open_again(); }, [&] { read_slabs(step, out); });
+        stream(step, [to = out.data()](std::span<const std::byte> piece) mutable {
+            std::memcpy(to, piece.data(), piece.size());
+            to += piece.size();
+        });
+    }
+
+    void stream(std::size_t step, const TakePiece& take) override {
+        std::size_t taken = 0; // goes on from there where a reader has to be started anew
+        lease_.work([this] { open_again(); }, [&] { take_slabs(step, taken, take); });
     }
 
   private:
@@ -144,11 +152,11 @@ class ForeignFile final : public VolumeFile {
             throw Error(fmt::format("{}: has changed since it was opened", name_));
     }
 
-    // While this copies a slab, the reader makes the next one.
-    void read_slabs(std::size_t step, std::span<std::byte> out) {
+    // While this takes a slab, the reader makes the next one. `taken` of them have been before.
+    void take_slabs(std::size_t step, std::size_t& taken, const TakePiece& take) {
         const std::uint32_t all = described_.info.grid.vertices[2],
                             at_once = described_.slices_at_once;
-        const std::size_t slice = out.size() / all, slab_bytes = slice * at_once;
+        const std::size_t slice = described_.info.step_bytes() / all, slab_bytes = slice * at_once;
         const std::size_t slabs = (std::size_t{all} + at_once - 1) / at_once;
         const std::size_t places = std::min<std::size_t>(slabs, 2);
         const auto memory = lease_.reader().memory(places * slab_bytes);
@@ -156,22 +164,25 @@ class ForeignFile final : public VolumeFile {
             const auto first = static_cast<std::uint32_t>(slab * at_once);
             return Slices{first, std::min(at_once, all - first)};
         };
-        std::size_t asked = 0;
-        for (std::size_t taken = 0; taken < slabs; ++taken) {
+        std::size_t asked = taken;
+        while (taken < slabs) {
             for (; asked < std::min(slabs, taken + places); ++asked)
                 lease_.reader().ask(ReadSlab{step, slices_of(asked), asked % places * slab_bytes});
+            std::size_t replied = taken;
             try {
+                ++replied;
                 lease_.expect<SlabRead>();
+                const auto slab =
+                    memory.subspan(taken % places * slab_bytes, slices_of(taken).count * slice);
+                ++taken;
+                take(slab);
             } catch (const ReaderEnded&) {
                 throw;
-            } catch (const Error&) {
-                for (std::size_t owed = taken + 1; owed < asked; ++owed)
+            } catch (...) {
+                for (; replied < asked; ++replied)
                     lease_.reader().reply();
                 throw;
             }
-            std::memcpy(out.data() + taken * slab_bytes,
-                        memory.data() + taken % places * slab_bytes,
-                        slices_of(taken).count * slice);
         }
     }
 

@@ -19,6 +19,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
+constexpr std::size_t kPiece = 1 << 20; ///< [bytes] read at a time
+
 void swap_bytes(std::span<std::byte> values, std::size_t size) {
     for (std::size_t i = 0; i + size <= values.size(); i += size)
         std::reverse(values.begin() + i, values.begin() + i + size);
@@ -44,38 +46,55 @@ class StoredFile final : public VolumeFile {
     }
 
     void read(std::size_t step, std::span<std::byte> out) override {
-        const std::string name = layout_.data.string();
-        const std::size_t bytes = step_bytes();
-        // Values that need no conversion go straight to where they belong.
-        if (layout_.array.components == 1 &&
-            stored_type_of(chosen_.value_type()) == *layout_.array.type &&
-            chosen_.component != ChosenScalar::kMagnitude)
-            return load(step, out);
-        std::vector<std::byte> tuples(bytes);
-        load(step, tuples);
-        convert(chosen_, tuples, info_.grid, out, name);
+        stream_to(step, out, [](std::span<const std::byte>) {});
     }
 
-    std::size_t step_bytes() const {
-        return info_.grid.vertex_count() * layout_.array.components * size_of(*layout_.array.type);
-    }
+    void stream(std::size_t step, const TakePiece& take) override { stream_to(step, {}, take); }
+
+    std::size_t step_bytes() const { return info_.grid.vertex_count() * tuple_bytes(); }
 
   private:
-    void load(std::size_t step, std::span<std::byte> out) {
+    std::size_t tuple_bytes() const {
+        return layout_.array.components * size_of(*layout_.array.type);
+    }
+
+    /// Piece by piece. @param out where all go to, one behind the other; empty: where there is room
+    void stream_to(std::size_t step, std::span<std::byte> out, const TakePiece& take) {
+        const std::size_t value = size_of(chosen_.value_type()), all = info_.grid.vertex_count();
+        const std::size_t at_once = std::min(all, kPiece / std::max(tuple_bytes(), value));
+        // Values that need no conversion go straight to where they belong.
+        const bool as_they_are = layout_.array.components == 1 &&
+                                 stored_type_of(chosen_.value_type()) == *layout_.array.type &&
+                                 chosen_.component != ChosenScalar::kMagnitude;
+        tuples_.resize(as_they_are ? 0 : at_once * tuple_bytes());
+        values_.resize(out.empty() ? at_once * value : 0);
+        for (std::size_t first = 0; first < all; first += at_once) {
+            const std::size_t count = std::min(at_once, all - first);
+            const auto to = out.empty() ? std::span(values_).first(count * value)
+                                        : out.subspan(first * value, count * value);
+            const auto tuples = as_they_are ? to : std::span(tuples_).first(count * tuple_bytes());
+            load(step, first, tuples);
+            if (!as_they_are)
+                convert(chosen_, tuples, info_.grid, to, layout_.data.string());
+            take(to);
+        }
+        if (step + 1 == layout_.steps)
+            expect_end(layout_.ascii ? Rest{.bytes = text_->rest()}
+                                     : stream_->rest(layout_.skip +
+                                                     (step + 1) * std::uint64_t{step_bytes()}));
+    }
+
+    /// @param first number of the tuple in the step
+    void load(std::size_t step, std::size_t first, std::span<std::byte> out) {
+        const std::size_t tuple = step * info_.grid.vertex_count() + first;
         if (layout_.ascii) {
             if (!text_)
                 text_.emplace(layout_.data, layout_.offset, *layout_.array.type);
-            text_->read(step * (out.size() / size_of(*layout_.array.type)), out);
-            if (step + 1 == layout_.steps)
-                expect_end({.bytes = text_->rest()});
-            return;
+            return text_->read(tuple * layout_.array.components, out);
         }
         if (!stream_)
             stream_ = open_data(layout_.data, layout_.offset, layout_.compression);
-        const std::uint64_t position = layout_.skip + step * std::uint64_t{out.size()};
-        stream_->read(position, out);
-        if (step + 1 == layout_.steps)
-            expect_end(stream_->rest(position + out.size()));
+        stream_->read(layout_.skip + tuple * std::uint64_t{tuple_bytes()}, out);
         if (layout_.big_endian)
             swap_bytes(out, size_of(*layout_.array.type));
     }
@@ -101,6 +120,7 @@ class StoredFile final : public VolumeFile {
     bool allow_surplus_;
     std::unique_ptr<DataStream> stream_;
     std::optional<TextValues> text_;
+    std::vector<std::byte> tuples_, values_; ///< a piece, before and after it is converted
 };
 
 } // namespace

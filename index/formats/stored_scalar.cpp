@@ -195,8 +195,8 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
 
 void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, const Grid& grid,
              std::span<std::byte> out, const std::string& file) {
-    const std::size_t count = grid.vertex_count();
     const ValueType type = chosen.value_type();
+    const std::size_t count = out.size() / size_of(type);
     visit_stored_type(*chosen.array.type, [&]<class S>(std::type_identity<S>) {
         visit_value_type(type, [&]<class T>(std::type_identity<T>) {
             T* to = reinterpret_cast<T*>(out.data());

@@ -68,7 +68,8 @@ struct ChosenScalar {
 ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOptions& options,
                            const std::string& file);
 
-/// Converts all tuples of one step (native byte order) to values at the vertices.
+/// Converts the tuples of one step (native byte order) to values at the vertices: all of them, or
+/// a part where the array lies on vertices.
 /// @throws Error naming `file` when a 64-bit integer has no exact f64
 void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, const Grid& grid,
              std::span<std::byte> out, const std::string& file);

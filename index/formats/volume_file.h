@@ -25,6 +25,8 @@ class VolumeFile {
 
     /// As `VolumeSeries::read`, for a step of this file.
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;
+    /// As `VolumeSeries::stream`, for a step of this file.
+    virtual void stream(std::size_t step, const TakePiece& take) = 0;
 };
 
 /// Opens one file, reading no more than it must to describe it. @throws Error naming the file

@@ -13,6 +13,9 @@ class ByteSink {
   public:
     virtual ~ByteSink() = default;
     virtual void write_at(std::uint64_t offset, std::span<const std::byte> bytes) = 0;
+    /// Lets the disk begin with what has been written, without waiting for it: so that a flush at
+    /// the end of long work is short.
+    virtual void begin_flush() {}
 };
 
 /// A file that grows while others read it: bytes behind its end are written first, and flushed

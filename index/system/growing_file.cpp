@@ -45,6 +45,10 @@ void GrowingFile::write_at(std::uint64_t offset, std::span<const std::byte> byte
         fail(error);
 }
 
+void GrowingFile::begin_flush() {
+    begin_flush_of(file_);
+}
+
 void GrowingFile::flush() {
     if (::fsync(file_) != 0)
         fail(errno);

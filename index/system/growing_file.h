@@ -19,6 +19,7 @@ class GrowingFile final : public GrowingSink {
     GrowingFile& operator=(const GrowingFile&) = delete;
 
     void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
+    void begin_flush() override;
     void flush() override;
     void cut(std::uint64_t bytes) override;
 

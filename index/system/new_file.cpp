@@ -130,6 +130,14 @@ void NewFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
         fail(error);
 }
 
+void begin_flush_of(int file) {
+    ::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE); // fails where it cannot be: no harm
+}
+
+void NewFile::begin_flush() {
+    begin_flush_of(file_);
+}
+
 void NewFile::commit() {
     if (::fsync(file_) != 0)
         fail(errno);

@@ -17,6 +17,9 @@ int write_all(int file, std::uint64_t offset, std::span<const std::byte> bytes);
 /// @throws Error naming it and what the system said
 void make_folder(const std::filesystem::path& folder);
 
+/// As ByteSink::begin_flush, for an open file.
+void begin_flush_of(int file);
+
 /// Writes to `.NAME.XXXX.tmp` in the folder of NAME; `commit` gives it its name. Destroyed before
 /// that, it removes what it wrote and an older file of that name stays as it was. Every function
 /// throws Error with the final name and what the system said (disk full, folder not writable, ...).
@@ -34,6 +37,7 @@ class NewFile final : public ByteSink {
     /// Claims disk space from the start of the file, so that a full disk shows before the work.
     void reserve(std::uint64_t bytes);
     void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
+    void begin_flush() override;
     /// Removes the temporary files that killed writers of the same name left.
     void remove_remains() const;
     /// Flushes to disk, then renames over the final name.

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -56,6 +57,9 @@ struct ReadOptions {
     std::optional<std::string> value_unit;  ///< --value-unit
 };
 
+/// Takes stored values, a piece of a step after the other.
+using TakePiece = std::function<void(std::span<const std::byte>)>;
+
 /// A series of steps. Not thread-safe: one owner.
 class VolumeSeries {
   public:
@@ -66,6 +70,14 @@ class VolumeSeries {
     /// @param out exactly `info().step_bytes()` long
     /// @throws Error naming the file when it cannot be read or disagrees with the first step
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;
+
+    /// The same in pieces, each of whole values, one behind the other, which are gone when `take`
+    /// returns: where the format allows it memory never holds the whole step.
+    virtual void stream(std::size_t step, const TakePiece& take) {
+        std::vector<std::byte> whole(info().step_bytes());
+        read(step, whole);
+        take(whole);
+    }
 
     /// A number that changes when what a step is read from is written to; 0 where that cannot be
     /// told without reading.

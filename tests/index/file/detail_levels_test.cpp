@@ -114,6 +114,13 @@ bool same_bits(std::span<const std::byte> got, const std::vector<T>& expected) {
     return true;
 }
 
+/// All planes of the next level at once.
+void coarsen(ValueType type, const Grid& grid, std::span<const std::byte> stored,
+             std::span<std::byte> out) {
+    Coarsener coarsener(type, grid);
+    coarsener.make(stored, 0, 0, coarsener.made_of(grid.vertices[2]), out);
+}
+
 TEST(DetailLevels, GoDownUntilOneChunkHoldsAllWithTheBorderAtItsPlace) {
     for (const std::array<std::uint32_t, 3> n : {std::array<std::uint32_t, 3>{2, 2, 2},
                                                  {16, 16, 16},
@@ -184,14 +191,14 @@ TEST(DetailLevels, OfAConstantFieldAreConstantAndOfAllNaNNaN) {
         Grid grid;
         grid.vertices = {35, 20, 18};
         coarsen(ValueType::u8, grid, std::as_bytes(std::span(in)),
-                std::as_writable_bytes(std::span(out)), 2);
+                std::as_writable_bytes(std::span(out)));
         EXPECT_EQ(out, std::vector<std::uint8_t>(out.size(), static_cast<std::uint8_t>(value)));
     }
     Grid grid;
     grid.vertices = {3, 3, 3};
     std::vector<float> in(27, std::nanf("")), out(8);
     coarsen(ValueType::f32, grid, std::as_bytes(std::span(in)),
-            std::as_writable_bytes(std::span(out)), 1);
+            std::as_writable_bytes(std::span(out)));
     EXPECT_TRUE(std::ranges::all_of(out, [](float v) { return std::isnan(v); }));
 }
 

@@ -1,0 +1,103 @@
+// Steps that stream by, one layer of chunks after the other.
+#include "index/build/layer_stream.h"
+
+#include "index/file/chunk_grid.h"
+
+#include <algorithm>
+#include <cstring>
+#include <future>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::size_t kTooSmall = 32 << 10; ///< [bytes] starting a thread takes longer
+
+} // namespace
+
+LayerCutter::LayerCutter(const Grid& grid, ValueType type)
+    : planes_(grid.vertices[2]),
+      plane_(std::size_t{grid.vertices[0]} * grid.vertices[1] * size_of(type)) {
+    const std::size_t most = std::min(planes_, kChunkEdge + 2) * plane_;
+    for (auto& buffer : buffers_)
+        buffer.resize((most + 7) / 8);
+}
+
+LayerView LayerCutter::view() const {
+    const std::uint32_t begin = layer_ * kChunkEdge;
+    const std::uint32_t end = std::min(begin + kChunkEdge, planes_);
+    return {begin,
+            end,
+            begin - std::min(begin, 1u),
+            std::min(end + 1, planes_),
+            plane_,
+            reinterpret_cast<const std::byte*>(buffers_[current_].data())};
+}
+
+void LayerCutter::advance() {
+    const LayerView done = view();
+    current_ = 1 - current_;
+    ++layer_;
+    filled_ = 0;
+    if (done.end == planes_) {
+        layer_ = 0;
+        return;
+    }
+    const auto both = done.planes(done.end - 1, done.last);
+    std::memcpy(buffers_[current_].data(), both.data(), both.size());
+    filled_ = both.size();
+}
+
+void LayerCutter::add(std::span<const std::byte> piece, const Take& take) {
+    while (!piece.empty()) {
+        const LayerView now = view();
+        const std::size_t room = now.planes(now.first, now.last).size() - filled_;
+        const std::size_t count = std::min(room, piece.size());
+        std::memcpy(reinterpret_cast<std::byte*>(buffers_[current_].data()) + filled_, piece.data(),
+                    count);
+        filled_ += count;
+        piece = piece.subspan(count);
+        bool whole = count == room;
+        while (whole) {
+            const LayerView full = view();
+            take(full);
+            advance();
+            const LayerView next = view();
+            whole = full.end < planes_ && next.planes(next.first, next.last).size() == filled_;
+        }
+    }
+}
+
+void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end,
+                   const std::function<void(std::size_t, const LayerView&)>& take,
+                   const std::function<void(double)>& progress) {
+    const SeriesInfo& info = series.info();
+    LayerCutter cutter(info.grid, info.type);
+    std::future<void> taking; // its end is waited for when this is left
+    const auto wait = [&] {
+        if (taking.valid())
+            taking.get();
+    };
+    for (std::size_t step = begin; step < end; ++step) {
+        const auto report = [&](std::uint32_t planes) {
+            const double done = static_cast<double>(planes) / info.grid.vertices[2];
+            if (progress)
+                progress((static_cast<double>(step - begin) + done) /
+                         static_cast<double>(end - begin));
+        };
+        report(0);
+        series.stream(step, [&](std::span<const std::byte> piece) {
+            cutter.add(piece, [&](const LayerView& layer) {
+                wait();
+                report(layer.begin);
+                if (layer.own().size() <= kTooSmall)
+                    take(step, layer);
+                else
+                    taking =
+                        std::async(std::launch::async, [&take, step, layer] { take(step, layer); });
+            });
+        });
+    }
+    wait();
+}
+
+} // namespace isochron::index

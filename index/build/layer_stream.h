@@ -1,0 +1,58 @@
+// Steps that stream by, one layer of chunks after the other.
+#pragma once
+
+#include "index/volume/volume_series.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// The planes of a layer of chunks, and their neighbors: what packing it takes.
+struct LayerView {
+    std::uint32_t begin = 0, end = 0;  ///< its planes
+    std::uint32_t first = 0, last = 0; ///< planes that are there: `first` to `last` - 1
+    std::size_t plane = 0;             ///< [bytes]
+    const std::byte* held = nullptr;   ///< plane `first`, aligned for the type
+
+    /// Planes from `from` on, before `to`.
+    std::span<const std::byte> planes(std::uint32_t from, std::uint32_t to) const {
+        return {held + (from - first) * plane, (to - from) * plane};
+    }
+    std::span<const std::byte> own() const { return planes(begin, end); }
+};
+
+/// Cuts the values of a step, as they come, into layers, each with the plane before and the one
+/// behind, where there are such. Holds two layers.
+class LayerCutter {
+  public:
+    LayerCutter(const Grid& grid, ValueType type);
+
+    /// Gets the layers in order; a view lasts until the second call after.
+    using Take = std::function<void(const LayerView&)>;
+    /// Takes the next values of a step; after its last the next one begins.
+    void add(std::span<const std::byte> piece, const Take& take);
+
+  private:
+    LayerView view() const;
+    void advance();
+
+    std::uint32_t planes_;
+    std::size_t plane_; ///< [bytes]
+    std::uint32_t layer_ = 0;
+    std::size_t filled_ = 0; ///< bytes of the current buffer
+    unsigned current_ = 0;
+    std::array<std::vector<std::uint64_t>, 2> buffers_;
+};
+
+/// Calls `take(step, layer)` for all layers of the steps from `begin` to `end` in order, each while
+/// the next one is read.
+/// @param progress may throw; gets the fraction that is done
+void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end,
+                   const std::function<void(std::size_t, const LayerView&)>& take,
+                   const std::function<void(double)>& progress);
+
+} // namespace isochron::index

@@ -1,0 +1,57 @@
+// The chunks of a step as they are written to the file.
+#pragma once
+
+#include "index/file/chunk_codec.h"
+#include "index/file/chunk_grid.h"
+#include "index/file/chunk_table.h"
+#include "index/file/file_layout.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// Packs steps layer by layer, each with all threads: of a step it holds the tables alone.
+class LayerPacker {
+  public:
+    LayerPacker(const Grid& grid, ValueType type, Codec codec, unsigned threads);
+
+    /// Takes the bytes in their order.
+    using Append = std::function<void(std::span<const std::byte>)>;
+
+    /// What a layer of chunks is made of.
+    struct Layer {
+        std::span<const std::byte> stored;    ///< [z][y][x]; empty when the file refers to sources
+        std::span<const std::uint8_t> bricks; ///< layer after layer, each as from `build_bricks`
+        std::uint32_t brick_layers = 0;
+        bool with_bricks = true; ///< false in an index without
+    };
+
+    /// Packs the next layer of the step.
+    void pack(const Layer& layer, const Append& append);
+
+    /// Appends the tables of the step, all of whose layers have been packed; the next step begins.
+    /// @return where the tables are; `offset` is left 0
+    StepEntry finish(const Append& append);
+
+  private:
+    struct Piece {
+        std::vector<std::byte> records;
+        std::vector<std::byte> values; ///< of a chunk
+    };
+    void pack_chunk(const Layer& layer, std::uint32_t place, ChunkPacker& packer, Piece& out,
+                    ChunkEntry& entry) const;
+
+    Grid grid_;
+    ValueType type_;
+    ChunkGrid chunks_;
+    std::vector<ChunkPacker> packers_; ///< by thread
+    std::vector<Piece> pieces_;        ///< of a layer
+    std::vector<ChunkEntry> entries_;  ///< of a layer
+    std::vector<std::byte> tables_;    ///< of the layers so far
+    std::uint32_t packed_ = 0;         ///< layers so far
+    std::uint64_t end_ = 0;            ///< of their records
+};
+
+} // namespace isochron::index

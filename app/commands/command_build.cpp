@@ -95,6 +95,8 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
         team.together([&] { file.emplace(asked.out, team.rank() == 0); });
         team.together([&] {
             held = index::IndexFile::open(asked.out);
+            if (const auto lost = held->lost_state())
+                throw index::Error(*lost); // appending would write over what is left of it
             arguments = with_held(asked, *held);
         });
     }
@@ -131,8 +133,10 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
     const std::size_t known = held ? held->info().steps() : 0;
     std::string note;
     try {
-        ProgressBar bar(stderr, static_cast<double>(info.step_bytes()) *
-                                    static_cast<double>(info.steps() - known));
+        ProgressBar bar(stderr,
+                        static_cast<double>(info.step_bytes()) *
+                            static_cast<double>(info.steps() - known),
+                        ProgressBar::Of::all);
         note = write_index(
             sources, arguments, options, held.get(), file ? &*file : nullptr,
             [&](std::string_view phase, double fraction) {

@@ -67,7 +67,7 @@ void run_change(const ChangeArguments& arguments) {
             refuse_input_as_output({arguments.file}, out);
     if (!arguments.to_step && !arguments.to_isovalue)
         throw UsageError("change from what to what: --to-step or --to-isovalue is missing");
-    const auto file = open_index(arguments.file);
+    const auto file = open_index_to_show(arguments.file);
     const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
     const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),
                                     arguments.to_isovalue.value_or(arguments.isovalue));

@@ -250,7 +250,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         prepare_walls(config, job, options.emulate);
         if (job.leads())
             open_trackers(config, trackers);
-        file = open_index(*options.data);
+        file = open_index_to_show(*options.data);
         if (job.leads())
             check_start(options, *file);
         check_outputs(options, job);

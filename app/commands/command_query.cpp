@@ -101,6 +101,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
         {"level", arguments.level},
         {"method", name_of(result.set->method)},
         {"active_cells", active},
+        {"id_bits", index::has_wide_ids(file.chunks(arguments.level).info().grid) ? 64 : 32},
         {"candidates", result.set->candidates},
         {"false_positives", false_positives},
         {"false_positive_rate",
@@ -171,7 +172,7 @@ void run_query(const QueryArguments& arguments) {
         measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue},
                 method_of(arguments, *file), arguments.level, arguments.repeats);
     if (!arguments.ids.empty())
-        write_ids(arguments.ids, result.set->ids);
+        write_ids(arguments.ids, *result.set, file->chunks(arguments.level).info().grid);
     fmt::print("{}", arguments.json ? as_json(arguments, *file, result)
                                     : as_text(arguments, *file, result));
 }
@@ -188,8 +189,8 @@ void add_query(Command& program) {
     command.option("--step", arguments->step, "From 0 to the number of steps - 1").required();
     command
         .option("--ids", arguments->ids,
-                "Write the cell ids: u32, little-endian, ascending; "
-                "id = (z * (ny - 1) + y) * (nx - 1) + x")
+                "Write the cell ids: u32 (u64 where there are 2^32 cells or more), little-endian, "
+                "ascending; id = (z * (ny - 1) + y) * (nx - 1) + x")
         .type_name("OUT.bin");
     command.option("--repeat", arguments->repeats, "Warm repetitions to take the median of")
         .between(0u, 1000u)
@@ -208,8 +209,8 @@ void add_query(Command& program) {
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer(
         "JSON keys: file, step, time, time_unit, isovalue (null unless finite), value_unit,\n"
-        "level (of detail), method (cells, bricks, tree or scan), active_cells, candidates (before "
-        "the exact test),\n"
+        "level (of detail), method (cells, bricks, tree or scan), active_cells, id_bits (32, or 64 "
+        "where ids do not fit),\ncandidates (before the exact test), "
         "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
         "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
         "file), resident_bytes and read_bytes (of the process after that run: memory with mapped\n"

@@ -104,7 +104,7 @@ struct MadePicture {
 };
 
 MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
-    const auto file = open_index(data_path(options, note));
+    const auto file = open_index_to_show(data_path(options, note));
     if (data_hash_of(*file) != note.data_hash)
         throw interaction::Error(
             fmt::format("{}: made of other data: expected hash {}, {} has {}", options.picture,

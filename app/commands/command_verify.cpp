@@ -4,6 +4,7 @@
 #include "app/commands/progress_bar.h"
 #include "app/commands/subcommands.h"
 #include "app/text.h"
+#include "index/error.h"
 #include "index/file/index_file.h"
 
 #include <fmt/format.h>
@@ -26,6 +27,8 @@ void run_verify(const std::filesystem::path& path) {
                 bar.show(phase, fraction);
         });
     }
+    if (const auto lost = file->lost_state())
+        throw index::Error(*lost);
     fmt::print("{}: every checksum matches{}\n", path.string(),
                file->referral() ? ", those of its sources too" : "");
 }

@@ -10,7 +10,10 @@ namespace isochron::app {
 
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path) {
     try {
-        return index::IndexFile::open(path);
+        auto file = index::IndexFile::open(path);
+        if (const auto lost = file->lost_state())
+            fmt::print(stderr, "isochron: {}\n", *lost);
+        return file;
     } catch (const index::Error& error) {
         std::error_code ignored;
         if (path.extension() == ".isochron" || !std::filesystem::is_regular_file(path, ignored))
@@ -20,6 +23,16 @@ std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& 
         throw index::Error(fmt::format("{}; `isochron build {} -o {}` makes an index of data",
                                        error.what(), path.string(), made.string()));
     }
+}
+
+std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path) {
+    auto file = open_index(path);
+    if (const index::Grid& grid = file->info().grid; index::has_wide_ids(grid))
+        throw index::Error(
+            fmt::format("{}: {} cells, expected fewer than 2^32; isochron query finds "
+                        "those of an isovalue",
+                        path.string(), grid.cell_count()));
+    return file;
 }
 
 void warn_beyond(double isovalue, const index::IndexFile& file) {

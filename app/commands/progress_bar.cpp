@@ -11,8 +11,8 @@
 
 namespace isochron::app {
 
-ProgressBar::ProgressBar(std::FILE* out, double bytes)
-    : out_(out), terminal_(isatty(fileno(out)) == 1), bytes_(bytes) {}
+ProgressBar::ProgressBar(std::FILE* out, double bytes, Of of)
+    : out_(out), terminal_(isatty(fileno(out)) == 1), bytes_(bytes), of_(of) {}
 
 ProgressBar::~ProgressBar() {
     if (terminal_ && !phase_.empty())
@@ -25,16 +25,17 @@ void ProgressBar::show(std::string_view phase, double fraction) {
     if (!new_phase && (percent == percent_ || !terminal_))
         return;
     const auto now = std::chrono::steady_clock::now();
-    if (new_phase)
-        phase_start_ = now;
+    const bool new_bar = new_phase && (of_ == Of::phase || phase_.empty());
+    if (new_bar)
+        start_ = now;
     if (!terminal_) {
         fmt::print(out_, "{} ...\n", phase);
     } else {
         constexpr int kWidth = 24;
-        fmt::print(out_, "{}\r{:<16} [{:<{}}] {:3} %", new_phase && !phase_.empty() ? "\n" : "",
+        fmt::print(out_, "{}\r{:<16} [{:<{}}] {:3} %", new_bar && !phase_.empty() ? "\n" : "",
                    phase, std::string(static_cast<std::size_t>(percent * kWidth / 100), '#'),
                    kWidth, percent);
-        const std::chrono::duration<double> elapsed = now - phase_start_;
+        const std::chrono::duration<double> elapsed = now - start_;
         if (fraction > 0 && elapsed.count() > 0.2) {
             if (bytes_ > 0)
                 fmt::print(out_, "  {}/s", human_bytes(bytes_ * fraction / elapsed.count()));

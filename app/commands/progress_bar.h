@@ -4,21 +4,25 @@
 #include "index/progress.h"
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <string_view>
 
 namespace isochron::app {
 
-/// On a terminal one bar per phase with the remaining time, redrawn in place; elsewhere (a log) one
-/// line per phase.
+/// On a terminal one bar per phase, or one for all phases, with the remaining time, redrawn in place;
+/// elsewhere (a log) one line per phase.
 ///
 ///     ProgressBar bar;
 ///     index::build(..., bar.progress());
 class ProgressBar {
   public:
-    /// @param bytes that every phase goes through, to show a rate; 0 shows none
-    explicit ProgressBar(std::FILE* out = stderr, double bytes = 0);
+    /// Whether fractions are those of a phase or of all phases together.
+    enum class Of : std::uint8_t { phase, all };
+
+    /// @param bytes that every phase, or all, go through, to show a rate; 0 shows none
+    explicit ProgressBar(std::FILE* out = stderr, double bytes = 0, Of of = Of::phase);
     ~ProgressBar(); ///< ends the line of the last phase
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
@@ -33,9 +37,10 @@ class ProgressBar {
     std::FILE* out_;
     bool terminal_;
     double bytes_;
+    Of of_;
     std::string phase_;
-    std::chrono::steady_clock::time_point phase_start_;
-    int percent_ = -1; ///< what is on the screen
+    std::chrono::steady_clock::time_point start_; ///< of the phase, or of the first
+    int percent_ = -1;                            ///< what is on the screen
 };
 
 } // namespace isochron::app

@@ -98,7 +98,7 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                 fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
                             options.recording, header.data));
     }
-    auto file = open_index(path);
+    auto file = open_index_to_show(path);
     const std::string hash = held_hash(*file, header.data_hash); // it may have grown since
     // A recording without a hash is not bound to one data set: demonstrations are like that.
     if (!options.any_data && !header.data_hash.empty() && header.data_hash != hash)

@@ -3,9 +3,11 @@
 
 #include "index/build/build_target.h"
 #include "index/build/color_pass.h"
+#include "index/build/section_writer.h"
 #include "index/build/tier_plan.h"
 #include "index/build/unit_pass.h"
 #include "index/build/volume_pass.h"
+#include "index/build/work_progress.h"
 #include "index/error.h"
 #include "index/file/detail_levels.h"
 #include "index/file/file_layout.h"
@@ -51,8 +53,9 @@ class Build {
     /// @param held what is appended to, if anything
     Build(VolumeSeries& series, const std::filesystem::path& out, const BuildOptions& options,
           const Progress& progress, Team& team, BuildTarget& target, const IndexFile* held)
-        : series_(series), out_(out), options_(options), progress_(progress), team_(team),
-          threads_(thread_count(options.threads)), target_(target),
+        : series_(series), out_(out), options_(options), work_(progress),
+          progress_([this](std::string_view phase, double done) { work_.report(phase, done); }),
+          team_(team), threads_(thread_count(options.threads)), target_(target),
           held_(held), metadata_{.info = series.info(),
                                  .codec = options.codec,
                                  .tree = options.tree,
@@ -69,6 +72,7 @@ class Build {
     bool run() {
         plan_cells();
         plan_tiers_ahead();
+        plan_work(kept_.file != nullptr);
         read_steps();
         if (held_ && !fits_held_levels())
             return false;
@@ -86,14 +90,14 @@ class Build {
         }
         if (!held_)
             plan();
+        plan_work(has(Tier::cells));
         write_colors();
         write_cells();
         team_.together([&] {
             if (team_.rank() == 0)
                 write_rest();
         });
-        if (progress_)
-            progress_("flushing to disk", 0.0);
+        progress_("flushing to disk", 0.0);
         target_.commit(header_);
         return true;
     }
@@ -120,6 +124,8 @@ class Build {
         fresh_ = known.info.steps();
         end_ = held.header().file_bytes;
         header_.sequence = held.header().sequence + 1;
+        metadata_.earlier = known.earlier;
+        metadata_.earlier.push_back(held.content_hash());
         metadata_.plan = known.plan;
         metadata_.levels = known.levels;
         counts_ = known.stats.counts;
@@ -177,6 +183,20 @@ class Build {
             if (team_.rank() == 0 && kept_.always)
                 scratch_->sink().reserve((info.steps() - window_) * step_stride(info.step_bytes()));
         });
+    }
+
+    /// In bytes that are read: packing them takes twice as long as copying, cells longer.
+    void plan_work(bool cells) {
+        const auto step = static_cast<double>(metadata_.info.step_bytes());
+        const auto fresh = static_cast<double>(steps_ - fresh_);
+        const double colors =
+            options_.color ? fresh * static_cast<double>(options_.color->info().step_bytes()) : 0;
+        const double covered = cells ? 4 * step * static_cast<double>(steps_ - window_) : 0;
+        const double reading = step * static_cast<double>(steps_ - window_);
+        work_.plan({{"reading", reading},
+                    {"reading colors", colors},
+                    {"indexing", covered},
+                    {"flushing to disk", (reading + colors + covered) / 20}});
     }
 
     static bool asks_for_values(const TierSet& tiers) {
@@ -264,37 +284,36 @@ class Build {
         append_to(unit_checksums_, units.checksums);
     }
 
-    void append(SectionKind kind, std::span<const std::byte> bytes) {
-        align();
-        header_.section(kind) = {end_, bytes.size(), checksum_of(bytes)};
-        target_.sink().write_at(end_, bytes);
-        end_ += bytes.size();
-    }
-
     void write_rest() {
-        if (has(Tier::tree))
-            append(SectionKind::tree, build_thi_tree(values_, options_.tree, progress_, threads_));
-        else
-            append(SectionKind::tree, {});
+        align();
+        const std::vector<std::byte> tree =
+            has(Tier::tree) ? build_thi_tree(values_, options_.tree, progress_, threads_)
+                            : std::vector<std::byte>();
+        header_.section(SectionKind::tree) = {end_, tree.size(), checksum_of(tree)};
+        target_.sink().write_at(end_, tree);
+        end_ += tree.size();
         std::vector<StepEntry> steps;
         for (const auto* array : {&volume_steps_, &color_steps_})
             for (const std::vector<StepEntry>& level : *array)
                 append_to(steps, level);
-        append(SectionKind::steps, std::as_bytes(std::span(steps)));
-        append(SectionKind::directory, std::as_bytes(std::span(directory_)));
         append_to(checksums_, unit_checksums_);
         append_to(checksums_, color_checksums_);
         append_to(checksums_, states_);
-        append(SectionKind::checksums, std::as_bytes(std::span(checksums_)));
         const std::string text = to_json(metadata_);
-        append(SectionKind::metadata, std::as_bytes(std::span(text)));
+        align();
+        end_ = write_sections({{SectionKind::steps, std::as_bytes(std::span(steps))},
+                               {SectionKind::directory, std::as_bytes(std::span(directory_))},
+                               {SectionKind::checksums, std::as_bytes(std::span(checksums_))},
+                               {SectionKind::metadata, std::as_bytes(std::span(text))}},
+                              held_, end_, header_, target_.sink());
         header_.file_bytes = end_;
     }
 
     VolumeSeries& series_;
     const std::filesystem::path& out_;
     const BuildOptions& options_;
-    const Progress& progress_;
+    WorkProgress work_;
+    Progress progress_;
     Team& team_;
     unsigned threads_;
     BuildTarget& target_;
@@ -325,6 +344,13 @@ void check_options(const SeriesInfo& info, const BuildOptions& options) {
         check_limits(info);
         if (options.tiers)
             check_tiers(info.grid, *options.tiers);
+        if (options.with_tree)
+            check_tiers(info.grid, TierSet().with(Tier::tree));
+        if (options.referral && has_wide_ids(info.grid))
+            throw Error(
+                fmt::format("{} cells, expected fewer than 2^32 for an index that refers to "
+                            "its sources",
+                            info.grid.cell_count()));
         if (options.color)
             expect_colors_of(options.color->info(), info);
     } catch (const Error& error) {

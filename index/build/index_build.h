@@ -32,7 +32,7 @@ struct BuildOptions {
 };
 
 /// Reads a series once and writes NAME.isochron under a temporary name, then renames it.
-/// On any failure, also a canceled one, nothing is left behind. An existing index is replaced;
+/// Progress is that of the whole build, whatever the phase. On any failure, also a canceled one, nothing is left behind. An existing index is replaced;
 /// any other existing file is refused. The same series and options give the same bytes, whatever
 /// the number of threads and of processes. Memory of each process: a few layers of 16 planes, where
 /// the format can be read piece by piece, and a little more than twice `waiting_bytes`; where cells
@@ -46,7 +46,7 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
                  const BuildOptions& options, const Progress& progress, Team& team);
 
 /// Appends the steps that an index does not hold yet, in place: it writes behind the end of the
-/// file, and last the header. Killed at any moment it leaves the old index or the new one; whoever
+/// file and where no header that counts names anything, and last the header. Killed at any moment it leaves the old index or the new one; whoever
 /// has the old one open goes on with it. What queries answer and the content hash are those of an
 /// index built anew. Cells come by whole epochs: where fewer steps are new than old in an epoch,
 /// they wait until it is complete, and bricks are searched meanwhile.

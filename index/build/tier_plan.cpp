@@ -22,6 +22,9 @@ constexpr std::uint64_t kSmallStep = 4 << 20;
 /// Of larger ones they pay where merging in time leaves at most this share of the entries: those
 /// of a search are read in place of the values around them.
 constexpr double kPayingCoherence = 0.8;
+/// Of both where they take at most so many bytes for each byte of values: tables take most of those
+/// of tiny steps, which are searched as fast without.
+constexpr double kPayingBytes = 2;
 constexpr std::uint32_t kMergedSteps = 64; ///< looked at to find out
 /// Of steps of more bytes they never pay: at 512^3, as coherent in time as can be, they took three
 /// times the bytes, and a search from disk took 5 to 16 times as long as with bricks.
@@ -67,7 +70,7 @@ double churn(const StepValues& values, const LevelMap& levels) {
                   : std::numeric_limits<double>::infinity();
 }
 
-double merged_share(const StepValues& values, const LevelMap& levels) {
+CellCost cost_of_cells(const StepValues& values, const LevelMap& levels) {
     const Chunking chunking(values.grid);
     const std::uint32_t chunks = std::min(kSampledChunks, chunking.count());
     StepValues window = values;
@@ -75,15 +78,20 @@ double merged_share(const StepValues& values, const LevelMap& levels) {
     window.first += (values.steps - window.steps) / 2 * values.stride;
     UnitBuilder builder(window, levels);
     UnitBytes unit;
-    std::uint64_t entries = 0, cell_steps = 0;
+    std::uint64_t entries = 0, cell_bytes = 0, delta_bytes = 0, cell_steps = 0;
     for (std::uint32_t i = 0; i < chunks; ++i) {
         const auto chunk = static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) *
                                                       chunking.count() / (2 * chunks));
-        builder.build(chunk, 0, false, unit);
+        builder.build(chunk, 0, true, unit);
         entries += unit.entries;
+        cell_bytes += unit.cells.size();
+        delta_bytes += unit.deltas.size();
         cell_steps += chunking.cells(chunk) * window.steps;
     }
-    return static_cast<double>(entries) / static_cast<double>(cell_steps);
+    const auto of = static_cast<double>(cell_steps);
+    const double value_bytes = of * static_cast<double>(size_of(values.type));
+    return {static_cast<double>(entries) / of, static_cast<double>(cell_bytes) / value_bytes,
+            static_cast<double>(delta_bytes) / value_bytes};
 }
 
 bool cells_may_pay(const SeriesInfo& info) {
@@ -94,6 +102,9 @@ void check_tiers(const Grid& grid, const TierSet& asked) {
     if (asked.has(Tier::cells) && grid.cells()[0] > Chunking::kMaxCells)
         throw Error(fmt::format("rows of {} cells, expected at most {} for the tier cells",
                                 grid.cells()[0], Chunking::kMaxCells));
+    if (has_wide_ids(grid) && (asked.has(Tier::cells) || asked.has(Tier::tree)))
+        throw Error(fmt::format("{} cells, expected fewer than 2^32 for the tiers cells and tree",
+                                grid.cell_count()));
     if (asked.has(Tier::deltas) && !asked.has(Tier::cells))
         throw Error("the tier deltas needs the tier cells");
 }
@@ -134,15 +145,20 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
                               static_cast<double>(step_bytes) / (1 << 20), kLargestStep >> 20));
         return plan;
     }
-    if (step_bytes > kSmallStep || step_bytes * values.steps > kSmallSeries) {
-        const double share = merged_share(values, levels);
+    const bool small = step_bytes <= kSmallStep && step_bytes * values.steps <= kSmallSeries;
+    const CellCost cost = small ? CellCost() : cost_of_cells(values, levels);
+    if (!small) {
         const std::string figures =
-            fmt::format("{:.2f} entries for a cell and step, which is {} {:.1f}", share,
-                        share > kPayingCoherence ? "more than" : "at most", kPayingCoherence);
-        if (share > kPayingCoherence) {
-            leave_out("cells", fmt::format("{}: reading the bricks' values takes fewer bytes; "
-                                           "--tiers bricks,cells makes them all the same",
-                                           figures));
+            fmt::format("{:.2f} entries for a cell and step, {:.2f} bytes for each byte of values",
+                        cost.entries, cost.cell_bytes);
+        const bool merges = step_bytes <= kSmallStep || cost.entries <= kPayingCoherence;
+        if (!merges || cost.cell_bytes > kPayingBytes) {
+            leave_out("cells",
+                      fmt::format("{}; at most {} pay: bricks and the values around them are fewer "
+                                  "bytes to read; --tiers bricks,cells makes them all the same",
+                                  figures,
+                                  merges ? fmt::format("{} bytes", kPayingBytes)
+                                         : fmt::format("{} entries", kPayingCoherence)));
             return plan;
         }
         plan.reasons.push_back(fmt::format("cells pay: {}", figures));
@@ -152,9 +168,15 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
     const double changing = churn(values, levels);
     if (values.steps < 2)
         leave_out("deltas", "one step");
+    else if (cost.delta_bytes > kPayingBytes)
+        leave_out("deltas", fmt::format("{:.2f} bytes for each byte of values; at most {} pay",
+                                        cost.delta_bytes, kPayingBytes));
     else if (changing < 1)
         add(Tier::deltas,
-            fmt::format("a step changes {:.0f} % of the active cells", 100 * changing));
+            fmt::format(
+                "a step changes {:.0f} % of the active cells{}", 100 * changing,
+                small ? ""
+                      : fmt::format(", {:.2f} bytes for each byte of values", cost.delta_bytes)));
     else
         leave_out("deltas", fmt::format("a step changes {:.0f} % of the active cells: searching "
                                         "anew is cheaper",

@@ -19,8 +19,8 @@ void check_tiers(const Grid& grid, const TierSet& asked);
 bool cells_may_pay(const SeriesInfo& info);
 
 /// Bricks always; cells where levels are lossless, so that an entry never needs the volume, and
-/// where the series is small or merging in time saves enough; deltas where a step changes fewer
-/// cells than a search finds. What was asked for overrides that.
+/// where the series is small or they pay for their bytes; deltas where a step changes fewer cells
+/// than a search finds, and likewise. What was asked for overrides that.
 /// Looks at a sample of the steps and chunks, which depends on the series alone; at none of the
 /// values where cells cannot pay or levels are not lossless.
 /// @throws Error when something was asked for that cannot be
@@ -31,8 +31,12 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
 /// Infinite where no cell is ever active; 0 for one step.
 double churn(const StepValues& values, const LevelMap& levels);
 
-/// Entries of the tier cells for each cell and step, of a sample: 1 where nothing merges in time.
-/// Cells that are active at no isovalue have none.
-double merged_share(const StepValues& values, const LevelMap& levels);
+/// What cells take, of a sample.
+struct CellCost {
+    double entries = 0; ///< for each cell and step: 1 where nothing merges in time
+    double cell_bytes = 0, delta_bytes = 0; ///< for each byte of values
+};
+/// Cells that are active at no isovalue have no entries.
+CellCost cost_of_cells(const StepValues& values, const LevelMap& levels);
 
 } // namespace isochron::index

@@ -34,7 +34,7 @@ struct CellRow {
 struct CellSet {
     Query query;
     SearchMethod method = SearchMethod::scan;
-    std::vector<CellId> ids;                  ///< ascending
+    std::vector<CellId> ids;                  ///< ascending, where all of the grid's fit
     std::vector<CellPoint> points;            ///< same order
     std::vector<CellRow> rows;                ///< ascending (z, y), non-empty rows only
     std::uint64_t candidates = 0;             ///< cells the search returned before the exact test

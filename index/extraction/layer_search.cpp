@@ -225,7 +225,8 @@ CellSet search_level(const std::shared_ptr<const IndexFile>& file, std::size_t l
     set.query = query;
     set.method = by_bricks ? SearchMethod::bricks : SearchMethod::scan;
     if (std::isfinite(query.isovalue))
-        LayerSearch(file, level).search(set, by_bricks, false, {});
+        LayerSearch(file, level)
+            .search(set, by_bricks, has_wide_ids(file->chunks(level).info().grid), {});
     return set;
 }
 

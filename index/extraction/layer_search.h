@@ -52,8 +52,9 @@ class LayerSearch {
     std::vector<std::unique_ptr<StepSlab>> slabs_; ///< by thread
 };
 
-/// The active cells at a level of detail, ascending; ids are those of the level's own grid. Of an
-/// index that refers to its sources from level 1 on.
+/// The active cells at a level of detail, ascending; ids are those of the level's own grid, and where
+/// they do not fit a CellId the cells have their points, too. Of an index that refers to its sources
+/// from level 1 on.
 /// @throws Error: there is no such level or step, damaged
 CellSet search_level(const std::shared_ptr<const IndexFile>& file, std::size_t level,
                      const Query& query);

@@ -51,7 +51,23 @@ void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t the
                                 header.version, kFileVersion));
 }
 
+/// Rebuilding the header also notices anything but zeros behind it.
+bool is_sound(const FileHeader& header, const HeaderSlot& slot, std::uint64_t at) {
+    return header_bytes(header) == slot && slot_of(header) == at;
+}
+
 } // namespace
+
+OtherSlot other_slot(const ByteSource& file, const FileHeader& counting) {
+    HeaderSlot slot{};
+    const std::uint64_t at = kDataBegin - kHeaderBytes - slot_of(counting);
+    file.read(at, slot);
+    OtherSlot other;
+    std::memcpy(&other.header, slot.data(), sizeof other.header);
+    other.sound = is_sound(other.header, slot, at);
+    other.blank = std::ranges::all_of(slot, [](std::byte byte) { return byte == std::byte{0}; });
+    return other;
+}
 
 FileHeader checked_header(const ByteSource& file) {
     const std::string& name = file.name();
@@ -65,9 +81,7 @@ FileHeader checked_header(const ByteSource& file) {
             check_kind(name, slot, there);
         FileHeader header;
         std::memcpy(&header, slot.data(), sizeof header);
-        // Rebuilding the header also notices anything but zeros behind it.
-        if (header_bytes(header) == slot && slot_of(header) == at &&
-            (!newest || header.sequence > newest->sequence))
+        if (is_sound(header, slot, at) && (!newest || header.sequence > newest->sequence))
             newest = header;
     }
     if (!newest)

@@ -94,6 +94,14 @@ constexpr std::uint64_t slot_of(const FileHeader& header) {
 /// @throws Error: foreign, other byte order, other version, damaged header, truncated
 FileHeader checked_header(const ByteSource& file);
 
+/// The slot beside that of the header that counts.
+struct OtherSlot {
+    bool sound = false; ///< it is an older header
+    bool blank = false; ///< never written to
+    FileHeader header;
+};
+OtherSlot other_slot(const ByteSource& file, const FileHeader& counting);
+
 std::uint64_t checksum_of(std::span<const std::byte> bytes);
 
 } // namespace isochron::index

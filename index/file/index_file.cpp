@@ -169,7 +169,7 @@ void IndexFile::set_cells() {
         return;
     }
     const Grid& grid = metadata_.info.grid;
-    if (grid.cells()[0] > Chunking::kMaxCells)
+    if (grid.cells()[0] > Chunking::kMaxCells || has_wide_ids(grid))
         throw damaged(fmt::format("cells in rows of {}", grid.cells()[0]));
     const std::uint32_t held = metadata_.cell_steps, chunks = Chunking(grid).count();
     if (held < 1 || held > steps() || !metadata_.levels)
@@ -214,15 +214,6 @@ std::span<const std::uint64_t> IndexFile::color_checksums() const {
 }
 std::span<const std::uint64_t> IndexFile::source_states() const {
     return std::span(checksums_).last(steps());
-}
-
-bool IndexFile::has_had(std::uint64_t content_hash) const {
-    if (content_hash == header_.content_hash)
-        return true;
-    for (std::size_t steps = this->steps() - 1; steps > 0; --steps)
-        if (content_hash_of(metadata_.info, std::span(checksums_).first(steps)) == content_hash)
-            return true;
-    return false;
 }
 
 LoadedStep IndexFile::load(std::uint32_t step, const std::stop_token& stop) const {
@@ -302,7 +293,7 @@ void IndexFile::verify(const Progress& progress) const {
         if (metadata_.plan.tiers.has(Tier::bricks))
             chunks().levels(step);
     }
-    const std::uint32_t chunks = Chunking(metadata_.info.grid).count();
+    const std::uint32_t chunks = cells_ ? Chunking(metadata_.info.grid).count() : 1;
     for (std::size_t i = 0; i < directory_.size(); ++i) {
         const auto held = cells_->hold(); // gives memory back where there is too much of it
         const UnitEntry& unit = directory_[i];

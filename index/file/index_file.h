@@ -92,8 +92,18 @@ class IndexFile {
 
     /// Of the values and grid: the same data, the same hash.
     std::uint64_t content_hash() const { return header_.content_hash; }
-    /// Whether that is the hash of the data, or was when the series had fewer steps.
+    /// Whether that is the hash of the data, or was when the series had fewer steps: of every state
+    /// that the index has grown from, and of any number of first steps up to 16,384.
     bool has_had(std::uint64_t content_hash) const;
+    /// Whether it is that of so many first steps.
+    bool has_had(std::uint64_t content_hash, std::size_t steps) const;
+    /// What is to be said of a newer state whose header is damaged, though what it names is whole.
+    std::optional<std::string> lost_state() const;
+    /// Where the sections of the state before lie, which nothing names once the next is written.
+    struct Room {
+        std::uint64_t offset = 0, bytes = 0;
+    };
+    Room free_room() const;
     /// Where everything lies.
     const FileHeader& header() const { return header_; }
     std::span<const StepEntry> step_entries() const { return step_entries_; }

@@ -11,7 +11,8 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
         if (now.content_hash == known.content_hash())
             return nullptr;
         auto file = IndexFile::open(path);
-        return file->info().steps() > known.info().steps() && file->has_had(known.content_hash())
+        return file->info().steps() > known.info().steps() &&
+                       file->has_had(known.content_hash(), known.info().steps())
                    ? file
                    : nullptr;
     } catch (const Error&) { // it is being replaced

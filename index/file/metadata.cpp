@@ -328,6 +328,8 @@ std::string to_json(const Metadata& metadata) {
         {"tree",
          {{"lattice", metadata.tree.lattice}, {"max_variation", metadata.tree.max_variation}}},
     };
+    if (!metadata.earlier.empty())
+        j["earlier"] = metadata.earlier;
     if (metadata.levels)
         j["levels"] = json_of(*metadata.levels);
     put_optional(j, "chosen_array", metadata.chosen_array);
@@ -351,6 +353,10 @@ Metadata metadata_from_json(std::string_view text) try {
         metadata.levels = levels_of(j.at("levels"), metadata.info.type);
     if (j.contains("cell_steps"))
         metadata.cell_steps = whole<std::uint32_t>(j.at("cell_steps"));
+    if (j.contains("earlier")) {
+        metadata.earlier.resize(std::min(j.at("earlier").size(), metadata.info.steps()));
+        get_whole(j.at("earlier"), metadata.earlier);
+    }
     get_optional(j, "chosen_array", metadata.chosen_array);
     get_optional(j, "chosen_component", metadata.chosen_component);
     metadata.plan = plan_of(j.at("plan"));

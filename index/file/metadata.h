@@ -20,6 +20,8 @@ struct Metadata {
     Codec codec = Codec::fitting;        ///< that values were packed with
     std::optional<LevelMap> levels = {}; ///< of the cells, where there are any
     std::uint32_t cell_steps = 0;        ///< first steps that the cells hold
+    /// Content hashes of the states that the index has grown from, the first one first.
+    std::vector<std::uint64_t> earlier = {};
     ThiOptions tree = {};
     std::optional<Referral> referral = {};
     std::optional<ColorArray> color = {};

@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -27,8 +28,12 @@ void check_limits(const SeriesInfo& info) {
         if (n < 2 || n > 65537)
             throw Error(fmt::format("{}x{}x{} vertices, expected 2 to 65537 along each axis",
                                     grid.vertices[0], grid.vertices[1], grid.vertices[2]));
-    if (grid.cell_count() > std::numeric_limits<CellId>::max())
-        throw Error(fmt::format("{} cells, expected fewer than 2^32", grid.cell_count()));
+    // What is searched at a time: a layer of chunks with what normals reach below and above.
+    Grid layer = grid;
+    layer.vertices[2] = std::min(grid.vertices[2], 20u);
+    if (has_wide_ids(layer))
+        throw Error(fmt::format("{} cells in {} layers, expected fewer than 2^32",
+                                layer.cell_count(), layer.cells()[2]));
     if (!finite(grid.origin) || !finite(grid.spacing) || !finite(grid.direction[0]) ||
         !finite(grid.direction[1]) || !finite(grid.direction[2]))
         throw Error("origin, spacing or direction is not finite");

@@ -8,7 +8,7 @@
 
 namespace isochron::index {
 
-/// What every series must keep to: 2 to 65,537 vertices along each axis, fewer than 2^32 cells and
+/// What every series must keep to: 2 to 65,537 vertices along each axis, fewer than 2^32 cells in 19 layers and
 /// steps, a finite geometry with positive spacing and a regular direction, finite increasing times,
 /// a slope that is not 0. @throws Error
 void check_limits(const SeriesInfo& info);

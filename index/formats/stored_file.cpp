@@ -187,7 +187,9 @@ std::array<std::uint32_t, 3> checked_vertices(const std::array<std::int64_t, 3>&
     if (std::any_of(sizes.begin(), sizes.end(), [](std::int64_t n) { return n < 2; }))
         throw Error(fmt::format("{}: {} vertices, needs at least 2 vertices per axis", file, got));
     std::uint64_t cells = 1;
-    constexpr std::uint64_t kMost = 0xffff'fffe;
+    constexpr std::int64_t kMostAlong = 65537;
+    constexpr std::uint64_t kMost =
+        std::uint64_t{kMostAlong - 1} * (kMostAlong - 1) * (kMostAlong - 1);
     for (std::int64_t n : sizes) {
         const std::uint64_t along = static_cast<std::uint64_t>(n - 1);
         if (along > kMost / cells)
@@ -195,6 +197,9 @@ std::array<std::uint32_t, 3> checked_vertices(const std::array<std::int64_t, 3>&
                                     file, got, kMost));
         cells *= along;
     }
+    if (std::ranges::max(sizes) > kMostAlong)
+        throw Error(fmt::format("{}: {} vertices, at most {} along an axis are supported", file,
+                                got, kMostAlong));
     return {static_cast<std::uint32_t>(sizes[0]), static_cast<std::uint32_t>(sizes[1]),
             static_cast<std::uint32_t>(sizes[2])};
 }

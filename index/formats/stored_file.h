@@ -35,7 +35,7 @@ void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file);
 /// @throws Error naming the file
 void expect_few_steps(std::size_t steps, const std::string& file);
 
-/// @throws Error naming the file: fewer than 2 vertices along an axis, or more than 2^32-2 cells
+/// @throws Error naming the file: fewer than 2 vertices along an axis, or more than 65,537
 void check_grid(const Grid& grid, const std::string& file);
 
 /// As `check_grid`, for sizes that may not even fit a grid. @return the grid's vertices

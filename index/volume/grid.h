@@ -10,7 +10,9 @@
 
 namespace isochron::index {
 
-using CellId = std::uint32_t; ///< file storage order: x fastest, then y, then z
+/// File storage order: x fastest, then y, then z. Of grids of 2^32 cells and more the low 32 bits of
+/// that: within a layer of chunks they still tell cells apart.
+using CellId = std::uint32_t;
 
 /// Vertices lie at origin + direction * (spacing * index). A cell is the box between 8 vertices;
 /// there are (nx-1)(ny-1)(nz-1). Physical space is right-handed and in `SeriesInfo::length_unit`;
@@ -42,5 +44,16 @@ struct Grid {
 
     bool operator==(const Grid&) const = default;
 };
+
+/// Whether there are cells whose number does not fit into a CellId.
+inline bool has_wide_ids(const Grid& grid) {
+    return grid.cell_count() > 0xffff'ffffu;
+}
+
+/// The number of the cell at (x, y, z), of any grid.
+inline std::uint64_t wide_id(const Grid& grid, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    const auto c = grid.cells();
+    return x + c[0] * (y + std::uint64_t{c[1]} * z);
+}
 
 } // namespace isochron::index

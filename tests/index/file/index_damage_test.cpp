@@ -3,7 +3,7 @@
 #include "index/error.h"
 #include "index/extraction/cell_change.h"
 #include "index/extraction/layer_search.h"
-#include "index/file/chunk_table.h"
+#include "tests/support/index_repair.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -18,28 +18,13 @@ namespace {
 /// An index in memory whose checksums can be made to match again.
 class DamagedIndex final : public ByteSource {
   public:
-    DamagedIndex(std::string bytes, const IndexFile& sound) : bytes_(std::move(bytes)) {
-        std::memcpy(&header_, bytes_.data(), sizeof header_);
-        for (std::size_t level = 0; level < sound.detail_levels(); ++level)
-            grids_.push_back(sound.chunks(level).grid());
-        steps_ = sound.info().steps();
-    }
+    explicit DamagedIndex(std::string bytes) : bytes_(std::move(bytes)) {}
 
     const std::string& name() const override { return name_; }
     std::uint64_t size() const override { return bytes_.size(); }
     std::string& bytes() { return bytes_; }
 
-    void repair() {
-        const Section entries = header_.section(SectionKind::steps);
-        for (std::uint64_t i = 0; i * sizeof(StepEntry) < entries.bytes; ++i) {
-            const auto entry = at<StepEntry>(entries.offset + i * sizeof(StepEntry));
-            repair_step(entry, grids_[i / steps_ % grids_.size()]);
-        }
-        for (Section& section : header_.sections)
-            section.checksum = sum(section.offset, section.bytes);
-        const auto sealed = header_bytes(header_);
-        std::memcpy(bytes_.data(), sealed.data(), sealed.size());
-    }
+    void repair() { repair_checksums(std::as_writable_bytes(std::span(bytes_))); }
 
   protected:
     std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
@@ -51,50 +36,7 @@ class DamagedIndex final : public ByteSource {
     }
 
   private:
-    bool has(std::uint64_t offset, std::uint64_t bytes) const {
-        return offset <= bytes_.size() && bytes <= bytes_.size() - offset;
-    }
-    template <class T>
-    T at(std::uint64_t offset) const {
-        T value{};
-        if (has(offset, sizeof value))
-            std::memcpy(&value, bytes_.data() + offset, sizeof value);
-        return value;
-    }
-    std::uint64_t sum(std::uint64_t offset, std::uint64_t bytes) const {
-        return has(offset, bytes)
-                   ? checksum_of(std::as_bytes(std::span(bytes_)).subspan(offset, bytes))
-                   : 0;
-    }
-    void put(std::uint64_t offset, auto value) {
-        if (has(offset, sizeof value))
-            std::memcpy(bytes_.data() + offset, &value, sizeof value);
-    }
-    void repair_step(const StepEntry& entry, const ChunkGrid& grid) {
-        const std::uint64_t table_bytes = layer_table_bytes(grid.chunks_of_layer());
-        std::uint64_t table = entry.offset + entry.tables;
-        for (std::uint32_t layer = 0; layer < grid.layers(); ++layer, table += table_bytes) {
-            std::uint64_t record = entry.offset + at<LayerHead>(table).records;
-            for (std::uint32_t place = 0; place < grid.chunks_of_layer(); ++place) {
-                const auto chunk =
-                    at<ChunkEntry>(table + sizeof(LayerHead) + place * sizeof(ChunkEntry));
-                if (chunk.bytes > sizeof(RecordChecksum) && has(record, chunk.bytes))
-                    put(record,
-                        static_cast<RecordChecksum>(sum(record + sizeof(RecordChecksum),
-                                                        chunk.bytes - sizeof(RecordChecksum))));
-                record += chunk.bytes;
-            }
-            put(table, sum(table + sizeof(std::uint64_t), table_bytes - sizeof(std::uint64_t)));
-        }
-        if (const std::uint64_t end = entry.offset + entry.bytes;
-            end > table + 8 && has(table, end - table))
-            put(table, sum(table + 8, end - table - 8));
-    }
-
     std::string name_ = "damaged", bytes_;
-    FileHeader header_;
-    std::vector<ChunkGrid> grids_;
-    std::size_t steps_ = 0;
 };
 
 /// Everything that reads the file.
@@ -127,7 +69,7 @@ TEST(IndexDamage, WithMatchingChecksumsIsRefusedOrHarmless) {
         const auto sound = IndexFile::open(folder.path() / "a");
         int refused = 0, usable = 0;
         for (int i = 0; i < 3000; ++i) {
-            auto damaged = std::make_unique<DamagedIndex>(good, *sound);
+            auto damaged = std::make_unique<DamagedIndex>(good);
             for (int hits = 1 + static_cast<int>(random() % 3); hits > 0; --hits) {
                 // Half of the damage goes where little is: into the sections and the steps' ends.
                 std::size_t at = kDataBegin + random() % (good.size() - kDataBegin);

@@ -1,0 +1,83 @@
+// What an index says of the states that it has grown from, or through.
+#include "index/file/file_layout.h"
+#include "index/file/index_file.h"
+#include "index/file/series_content.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace isochron::index {
+namespace {
+
+/// Hashing all numbers of first steps up to this takes some tenths of a second.
+constexpr std::size_t kHashedSteps = 1 << 14;
+
+bool is_whole(const ByteSource& file, const Section& section) {
+    if (section.bytes == 0 || section.offset > file.size() ||
+        section.bytes > file.size() - section.offset)
+        return false;
+    std::vector<std::byte> bytes(section.bytes);
+    file.read(section.offset, bytes);
+    return checksum_of(bytes) == section.checksum;
+}
+
+} // namespace
+
+bool IndexFile::has_had(std::uint64_t content_hash, std::size_t steps) const {
+    return content_hash_of(metadata_.info, std::span(checksums_).first(steps)) == content_hash;
+}
+
+bool IndexFile::has_had(std::uint64_t content_hash) const {
+    if (content_hash == header_.content_hash ||
+        std::ranges::find(metadata_.earlier, content_hash) != metadata_.earlier.end())
+        return true;
+    for (std::size_t steps = std::min(this->steps() - 1, kHashedSteps); steps > 0; --steps)
+        if (has_had(content_hash, steps))
+            return true;
+    return false;
+}
+
+std::optional<std::string> IndexFile::lost_state() const {
+    const OtherSlot other = other_slot(*bytes_, header_);
+    if (other.sound || other.blank)
+        return std::nullopt;
+    // A header that was being written when a machine lost its power fits in one sector of any disk:
+    // it is there, or it is not. Sections only grow, so that one which is larger is newer.
+    for (std::size_t i = 0; i < kSectionNames.size(); ++i)
+        if (const Section& section = other.header.sections[i];
+            section.bytes > header_.sections[i].bytes && is_whole(*bytes_, section))
+            return fmt::format(
+                "{}: the header of a newer state is damaged, though what it names is "
+                "whole: its first {} steps are what is left; isochron build makes "
+                "it anew",
+                name(), steps());
+    return std::nullopt;
+}
+
+IndexFile::Room IndexFile::free_room() const {
+    const OtherSlot other = other_slot(*bytes_, header_);
+    if (!other.sound || other.header.section(SectionKind::tree).bytes > 0)
+        return {};
+    Room room{header_.file_bytes, 0};
+    for (const Section& section : other.header.sections)
+        if (section.bytes > 0)
+            room.offset = std::min(room.offset, section.offset);
+    std::uint64_t end = header_.file_bytes;
+    const auto named = [&](std::uint64_t offset, std::uint64_t bytes) {
+        if (bytes > 0 && offset + bytes > room.offset)
+            end = std::min(end, std::max(offset, room.offset));
+    };
+    for (const StepEntry& step : step_entries_)
+        named(step.offset, step.bytes);
+    for (const UnitEntry& unit : directory_) {
+        named(unit.cells_offset, unit.cells_bytes);
+        named(unit.deltas_offset, unit.deltas_bytes);
+    }
+    for (const Section& section : header_.sections)
+        named(section.offset, section.bytes);
+    room.bytes = end - room.offset;
+    return room;
+}
+
+} // namespace isochron::index

@@ -19,6 +19,9 @@ struct Target {
 /// Files of volumes, whole: header and values. Units of time, two lines. Messages of readers.
 std::span<const Target> volume_targets();
 
+/// Indices, whole: their checksums are made to match before they are read.
+std::span<const Target> index_targets();
+
 /// Recordings, and datagrams of trackers, each behind its length in two bytes, the lower one first.
 std::span<const Target> interaction_targets();
 

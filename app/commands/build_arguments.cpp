@@ -124,6 +124,14 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
               "Read files in which data are left over after the values that the header says")
         .group("Reading");
     command
+        .flag("--extra-axis-is-time", read.extra_axis_is_time,
+              "Read the axis of an NRRD file as time that is none of space, whatever its kind")
+        .group("Reading");
+    command
+        .flag("--times-from-names", read.times_from_names,
+              "Take the time of each file from the last number in its name: 30 of t_0030.vti")
+        .group("Reading");
+    command
         .option("--spacing", arguments.spacing,
                 "Distance between vertices along each axis, in length units "
                 "(default: as the files say, else 1 1 1)")

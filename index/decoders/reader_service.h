@@ -22,7 +22,6 @@ using ReadCollectionFile =
 /// Returns when nobody is at the other end any more.
 /// @param collection what reads .pvd, if anything here does
 /// @throws Error when somebody there says what the program never does
-void serve(MessageSocket& socket, std::span<const Decoder> decoders,
-           ReadCollectionFile collection);
+void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection);
 
 } // namespace isochron::index

@@ -1,5 +1,6 @@
 // VTK XML image data (.vti), through vtkXMLImageDataReader: all its encodings and compressors.
 #include "index/decoders/decoders.h"
+#include "index/decoders/vtk_ghosts.h"
 #include "index/decoders/vtk_session.h"
 #include "index/decoders/xml_markup.h"
 #include "index/error.h"
@@ -18,6 +19,8 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkXMLImageDataReader.h>
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -116,10 +119,18 @@ class VtiFile final : public DecodedFile {
         expect_whole(markup, info_.grid, name);
         expect_bytes(markup, chosen_, info_.grid, file.bytes().size(), name);
         with_vtk(path_, [&] {
-            // Without arrays only the time is read.
+            // Without arrays only the time is read, and with those of flags little more.
             select({});
+            if (chosen_.array.gaps)
+                for (const char* flags : kGhostFlags) {
+                    reader_->GetPointDataArraySelection()->EnableArray(flags);
+                    reader_->GetCellDataArraySelection()->EnableArray(flags);
+                }
             reader_->Update();
-            info_.times = time_of_vtk(reader_->GetOutput()->GetFieldData());
+            hidden_ = hidden_by_flags(*reader_->GetOutput(), chosen_, info_.grid);
+            std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
+                              std::back_inserter(info_.notes));
+            take_time_of_vtk(reader_->GetOutput()->GetFieldData(), info_);
         });
     }
 
@@ -135,7 +146,8 @@ class VtiFile final : public DecodedFile {
                 select(chosen_.array);
                 reader_->Update();
             }
-            values_of_vtk(*reader_->GetOutput(), chosen_, info_.grid, slices, out, path_.string());
+            values_of_vtk(*reader_->GetOutput(), chosen_, info_.grid, slices, hidden_, out,
+                          path_.string());
         });
     }
 
@@ -155,7 +167,7 @@ class VtiFile final : public DecodedFile {
         std::vector<StoredArray> arrays;
         add_arrays(out->Get(vtkDataObject::POINT_DATA_VECTOR()), false, arrays);
         add_arrays(out->Get(vtkDataObject::CELL_DATA_VECTOR()), true, arrays);
-        chosen_ = choose_scalar(arrays, options, name);
+        chosen_ = choose_scalar(without_flags(std::move(arrays)), options, name);
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         info_.notes = chosen_.notes();
@@ -181,6 +193,7 @@ class VtiFile final : public DecodedFile {
     fs::path path_;
     SeriesInfo info_;
     ChosenScalar chosen_;
+    std::vector<std::uint8_t> hidden_;
     bool decoded_ = false; ///< all of it, or as far as it went
     vtkNew<vtkXMLImageDataReader> reader_;
 };

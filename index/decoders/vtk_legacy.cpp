@@ -1,5 +1,6 @@
 // Legacy VTK structured points (.vtk), ascii and binary, through vtkStructuredPointsReader.
 #include "index/decoders/decoders.h"
+#include "index/decoders/vtk_ghosts.h"
 #include "index/decoders/vtk_session.h"
 #include "index/error.h"
 #include "index/formats/data_stream.h"
@@ -15,6 +16,7 @@
 #include <vtkStructuredPointsReader.h>
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 
@@ -76,12 +78,15 @@ class LegacyFile final : public DecodedFile {
             info_.grid = grid_of_vtk(*reinterpret_cast<int(*)[6]>(image.GetExtent()),
                                      image.GetOrigin(), image.GetSpacing(),
                                      image.GetDirectionMatrix()->GetData(), path_.string());
-            chosen_ = choose_scalar(arrays_of_vtk(image), options, path_.string());
-            info_.times = time_of_vtk(image.GetFieldData());
+            chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, path_.string());
+            hidden_ = hidden_by_flags(image, chosen_, info_.grid);
+            info_.array = chosen_.label();
+            info_.type = chosen_.value_type();
+            info_.notes = chosen_.notes();
+            std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
+                              std::back_inserter(info_.notes));
+            take_time_of_vtk(image.GetFieldData(), info_);
         });
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
-        info_.notes = chosen_.notes();
     }
 
     const SeriesInfo& info() const override { return info_; }
@@ -91,13 +96,15 @@ class LegacyFile final : public DecodedFile {
     std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
 
     void read(std::size_t, Slices slices, std::span<std::byte> out) override {
-        values_of_vtk(*reader_->GetOutput(), chosen_, info_.grid, slices, out, path_.string());
+        values_of_vtk(*reader_->GetOutput(), chosen_, info_.grid, slices, hidden_, out,
+                      path_.string());
     }
 
   private:
     fs::path path_;
     SeriesInfo info_;
     ChosenScalar chosen_;
+    std::vector<std::uint8_t> hidden_;
     vtkNew<vtkStructuredPointsReader> reader_;
 };
 

@@ -169,7 +169,8 @@ Grid grid_of_vtk(const int (&extent)[6], const double* origin, const double* spa
 }
 
 void values_of_vtk(vtkImageData& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
-                   std::span<std::byte> out, const std::string& file) {
+                   std::span<const std::uint8_t> hidden, std::span<std::byte> out,
+                   const std::string& file) {
     vtkFieldData* fields = chosen.array.on_cells ? static_cast<vtkFieldData*>(image.GetCellData())
                                                  : static_cast<vtkFieldData*>(image.GetPointData());
     vtkDataArray* array =
@@ -186,12 +187,17 @@ void values_of_vtk(vtkImageData& image, const ChosenScalar& chosen, const Grid& 
     const std::span all(static_cast<const std::byte*>(array->GetVoidPointer(0)),
                         bytes_of_vtk(chosen, grid));
     if (slices.count == grid.vertices[2])
-        return convert(chosen, all, grid, out, file);
+        return convert(chosen, all, grid, out, file, hidden);
     assert(!chosen.array.on_cells);
     Grid slab = grid;
     slab.vertices[2] = slices.count;
     const std::uint64_t slice = all.size() / grid.vertices[2];
-    convert(chosen, all.subspan(slices.first * slice, slices.count * slice), slab, out, file);
+    if (!hidden.empty()) {
+        const std::size_t layer = hidden.size() / grid.vertices[2];
+        hidden = hidden.subspan(slices.first * layer, slices.count * layer);
+    }
+    convert(chosen, all.subspan(slices.first * slice, slices.count * slice), slab, out, file,
+            hidden);
 }
 
 std::uint32_t slices_of_vtk(const ChosenScalar& chosen, const SeriesInfo& info) {
@@ -217,11 +223,18 @@ std::vector<StoredArray> arrays_of_vtk(vtkImageData& image) {
     return arrays;
 }
 
-std::vector<double> time_of_vtk(vtkFieldData* fields) {
-    vtkDataArray* time = fields ? fields->GetArray("TimeValue") : nullptr;
-    if (!time || time->GetNumberOfTuples() != 1 || time->GetNumberOfComponents() != 1)
-        return {};
-    return {time->GetTuple1(0)};
+void take_time_of_vtk(vtkFieldData* fields, SeriesInfo& info) {
+    info.times.clear();
+    // Of ParaView, of VisIt, and what others call it.
+    for (const char* name : {"TimeValue", "TIME", "TimeStep"}) {
+        vtkDataArray* time = fields ? fields->GetArray(name) : nullptr;
+        if (!time || time->GetNumberOfTuples() != 1 || time->GetNumberOfComponents() != 1)
+            continue;
+        info.times = {time->GetTuple1(0)};
+        if (std::string_view(name) != "TimeValue")
+            info.notes.push_back(fmt::format("times are those of the field {}", name));
+        return;
+    }
 }
 
 } // namespace isochron::index

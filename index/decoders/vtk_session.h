@@ -32,9 +32,11 @@ Grid grid_of_vtk(const int (&extent)[6], const double* origin, const double* spa
                  const double* direction, const std::string& file);
 
 /// Converts slices of the chosen array of an image that has been read; of cell data all.
+/// @param hidden see `hidden_by_flags`
 /// @throws Error naming the file when the array is absent or not as long as the image
 void values_of_vtk(vtkImageData& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
-                   std::span<std::byte> out, const std::string& file);
+                   std::span<const std::uint8_t> hidden, std::span<std::byte> out,
+                   const std::string& file);
 
 /// As `DecodedFile` has them.
 std::uint32_t slices_of_vtk(const ChosenScalar& chosen, const SeriesInfo& info);
@@ -43,7 +45,8 @@ std::uint64_t bytes_of_vtk(const ChosenScalar& chosen, const Grid& grid);
 /// Arrays of an image that has been read.
 std::vector<StoredArray> arrays_of_vtk(vtkImageData& image);
 
-/// The `TimeValue` that ParaView writes, if there is one.
-std::vector<double> time_of_vtk(vtkFieldData* fields);
+/// The time that the field data give, if they do: `TimeValue` as ParaView writes it, `TIME` as VisIt
+/// does, or `TimeStep`; of the others a note says so.
+void take_time_of_vtk(vtkFieldData* fields, SeriesInfo& info);
 
 } // namespace isochron::index

@@ -226,6 +226,10 @@ json json_of(const Referral& referral) {
         j["files"].push_back(exact(file.string()));
     if (options.allow_surplus)
         j["allow_surplus"] = true;
+    if (options.times_from_names)
+        j["times_from_names"] = true;
+    if (options.extra_axis_is_time)
+        j["extra_axis_is_time"] = true;
     put_optional(j, "array", options.array);
     put_optional(j, "component", options.component);
     put_optional(j, "dims", options.dims);
@@ -241,6 +245,8 @@ Referral referral_of(const json& j) {
         referral.files.emplace_back(exact_text(file));
     ReadOptions& options = referral.options;
     options.allow_surplus = j.value("allow_surplus", false);
+    options.times_from_names = j.value("times_from_names", false);
+    options.extra_axis_is_time = j.value("extra_axis_is_time", false);
     j.at("big_endian").get_to(options.big_endian);
     options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
     get_optional(j, "array", options.array);

@@ -242,11 +242,17 @@ class FileSeries final : public VolumeSeries {
             if (i == 0 || info_.times[i] > info_.times[i - 1])
                 continue;
             const std::string file = name(places_[i].file), before = name(places_[i - 1].file);
+            constexpr const char* kWayOut = "--time-step spaces the steps evenly instead";
+            if (places_[i].file == places_[i - 1].file)
+                throw Error(fmt::format("{}: time {} of its step {}, expected more than {} of the "
+                                        "step before it; {}",
+                                        file, info_.times[i], places_[i].step, info_.times[i - 1],
+                                        kWayOut));
             if (info_.times[i] == info_.times[i - 1])
-                throw Error(
-                    fmt::format("{}: time {}, {} has the same", file, info_.times[i], before));
-            throw Error(fmt::format("{}: time {}, expected more than {} of {} before it", file,
-                                    info_.times[i], info_.times[i - 1], before));
+                throw Error(fmt::format("{}: time {}, {} has the same; {}", file, info_.times[i],
+                                        before, kWayOut));
+            throw Error(fmt::format("{}: time {}, expected more than {} of {} before it; {}", file,
+                                    info_.times[i], info_.times[i - 1], before, kWayOut));
         }
     }
 

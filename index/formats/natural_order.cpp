@@ -2,6 +2,8 @@
 #include "index/formats/natural_order.h"
 
 #include <algorithm>
+#include <charconv>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -41,6 +43,21 @@ bool natural_less(std::string_view a, std::string_view b) {
     if (a.empty() != b.empty())
         return a.empty();
     return whole_a < whole_b; // they differ in leading zeros only
+}
+
+std::optional<double> last_number_in(std::string_view text) {
+    const std::size_t last = text.find_last_of("0123456789");
+    if (last == text.npos)
+        return std::nullopt;
+    std::size_t first = last;
+    bool point = false;
+    while (first > 0 &&
+           (digit(text[first - 1]) || (text[first - 1] == '.' && first > 1 &&
+                                       digit(text[first - 2]) && !std::exchange(point, true))))
+        --first;
+    double number = 0;
+    std::from_chars(text.data() + first, text.data() + last + 1, number);
+    return number;
 }
 
 } // namespace isochron::index

@@ -3,7 +3,10 @@
 //
 // Fields after "Definition of NRRD File Format", https://teem.sourceforge.net/nrrd/format.html.
 #include "index/error.h"
+#include "index/formats/nrrd_axes.h"
+#include "index/formats/nrrd_header.h"
 #include "index/formats/readers.h"
+#include "index/formats/reordered_file.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
 #include "index/system/input_file.h"
@@ -13,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -54,175 +56,8 @@ constexpr std::array<SpaceName, 5> kSpaces{{
     {"3d-left-handed", "3d-left-handed", Anatomy::none, {1, 1, -1}},
 }};
 
-class NrrdHeader {
-  public:
-    explicit NrrdHeader(const fs::path& path) : file_(path.string()) {
-        constexpr std::uint64_t kMost = 16 << 20;
-        InputStream in(path);
-        std::string line;
-        if (!read_line(in, line) || !line.starts_with("NRRD000"))
-            throw Error(fmt::format("{}: not NRRD: it does not start with NRRD000", file_));
-        while (read_line(in, line) && !line.empty()) {
-            if (bytes_ > kMost)
-                throw Error(
-                    fmt::format("{}: not NRRD: its header is longer than {} bytes", file_, kMost));
-            const std::size_t colon = line.find(':');
-            if (line.starts_with('#') || colon == line.npos)
-                continue;
-            if (line.compare(colon, 2, ":=") == 0)
-                continue; // the user's own keys
-            std::string key = lower_case(trimmed(std::string_view(line).substr(0, colon)));
-            std::erase(key, ' ');
-            fields_[key] = trimmed(std::string_view(line).substr(colon + 1));
-        }
-    }
-
-    /// A field, its key in lower case without blanks, as its spelling varies.
-    std::optional<std::string> find(const std::string& key) const {
-        const auto found = fields_.find(key);
-        return found == fields_.end() ? std::nullopt : std::optional(found->second);
-    }
-    std::string need(const std::string& key) const {
-        if (auto text = find(key))
-            return *text;
-        throw Error(fmt::format("{}: has no {}", file_, key));
-    }
-    const std::string& file() const { return file_; }
-    std::uint64_t bytes() const { return bytes_; }
-
-  private:
-    // A header's line is short: one that is not is no header.
-    bool read_line(std::istream& in, std::string& line) {
-        constexpr std::size_t kMost = 1 << 16;
-        line.clear();
-        char c = 0;
-        for (; in.get(c) && c != '\n'; line += c)
-            if (line.size() > kMost)
-                throw Error(fmt::format("{}: not NRRD: a line of the header has no end", file_));
-        bytes_ += line.size() + (c == '\n');
-        if (line.ends_with('\r'))
-            line.pop_back();
-        return !in.fail();
-    }
-
-    std::string file_;
-    std::map<std::string, std::string> fields_;
-    std::uint64_t bytes_ = 0;
-};
-
-/// What each axis is, fastest first.
-struct Axes {
-    std::vector<std::int64_t> sizes;
-    std::vector<std::optional<glm::dvec3>> directions; ///< none: not an axis of space
-    std::optional<std::size_t> components, time;
-    std::array<std::size_t, 3> space{};
-};
-
-std::optional<glm::dvec3> vector_of(std::string_view text, const std::string& key,
-                                    const std::string& file) {
-    if (text == "none")
-        return std::nullopt;
-    std::string numbers(text);
-    std::replace_if(
-        numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ','; },
-        ' ');
-    const auto v = numbers_of(numbers, key, file);
-    if (v.size() != 3)
-        throw Error(fmt::format("{}: {}: {} has {} numbers, expected 3", file, key, excerpt(text),
-                                v.size()));
-    return glm::dvec3(v[0], v[1], v[2]);
-}
-
-// Vectors may have blanks inside: each ends at its bracket.
-std::vector<std::string> vectors_in(std::string_view text) {
-    std::vector<std::string> vectors;
-    while (!(text = trimmed(text)).empty()) {
-        const std::size_t end =
-            text.front() == '(' ? text.find(')') : text.find_first_of(" \t(") - 1;
-        const std::size_t length = end >= text.size() ? text.size() : end + 1;
-        vectors.emplace_back(trimmed(text.substr(0, length)));
-        text.remove_prefix(length);
-    }
-    return vectors;
-}
-
-Axes axes_of(const NrrdHeader& header) {
-    const std::string& file = header.file();
-    Axes axes;
-    axes.sizes = integers_of(header.need("sizes"), "sizes", file);
-    const std::size_t count = axes.sizes.size();
-    const auto dimension = integers_of(header.need("dimension"), "dimension", file);
-    if (dimension.size() != 1 || dimension[0] != static_cast<std::int64_t>(count))
-        throw Error(fmt::format("{}: {} sizes, dimension is {}", file, count,
-                                excerpt(header.need("dimension"))));
-    if (count < 3 || count > 5)
-        throw Error(fmt::format("{}: {} dimensions, expected 3, or 4 with time", file, count));
-    const std::vector<std::string> kinds = words_of(lower_case(header.find("kinds").value_or("")));
-    const auto spatial_kind = [&](std::size_t axis) {
-        return kinds.size() != count || kinds[axis] == "domain" || kinds[axis] == "space" ||
-               kinds[axis] == "???" || kinds[axis] == "none";
-    };
-    std::vector<bool> spatial(count, true);
-    if (const auto text = header.find("spacedirections")) {
-        for (const std::string& vector : vectors_in(*text))
-            axes.directions.push_back(vector_of(vector, "space directions", file));
-        if (axes.directions.size() != count)
-            throw Error(fmt::format("{}: {} space directions, expected {}", file,
-                                    axes.directions.size(), count));
-        for (std::size_t axis = 0; axis < count; ++axis)
-            spatial[axis] = axes.directions[axis].has_value();
-    } else {
-        std::size_t left = 3;
-        for (std::size_t axis = 0; axis < count; ++axis) {
-            spatial[axis] = left > 0 && (count == 3 || spatial_kind(axis));
-            left -= spatial[axis];
-        }
-    }
-    std::size_t found = 0;
-    for (std::size_t axis = 0; axis < count; ++axis) {
-        if (spatial[axis]) {
-            if (found == 3)
-                throw Error(fmt::format("{}: more than 3 axes of space", file));
-            axes.space[found++] = axis;
-        } else if (axis == 0 && (kinds.size() != count || kinds[0] != "time")) {
-            axes.components = axis;
-        } else if (axis == count - 1) {
-            axes.time = axis;
-        } else {
-            throw Error(fmt::format("{}: axis {} is not one of space; expected that of the slowest "
-                                    "axis (time) or the fastest (components) only",
-                                    file, axis));
-        }
-    }
-    if (found != 3)
-        throw Error(fmt::format("{}: {} axes of space, expected 3", file, found));
-    return axes;
-}
-
-std::vector<double> per_axis(const NrrdHeader& header, const std::string& key, std::size_t count) {
-    const auto text = header.find(key);
-    if (!text)
-        return {};
-    auto numbers = numbers_of(*text, key, header.file());
-    if (numbers.size() != count)
-        throw Error(
-            fmt::format("{}: {} {}, expected {}", header.file(), numbers.size(), key, count));
-    return numbers;
-}
-
-std::vector<std::string> quoted_in(std::string_view text) {
-    std::vector<std::string> quoted;
-    for (std::size_t begin = text.find('"'); begin != text.npos;) {
-        const std::size_t end = text.find('"', begin + 1);
-        if (end == text.npos)
-            break;
-        quoted.emplace_back(text.substr(begin + 1, end - begin - 1));
-        begin = text.find('"', end + 1);
-    }
-    return quoted;
-}
-
-void orient(const NrrdHeader& header, const Axes& axes, SeriesInfo& info, StoredLayout& layout) {
+void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
+            StoredLayout& layout) {
     const std::string& file = header.file();
     const std::size_t count = axes.sizes.size();
     const auto spacings = per_axis(header, "spacings", count);
@@ -254,13 +89,13 @@ void orient(const NrrdHeader& header, const Axes& axes, SeriesInfo& info, Stored
     }
     set_axes(info.grid, steps, file);
     if (const auto origin = header.find("spaceorigin"))
-        info.grid.origin = vector_of(*origin, "space origin", file).value_or(glm::dvec3(0)) * signs;
-    const auto units = quoted_in(header.find("units").value_or(""));
+        info.grid.origin =
+            nrrd_vector(*origin, "space origin", file).value_or(glm::dvec3(0)) * signs;
     const auto space_units = quoted_in(header.find("spaceunits").value_or(""));
     if (!space_units.empty())
         info.length_unit = space_units[0];
-    else if (units.size() == count)
-        info.length_unit = units[axes.space[0]];
+    else if (!axes.units.empty())
+        info.length_unit = axes.units[axes.space[0]];
     if (!axes.time)
         return;
     if (axes.sizes[*axes.time] < 1)
@@ -270,8 +105,10 @@ void orient(const NrrdHeader& header, const Axes& axes, SeriesInfo& info, Stored
         layout.time_step = spacings[*axes.time];
     if (!minima.empty() && std::isfinite(minima[*axes.time]))
         layout.first_time = minima[*axes.time];
-    if (units.size() == count)
-        info.time_unit = units[*axes.time];
+    if (axes.time_is_guessed)
+        info.notes.push_back("its slowest axis is taken for time: it gives no kinds");
+    if (!axes.units.empty())
+        info.time_unit = axes.units[*axes.time];
 }
 
 /// Where the line begins that follows `lines` others.
@@ -335,7 +172,7 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
 std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& options) {
     const NrrdHeader header(path);
     const std::string& file = header.file();
-    const Axes axes = axes_of(header);
+    const NrrdAxes axes = axes_of(header, options);
     SeriesInfo info;
     info.grid.vertices = checked_vertices(
         {axes.sizes[axes.space[0]], axes.sizes[axes.space[1]], axes.sizes[axes.space[2]]}, file);
@@ -361,6 +198,16 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
               info.grid.vertex_count() * layout.array.components * layout.steps *
                   size_of(*layout.array.type),
               layout);
+    const bool interleaved = axes.time == 0u;
+    const bool stacked = axes.components && *axes.components != 0;
+    if (interleaved && stacked)
+        throw Error(fmt::format("{}: time is its fastest and components its slowest axis, expected "
+                                "the other way round",
+                                file));
+    if (interleaved)
+        return open_interleaved_steps(path, std::move(info), layout, options);
+    if (stacked)
+        return open_stacked_components(path, std::move(info), layout, options);
     return open_stored(path, std::move(info), layout, options);
 }
 

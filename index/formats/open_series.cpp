@@ -46,6 +46,24 @@ SeriesFile series_file(const fs::path& path, const ReadOptions& options,
                             path.string(), known_extensions()));
 }
 
+/// In the order of the last numbers in their names, which are their times.
+std::vector<SeriesFile> timed_by_name(const std::vector<fs::path>& files,
+                                      const ReadOptions& options) {
+    if (options.time_step)
+        throw Error("--times-from-names and --time-step: expected one of the two");
+    std::vector<SeriesFile> series;
+    for (const fs::path& path : files) {
+        const auto time = last_number_in(path.stem().string());
+        if (!time)
+            throw Error(fmt::format("{}: no number in its name, expected one for "
+                                    "--times-from-names, as in t_0030.vti",
+                                    path.string()));
+        series.push_back(series_file(path, options, time));
+    }
+    std::ranges::stable_sort(series, {}, &SeriesFile::time);
+    return series;
+}
+
 } // namespace
 
 std::string known_extensions() {
@@ -68,11 +86,16 @@ std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
         if (files.size() != 1)
             throw Error(fmt::format("{}: a .pvd names its files itself, {} more given",
                                     pvd->string(), files.size() - 1));
+        if (options.times_from_names)
+            throw Error(fmt::format("{}: a .pvd gives the times itself, --times-from-names cannot",
+                                    pvd->string()));
         file_bytes(*pvd);
         for (const auto& [path, time] : read_pvd(*pvd))
             series.push_back(series_file(path, options, time));
         return open_file_series(std::move(series), options);
     }
+    if (options.times_from_names)
+        return open_file_series(timed_by_name(files, options), options);
     for (const fs::path& path : files)
         series.push_back(series_file(path, options));
     std::stable_sort(series.begin(), series.end(), [](const SeriesFile& a, const SeriesFile& b) {

@@ -145,13 +145,17 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
                 static_cast<std::uint64_t>(std::min(bytes, kMost)));
     expect_few_steps(layout.steps, name);
     // Only now is it known that there are as many steps as the header says.
-    if (layout.steps > 1 && layout.time_step > 0 && std::isfinite(layout.time_step))
-        for (std::size_t step = 0; step < layout.steps; ++step)
+    give_times(info, layout, layout.steps);
+    return std::make_unique<StoredFile>(header, std::move(info), layout, chosen,
+                                        options.allow_surplus);
+}
+
+void give_times(SeriesInfo& info, const StoredLayout& layout, std::size_t steps) {
+    if (steps > 1 && layout.time_step > 0 && std::isfinite(layout.time_step))
+        for (std::size_t step = 0; step < steps; ++step)
             info.times.push_back(layout.first_time + static_cast<double>(step) * layout.time_step);
     if (info.times.empty())
         info.time_unit.clear();
-    return std::make_unique<StoredFile>(header, std::move(info), layout, chosen,
-                                        options.allow_surplus);
 }
 
 void expect_few_steps(std::size_t steps, const std::string& file) {

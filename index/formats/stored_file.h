@@ -27,6 +27,10 @@ struct StoredLayout {
 std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, SeriesInfo info,
                                         const StoredLayout& layout, const ReadOptions& options);
 
+/// Sets the times of so many steps after the layout's first and the time between them; without
+/// these there are none, and no unit.
+void give_times(SeriesInfo& info, const StoredLayout& layout, std::size_t steps);
+
 /// Sets spacing and direction from the vectors between neighboring vertices along the index axes.
 /// @throws Error naming the file when one vanishes, is not finite, or all lie in a plane
 void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file);

@@ -23,13 +23,9 @@ bool fits_f32(StoredType type) {
     return type == StoredType::f32 || size_of(type) <= 2;
 }
 
-bool is_ghost_flag(const StoredArray& array) {
-    return array.name == "vtkGhostType" || array.name == "vtkGhostLevels";
-}
-
-/// Nobody is offered flags of the library, nor what holds no numbers.
+/// Nobody is offered what holds no numbers.
 bool is_offered(const StoredArray& array) {
-    return array.type && !is_ghost_flag(array);
+    return array.type.has_value();
 }
 
 std::string listed(std::span<const StoredArray> arrays) {
@@ -92,9 +88,11 @@ class TupleValues {
     std::uint32_t components_, component_;
 };
 
-// Each vertex is the mean of the up to 8 cells around it; a NaN among them makes it NaN.
+// Each vertex is the mean of the up to 8 cells around it; a NaN among them makes it NaN. Those that
+// are missing count for nothing.
 template <class T, class Values>
-void average_to_vertices(const Values& cell, const Grid& grid, T* out) {
+void average_to_vertices(const Values& cell, const Grid& grid, T* out,
+                         std::span<const std::uint8_t> missing) {
     const auto [nx, ny, nz] = grid.vertices;
     const auto [cx, cy, cz] = grid.cells();
     for (std::uint32_t z = 0; z < nz; ++z)
@@ -105,10 +103,13 @@ void average_to_vertices(const Values& cell, const Grid& grid, T* out) {
                 for (std::uint32_t k = z ? z - 1 : 0; k <= std::min(z, cz - 1); ++k)
                     for (std::uint32_t j = y ? y - 1 : 0; j <= std::min(y, cy - 1); ++j)
                         for (std::uint32_t i = x ? x - 1 : 0; i <= std::min(x, cx - 1); ++i) {
-                            sum += cell((std::size_t{k} * cy + j) * cx + i);
+                            const std::size_t at = (std::size_t{k} * cy + j) * cx + i;
+                            if (!missing.empty() && missing[at])
+                                continue;
+                            sum += cell(at);
                             ++around;
                         }
-                *out++ = static_cast<T>(sum / around);
+                *out++ = static_cast<T>(sum / around); // 0 / 0: NaN
             }
 }
 
@@ -170,8 +171,7 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
     const StoredArray* found = nullptr;
     bool open = false;
     for (const StoredArray& array : arrays) {
-        if (is_ghost_flag(array) ||
-            (options.array ? array.name != *options.array : !is_offered(array)))
+        if (options.array ? array.name != *options.array : !is_offered(array))
             continue;
         if (!found || (found->name == array.name && found->on_cells))
             found = &array;
@@ -194,7 +194,8 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
 }
 
 void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, const Grid& grid,
-             std::span<std::byte> out, const std::string& file) {
+             std::span<std::byte> out, const std::string& file,
+             std::span<const std::uint8_t> missing) {
     const ValueType type = chosen.value_type();
     const std::size_t count = out.size() / size_of(type);
     visit_stored_type(*chosen.array.type, [&]<class S>(std::type_identity<S>) {
@@ -203,7 +204,7 @@ void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, cons
             const S* from = reinterpret_cast<const S*>(tuples.data());
             const TupleValues<S> value(chosen, tuples);
             if (chosen.array.on_cells) {
-                average_to_vertices(value, grid, to);
+                average_to_vertices(value, grid, to, missing);
             } else if (chosen.component == ChosenScalar::kMagnitude) {
                 for (std::size_t i = 0; i < count; ++i)
                     to[i] = static_cast<T>(value(i));
@@ -218,6 +219,11 @@ void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, cons
                     to[i] = static_cast<T>(
                         exact(from[i * chosen.array.components + chosen.component], file));
             }
+            if constexpr (std::is_floating_point_v<T>)
+                if (!chosen.array.on_cells)
+                    for (std::size_t i = 0; i < missing.size(); ++i)
+                        if (missing[i])
+                            to[i] = std::numeric_limits<T>::quiet_NaN();
         });
     });
 }

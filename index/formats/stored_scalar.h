@@ -63,15 +63,18 @@ struct ChosenScalar {
 };
 
 /// Picks what `options` ask for; a single array needs no name. Point data wins over cell data of
-/// the same name, and VTK's ghost flags are never offered.
+/// the same name.
 /// @throws Error listing the arrays, with type and components, when the choice is open or wrong
 ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOptions& options,
                            const std::string& file);
 
 /// Converts the tuples of one step (native byte order) to values at the vertices: all of them, or
 /// a part where the array lies on vertices.
+/// @param missing one for each tuple, not 0 where its value is missing; or empty. It takes an array
+///        with gaps
 /// @throws Error naming `file` when a 64-bit integer has no exact f64
 void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, const Grid& grid,
-             std::span<std::byte> out, const std::string& file);
+             std::span<std::byte> out, const std::string& file,
+             std::span<const std::uint8_t> missing = {});
 
 } // namespace isochron::index

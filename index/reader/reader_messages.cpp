@@ -33,8 +33,9 @@ void each_field(auto& bytes, Of<SeriesInfo> auto& info) {
 }
 void each_field(auto& bytes, Of<ReadOptions> auto& options) {
     bytes(options.array, options.component, options.dims, options.type, options.big_endian,
-          options.allow_surplus, options.header_bytes, options.spacing, options.origin,
-          options.time_step, options.length_unit, options.time_unit, options.value_unit);
+          options.allow_surplus, options.extra_axis_is_time, options.times_from_names,
+          options.header_bytes, options.spacing, options.origin, options.time_step,
+          options.length_unit, options.time_unit, options.value_unit);
 }
 
 void each_field(auto& bytes, Of<OpenFile> auto& open) {
@@ -100,7 +101,7 @@ Message message_from(std::span<const std::byte> bytes) {
 
 } // namespace
 
-const std::string kReaderVersion = ISOCHRON_VERSION " 1";
+const std::string kReaderVersion = ISOCHRON_VERSION " 2";
 const std::string kCollectionProgram = "isochron-reader-vtk";
 
 std::string program_of(ForeignFormat format) {

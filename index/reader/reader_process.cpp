@@ -86,8 +86,8 @@ ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits)
     auto [ours, theirs] = MessageSocket::pair();
     const SpawnSetup setup(theirs.number());
     char* const arguments[]{program_.data(), nullptr};
-    const int failure = ::posix_spawn(&process_, file.c_str(), &setup.files, &setup.attributes,
-                                      arguments, environ);
+    const int failure =
+        ::posix_spawn(&process_, file.c_str(), &setup.files, &setup.attributes, arguments, environ);
     if (failure != 0)
         throw Error(fmt::format("{}: cannot be started: {}", file, std::strerror(failure)));
     socket_.emplace(std::move(ours));

@@ -43,6 +43,9 @@ struct ReadOptions {
     std::optional<std::string> array;     ///< --array
     std::optional<std::string> component; ///< --component: a number from 0, or `magnitude`
     bool allow_surplus = false; ///< --allow-surplus: values may follow those that the header has
+    bool extra_axis_is_time =
+        false;                     ///< --extra-axis-is-time: of an NRRD file, beside those of space
+    bool times_from_names = false; ///< --times-from-names: the last number in each file's name
     // Headerless raw files only:
     std::optional<std::array<std::uint32_t, 3>> dims; ///< --dims NX NY NZ, vertices
     std::optional<ValueType> type;                    ///< --type

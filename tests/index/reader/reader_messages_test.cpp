@@ -28,6 +28,7 @@ std::vector<ReaderRequest> every_request() {
     options.type = ValueType::u16;
     options.big_endian = true;
     options.allow_surplus = true;
+    options.times_from_names = true;
     options.header_bytes = 12;
     options.spacing = glm::dvec3(1, 2, 3);
     options.time_step = 0.25;

@@ -1,0 +1,33 @@
+// The fields of an NRRD header.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace isochron::index {
+
+class NrrdHeader {
+  public:
+    /// @throws Error naming the file when it does not begin as NRRD does, or has no end
+    explicit NrrdHeader(const std::filesystem::path& path);
+
+    /// A field, its key in lower case without blanks, as its spelling varies.
+    std::optional<std::string> find(const std::string& key) const;
+    /// @throws Error when there is none
+    std::string need(const std::string& key) const;
+    const std::string& file() const { return file_; }
+    std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    bool read_line(std::istream& in, std::string& line);
+
+    std::string file_;
+    std::map<std::string, std::string> fields_;
+    std::uint64_t bytes_ = 0;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,116 @@
+// Interleaved steps and stacked components, each by opening the file as the other.
+#include "index/formats/reordered_file.h"
+
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+class InterleavedSteps final : public VolumeFile {
+  public:
+    InterleavedSteps(std::filesystem::path header, SeriesInfo info, StoredLayout layout,
+                     const ReadOptions& options)
+        : header_(std::move(header)), plain_(std::move(info)), layout_(std::move(layout)),
+          options_(options), steps_(layout_.steps) {
+        expect_few_steps(steps_, header_.string());
+        layout_.array.components = static_cast<std::uint32_t>(steps_);
+        layout_.steps = 1;
+        open(0);
+        info_ = file_->info();
+        info_.array = layout_.array.name;
+        info_.time_unit = plain_.time_unit;
+        give_times(info_, layout_, steps_);
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    std::size_t steps() const override { return steps_; }
+    std::vector<std::filesystem::path> beside() const override { return file_->beside(); }
+
+    void read(std::size_t step, std::span<std::byte> out) override {
+        if (step != open_)
+            open(step);
+        file_->read(0, out);
+    }
+
+  private:
+    void open(std::size_t step) {
+        ReadOptions options = options_;
+        options.component = std::to_string(step);
+        file_ = open_stored(header_, plain_, layout_, options);
+        open_ = step;
+    }
+
+    std::filesystem::path header_;
+    SeriesInfo plain_; ///< what is said of the file before it is opened
+    StoredLayout layout_;
+    ReadOptions options_;
+    std::size_t steps_;
+    SeriesInfo info_;
+    std::unique_ptr<VolumeFile> file_; ///< that of one step
+    std::size_t open_ = 0;
+};
+
+class StackedComponents final : public VolumeFile {
+  public:
+    StackedComponents(const std::filesystem::path& header, SeriesInfo info, StoredLayout layout,
+                      const ReadOptions& options)
+        : chosen_(choose_scalar(std::span(&layout.array, 1), options, header.string())) {
+        layout.steps = std::exchange(layout.array.components, 1);
+        layout.time_step = 0;
+        ReadOptions plain = options;
+        plain.array.reset();
+        plain.component.reset();
+        file_ = open_stored(header, std::move(info), layout, plain);
+        info_ = file_->info();
+        info_.array = chosen_.label();
+        info_.type = chosen_.value_type();
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    std::size_t steps() const override { return 1; }
+    std::vector<std::filesystem::path> beside() const override { return file_->beside(); }
+
+    void read(std::size_t, std::span<std::byte> out) override {
+        if (chosen_.component != ChosenScalar::kMagnitude)
+            return file_->read(chosen_.component, out);
+        const std::size_t count = info_.grid.vertex_count();
+        std::vector<double> squares(count);
+        std::vector<std::byte> part(file_->info().step_bytes());
+        for (std::size_t component = 0; component < file_->steps(); ++component) {
+            file_->read(component, part);
+            visit_value_type(file_->info().type, [&]<class T>(std::type_identity<T>) {
+                const T* values = reinterpret_cast<const T*>(part.data());
+                for (std::size_t i = 0; i < count; ++i)
+                    squares[i] += static_cast<double>(values[i]) * static_cast<double>(values[i]);
+            });
+        }
+        visit_value_type(info_.type, [&]<class T>(std::type_identity<T>) {
+            T* values = reinterpret_cast<T*>(out.data());
+            for (std::size_t i = 0; i < count; ++i)
+                values[i] = static_cast<T>(std::sqrt(squares[i]));
+        });
+    }
+
+  private:
+    ChosenScalar chosen_;
+    std::unique_ptr<VolumeFile> file_; ///< each component as a step
+    SeriesInfo info_;
+};
+
+} // namespace
+
+std::unique_ptr<VolumeFile> open_interleaved_steps(const std::filesystem::path& header,
+                                                   SeriesInfo info, const StoredLayout& layout,
+                                                   const ReadOptions& options) {
+    return std::make_unique<InterleavedSteps>(header, std::move(info), layout, options);
+}
+
+std::unique_ptr<VolumeFile> open_stacked_components(const std::filesystem::path& header,
+                                                    SeriesInfo info, const StoredLayout& layout,
+                                                    const ReadOptions& options) {
+    return std::make_unique<StackedComponents>(header, std::move(info), layout, options);
+}
+
+} // namespace isochron::index

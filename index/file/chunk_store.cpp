@@ -16,7 +16,7 @@
 namespace isochron::index {
 namespace {
 
-enum Kind : unsigned { kChunk, kLayer, kWhole, kLevels };
+enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept };
 
 /// Records with less than this between them are read together: a disk gives so much in the time
 /// that one more request takes.
@@ -90,13 +90,14 @@ void ChunkStore::damaged(std::uint32_t step, const std::string& what) const {
 std::vector<ByteCache::Key> ChunkStore::keys(std::uint32_t step, std::uint32_t layer,
                                              std::span<const std::uint32_t> places) const {
     std::vector<ByteCache::Key> keys(places.size());
-    std::ranges::transform(places, keys.begin(),
-                           [&](std::uint32_t place) { return key(kChunk, step, layer, place); });
+    std::ranges::transform(places, keys.begin(), [&](std::uint32_t place) {
+        return key(chunk_kept, step, layer, place);
+    });
     return keys;
 }
 
 ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
-    if (auto known = cache_.find<ChunkLayer>(key(kLayer, step, layer)))
+    if (auto known = cache_.find<ChunkLayer>(key(layer_kept, step, layer)))
         return known;
     const std::uint32_t count = grid_.chunks_of_layer();
     const std::uint64_t size = layer_table_bytes(count);
@@ -108,7 +109,7 @@ ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
     source_.read(entry.offset + entry.tables + first * size, bytes);
     std::vector<ByteCache::Entry> tables;
     for (std::uint32_t i = first; i < end; ++i)
-        tables.push_back({key(kLayer, step, i),
+        tables.push_back({key(layer_kept, step, i),
                           table_from(step, i, std::span(bytes).subspan((i - first) * size, size)),
                           count * (sizeof(std::uint64_t) + 2)});
     auto asked = std::static_pointer_cast<const ChunkLayer>(tables[layer - first].value);
@@ -146,7 +147,7 @@ ChunkLayerPtr ChunkStore::table_from(std::uint32_t step, std::uint32_t layer,
 LevelMapPtr ChunkStore::levels(std::uint32_t step) const {
     if (of_type_)
         return of_type_;
-    const ByteCache::Key at = key(kLevels, step);
+    const ByteCache::Key at = key(levels_kept, step);
     if (auto known = cache_.find<LevelMap>(at))
         return known;
     const StepEntry& entry = array_.steps[step];
@@ -254,7 +255,7 @@ std::vector<ChunkPtr> ChunkStore::chunks(std::uint32_t step, std::uint32_t layer
 LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) const {
     const SeriesInfo& info = array_.info;
     const std::size_t stride = step_stride(info.step_bytes());
-    auto held = cache_.find<WholeStep>(key(kWhole, step));
+    auto held = cache_.find<WholeStep>(key(whole_kept, step));
     if (!held) {
         const BrickGrid bricks(info.grid);
         auto all = std::make_shared<WholeStep>();
@@ -292,7 +293,7 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
         };
         // Threads take time to start: not for the smallest steps.
         parallel_for(grid_.layers(), stride > kSmallStep ? thread_count(0) : 1, take, {});
-        cache_.add(key(kWhole, step), all, stride + all->bricks.size());
+        cache_.add(key(whole_kept, step), all, stride + all->bricks.size());
         held = all;
     }
     return {.values = {.grid = info.grid,

@@ -29,12 +29,20 @@ class InterleavedSteps final : public VolumeFile {
     std::vector<std::filesystem::path> beside() const override { return file_->beside(); }
 
     void read(std::size_t step, std::span<std::byte> out) override {
-        if (step != open_)
-            open(step);
+        open_for(step);
         file_->read(0, out);
+    }
+    void stream(std::size_t step, const TakePiece& take) override {
+        open_for(step);
+        file_->stream(0, take);
     }
 
   private:
+    void open_for(std::size_t step) {
+        if (step != open_)
+            open(step);
+    }
+
     void open(std::size_t step) {
         ReadOptions options = options_;
         options.component = std::to_string(step);
@@ -91,6 +99,14 @@ class StackedComponents final : public VolumeFile {
             for (std::size_t i = 0; i < count; ++i)
                 values[i] = static_cast<T>(std::sqrt(squares[i]));
         });
+    }
+
+    void stream(std::size_t, const TakePiece& take) override {
+        if (chosen_.component != ChosenScalar::kMagnitude)
+            return file_->stream(chosen_.component, take);
+        std::vector<std::byte> whole(info_.step_bytes());
+        read(0, whole);
+        take(whole);
     }
 
   private:

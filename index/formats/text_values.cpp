@@ -66,15 +66,16 @@ bool TextValues::refill(std::size_t begin) {
 }
 
 std::string_view TextValues::next_word() {
-    std::size_t begin = text_.npos;
-    while ((begin = text_.find_first_not_of(kBetween, at_)) == text_.npos) {
+    std::size_t begin = text_.find_first_not_of(kBetween, at_);
+    while (begin == text_.npos) {
         at_ = text_.size();
         if (!refill(at_))
             return {};
+        begin = text_.find_first_not_of(kBetween, at_);
     }
     at_ = begin;
-    std::size_t end = text_.npos;
-    while ((end = text_.find_first_of(kBetween, begin)) == text_.npos) {
+    std::size_t end = text_.find_first_of(kBetween, begin);
+    while (end == text_.npos) {
         if (text_.size() - begin > kLongestWord)
             throw not_a_value(std::string_view(text_).substr(begin), name_);
         if (!refill(begin)) {
@@ -82,6 +83,7 @@ std::string_view TextValues::next_word() {
             break;
         }
         begin = at_;
+        end = text_.find_first_of(kBetween, begin);
     }
     at_ = end;
     return std::string_view(text_).substr(begin, end - begin);

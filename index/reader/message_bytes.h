@@ -49,8 +49,8 @@ class MessageWriter {
     void put(const std::filesystem::path& path) { put(path.native()); }
     void put(const glm::dvec3& v) { (*this)(v.x, v.y, v.z); }
     void put(const glm::dmat3& m) { (*this)(m[0], m[1], m[2]); }
-    template <class T, std::size_t N>
-    void put(const std::array<T, N>& values) {
+    template <class T, std::size_t kCount>
+    void put(const std::array<T, kCount>& values) {
         for (const T& value : values)
             put(value);
     }
@@ -123,8 +123,8 @@ class MessageReader {
     }
     void get(glm::dvec3& v) { (*this)(v.x, v.y, v.z); }
     void get(glm::dmat3& m) { (*this)(m[0], m[1], m[2]); }
-    template <class T, std::size_t N>
-    void get(std::array<T, N>& values) {
+    template <class T, std::size_t kCount>
+    void get(std::array<T, kCount>& values) {
         for (T& value : values)
             get(value);
     }

@@ -77,17 +77,17 @@ std::vector<std::byte> bytes_of_kind(const std::variant<Kinds...>& message) {
     return bytes.take();
 }
 
-template <class Message, std::size_t kind = 0>
+template <class Message, std::size_t kKind = 0>
 Message message_of_kind(std::uint8_t number, MessageReader& bytes) {
-    if constexpr (kind < std::variant_size_v<Message>) {
-        if (number != kind)
-            return message_of_kind<Message, kind + 1>(number, bytes);
-        Message message(std::in_place_index<kind>);
-        each_field(bytes, std::get<kind>(message));
+    if constexpr (kKind < std::variant_size_v<Message>) {
+        if (number != kKind)
+            return message_of_kind<Message, kKind + 1>(number, bytes);
+        Message message(std::in_place_index<kKind>);
+        each_field(bytes, std::get<kKind>(message));
         bytes.expect_end();
         return message;
     } else {
-        throw Error(fmt::format("a message of kind {}, expected 0 to {}", number, kind - 1));
+        throw Error(fmt::format("a message of kind {}, expected 0 to {}", number, kKind - 1));
     }
 }
 

@@ -42,18 +42,19 @@ void LazyPart::need(std::span<const std::byte> part) const {
         return;
     const auto begin = static_cast<std::uint64_t>(part.data() - memory_);
     const std::uint64_t last = (begin + part.size() - 1) / kPage;
-    std::uint64_t page = begin / kPage;
-    const auto skip = [&](bool present) {
-        while (page <= last && has(page) == present)
+    /// The first page from this one on that is there, or is not; or behind the last.
+    const auto next = [&](std::uint64_t page, bool present) {
+        while (page <= last && has(page) != present)
             ++page;
+        return page;
     };
-    skip(true);
+    std::uint64_t page = next(begin / kPage, false);
     if (page > last)
         return;
     const std::scoped_lock lock(reading_);
-    for (skip(true); page <= last; skip(true)) {
+    while ((page = next(page, false)) <= last) {
         const std::uint64_t first = page;
-        skip(false);
+        page = next(page, true);
         const std::uint64_t from = first * kPage, to = std::min(page * kPage, bytes_);
         source_.read(offset_ + from, {memory_ + from, to - from});
         for (std::uint64_t read = first; read < page; ++read)

@@ -77,7 +77,7 @@ TEST_F(ForeignFiles, WithoutAReaderAreRefusedAndOthersAreRead) {
     fs::create_directory(program.parent_path());
     fs::copy_file(test_support::binary_root() + "/isochron", program);
     fs::copy_file("/bin/true", folder.path() / "isochron-reader-vtk");
-    const auto run = [&](std::vector<std::string> arguments) {
+    const auto run = [&](const std::vector<std::string>& arguments) {
         return run_child(program.string(), arguments, folder.path());
     };
     const std::string vti = (kData / "vti" / "ascii.vti").string();

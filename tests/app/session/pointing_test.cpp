@@ -65,7 +65,10 @@ std::optional<glm::dvec3> first_crossing(const index::StepValues& values, const 
     const double about = glm::dot(middle - from, way); // the grid is within 27 voxels of it
     std::optional<double> before;
     constexpr double kStep = 0.01;
-    for (double at = std::max(about - 28.0, 0.0); at < about + 28.0; at += kStep) {
+    const double nearest = std::max(about - 28.0, 0.0);
+    const int steps = static_cast<int>((about + 28.0 - nearest) / kStep);
+    for (int step = 0; step < steps; ++step) {
+        const double at = nearest + step * kStep;
         const auto value = index::value_at(values, 0, from + at * way);
         if (value && before && (*value >= isovalue) != (*before >= isovalue)) {
             double low = at - kStep, high = at;

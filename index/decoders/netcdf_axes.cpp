@@ -95,6 +95,37 @@ void spread(const std::vector<double>& at, const std::string& file, Positions& p
                                     std::abs(step), with_blank(positions.unit)));
 }
 
+/// Of the variable, or of the group that it is a component of.
+std::vector<double> of_the_grid(const NetcdfFile& file, const NetcdfVariable& variable,
+                                const char* attribute) {
+    std::vector<double> numbers = file.numbers(variable, attribute);
+    if (numbers.empty())
+        numbers = file.numbers(group_of(variable), attribute);
+    return numbers;
+}
+
+/// `gridSpacing` and its like, as openPMD has them (https://github.com/openPMD/openPMD-standard,
+/// 1.1.0, "Mesh Based Records"), for axes without coordinates.
+/// @param a the index axis, fastest first
+void take_grid_attributes(const NetcdfFile& file, const NetcdfVariable& variable, std::size_t a,
+                          Positions& positions) {
+    const auto text = [&](const char* attribute) {
+        const std::string own = file.text(variable, attribute);
+        return own.empty() ? file.text(group_of(variable), attribute) : own;
+    };
+    const bool fastest_first = text("dataOrder") == "F";
+    const std::vector<double> spacing = of_the_grid(file, variable, "gridSpacing");
+    if (spacing.size() != 3)
+        return;
+    const std::size_t at = fastest_first ? a : 2 - a;
+    const std::vector<double> offset = of_the_grid(file, variable, "gridGlobalOffset"),
+                              unit = of_the_grid(file, variable, "gridUnitSI");
+    const double meters = unit.size() == 1 ? unit.front() : 1;
+    positions.step = spacing[at] * meters;
+    positions.first = offset.size() == 3 ? offset[at] * meters : 0;
+    positions.unit = unit.size() == 1 ? "m" : "";
+}
+
 Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable,
                           const NetcdfDimension& dimension, int physical,
                           const ReadOptions& options, std::vector<std::string>& notes) {
@@ -187,8 +218,11 @@ void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const Ne
     std::array<Positions, 3> axes; // of physical space
     for (std::size_t a = 0; a < 3; ++a) {
         const int physical = layout.physical[a];
-        axes[static_cast<std::size_t>(physical)] = positions_along(
-            file, variable, variable.dimensions[layout.space[a]], physical, options, info.notes);
+        const NetcdfDimension& dimension = variable.dimensions[layout.space[a]];
+        Positions& axis = axes[static_cast<std::size_t>(physical)];
+        axis = positions_along(file, variable, dimension, physical, options, info.notes);
+        if (!file.coordinate(variable, dimension))
+            take_grid_attributes(file, variable, a, axis);
     }
     glm::dmat3 steps(0.0);
     for (std::size_t a = 0; a < 3; ++a) {

@@ -52,6 +52,10 @@ std::pair<nc_type, std::size_t> attribute_shape(const NetcdfVariable& variable, 
 
 } // namespace
 
+NetcdfVariable group_of(const NetcdfVariable& variable) {
+    return {.group = variable.group, .id = NC_GLOBAL};
+}
+
 std::string text(const NetcdfVariable& variable) {
     std::vector<std::string> dimensions;
     for (const NetcdfDimension& dimension : variable.dimensions)

@@ -25,6 +25,9 @@ struct NetcdfVariable {
     std::vector<NetcdfDimension> dimensions = {}; ///< slowest first
 };
 
+/// Stands for the group that a variable is in, whose attributes are asked for as those of variables.
+NetcdfVariable group_of(const NetcdfVariable& variable);
+
 /// `T(time 2, lev 18, lat 64, lon 128)`
 std::string text(const NetcdfVariable& variable);
 

@@ -21,8 +21,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
+#include <optional>
 #include <sstream>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace isochron::index {
@@ -107,6 +110,8 @@ class VtiFile final : public DecodedFile {
             throw Error(fmt::format("{}: not VTK XML image data", name));
         expect_end(file, name);
         expect_shallow(markup, name);
+        expect_names(markup, name);
+        take_infinities(markup, file);
         with_vtk(path_, [&] {
             reader_->SetFileName(path_.c_str());
             reader_->UpdateInformation();
@@ -149,9 +154,31 @@ class VtiFile final : public DecodedFile {
             values_of_vtk(*reader_->GetOutput(), chosen_, info_.grid, slices, hidden_, out,
                           path_.string());
         });
+        if (replaced_)
+            visit_value_type(info_.type, [&]<class T>(std::type_identity<T>) {
+                const std::span<T> values(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T));
+                if constexpr (std::is_floating_point_v<T>)
+                    std::ranges::replace(values, static_cast<T>(kLowest),
+                                         -std::numeric_limits<T>::infinity());
+            });
     }
 
   private:
+    // Only numbers as text have them.
+    void take_infinities(std::string_view markup, const MappedFile& file) {
+        if (markup.find("ascii") == markup.npos || !holds_hard_infinities(markup))
+            return;
+        const std::string_view all(reinterpret_cast<const char*>(file.bytes().data()),
+                                   file.bytes().size());
+        std::optional<std::string> text = with_easy_infinities(markup);
+        if (!text)
+            throw Error(fmt::format("{}: holds -inf beside {}, which VTK cannot tell apart",
+                                    path_.string(), kLowest));
+        reader_->SetInputString(*text + std::string(all.substr(markup.size())));
+        reader_->ReadFromInputStringOn();
+        replaced_ = true;
+    }
+
     void describe(const ReadOptions& options) {
         const std::string name = path_.string();
         vtkInformation* out = reader_->GetOutputInformation(0);
@@ -194,7 +221,8 @@ class VtiFile final : public DecodedFile {
     SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
-    bool decoded_ = false; ///< all of it, or as far as it went
+    bool replaced_ = false; ///< -inf by kLowest
+    bool decoded_ = false;  ///< all of it, or as far as it went
     vtkNew<vtkXMLImageDataReader> reader_;
 };
 

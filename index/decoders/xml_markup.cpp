@@ -1,4 +1,4 @@
-// The depth of elements, by their tags alone.
+// The depth of elements, by their tags alone; numbers as text.
 #include "index/decoders/xml_markup.h"
 
 #include "index/error.h"
@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -28,7 +30,74 @@ std::size_t behind_tag(std::string_view markup, std::size_t at) {
     return markup.size();
 }
 
+/// Words of numbers between tags, in their order.
+template <class Visit>
+void for_each_word(std::string_view text, Visit visit) {
+    constexpr std::string_view kBlank = " \t\r\n";
+    for (std::size_t tag = text.find('<'); tag != text.npos;) {
+        const std::size_t begin = behind_tag(text, tag + 1);
+        tag = text.find('<', begin);
+        const std::string_view numbers = text.substr(begin, tag - begin);
+        for (std::size_t at = 0; (at = numbers.find_first_not_of(kBlank, at)) != numbers.npos;) {
+            const std::size_t end = std::min(numbers.find_first_of(kBlank, at), numbers.size());
+            visit(begin + at, numbers.substr(at, end - at));
+            at = end;
+        }
+    }
+}
+
+/// -1 and 1 for the infinities that VTK does not read right, else 0.
+int hard_infinity(std::string_view word) {
+    const bool negative = word.starts_with('-');
+    if (negative || word.starts_with('+'))
+        word.remove_prefix(1);
+    const auto is = [&](std::string_view name) {
+        return std::ranges::equal(word, name, {}, [](unsigned char c) { return std::tolower(c); });
+    };
+    if (is("infinity"))
+        return negative ? -1 : 1;
+    return negative && is("inf") ? -1 : 0;
+}
+
 } // namespace
+
+void expect_names(std::string_view markup, const std::string& file) {
+    constexpr std::string_view kArray = "<DataArray";
+    for (std::size_t at = markup.find(kArray); at != markup.npos; at = markup.find(kArray, at)) {
+        const std::size_t end = behind_tag(markup, at);
+        if (markup.substr(at, end - at).find(" Name") == markup.npos)
+            throw Error(
+                fmt::format("{}: cannot be read: an array at byte {} has no Name", file, at));
+        at = end;
+    }
+}
+
+bool holds_hard_infinities(std::string_view text) {
+    bool found = false;
+    for_each_word(text, [&](std::size_t, std::string_view word) {
+        found = found || hard_infinity(word) != 0;
+    });
+    return found;
+}
+
+std::optional<std::string> with_easy_infinities(std::string_view text) {
+    const std::string lowest = fmt::format("{:.17g}", static_cast<double>(kLowest));
+    std::string easy;
+    std::size_t copied = 0;
+    bool ambiguous = false;
+    for_each_word(text, [&](std::size_t at, std::string_view word) {
+        // However it is written: nothing else begins like it.
+        ambiguous = ambiguous || word.starts_with("-3.4028");
+        const int sign = hard_infinity(word);
+        if (sign == 0)
+            return;
+        easy += text.substr(copied, at - copied);
+        easy += sign > 0 ? "inf" : lowest;
+        copied = at + word.size();
+    });
+    easy += text.substr(copied);
+    return ambiguous ? std::nullopt : std::optional(std::move(easy));
+}
 
 void expect_shallow(std::string_view markup, const std::string& file) {
     int depth = 0;

@@ -1,6 +1,8 @@
 // What is looked at in XML before VTK gets it.
 #pragma once
 
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,5 +11,20 @@ namespace isochron::index {
 /// VTK's parsers descend into elements by recursion, and take quadratic time before.
 /// @throws Error naming the file when elements are nested deeper than in any file of VTK's
 void expect_shallow(std::string_view markup, const std::string& file);
+
+/// VTK takes no array without a name, and says so in its own words.
+/// @throws Error naming the file
+void expect_names(std::string_view markup, const std::string& file);
+
+/// Numbers as text that VTK 9.1 takes for others or not at all: it reads `-inf` as `inf`, and knows
+/// no `Infinity`.
+bool holds_hard_infinities(std::string_view text);
+
+/// The lowest f32, by which -inf goes through VTK.
+inline constexpr float kLowest = std::numeric_limits<float>::lowest();
+
+/// The same text with such numbers as `inf` and `kLowest`.
+/// @return none when it holds `kLowest` itself, so that what came out of VTK could not be told apart
+std::optional<std::string> with_easy_infinities(std::string_view text);
 
 } // namespace isochron::index

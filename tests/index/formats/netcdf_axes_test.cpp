@@ -303,7 +303,7 @@ TEST(NetcdfTimes, OfSeveralFilesFollowEachOther) {
     EXPECT_THAT(error_of([&] {
                     open_series({at_times(folder, "a.nc", {1, 1})});
                 }),
-                HasSubstr("a.nc: time 1, "));
+                HasSubstr("a.nc: time 1 of its step 1, "));
     EXPECT_THAT(error_of([&] { open_series({at_times(folder, "a.nc", {})}); }),
                 HasSubstr("a.nc: v(time 0, z 2, y 2, x 2) has 0 steps, expected at least 1"));
 }
@@ -339,6 +339,29 @@ TEST(NetcdfTimes, MayBeASingleNumberBesideTheField) {
     const auto series = open_series({out.done()});
     EXPECT_EQ(series->info().times, std::vector<double>{36});
     EXPECT_EQ(series->info().time_unit, "hours since 2000-01-01");
+}
+
+TEST(NetcdfGrid, OfAttributesIsThatOfOpenPmd) {
+    TestFolder folder;
+    for (const bool of_group : {false, true}) {
+        NetcdfWriter out(folder.path() / (of_group ? "g.nc" : "v.nc"), NC_NETCDF4);
+        if (of_group)
+            out.enter_group("E");
+        out.dimension("d0", 3);
+        out.dimension("d1", 4);
+        out.dimension("d2", 5);
+        out.variable("f", NC_FLOAT, {"d0", "d1", "d2"});
+        const char* on = of_group ? nullptr : "f";
+        out.number<double>(on, "gridSpacing", {4, 3, 2});
+        out.number<double>(on, "gridGlobalOffset", {30, 20, 10});
+        out.number<double>(on, "gridUnitSI", {0.001});
+        out.put("f", std::vector<float>(60, 1));
+        const auto series = open_series({out.done()});
+        const Grid& grid = series->info().grid;
+        EXPECT_EQ(grid.spacing, glm::dvec3(2, 3, 4) * 0.001) << of_group;
+        EXPECT_EQ(grid.origin, glm::dvec3(10, 20, 30) * 0.001);
+        EXPECT_EQ(series->info().length_unit, "m");
+    }
 }
 
 } // namespace

@@ -69,6 +69,8 @@ const std::filesystem::path& NetcdfWriter::done() {
 }
 
 int NetcdfWriter::id_of(const char* variable) const {
+    if (!variable)
+        return NC_GLOBAL;
     int id = 0;
     expect(nc_inq_varid(group_, variable, &id));
     return id;

@@ -28,6 +28,7 @@ class NetcdfWriter {
     void variable(const char* name, nc_type type, const std::vector<std::string>& dimensions);
     /// Compresses the variable, NetCDF-4 only.
     void deflate(const char* variable, const std::vector<std::size_t>& chunk);
+    /// Attributes; those of the group where `variable` is nullptr.
     void text(const char* variable, const char* name, std::string_view value);
     template <class T>
     void number(const char* variable, const char* name, const std::vector<T>& values) {

@@ -282,5 +282,38 @@ TEST(VtiArrays, ThoseWithoutNumbersThatCanBeReadAreNotOffered) {
                 HasSubstr("array flags does not hold numbers that can be read"));
 }
 
+TEST(VtiArrays, InfinitiesAsTextAreWhatTheySay) {
+    const TestFolder folder;
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const auto with = [&](const std::string& type, const std::string& words) {
+        std::string text = "<DataArray type='" + type + "' Name='p' format='ascii'>" + words;
+        for (auto left = 26 - std::count(words.begin(), words.end(), ' '); left > 0; --left)
+            text += " 3";
+        return folder.write("a.vti", image_with(text + "</DataArray>"));
+    };
+    for (const auto& [word, value] : {std::pair{"inf", kInfinity},
+                                      {"-inf", -kInfinity},
+                                      {"-INF", -kInfinity},
+                                      {"Infinity", kInfinity},
+                                      {"+infinity", kInfinity},
+                                      {"-Infinity", -kInfinity}}) {
+        const auto floats = values_of<float>(*open_series({with("Float32", word)}), 0);
+        EXPECT_EQ(floats[0], value) << word;
+        EXPECT_EQ(floats[1], 3.f);
+        const auto doubles = values_of<double>(*open_series({with("Float64", word)}), 0);
+        EXPECT_EQ(doubles[0], static_cast<double>(value)) << word;
+    }
+    EXPECT_THAT(error_of([&] { open_series({with("Float32", "-inf -3.40282347e+38")}); }),
+                HasSubstr("a.vti: holds -inf beside"));
+}
+
+TEST(VtiArrays, WithoutANameAreToldInOurWords) {
+    const TestFolder folder;
+    std::string arrays = array_of("Float32", "p", "2");
+    arrays.erase(arrays.find(" Name='p'"), 9);
+    EXPECT_THAT(error_of([&] { open_series({folder.write("a.vti", image_with(arrays))}); }),
+                testing::EndsWith("has no Name"));
+}
+
 } // namespace
 } // namespace isochron::index

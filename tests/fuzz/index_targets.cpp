@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/extraction/cell_change.h"
+#include "index/extraction/index_search.h"
 #include "index/extraction/layer_search.h"
 #include "tests/support/index_repair.h"
 

@@ -1,6 +1,7 @@
 // `isochron explore`: the live program, in a window.
 #include "app/commands/cancel.h"
 #include "app/commands/cluster_job.h"
+#include "app/commands/drawing_options.h"
 #include "app/commands/explore_options.h"
 #include "app/commands/file_patterns.h"
 #include "app/commands/kept_session.h"
@@ -11,11 +12,13 @@
 #include "app/config/tracker_setup.h"
 #include "app/session/live_loop.h"
 #include "app/session/recording_file.h"
+#include "app/session/user_memory.h"
 #include "app/text.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
 #include "interaction/recording/recording.h"
+#include "stereo/loading_picture.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,8 +37,7 @@ Config configure(const ExploreOptions& options) {
         config.quality = quality_mode_from_name(*options.quality);
     if (options.footprint)
         config.settled_footprint = settled_footprint_from_name(*options.footprint);
-    if (options.shape)
-        config.cell_shape = cell_shape_from_name(*options.shape);
+    set_shape(config, options.shape);
     if (!options.size.empty() && !options.emulate)
         for (stereo::Window& window : config.installation.windows) {
             window.size = {options.size[0], options.size[1]};
@@ -160,10 +162,23 @@ void warn(const Config& config) {
         fmt::print(stderr, "isochron: warning: {}\n", one_line(warning));
 }
 
+/// What keeps this session from showing other data; empty: nothing does.
+std::string why_not_open(const ExploreOptions& options, const std::filesystem::path& data) {
+    if (options.record)
+        return "other data are not opened while a recording is made";
+    try {
+        open_index(data);
+        return {};
+    } catch (const index::Error& error) {
+        return one_line(error.what());
+    }
+}
+
 LiveOptions live_options(const ExploreOptions& options) {
-    LiveOptions live{.emulated = options.emulate, .length = std::nullopt, .ended = [] {
-                         return CancelOnSignal::received() != 0;
-                     }};
+    LiveOptions live{.emulated = options.emulate,
+                     .length = std::nullopt,
+                     .ended = [] { return CancelOnSignal::received() != 0; },
+                     .why_not_open = {}};
     if (options.seconds)
         live.length = interaction::Seconds(*options.seconds);
     return live;
@@ -174,6 +189,13 @@ std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
     if (options.session)
         return *options.session;
     return session_path(*options.data, data_hash_of(file));
+}
+
+/// Where these data have grown since, the session is kept under the hash that they had.
+std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& options,
+                                                     const index::IndexFile& file) {
+    const auto path = kept_in(options, file);
+    return options.session || !path ? path : kept_on_fewer_steps(*path, file);
 }
 
 void print_status(const LiveLoop& live) {
@@ -231,11 +253,22 @@ bool only_describes(const ExploreOptions& options) {
     return true;
 }
 
-void explore(const ExploreOptions& options, ClusterJob& job) {
+/// Data, as the user knows them, are remembered; the first lines stand in the picture once.
+void greet(Session& session, UserMemory& memory, const std::string& data) {
+    memory.remember(data);
+    session.panel().offer_files([&memory] { return memory.recent(); });
+    if (!memory.introduced())
+        session.panel().introduce();
+}
+
+/// @return data that the user wants to see instead; nothing: they leave
+std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& job) {
     // A signal ends the session as its user would: what was recorded gets its name.
     const CancelOnSignal signals;
-    if (options.test_pattern)
-        return show_test_pattern(options, job);
+    if (options.test_pattern) {
+        show_test_pattern(options, job);
+        return std::nullopt;
+    }
     Config config;
     std::shared_ptr<const index::IndexFile> file;
     interaction::CompositeInput trackers;
@@ -261,11 +294,12 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     std::optional<SavedSession> earlier;
     job.together([&] {
         if (job.size() == 1)
-            earlier = earlier_session(kept_in(options, *file), options.resume);
+            earlier = earlier_session(earlier_kept_in(options, *file), options.resume);
         else if (options.resume)
             throw UsageError("--resume is for one process, without mpirun");
         auto headset = open_headset(config.openxr);
         stereo::Windows windows = open(options, config, job, headset.get());
+        show_loading(windows, config.background);
         opened.emplace(config, file, std::move(windows), index::Extract(), std::move(headset));
         const std::size_t steps = file->info().steps();
         const ExplorerState start =
@@ -282,7 +316,15 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     job.require_same(start_fact(session));
     job.tell_shared_processors(session.outputs().gl());
     job.share_frames(session);
-    LiveLoop live(config, std::move(trackers), live_options(options), session.outputs().headset());
+    LiveOptions how = live_options(options);
+    UserMemory memory(job.size() == 1 ? user_state_folder() : std::nullopt);
+    if (job.size() == 1) {
+        how.why_not_open = [&](const std::filesystem::path& data) {
+            return why_not_open(options, data);
+        };
+        greet(session, memory, *options.data);
+    }
+    LiveLoop live(config, std::move(trackers), how, session.outputs().headset());
     session.set_clock(live.clock());
     if (job.leads()) {
         if (job.size() == 1)
@@ -299,6 +341,8 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     session.frames().end();
     live.finish(session.state());
     session.outputs().pictures().finish();
+    if (session.panel().introduced())
+        memory.set_introduced();
     print_status(live);
     if (options.report)
         session.log().write(job.own_file(*options.report), session.drawing());
@@ -306,6 +350,20 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     if (options.record && job.leads())
         fmt::print(stderr, "recording: {}\n", *options.record);
     signals.check();
+    if (!live.next_data())
+        return std::nullopt;
+    return live.next_data()->string();
+}
+
+/// The same for other data: what was said of the first ones alone holds no longer.
+ExploreOptions with_data(ExploreOptions options, const std::string& data) {
+    options.data = data;
+    options.isovalue.reset();
+    options.step.reset();
+    options.session.reset();
+    options.report.reset();
+    options.resume = false;
+    return options;
 }
 
 } // namespace
@@ -316,7 +374,11 @@ void add_explore(Command& program) {
     add_explore_options(command, *options);
     command.on_run([options] {
         if (!only_describes(*options))
-            run_in_cluster([&](ClusterJob& job) { explore(*options, job); });
+            run_in_cluster([&](ClusterJob& job) {
+                ExploreOptions now = *options;
+                while (const auto next = explore(now, job))
+                    now = with_data(std::move(now), *next);
+            });
     });
 }
 

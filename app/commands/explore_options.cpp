@@ -1,6 +1,7 @@
 // What `explore` is told on the command line.
 #include "app/commands/explore_options.h"
 
+#include "app/commands/drawing_options.h"
 #include "app/config/config.h"
 #include "app/config/shipped_configs.h"
 #include "app/output/room_camera.h"
@@ -59,11 +60,7 @@ void add_explore_options(Command& command, ExploreOptions& options) {
                 "What a settled picture is drawn with: auto (the best that fits the frame "
                 "budget), or always gaussian or surface")
         .one_of(settled_footprint_names());
-    command
-        .option("--shape", options.shape,
-                "What quads and splats stand for, instead of the configured: plane (flat "
-                "ellipses on the surface) or voxel (the paper's spheres)")
-        .one_of(cell_shape_names());
+    add_shape_option(command, options.shape);
     command.option("--size", options.size, "Size of every window, or of the room's, in pixels")
         .values(2)
         .between(16, 16384);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <string_view>
 
 namespace isochron::app {
 
@@ -14,12 +15,48 @@ std::string data_hash_of(const index::IndexFile& file) {
     return fmt::format("{:016x}", file.content_hash());
 }
 
-std::string held_hash(const index::IndexFile& file, const std::string& hash) {
+namespace {
+
+/// Whether it is the hash of the data, or of those that they once were.
+bool is_held(const index::IndexFile& file, std::string_view hash) {
     std::uint64_t number = 0;
     const char* const end = hash.data() + hash.size();
     const auto read = std::from_chars(hash.data(), end, number, 16);
-    return read.ptr == end && read.ec == std::errc() && file.has_had(number) ? hash
-                                                                             : data_hash_of(file);
+    return read.ptr == end && read.ec == std::errc() && file.has_had(number);
+}
+
+} // namespace
+
+std::string held_hash(const index::IndexFile& file, const std::string& hash) {
+    return is_held(file, hash) ? hash : data_hash_of(file);
+}
+
+std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
+                                          const index::IndexFile& file) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (fs::exists(path, error))
+        return path;
+    // NAME-HASH.isochron-session
+    constexpr std::size_t kHash = 16;
+    const std::string stem = path.stem().string();
+    const std::string start = stem.substr(0, stem.size() - kHash);
+    fs::path newest = path;
+    fs::file_time_type newest_time;
+    for (fs::directory_iterator entry(path.parent_path(), error);
+         !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        const std::string name = entry->path().stem().string();
+        if (entry->path().extension() != path.extension() || name.size() != stem.size() ||
+            !name.starts_with(start) || !is_held(file, std::string_view(name).substr(start.size())))
+            continue;
+        std::error_code unknown;
+        const fs::file_time_type time = fs::last_write_time(entry->path(), unknown);
+        if (newest == path || time > newest_time) {
+            newest = entry->path();
+            newest_time = time;
+        }
+    }
+    return newest;
 }
 
 std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,

@@ -16,6 +16,12 @@ std::string data_hash_of(const index::IndexFile& file);
 /// all.
 std::string held_hash(const index::IndexFile& file, const std::string& hash);
 
+/// Where the newest session lies that was kept, in the same folder, on these data when they had
+/// fewer steps; `path` itself where one is there, or there is none.
+/// @param path for the data as they are, see `session_path`
+std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
+                                          const index::IndexFile& file);
+
 /// The session to go on with; where `resume` does not say so, only that there is one is said.
 /// @param path where it is kept; nothing where nobody can say
 /// @throws interaction::Error where `resume` asks for what is not there

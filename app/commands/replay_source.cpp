@@ -1,6 +1,7 @@
 // What is replayed, on which data, and in what pictures.
 #include "app/commands/replay_source.h"
 
+#include "app/commands/drawing_options.h"
 #include "app/commands/kept_session.h"
 #include "app/commands/open_index.h"
 
@@ -47,11 +48,7 @@ void add_replay_source(Command& command, ReplaySource& source) {
                  "Show the wand's ray and what is under the cursor, which pictures leave out");
     command.flag("--caption", source.caption,
                  "Write isovalue and time into the pictures, with axes and a scale bar");
-    command
-        .option("--shape", source.shape,
-                "What quads and splats stand for, instead of the configured: plane (flat "
-                "ellipses on the surface) or voxel (the paper's spheres)")
-        .one_of(cell_shape_names());
+    add_shape_option(command, source.shape);
     command.option("--config", source.config,
                    "TOML file or shipped name instead of the recorded configuration");
     command
@@ -72,8 +69,7 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
         config.installation.windows.front().size = {header.window[0], header.window[1]};
     if (options.footprint)
         config.settled_footprint = settled_footprint_from_name(*options.footprint);
-    if (options.shape)
-        config.cell_shape = cell_shape_from_name(*options.shape);
+    set_shape(config, options.shape);
     config.picture_samples = options.samples.value_or(config.picture_samples);
     config.picture_ray = config.picture_ray || options.ray;
     config.picture_caption = config.picture_caption || options.caption;

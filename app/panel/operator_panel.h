@@ -24,6 +24,11 @@ class OperatorPanel {
     /// The first four lines stand over the first window until somebody has begun.
     void introduce() { over_.introduce(); }
     bool introduced() { return over_.introduced(); } ///< they have gone, told once
+    /// See PanelLayer.
+    void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
+        over_.offer_files(std::move(recent));
+    }
+    std::optional<std::filesystem::path> take_chosen() { return over_.take_chosen(); }
 
     /// Passes window events to the panel. @param shown it lies over the first window
     /// @return those that it has no use for

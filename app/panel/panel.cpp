@@ -296,6 +296,17 @@ void mark_section(const PanelModel& model, Commands& commands) {
     ImGui::Separator();
 }
 
+void page_buttons(PanelPages& pages) {
+    ImGui::SameLine();
+    if (pages.offers_files) {
+        pages.files = ImGui::Button("Open");
+        tip("other data (Ctrl + O)");
+        ImGui::SameLine();
+    }
+    pages.help = ImGui::Button("?");
+    tip("what the devices at hand do (F1)");
+}
+
 } // namespace
 
 std::string quality_line(const FrameReport& frame) {
@@ -313,7 +324,7 @@ std::string quality_line(const FrameReport& frame) {
     return line;
 }
 
-Commands draw_panel(const PanelModel& model, PanelArea& area) {
+Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages) {
     Commands commands;
     ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings;
     if (model.place == PanelPlace::over) {
@@ -340,6 +351,8 @@ Commands draw_panel(const PanelModel& model, PanelArea& area) {
     if (ImGui::Button("Screenshot"))
         commands.screenshot = true;
     tip("of every window, with more samples (P)");
+    if (model.place != PanelPlace::in_room)
+        page_buttons(pages);
     if (model.recording) {
         ImGui::SameLine();
         state_note("recording", kWarning);

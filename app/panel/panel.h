@@ -17,8 +17,14 @@ struct PanelArea {
     }
 };
 
+/// What the panel's buttons open beside it.
+struct PanelPages {
+    bool offers_files = false;        ///< other data can be opened
+    bool files = false, help = false; ///< asked for in this frame
+};
+
 /// Lays the panel out in the current Dear ImGui frame. @return what the user did to it
-interaction::Commands draw_panel(const PanelModel& model, PanelArea& area);
+interaction::Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages);
 
 /// How the picture is drawn, and why: `settled: surface, 7.2 of 11.1 ms`.
 std::string quality_line(const FrameReport& frame);

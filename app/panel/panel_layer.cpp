@@ -1,7 +1,6 @@
 // Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
 #include "app/panel/panel_layer.h"
 
-#include "app/panel/panel_help.h"
 #include "app/panel/panel_tools.h"
 #include "app/scene/font.h"
 #include "render/gl/limits.h"
@@ -64,7 +63,6 @@ struct Taker {
     glm::ivec2 places;   ///< of the panel in its window
     bool popups = false; ///< something is open over the panel, which Escape closes
     bool& closes_popup;
-    bool& help;                ///< its page is open
     bool& begun;               ///< somebody uses the program
     std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
     bool clicked = false;      ///< one of them on the panel
@@ -88,8 +86,6 @@ struct Taker {
     bool operator()(const KeyEvent& event) {
         const auto code = static_cast<std::size_t>(event.key);
         begun = begun || event.down;
-        if (event.key == Key::f1 && event.down)
-            return help = !help, true;
         if (is_read(event.key))
             changed.insert(event.key);
         if (code < std::size(io.KeysDown))
@@ -104,8 +100,6 @@ struct Taker {
     }
     bool operator()(const TextEvent& event) {
         typed = true;
-        if (event.character == U'?' && !io.WantTextInput)
-            return help = !help, true;
         if (io.WantTextInput)
             io.AddInputCharacter(event.character);
         return io.WantTextInput;
@@ -228,15 +222,16 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
                 .late_releases = late_releases_,
                 .cursor = cursor_,
                 .places = places_,
-                .popups = imgui_->OpenPopupStack.Size > 0 || help_,
+                .popups = imgui_->OpenPopupStack.Size > 0 || has_page(),
                 .closes_popup = closes_popup_,
-                .help = help_,
                 .begun = begun_};
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
         const WindowEvent event = waiting_.front();
         waiting_.pop_front();
-        const bool open = shown || help_;
+        if (opens_page(event))
+            continue;
+        const bool open = shown || has_page();
         const bool taken = std::visit(taker, event);
         if (!taken || !open)
             left.push_back(event);
@@ -267,14 +262,20 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if (std::exchange(closes_popup_, false)) {
         if (imgui_->OpenPopupStack.Size > 0)
             ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
+        else if (files_.is_open())
+            files_.close();
         else
             help_ = false;
     }
     Commands commands;
+    PanelPages pages{.offers_files = static_cast<bool>(recent_)};
     area_ = {};
     // The panel in the room stands for the one over the picture.
     if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
-        commands = draw_panel(model, area_);
+        commands = draw_panel(model, area_, pages);
+    if (pages.files)
+        files_.open(recent_());
+    help_ = help_ || pages.help;
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
     lay_out_pages(model, time);
@@ -284,24 +285,6 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         message_window(model.standing, model.message, time - said_);
     ImGui::Render();
     return commands;
-}
-
-/// What lies over the picture beside the panel.
-void PanelLayer::lay_out_pages(const PanelModel& model, Seconds time) {
-    if (help_ && model.place != PanelPlace::in_room)
-        help_ = help_window(model);
-    if (!newcomer_ || help_ || model.place != PanelPlace::over)
-        return;
-    constexpr Seconds kLeast{6.0}; // long enough to be read
-    if (!introduced_at_)
-        introduced_at_ = time;
-    if (begun_ && time - *introduced_at_ >= kLeast) {
-        newcomer_ = false;
-        introduced_ = true;
-        return;
-    }
-    const bool docked = area_.bottom - area_.top > 2 * area_.title;
-    first_use_window(docked ? area_.right : 0.0f);
 }
 
 bool PanelLayer::covers(glm::vec2 at) const {

@@ -1,6 +1,7 @@
 // Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
 #pragma once
 
+#include "app/panel/file_window.h"
 #include "app/panel/panel.h"
 #include "interaction/pose.h"
 #include "interaction/window_event.h"
@@ -9,6 +10,8 @@
 #include <glm/vec2.hpp>
 
 #include <deque>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -36,6 +39,13 @@ class PanelLayer {
     void introduce() { newcomer_ = true; }
     /// Whether they have gone, once.
     bool introduced() { return std::exchange(introduced_, false); }
+
+    /// Lets the user open other data. @param recent asked for those that were open lately
+    void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
+        recent_ = std::move(recent);
+    }
+    /// What they have chosen, once.
+    std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
 
     /// Takes events into account. Dear ImGui sees levels, once a frame: what it could not tell
     /// apart, such as a key that goes down twice, or Enter before a digit, waits for the next
@@ -76,6 +86,8 @@ class PanelLayer {
 
   private:
     void make_font_texture();
+    bool opens_page(const interaction::WindowEvent& event);
+    bool has_page() const { return help_ || files_.is_open(); }
     void lay_out_pages(const PanelModel& model, interaction::Seconds time);
 
     const render::Gl& gl_;
@@ -91,6 +103,9 @@ class PanelLayer {
     interaction::Seconds said_{-1e9}; ///< when the newest one came
     bool closes_popup_ = false;       ///< Escape was pressed
     bool help_ = false;               ///< its page is open
+    FileWindow files_;
+    std::function<std::vector<std::filesystem::path>()> recent_; ///< empty: no data are offered
+    std::optional<std::filesystem::path> chosen_;
     bool newcomer_ = false, begun_ = false, introduced_ = false;
     std::optional<interaction::Seconds> introduced_at_; ///< when the first four lines came
     render::Program program_;

@@ -65,6 +65,21 @@ void LiveLoop::take_new_steps(Session& session, Commands& asked) {
         asked.step = steps - 1;
 }
 
+/// Data that were chosen, or dropped onto a window.
+void LiveLoop::take_next_data(Session& session) {
+    std::optional<std::filesystem::path> wanted = session.panel().take_chosen();
+    for (const std::filesystem::path& dropped : session.outputs().windows().first().take_dropped())
+        wanted = dropped;
+    if (!wanted)
+        return;
+    const std::string reason = options_.why_not_open ? options_.why_not_open(*wanted)
+                                                     : "other data are not opened in this session";
+    if (reason.empty())
+        next_data_ = wanted;
+    else
+        session.show_messages({reason});
+}
+
 /// The devices of a frame that begins now.
 InputState LiveLoop::poll(std::span<const interaction::WindowEvent> events) {
     if (options_.emulated)
@@ -143,7 +158,8 @@ void LiveLoop::run(Session& session) {
             keeper_->update(session.state(), emulation_.standing(), input.time);
             session.show_messages(keeper_->messages());
         }
-        running = goes_on(commands, input);
+        take_next_data(session);
+        running = goes_on(commands, input) && !next_data_;
         if (!paced_)
             pacer.wait();
     }

@@ -34,6 +34,9 @@ struct LiveOptions {
     bool emulated = false; ///< the room is shown from outside: mouse and keys move its camera, too
     std::optional<interaction::Seconds> length; ///< the loop ends after this long; empty: never
     std::function<bool()> ended = [] { return false; }; ///< asked in each frame: the loop ends
+    /// What keeps other data from being opened in the place of these, in one line; empty: nothing
+    /// does, and the loop ends for it. None where these are all there will be.
+    std::function<std::string(const std::filesystem::path&)> why_not_open;
 };
 
 /// Session time starts with it, at 0.
@@ -61,6 +64,9 @@ class LiveLoop {
     interaction::StandingPlace standing() const { return emulation_.standing(); }
     void stand(const interaction::StandingPlace& place) { emulation_.stand(place); }
 
+    /// What the user wants to see instead; nothing: they leave.
+    const std::optional<std::filesystem::path>& next_data() const { return next_data_; }
+
     /// Until the user closes a window, leaves by a device or ends the headset's program, or the
     /// time is over; a headset is left then.
     void run(Session& session);
@@ -76,6 +82,7 @@ class LiveLoop {
     interaction::InputState poll(std::span<const interaction::WindowEvent> events);
     bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
     void record(interaction::RecordedFrame frame);
+    void take_next_data(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);
     static bool closes(const Session& session, interaction::Commands& asked);
 
@@ -88,6 +95,7 @@ class LiveLoop {
     bool paced_ = false; ///< by the headset, in this frame
     std::optional<SessionKeeper> keeper_;
     std::optional<index::IndexWatch> watch_;
+    std::optional<std::filesystem::path> next_data_;
     BackgroundWork recording_;
     /// Lives on the thread that writes.
     std::shared_ptr<interaction::RecordingWriter> recorder_;

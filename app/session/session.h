@@ -73,6 +73,8 @@ class Session {
     /// next frame.
     interaction::Commands take_panel_commands();
 
+    OperatorPanel& panel() { return panel_; }
+
     /// Passes window events to the panel. @return those that it has no use for
     std::vector<interaction::WindowEvent>
     panel_events(std::span<const interaction::WindowEvent> events);

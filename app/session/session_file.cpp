@@ -1,6 +1,7 @@
 // Saving and reading of sessions.
 #include "app/session/session_file.h"
 
+#include "app/session/user_memory.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <span>
 
 namespace isochron::app {
@@ -99,17 +99,10 @@ ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,
 
 std::optional<std::filesystem::path> session_path(const std::filesystem::path& data,
                                                   const std::string& data_hash) {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): before threads
-        return std::string(value ? value : "");
-    };
-    std::filesystem::path folder = variable("XDG_STATE_HOME");
-    if (folder.empty() && !variable("HOME").empty())
-        folder = std::filesystem::path(variable("HOME")) / ".local/state";
-    if (folder.empty())
+    const std::optional<std::filesystem::path> folder = user_state_folder();
+    if (!folder)
         return std::nullopt;
-    return folder / "isochron" /
-           fmt::format("{}-{}.isochron-session", data.stem().string(), data_hash);
+    return *folder / fmt::format("{}-{}.isochron-session", data.stem().string(), data_hash);
 }
 
 } // namespace isochron::app

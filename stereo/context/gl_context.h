@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,6 +55,8 @@ class GlContext {
     /// Covers the monitor that the window is on, or goes back to where it was.
     virtual void toggle_fullscreen() {}
     virtual std::vector<interaction::WindowEvent> poll_events() = 0;
+    /// Files that were dropped onto the window since the last call.
+    virtual std::vector<std::filesystem::path> take_dropped() { return {}; }
     /// The context as the window system knows it.
     virtual NativeGl native() const { return {}; }
     virtual std::string description() const = 0; ///< `GLFW, OpenGL 4.5, llvmpipe (...)`

@@ -210,6 +210,9 @@ class GlfwContext final : public GlContext {
             events_.push_back(gamepad_ = gamepad);
         return std::exchange(events_, {});
     }
+    std::vector<std::filesystem::path> take_dropped() override {
+        return std::exchange(dropped_, {});
+    }
     NativeGl native() const override { return native_of(window_); }
     std::string description() const override { return "GLFW, " + describe_current(loader()); }
 
@@ -271,6 +274,10 @@ class GlfwContext final : public GlContext {
         glfwSetScrollCallback(window_, [](GLFWwindow* window, double dx, double dy) {
             push(window, ScrollEvent{static_cast<float>(dx), static_cast<float>(dy)});
         });
+        glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+            auto& context = *static_cast<GlfwContext*>(glfwGetWindowUserPointer(window));
+            context.dropped_.insert(context.dropped_.end(), paths, paths + count);
+        });
         glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
             push(window, FocusEvent{focused == GLFW_TRUE});
         });
@@ -279,6 +286,7 @@ class GlfwContext final : public GlContext {
     std::shared_ptr<GlfwLibrary> library_;
     GLFWwindow* window_ = nullptr;
     std::vector<WindowEvent> events_;
+    std::vector<std::filesystem::path> dropped_;
     GamepadEvent gamepad_{};
     WindowedPlace before_;
     bool stereo_buffers_ = false;

@@ -5,10 +5,12 @@
 
 #include "app/config/shipped_configs.h"
 #include "app/session/recording_file.h"
+#include "app/session/user_memory.h"
 #include "stereo/image_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -308,6 +310,62 @@ TEST_F(ExploreTest, AFolderForPicturesThatCannotBeMadeIsToldAtTheStart) {
 TEST_F(ExploreTest, WithoutADisplayItSaysSo) {
     unsetenv("DISPLAY");
     EXPECT_EQ(Program({"explore", file("sphere.isochron")}).exit_status(), 1);
+}
+
+TEST_F(ExploreTest, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {
+    std::filesystem::copy_file(file("sphere.isochron"), file("other.isochron"));
+    UserMemory(state_.path() / "isochron").remember(file("other.isochron"));
+    const auto program = explore({});
+    screen_.xdotool({"key", "ctrl+o", "sleep", "1"});
+    // The second line: the first are the data that are open.
+    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "126",
+                     "sleep", "0.3", "click", "1"});
+    screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron: .*/other.isochron"});
+    program->signal(SIGTERM);
+    EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
+    EXPECT_EQ(UserMemory(state_.path() / "isochron").recent().front(), file("other.isochron"));
+}
+
+TEST_F(ExploreTest, ResumesAfterTheDataHaveGrown) {
+    for (int step = 0; step < 3; ++step) {
+        std::vector<float> values;
+        for (int i = 0; i < 6 * 6 * 6; ++i)
+            values.push_back(static_cast<float>(i % 36 + step));
+        folder_.write(fmt::format("t{}.raw", step), {reinterpret_cast<const char*>(values.data()),
+                                                     values.size() * sizeof(float)});
+    }
+    const auto build = [&](const std::string& files, std::vector<std::string> more) {
+        std::vector<std::string> words{
+            "build",  file(files), "--dims", "6",  "6",
+            "6",      "--type",    "f32",    "-o", file("grown.isochron"),
+            "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        return Program(words).exit_status();
+    };
+    const auto explored = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{
+            "explore", file("grown.isochron"), "--size", "160", "120", "--seconds", "0.5"};
+        words.insert(words.end(), more.begin(), more.end());
+        return Program(words).exit_status();
+    };
+    ASSERT_EQ(build("t[01].raw", {}), 0);
+    ASSERT_EQ(explored({"--resume"}), 1) << "there is none";
+    {
+        const Program first(
+            {"explore", file("grown.isochron"), "--step", "1", "--record", file("first.jsonl")});
+        screen_.xdotool(
+            {"search", "--sync", "--onlyvisible", "--name", "Isochron", "windowfocus", "key", "3"});
+        while (folder_.read("first.jsonl.part").find("\"quality\":\"quality\"") ==
+               std::string::npos)
+            std::this_thread::yield(); // the test's limit ends a hang
+        first.signal(SIGTERM);
+        ASSERT_EQ(first.exit_status(), 128 + SIGTERM);
+    }
+    ASSERT_EQ(build("t*.raw", {"--append"}), 0);
+    ASSERT_EQ(explored({"--resume", "--record", file("resumed.jsonl")}), 0);
+    const auto start = read_recording(file("resumed.jsonl")).header.start;
+    EXPECT_EQ(start.quality, interaction::QualityMode::quality);
+    EXPECT_EQ(start.step, 1u);
 }
 
 } // namespace

@@ -34,6 +34,7 @@ class PanelTest : public testing::Test {
             ImGui::GetIO().MouseDown[0] = down;
             ImGui::NewFrame();
             PanelArea area;
+            PanelPages pages;
             commands = draw_panel({.info = info_,
                                    .stats = stats_,
                                    .asked = asked_,
@@ -43,7 +44,7 @@ class PanelTest : public testing::Test {
                                    .message = {},
                                    .controls = controls_,
                                    .at_hand = {}},
-                                  area);
+                                  area, pages);
             ImGui::Render();
         }
         return commands;

@@ -1,0 +1,99 @@
+// Chooses data to open.
+#include "app/panel/file_window.h"
+
+#include "app/panel/panel_words.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostListed = 5000; ///< names of a folder
+
+} // namespace
+
+void FileWindow::open(std::vector<fs::path> recent) {
+    shown_ = true;
+    recent_ = std::move(recent);
+    std::error_code error;
+    go_to(recent_.empty() ? fs::current_path(error) : recent_.front().parent_path());
+}
+
+void FileWindow::go_to(const fs::path& folder) {
+    folder_ = folder;
+    folders_.clear();
+    files_.clear();
+    complaint_.clear();
+    std::error_code error;
+    fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error);
+    for (; !error && entry != fs::directory_iterator() &&
+           folders_.size() + files_.size() < kMostListed;
+         entry.increment(error)) {
+        std::error_code ignored;
+        const std::string name = entry->path().filename().string();
+        if (name.starts_with('.'))
+            continue;
+        if (entry->is_directory(ignored))
+            folders_.push_back(name);
+        else if (entry->path().extension() == ".isochron" && entry->is_regular_file(ignored))
+            files_.push_back(name);
+    }
+    if (error)
+        complaint_ = error.message();
+    std::ranges::sort(folders_);
+    std::ranges::sort(files_);
+}
+
+std::optional<fs::path> FileWindow::draw_folder() {
+    std::optional<fs::path> chosen;
+    fs::path next;
+    text(folder_.string());
+    if (folder_.has_relative_path() && ImGui::Selectable("../"))
+        next = folder_.parent_path();
+    for (const std::string& name : folders_)
+        if (ImGui::Selectable((name + "/").c_str()))
+            next = folder_ / name;
+    for (const std::string& name : files_)
+        if (ImGui::Selectable(name.c_str()))
+            chosen = folder_ / name;
+    if (!complaint_.empty())
+        note(complaint_, kWarning);
+    else if (files_.empty())
+        note("no index (.isochron) here; `isochron build` makes one of data", kDim);
+    if (!next.empty())
+        go_to(next);
+    return chosen;
+}
+
+std::optional<fs::path> FileWindow::draw() {
+    if (!shown_)
+        return std::nullopt;
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(0.96f * picture.x, 560.0f), 0.8f * picture.y});
+    ImGui::SetNextWindowBgAlpha(0.97f);
+    ImGui::Begin("Open data (Ctrl + O), or drop a file here###files", &shown_,
+                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoSavedSettings);
+    std::optional<fs::path> chosen;
+    if (!recent_.empty())
+        note("lately", kDim);
+    for (const fs::path& path : recent_)
+        if (ImGui::Selectable(path.string().c_str()))
+            chosen = path;
+    if (!recent_.empty())
+        ImGui::Separator();
+    if (auto file = draw_folder())
+        chosen = std::move(file);
+    ImGui::End();
+    if (chosen)
+        shown_ = false;
+    return chosen;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,56 @@
+// The pages that lie over the picture beside the panel.
+#include "app/panel/panel_help.h"
+#include "app/panel/panel_layer.h"
+
+#include <imgui.h>
+
+#include <utility>
+#include <variant>
+
+namespace isochron::app {
+
+using interaction::Key;
+using interaction::KeyEvent;
+using interaction::Seconds;
+using interaction::TextEvent;
+using interaction::WindowEvent;
+
+/// F1, `?` and Ctrl + O, wherever the mouse is. @return whether it was one of them
+bool PanelLayer::opens_page(const WindowEvent& event) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const auto* key = std::get_if<KeyEvent>(&event);
+    const auto* typed = std::get_if<TextEvent>(&event);
+    const bool pressed = key && key->down;
+    if ((pressed && key->key == Key::f1) ||
+        (typed && typed->character == U'?' && !io.WantTextInput)) {
+        help_ = !help_;
+        begun_ = true;
+        return true;
+    }
+    if (!pressed || key->key != Key{'O'} || !io.KeyCtrl || !recent_)
+        return false;
+    files_.open(recent_());
+    return true;
+}
+
+/// What lies over the picture beside the panel.
+void PanelLayer::lay_out_pages(const PanelModel& model, Seconds time) {
+    if (help_ && model.place != PanelPlace::in_room)
+        help_ = help_window(model);
+    if (auto file = files_.draw())
+        chosen_ = std::move(file);
+    if (!newcomer_ || has_page() || model.place != PanelPlace::over)
+        return;
+    constexpr Seconds kLeast{6.0}; // long enough to be read
+    if (!introduced_at_)
+        introduced_at_ = time;
+    if (begun_ && time - *introduced_at_ >= kLeast) {
+        newcomer_ = false;
+        introduced_ = true;
+        return;
+    }
+    const bool docked = area_.bottom - area_.top > 2 * area_.title;
+    first_use_window(docked ? area_.right : 0.0f);
+}
+
+} // namespace isochron::app

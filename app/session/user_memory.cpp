@@ -1,0 +1,86 @@
+// Small files in the user's folder.
+#include "app/session/user_memory.h"
+
+#include "index/error.h"
+#include "index/system/input_file.h"
+#include "index/system/new_file.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <span>
+#include <string>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_text(const fs::path& path, const std::string& text) {
+    try {
+        index::make_folder(path.parent_path());
+        index::NewFile file(path);
+        file.write_at(0, std::as_bytes(std::span(text)));
+        file.commit();
+    } catch (const index::Error&) { // a folder that takes nothing remembers nothing
+    }
+}
+
+std::string variable(const char* name) {
+    const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): before threads
+    return value ? value : "";
+}
+
+} // namespace
+
+std::optional<fs::path> user_state_folder() {
+    if (const std::string state = variable("XDG_STATE_HOME"); !state.empty())
+        return fs::path(state) / "isochron";
+    if (const std::string home = variable("HOME"); !home.empty())
+        return fs::path(home) / ".local/state/isochron";
+    return std::nullopt;
+}
+
+UserMemory::UserMemory(std::optional<fs::path> folder) : folder_(std::move(folder)) {}
+
+std::vector<fs::path> UserMemory::recent() const {
+    constexpr std::uint64_t kLargest = 1 << 16;
+    std::vector<fs::path> paths;
+    std::error_code error;
+    if (!folder_ || !fs::is_regular_file(*folder_ / "recent", error))
+        return paths;
+    try {
+        const std::string lines = index::read_text(*folder_ / "recent", kLargest);
+        for (std::size_t at = 0; at < lines.size() && paths.size() < kMost;) {
+            const std::size_t end = std::min(lines.find('\n', at), lines.size());
+            const fs::path path = lines.substr(at, end - at);
+            if (fs::is_regular_file(path, error))
+                paths.push_back(path);
+            at = end + 1;
+        }
+    } catch (const index::Error&) { // it is not needed
+    }
+    return paths;
+}
+
+void UserMemory::remember(const fs::path& data) {
+    if (!folder_)
+        return;
+    const fs::path newest = fs::absolute(data).lexically_normal();
+    std::string lines = newest.string() + "\n";
+    for (const fs::path& path : recent())
+        if (path != newest)
+            lines += path.string() + "\n";
+    write_text(*folder_ / "recent", lines);
+}
+
+bool UserMemory::introduced() const {
+    std::error_code error;
+    return !folder_ || fs::exists(*folder_ / "introduced", error);
+}
+
+void UserMemory::set_introduced() {
+    if (folder_)
+        write_text(*folder_ / "introduced", "The first lines were shown.\n");
+}
+
+} // namespace isochron::app

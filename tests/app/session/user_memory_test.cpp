@@ -1,0 +1,44 @@
+// What the program remembers of its user.
+#include "app/session/user_memory.h"
+#include "tests/support/test_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace isochron::app {
+namespace {
+
+TEST(UserMemory, KeepsTheNewestDataThatAreStillThereAndEachOnce) {
+    test_support::TestFolder folder, data;
+    const auto file = [&](int i) { return data.path() / fmt::format("{}.isochron", i); };
+    for (int i = 0; i < 14; ++i) {
+        data.write(fmt::format("{}.isochron", i), "?");
+        UserMemory(folder.path() / "made").remember(file(i));
+    }
+    UserMemory memory(folder.path() / "made");
+    ASSERT_EQ(memory.recent().size(), UserMemory::kMost);
+    EXPECT_EQ(memory.recent().front(), file(13));
+    memory.remember(file(9));
+    EXPECT_EQ(memory.recent().front(), file(9));
+    EXPECT_EQ(memory.recent().size(), UserMemory::kMost);
+    std::filesystem::remove(file(13));
+    EXPECT_EQ(memory.recent()[1], file(12));
+}
+
+TEST(UserMemory, SaysOnceThatTheFirstLinesWereSeenAndNothingWithoutAFolder) {
+    test_support::TestFolder folder;
+    EXPECT_FALSE(UserMemory(folder.path()).introduced());
+    UserMemory(folder.path()).set_introduced();
+    EXPECT_TRUE(UserMemory(folder.path()).introduced());
+    for (const std::optional<std::filesystem::path> nowhere :
+         {std::optional<std::filesystem::path>(), {"/proc/nothing"}}) {
+        UserMemory memory(nowhere);
+        memory.remember(folder.path() / "a.isochron");
+        memory.set_introduced();
+        EXPECT_TRUE(memory.recent().empty());
+    }
+    EXPECT_TRUE(UserMemory(std::nullopt).introduced());
+}
+
+} // namespace
+} // namespace isochron::app

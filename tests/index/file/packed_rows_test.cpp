@@ -29,7 +29,7 @@ Bytes slow_rows_of(const Bytes& numbers) {
         std::array<unsigned, 16> fold{};
         unsigned bits = 0;
         for (std::size_t i = 0; i < 16 && row * 16 + i < numbers.size(); ++i) {
-            const int d = static_cast<std::int8_t>(numbers[row * 16 + i]);
+            const auto d = static_cast<std::int8_t>(numbers[row * 16 + i]);
             fold[i] = static_cast<unsigned>(d < 0 ? -2 * d - 1 : 2 * d);
             while (fold[i] >> bits)
                 ++bits;

@@ -142,7 +142,8 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     const auto file = data_of(options, recording.header);
     Session session(config, file, windows_of(options, config, recording.header, job));
     const ReplayOptions replay = replay_options(options);
-    session.set_data_name(data_name(options, recording.header));
+    session.set_data_name(data_name(options, recording.header),
+                          other_data(recording.header, *file));
     session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
     const PictureNames names = picture_names(config.installation);
     BackgroundWork writing;

@@ -178,7 +178,8 @@ void replay(const Options& options, ClusterJob& job) {
     job.together([&] {
         opened.emplace(all.config, all.file,
                        windows_of(options, all.config, all.recording.header, job));
-        opened->set_data_name(data_name(options, all.recording.header));
+        opened->set_data_name(data_name(options, all.recording.header),
+                              other_data(all.recording.header, *all.file));
         opened->set_state(
             start_of(all.recording.header, opened->state(), all.file->info().steps(), all.replay));
         if (options.out)

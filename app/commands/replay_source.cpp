@@ -95,14 +95,20 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                             options.recording, header.data));
     }
     auto file = open_index_to_show(path);
-    const std::string hash = held_hash(*file, header.data_hash); // it may have grown since
-    // A recording without a hash is not bound to one data set: demonstrations are like that.
-    if (!options.any_data && !header.data_hash.empty() && header.data_hash != hash)
+    if (!options.any_data && !other_data(header, *file).empty())
         throw interaction::Error(
             fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
                         "(--any-data replays all the same)",
-                        options.recording, header.data_hash, path, hash));
+                        options.recording, header.data_hash, path, data_hash_of(*file)));
     return file;
+}
+
+std::string other_data(const interaction::RecordingHeader& header, const index::IndexFile& file) {
+    // A recording without a hash is not bound to one data set: demonstrations are like that. Data
+    // may have grown since.
+    if (header.data_hash.empty() || held_hash(file, header.data_hash) == header.data_hash)
+        return {};
+    return header.data_hash;
 }
 
 std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header) {

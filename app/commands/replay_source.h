@@ -38,6 +38,9 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
 /// The file name of these data, without its folder.
 std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header);
 
+/// The hash that the recording names, where these data neither have it nor ever had; else empty.
+std::string other_data(const interaction::RecordingHeader& header, const index::IndexFile& file);
+
 /// @throws render::Error
 stereo::Windows windows_of(const ReplaySource& options, const Config& config,
                            const interaction::RecordingHeader& header, const ClusterJob& job);

@@ -66,6 +66,8 @@ PictureNote note_from_json(const json& value) {
     note.configuration = text("configuration");
     note.data = text("data");
     note.data_hash = text("data_hash");
+    if (const json* other = members.find("recorded_on"))
+        note.recorded_on = interaction::text(*other, "recorded_on");
     note.part = part_from(members.at("part"));
     note.size = size_from(members.at("size"));
     note.samples = static_cast<int>(interaction::natural(members.at("samples"), "samples", 64));
@@ -81,7 +83,7 @@ PictureNote note_from_json(const json& value) {
         note.movie = movie_from(*movie);
     members.done({"format", "version", "program", "drawn_with", "configuration", "data",
                   "data_hash", "part", "size", "samples", "footprint", "shape", "ray", "caption",
-                  "state", "frame", "movie"});
+                  "state", "frame", "movie", "recorded_on"});
     return note;
 }
 
@@ -136,6 +138,8 @@ std::string text_of(const PictureNote& note) {
                                               nullptr)}};
     if (note.movie)
         value["movie"] = {{"rate", note.movie->rate}, {"recording", note.movie->recording}};
+    if (!note.recorded_on.empty())
+        value["recorded_on"] = note.recorded_on;
     return fmt::format("{}{}{}", kBegin, value.dump(-1, ' ', true, json::error_handler_t::replace),
                        kEnd);
 }

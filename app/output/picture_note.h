@@ -36,6 +36,7 @@ struct PictureNote {
     std::string configuration; ///< the whole text of the configuration file
     std::string data;          ///< file name of the index, without its folder
     std::string data_hash;     ///< hexadecimal content hash
+    std::string recorded_on{}; ///< hash of the recording's own data, where these are others
     PicturePart part;
     glm::ivec2 size{0};    ///< of the window or room, pixels
     int samples = 1;       ///< of each pixel

@@ -99,7 +99,11 @@ class Session {
     void set_recording(bool recording) { recording_ = recording; }
 
     /// The file name of the data, for pictures that say what they show.
-    void set_data_name(const std::string& name) { data_name_ = name; }
+    /// @param recorded_on hash of the recording's data, where these are others
+    void set_data_name(const std::string& name, const std::string& recorded_on = {}) {
+        data_name_ = name;
+        recorded_on_ = recorded_on;
+    }
     /// What the last frame shows.
     PictureNote note() const;
 
@@ -184,7 +188,7 @@ class Session {
     interaction::Commands panel_commands_;
     interaction::InputState input_; ///< of the last frame
     interaction::InputState latched_;
-    std::string data_name_;
+    std::string data_name_, recorded_on_;
     std::function<interaction::Seconds()> clock_;
     FrameLog log_;
     FrameQuality quality_;

@@ -38,6 +38,7 @@ bool Session::on_desktop() const {
 PictureNote Session::note() const {
     PictureNote note;
     note.data = data_name_;
+    note.recorded_on = recorded_on_;
     note.data_hash = fmt::format("{:016x}", file_->content_hash());
     note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
     ExplorerState state = state_;

@@ -36,6 +36,8 @@ TEST(PictureNote, ComesBackAsItWas) {
     note.movie = MovieNote{29.97, "0123456789abcdef"};
     note.latched = head_at_rest(2.51);
     note.ray = note.caption = true;
+    EXPECT_EQ(text_of(note).find("recorded_on"), std::string::npos);
+    note.recorded_on = "fedcba9876543210";
     const std::string text = text_of(note);
     EXPECT_EQ(note_from(text), note);
     for (const char c : text)

@@ -167,7 +167,7 @@ std::string why_not_open(const ExploreOptions& options, const std::filesystem::p
     if (options.record)
         return "other data are not opened while a recording is made";
     try {
-        open_index(data);
+        open_index_to_show(data);
         return {};
     } catch (const index::Error& error) {
         return one_line(error.what());

@@ -72,6 +72,7 @@ enum class Action : std::uint8_t {
     orthographic,
     axis_view,
     isometric_view,
+    quality_paper,
     count
 };
 
@@ -179,12 +180,12 @@ struct ControlGroup {
 /// Actions that leave the picture of the data as it is: they do not disturb stillness.
 constexpr std::uint64_t quiet_actions() {
     return bit(Action::shift) | bit(Action::control) | bit(Action::quality_auto) |
-           bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::screenshot) |
-           bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) | bit(Action::save_view) |
-           bit(Action::bounding_box) | bit(Action::next_surface) | bit(Action::room_panel) |
-           bit(Action::pick) | bit(Action::probe) | bit(Action::undo) | bit(Action::redo) |
-           bit(Action::first_tools) | bit(Action::clip_tool) | bit(Action::ruler_tool) |
-           bit(Action::snap_clip) | bit(Action::remove_made);
+           bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::quality_paper) |
+           bit(Action::screenshot) | bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) |
+           bit(Action::save_view) | bit(Action::bounding_box) | bit(Action::next_surface) |
+           bit(Action::room_panel) | bit(Action::pick) | bit(Action::probe) | bit(Action::undo) |
+           bit(Action::redo) | bit(Action::first_tools) | bit(Action::clip_tool) |
+           bit(Action::ruler_tool) | bit(Action::snap_clip) | bit(Action::remove_made);
 }
 
 } // namespace isochron::interaction

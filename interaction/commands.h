@@ -16,9 +16,10 @@
 
 namespace isochron::interaction {
 
-enum class QualityMode : std::uint8_t { automatic, fast, quality };
+enum class QualityMode : std::uint8_t { automatic, fast, quality, paper };
 template <>
-inline constexpr std::array<std::string_view, 3> kNames<QualityMode>{"auto", "fast", "quality"};
+inline constexpr std::array<std::string_view, 4> kNames<QualityMode>{"auto", "fast", "quality",
+                                                                     "paper"};
 
 inline constexpr double kSlowest = 1.0 / 64.0, kFastest = 64.0; ///< playback speeds
 inline constexpr float kWidestEyes = 0.1f;                      ///< [m]

@@ -156,6 +156,7 @@ struct Controls::State {
         choose(Action::quality_auto, QualityMode::automatic);
         choose(Action::quality_fast, QualityMode::fast);
         choose(Action::quality_best, QualityMode::quality);
+        choose(Action::quality_paper, QualityMode::paper);
 
         const int eyes = eyes_apart.presses(now.key(Action::eyes_apart), time) -
                          eyes_together.presses(now.key(Action::eyes_together), time);

@@ -83,7 +83,8 @@ MotionGate::~MotionGate() = default;
 Pace MotionGate::update(const InputState& input, const Commands& commands, QualityMode mode) {
     state_->update(input, commands);
     switch (mode) {
-    case QualityMode::automatic: state_->pace = state_->automatic; break;
+    case QualityMode::automatic:
+    case QualityMode::paper: state_->pace = state_->automatic; break;
     case QualityMode::fast: state_->pace = Pace::moving; break;
     case QualityMode::quality: state_->pace = Pace::settled; break;
     }

@@ -53,12 +53,12 @@ void add_explore_options(Command& command, ExploreOptions& options) {
         .one_of({"glfw", "egl", "osmesa"});
     command.option("--stereo", options.stereo, "Stereo mode to start in")
         .one_of(stereo_mode_names());
-    command.option("--quality", options.quality, "auto, fast or quality")
+    command.option("--quality", options.quality, "auto, fast, quality or paper")
         .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option("--footprint", options.footprint,
                 "What a settled picture is drawn with: auto (the best that fits the frame "
-                "budget), or always gaussian or surface")
+                "budget), or always gaussian, mesh or surface")
         .one_of(settled_footprint_names());
     add_shape_option(command, options.shape);
     command.option("--size", options.size, "Size of every window, or of the room's, in pixels")

@@ -41,8 +41,8 @@ void add_replay_source(Command& command, ReplaySource& source) {
     command
         .option("--footprint", source.footprint,
                 "What a settled picture is drawn with, instead of the configured: auto (the "
-                "best there is; with --live the best that fits the frame budget), gaussian or "
-                "surface")
+                "best there is; with --live the best that fits the frame budget), gaussian, mesh "
+                "or surface")
         .one_of(settled_footprint_names());
     command.flag("--ray", source.ray,
                  "Show the wand's ray and what is under the cursor, which pictures leave out");

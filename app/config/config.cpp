@@ -23,7 +23,8 @@ using interaction::QualityMode;
 
 constexpr std::uint64_t kMostBytes = 16 << 20; ///< of a configuration
 constexpr const char* kAnyFootprint = "auto";
-constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::surface};
+constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::mesh,
+                                        render::Footprint::surface};
 constexpr std::array kCellShapes{render::CellShape::plane, render::CellShape::voxel};
 
 void read_emulation(TomlReader& reader, interaction::EmulationOptions& emulation) {
@@ -174,7 +175,7 @@ std::optional<render::Footprint> settled_footprint_from_name(const std::string& 
     if (name == kAnyFootprint)
         return std::nullopt;
     throw ConfigError(
-        fmt::format("unknown footprint '{}', expected auto, gaussian or surface", name));
+        fmt::format("unknown footprint '{}', expected auto, gaussian, mesh or surface", name));
 }
 
 std::vector<std::string> settled_footprint_names() {

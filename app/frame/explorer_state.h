@@ -29,8 +29,8 @@ struct ExplorerState {
     interaction::ClipPlane clip;
     interaction::Ruler ruler;
     bool orthographic = false; ///< desktop screens show a parallel projection
-    bool leaving = false; ///< the user is asked whether to leave
-    bool grid = false;    ///< of the floor
+    bool leaving = false;      ///< the user is asked whether to leave
+    bool grid = false;         ///< of the floor
     std::vector<interaction::Viewpoint> views;
 
     double isovalue() const { return isosurfaces[picked].isovalue; }

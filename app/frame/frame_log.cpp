@@ -36,7 +36,7 @@ constexpr std::array<std::pair<const char*, Sometimes>, 2> kSometimes{{
 }};
 
 constexpr std::array kFootprints{render::Footprint::quad, render::Footprint::gaussian,
-                                 render::Footprint::surface};
+                                 render::Footprint::mesh, render::Footprint::surface};
 
 nlohmann::json time_json(const std::optional<Milliseconds>& time) {
     return time ? nlohmann::json(time->count()) : nlohmann::json();
@@ -57,7 +57,8 @@ nlohmann::json upload_json(const render::UploadCount& count) {
             {"whole_ids", count.whole_ids},
             {"id_bytes", count.id_bytes},
             {"brick_bytes", count.brick_bytes},
-            {"color_bytes", count.color_bytes}};
+            {"color_bytes", count.color_bytes},
+            {"mesh_bytes", count.mesh_bytes}};
 }
 
 nlohmann::json summary_json(const TimeSummary& summary) {

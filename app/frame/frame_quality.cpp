@@ -49,7 +49,7 @@ void FrameQuality::learn(std::span<const DrawSample> samples) {
 }
 
 bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
-                          render::Footprint best, FrameReport& report) {
+                          render::FootprintSet available, FrameReport& report) {
     if (changed)
         changed_at_ = report.time;
     const bool still = report.time - changed_at_ >= kStillAfter;
@@ -57,11 +57,11 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     input.pace = report.pace;
     input.mode = state.quality;
     input.playing = state.playback.playing;
-    input.best = best;
-    if (settled_)
-        input.settled = std::min(*settled_, best);
-    if (how == Choosing::by_pace)
-        input.settled = input.settled.value_or(best);
+    input.available = available;
+    input.settled = settled_;
+    input.by_pace = how == Choosing::by_pace;
+    if (input.by_pace)
+        input.settled = input.settled.value_or(render::kBestFootprint);
     input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
     QualityController& controller = still ? still_ : steady_;
     const QualityChoice choice = controller.choose(input);

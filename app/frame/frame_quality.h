@@ -2,7 +2,7 @@
 //
 //     quality.learn(quality.collect(log));                  // every frame
 //     quality.charge(quality.view());
-//     if (quality.choose(state, changed, Choosing::by_measurement, best, report) || changed) {
+//     if (quality.choose(state, changed, Choosing::by_measurement, footprints, report) || changed) {
 //         quality.begin(log.next());
 //         draw(views, report.footprint);
 //         quality.end(report, of_cell, processor_time);
@@ -55,8 +55,9 @@ class FrameQuality {
     /// and with its cells.
     /// @param changed what the eyes see is not what they saw last, beside the footprint
     /// @return true: draw even if nothing has changed, so that the cost gets known
-    bool choose(const ExplorerState& state, bool changed, Choosing how, render::Footprint best,
-                FrameReport& report);
+    /// @param available that the cells can be drawn with
+    bool choose(const ExplorerState& state, bool changed, Choosing how,
+                render::FootprintSet available, FrameReport& report);
 
     /// Between these two, the frame is drawn.
     void begin(std::uint64_t frame);

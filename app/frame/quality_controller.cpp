@@ -2,6 +2,7 @@
 #include "app/frame/quality_controller.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace isochron::app {
@@ -15,12 +16,24 @@ constexpr double kMargin = 0.8; ///< of the budget: what does not yet run is exp
 constexpr double kFallen = 0.7; ///< of the cost that failed: below it another load is at hand
 constexpr double kDearest = 8;  ///< budgets that a failed trial is reckoned at, at most
 constexpr double kGrown = 1.1;  ///< of the cost that was measured: likewise above it
+constexpr double kRoom = 0.75;  ///< of the budget: what moves comes to a footprint below it,
+constexpr double kLeast = 0.95; ///< and leaves it above it
 
-constexpr Footprint next_better(Footprint footprint) {
-    return static_cast<Footprint>(static_cast<int>(footprint) + 1);
+/// What footprints take at most, as a multiple of quads, until they are measured. By far more than
+/// they take on any GPU; software GL comes near.
+constexpr std::array<double, render::kFootprints> kAtMost{1, 8, 5, 12};
+
+/// None of the cells' footprints is better: the best itself.
+constexpr Footprint next_better(Footprint footprint, const render::FootprintSet& available) {
+    for (int i = static_cast<int>(footprint) + 1; i <= static_cast<int>(render::kBestFootprint);
+         ++i)
+        if (available.has(static_cast<Footprint>(i)))
+            return static_cast<Footprint>(i);
+    return footprint;
 }
-constexpr Footprint next_faster(Footprint footprint) {
-    return static_cast<Footprint>(static_cast<int>(footprint) - 1);
+/// Of a footprint that is not quads.
+constexpr Footprint next_coarser(Footprint footprint, const render::FootprintSet& available) {
+    return available.best(static_cast<Footprint>(static_cast<int>(footprint) - 1));
 }
 
 } // namespace
@@ -30,6 +43,7 @@ const char* name_of(QualityReason reason) {
     case QualityReason::moving: return "moving";
     case QualityReason::fast_mode: return "fast mode";
     case QualityReason::best_mode: return "best mode";
+    case QualityReason::paper_mode: return "paper mode";
     case QualityReason::configured: return "configured";
     case QualityReason::fits: return "fits";
     case QualityReason::trial: return "trial";
@@ -64,17 +78,27 @@ void QualityController::measured(Footprint footprint, const DrawLoad& load, Mill
 
 QualityChoice QualityController::choose(const QualityInput& input) {
     since_down_ = std::min(since_down_ + 1, kShortestWait);
+    const QualityChoice choice = choice_for(input);
+    was_moving_ = input.pace == Pace::moving;
+    return choice;
+}
+
+QualityChoice QualityController::choice_for(const QualityInput& input) {
     if (input.mode == QualityMode::fast)
         return regardless(Footprint::quad, QualityReason::fast_mode, input.load);
-    if (input.pace == Pace::moving)
+    const bool paper = input.mode == QualityMode::paper;
+    if (input.pace == Pace::moving && (input.by_pace || paper || input.load.cells <= 0))
         return regardless(Footprint::quad, QualityReason::moving, input.load);
-    if (input.settled)
-        return regardless(std::min(*input.settled, input.best), QualityReason::configured,
+    if (paper)
+        return regardless(input.available.best(Footprint::gaussian), QualityReason::paper_mode,
+                          input.load);
+    if (input.settled && input.pace != Pace::moving)
+        return regardless(input.available.best(*input.settled), QualityReason::configured,
                           input.load);
     if (input.load.cells <= 0) // every footprint shows the same; the next set is met as new
         return regardless(Footprint::quad, QualityReason::fits, input.load);
     if (input.mode == QualityMode::quality && !input.playing)
-        return regardless(input.best, QualityReason::best_mode, input.load);
+        return regardless(input.available.best(), QualityReason::best_mode, input.load);
     return within_budget(input);
 }
 
@@ -91,19 +115,21 @@ QualityChoice QualityController::regardless(Footprint footprint, QualityReason r
 }
 
 QualityChoice QualityController::within_budget(const QualityInput& input) {
-    turn_to(std::min(current_, input.best));
+    turn_to(input.available.best(current_));
     budgeted_ = true;
     for (Candidate& candidate : candidates_)
         if (&candidate != &of(current_))
             ++candidate.age;
     if (Candidate& now = of(current_); current_ == Footprint::quad) {
         step_up(input);
+    } else if (!over_ && input.pace == Pace::moving && !has_room(input)) {
+        step_down(input); // it has not failed: a picture at rest may take it up again
     } else if (over_ || outgrown(now, input.load)) {
         if (over_)
             fail(now, over_load_, over_cost_);
         else
             fail(now, input.load, *now.cost.predict(input.load));
-        step_down(input.load);
+        step_down(input);
     } else {
         if (++now.lasted == kProven)
             now.wait = kShortestWait / 2;
@@ -121,13 +147,15 @@ void QualityController::turn_to(Footprint footprint) {
 }
 
 /// To the best one that is known to fit or was never tried.
-void QualityController::step_down(const DrawLoad& load) {
+void QualityController::step_down(const QualityInput& input) {
     since_down_ = 0;
-    Footprint to = next_faster(current_);
-    for (; to != Footprint::quad; to = next_faster(to)) {
+    Footprint to = next_coarser(current_, input.available);
+    for (; to != Footprint::quad; to = next_coarser(to, input.available)) {
         const Candidate& candidate = of(to);
-        const auto expected = candidate.cost.predict(load);
-        if (!candidate.failed && (!expected || *expected <= budget_))
+        const auto expected = candidate.cost.predict(input.load);
+        const double share = input.pace == Pace::moving ? kRoom : 1.0;
+        const bool unknown = !expected && input.pace != Pace::moving;
+        if (!candidate.failed && (unknown || (expected && *expected <= share * budget_)))
             break;
     }
     turn_to(to);
@@ -136,9 +164,29 @@ void QualityController::step_down(const DrawLoad& load) {
 void QualityController::step_up(const QualityInput& input) {
     if (since_down_ < kShortestWait)
         return;
-    for (Footprint to = input.best; to != current_; to = next_faster(to))
-        if (returns(to, input.load))
+    for (Footprint to = input.available.best(); to != current_;
+         to = next_coarser(to, input.available))
+        if (returns(to, input))
             return turn_to(to);
+}
+
+/// Whether the present footprint leaves room for what a moving picture may bring.
+bool QualityController::has_room(const QualityInput& input) const {
+    const auto expected = of(current_).cost.predict(input.load);
+    const double share = was_moving_ ? kLeast : kRoom;
+    return expected ? *expected <= share * budget_ : bearable(current_, input);
+}
+
+/// Whether a frame of this footprint may be drawn to learn what it takes.
+bool QualityController::bearable(Footprint footprint, const QualityInput& input) const {
+    const auto quads = of(Footprint::quad).cost.predict(input.load);
+    if (!quads)
+        return false; // they are measured first
+    Milliseconds most = kAtMost[static_cast<std::size_t>(footprint)] * *quads;
+    if (const auto before = of(footprint).cost.predict(input.load))
+        most = std::min(most, *before);
+    return most <=
+           (input.pace == Pace::moving ? kRoom * budget_ : std::max(budget_, kDearestTrial));
 }
 
 /// Whether the cells have changed so much that the next frame is expected over the budget.
@@ -150,13 +198,15 @@ bool QualityController::outgrown(const Candidate& candidate, const DrawLoad& loa
 }
 
 /// Whether a better footprint than the present one may be drawn now.
-bool QualityController::returns(Footprint footprint, const DrawLoad& load) {
+bool QualityController::returns(Footprint footprint, const QualityInput& input) {
+    const DrawLoad& load = input.load;
     Candidate& candidate = of(footprint);
     if (!candidate.known && !candidate.failed) {
         // One after the other, from the fastest, so that the first frame over the budget is not
         // that of the slowest.
-        const Footprint below = next_faster(footprint);
-        return below == Footprint::quad || decided(of(below), load);
+        const Footprint below = next_coarser(footprint, input.available);
+        return bearable(footprint, input) &&
+               (below == Footprint::quad || decided(below, input) || !bearable(below, input));
     }
     const auto expected = candidate.cost.predict(load);
     // The bad news was of another load, and is forgotten soon.
@@ -166,10 +216,10 @@ bool QualityController::returns(Footprint footprint, const DrawLoad& load) {
         candidate.failed_at = load;
         candidate.wait = kShortestWait / 2;
     }
-    if ((fallen || !candidate.failed) && expected &&
-        *expected <= (candidate.fits ? 1.0 : kMargin) * budget_)
+    const double share = input.pace == Pace::moving ? kRoom : candidate.fits ? 1.0 : kMargin;
+    if ((fallen || !candidate.failed) && expected && *expected <= share * budget_)
         return true;
-    if (candidate.age < std::max(candidate.wait, kShortestWait))
+    if (candidate.age < std::max(candidate.wait, kShortestWait) || !bearable(footprint, input))
         return false;
     candidate.cost.forget();
     candidate.sampled.reset();
@@ -179,9 +229,10 @@ bool QualityController::returns(Footprint footprint, const DrawLoad& load) {
 }
 
 /// Whether it is known that the footprint fits, or that it does not.
-bool QualityController::decided(const Candidate& candidate, const DrawLoad& load) const {
+bool QualityController::decided(Footprint footprint, const QualityInput& input) const {
+    const Candidate& candidate = of(footprint);
     return candidate.fits || candidate.failed ||
-           (candidate.known && *candidate.cost.predict(load) > kMargin * budget_);
+           (candidate.known && *candidate.cost.predict(input.load) > kMargin * budget_);
 }
 
 void QualityController::fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
@@ -202,16 +253,21 @@ void QualityController::fail(Candidate& candidate, const DrawLoad& load, Millise
 
 QualityChoice QualityController::describe(const QualityInput& input) const {
     const Candidate& now = of(current_);
-    const bool measured_here = current_ == Footprint::quad || now.sampled == input.load;
+    // Quads are what is left: it is enough to know what they take at some load.
+    const bool measured_here = current_ == Footprint::quad
+                                   ? now.cost.predict(input.load).has_value()
+                                   : now.sampled == input.load;
     QualityChoice choice;
     choice.footprint = current_;
-    choice.reason = current_ == input.best ? QualityReason::fits : QualityReason::over_budget;
+    choice.reason =
+        current_ == input.available.best() ? QualityReason::fits : QualityReason::over_budget;
     choice.final = measured_here || (input.playing && now.fits);
     choice.measure = !measured_here;
     choice.cost = now.cost.predict(input.load);
-    for (Footprint better = current_; better != input.best;) {
-        better = next_better(better);
-        if (!decided(of(better), input.load))
+    for (Footprint better = current_; better != input.available.best();) {
+        better = next_better(better, input.available);
+        if (!decided(better, input) &&
+            (bearable(better, input) || !of(Footprint::quad).cost.predict(input.load)))
             choice.final = false;
         if (!choice.better_cost)
             choice.better_cost =
@@ -219,6 +275,10 @@ QualityChoice QualityController::describe(const QualityInput& input) const {
     }
     if (!choice.final)
         choice.reason = QualityReason::trial;
+    if (input.pace == Pace::moving) {
+        choice.reason = QualityReason::moving;
+        choice.final = choice.measure = false;
+    }
     return choice;
 }
 

@@ -56,10 +56,13 @@ std::vector<std::string> Scene::given_up() const {
     return lines;
 }
 
-render::Footprint Scene::best_footprint() const {
-    return cells_.has_volume() && cells_.size() <= cells_.corner_limit()
-               ? render::kBestFootprint
-               : render::Footprint::gaussian;
+render::FootprintSet Scene::footprints() const {
+    auto footprints = render::FootprintSet::up_to(render::Footprint::gaussian);
+    if (cells_.has_mesh())
+        footprints.add(render::Footprint::mesh);
+    if (cells_.has_volume() && cells_.size() <= cells_.corner_limit())
+        footprints.add(render::Footprint::surface);
+    return footprints;
 }
 
 void Scene::look(const ExplorerState& state, const interaction::Pose& head,
@@ -187,6 +190,8 @@ void Scene::draw(std::span<const render::View> views,
                  const interaction::Similarity& room_from_physical, render::Footprint footprint,
                  const std::optional<interaction::Pose>& wand) {
     const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
+    // Another process of a cluster may have chosen what is not there yet.
+    footprint = footprints().best(footprint);
     // Soft edges blend with what is drawn before them. What splats may hide must come before these
     // all the same, since they write no depth.
     appearance_.cut = cut_in(room_from_physical);
@@ -208,7 +213,7 @@ void Scene::draw(std::span<const render::View> views,
 /// Whether the cells hide what is drawn after them and lies behind.
 bool Scene::writes_depth(render::Footprint footprint) const {
     return footprint == render::Footprint::quad ||
-           (footprint == render::Footprint::surface &&
+           (render::has_layers(footprint) &&
             std::ranges::all_of(appearance_.surfaces, [](const render::SurfaceAppearance& surface) {
                 return surface.opacity >= 1.0f;
             }));

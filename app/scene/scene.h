@@ -45,8 +45,9 @@ class Scene {
 
     const render::UploadCount& uploaded() const { return cells_.count(); }
 
-    /// That the shown cells can be drawn with: a very large set has no room for its surface.
-    render::Footprint best_footprint() const;
+    /// That the shown cells can be drawn with: a very large set has no room for its surface, and
+    /// where a GPU draws cells come without a mesh.
+    render::FootprintSet footprints() const;
     std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
 
     /// What the driver promises but was found not to do, a line each.

@@ -261,11 +261,11 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     if (live && !log_.frames().empty())
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool changed = now != drawn_;
-    render::Footprint best = scene_.best_footprint();
+    render::FootprintSet footprints = scene_.footprints();
     if (report.cells > frames_->surface_limit())
-        best = render::Footprint::gaussian;
+        footprints.remove(render::Footprint::surface);
     const Choosing how = live ? Choosing::by_measurement : Choosing::by_pace;
-    const bool measure = agree(quality_.choose(state_, changed, how, best, report), report);
+    const bool measure = agree(quality_.choose(state_, changed, how, footprints, report), report);
     now.footprint = report.footprint;
     // While a headset wants no picture, there is nothing to draw and nothing to learn from it.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure);

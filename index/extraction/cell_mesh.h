@@ -3,7 +3,9 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace isochron::index {
@@ -40,6 +42,13 @@ struct CellMesh {
     /// Three vertices each, counter-clockwise for who looks from the side of lower values.
     std::vector<std::uint32_t> triangles;
     std::vector<std::uint8_t> cases; ///< by cell, see mesh_cases.h: how many triangles it has
+
+    bool operator==(const CellMesh&) const = default;
 };
+
+using CellMeshPtr = std::shared_ptr<const CellMesh>;
+
+/// Sets of more cells come without a mesh: it would take half a gigabyte and more.
+constexpr std::size_t kMostMeshedCells = std::size_t{1} << 23;
 
 } // namespace isochron::index

@@ -1,6 +1,7 @@
 // The result of one query: immutable once frozen, shared between the worker and the renderer.
 #pragma once
 
+#include "index/extraction/cell_mesh.h"
 #include "index/extraction/cell_plane.h"
 #include "index/volume/query.h"
 #include "index/volume/step_values.h"
@@ -40,7 +41,8 @@ struct CellSet {
     std::uint64_t candidates = 0;             ///< cells the search returned before the exact test
     std::uint64_t reused = 0;                 ///< of these, taken over from the previous search
     std::chrono::nanoseconds search_time{0};  ///< search and exact test
-    std::chrono::nanoseconds shading_time{0}; ///< positions and normals
+    CellMeshPtr mesh;                         ///< null where none was asked for
+    std::chrono::nanoseconds shading_time{0}; ///< positions and normals, and the mesh
 };
 
 using CellSetPtr = std::shared_ptr<const CellSet>;

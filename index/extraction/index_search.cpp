@@ -4,8 +4,10 @@
 #include "index/error.h"
 #include "index/extraction/id_sort.h"
 #include "index/extraction/layer_search.h"
+#include "index/extraction/mesh_parts.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
+#include "index/system/parallel.h"
 
 #include <fmt/format.h>
 
@@ -43,11 +45,13 @@ class IndexSearch {
             // A search layer by layer shades, too, and says how long each took.
             if (set->ids.empty() || set->points.empty()) {
                 const auto found = Clock::now();
-                if (shading_ == Shading::cells && !set->ids.empty() && !shade(*set, stop))
+                if (shading_ != Shading::none && !set->ids.empty() && !shade(*set, stop))
                     return nullptr;
                 set->search_time = found - started;
                 set->shading_time = Clock::now() - found;
             }
+            if (!add_mesh(*set, stop))
+                return nullptr;
         } catch (const Stopped&) {
             return nullptr;
         }
@@ -73,6 +77,22 @@ class IndexSearch {
         case SearchMethod::scan: break;
         }
         return search_all(set, stop);
+    }
+
+    /// Where one is asked for and can be had. @return false when stopped
+    bool add_mesh(CellSet& set, const std::stop_token& stop) {
+        if (shading_ != Shading::cells_and_mesh || set.ids.empty() ||
+            set.ids.size() > kMostMeshedCells || has_wide_ids(file_->info().grid))
+            return true;
+        const auto started = Clock::now();
+        CellMesh mesh;
+        if (!(by_chunks_ ? layers_.make_mesh(set.query, set.ids, mesh, stop)
+                         : make_mesh(makers_, whole(set.query.step, stop).values, set.query,
+                                     set.ids, mesh, stop)))
+            return false;
+        set.mesh = std::make_shared<const CellMesh>(std::move(mesh));
+        set.shading_time += Clock::now() - started;
+        return true;
     }
 
     bool shade(CellSet& set, const std::stop_token& stop) {
@@ -110,7 +130,7 @@ class IndexSearch {
 
     bool search_bricks_of(CellSet& set, const std::stop_token& stop) {
         if (by_chunks_)
-            return layers_.search(set, true, shading_ == Shading::cells, stop);
+            return layers_.search(set, true, shading_ != Shading::none, stop);
         const LoadedStep& loaded = whole(set.query.step, stop);
         set.candidates = search_bricks(loaded.values, *file_->chunks().levels(set.query.step),
                                        loaded.bricks, set.query, set.ids);
@@ -154,7 +174,7 @@ class IndexSearch {
     /// Slab by slab of whole z layers, so that a stop is noticed within one.
     bool search_all(CellSet& set, const std::stop_token& stop) {
         if (by_chunks_)
-            return layers_.search(set, false, shading_ == Shading::cells, stop);
+            return layers_.search(set, false, shading_ != Shading::none, stop);
         const StepValues& values = whole(set.query.step, stop).values;
         StepValues slab = values;
         const auto [width, height, depth] = slab.grid.cells();
@@ -183,6 +203,7 @@ class IndexSearch {
     KeyMap keys_;
     ThiTree::Cursor cursor_;
     LayerSearch layers_;
+    std::vector<MeshMaker> makers_{thread_count(0)};
     bool by_chunks_ = false;         ///< the query's step is worked on by its chunks
     std::optional<LoadedStep> step_; ///< else as a whole, when it is needed
     // Kept for their memory:

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/extraction/cell_colors.h"
 #include "index/extraction/id_sort.h"
+#include "index/extraction/mesh_parts.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/system/parallel.h"
@@ -190,6 +191,28 @@ bool LayerSearch::shade_cells(CellSet& set, const std::stop_token& stop) {
         stop);
     set.points = std::move(shaded.points);
     set.rows = std::move(shaded.rows);
+    return finished;
+}
+
+bool LayerSearch::make_mesh(const Query& query, std::span<const CellId> ids, CellMesh& mesh,
+                            const std::stop_token& stop) {
+    std::vector<MeshPart> parts(StepSlab::layers(store_.info().grid));
+    makers_.resize(slabs_.size());
+    const bool finished = for_each_layer_of(
+        query.step, ids,
+        [&](StepSlab& slab, std::uint32_t layer) {
+            const std::vector<CellId> local =
+                counted_from(slab.first_around(), of_layer(ids, layer));
+            if (local.empty())
+                return;
+            const auto worker = std::ranges::find(slabs_, &slab, &std::unique_ptr<StepSlab>::get);
+            MeshMaker& maker = makers_[static_cast<std::size_t>(worker - slabs_.begin())];
+            slab.fill_around(local, true);
+            maker.make(slab.around(), query, local, parts[layer], slab.first_plane(), stop);
+        },
+        stop);
+    if (finished)
+        mesh = join_parts(std::move(parts));
     return finished;
 }
 

@@ -3,6 +3,7 @@
 
 #include "index/extraction/cell_set.h"
 #include "index/extraction/layer_results.h"
+#include "index/extraction/mesh_maker.h"
 #include "index/extraction/step_slab.h"
 #include "index/file/index_file.h"
 #include "index/volume/query.h"
@@ -31,6 +32,9 @@ class LayerSearch {
     /// @param ids ascending
     bool keep_active(const Query& query, std::vector<CellId>& ids, const std::stop_token& stop);
     bool shade_cells(CellSet& set, const std::stop_token& stop);
+    /// @param ids active cells, ascending
+    bool make_mesh(const Query& query, std::span<const CellId> ids, CellMesh& mesh,
+                   const std::stop_token& stop);
     /// With the array to color by, which the index must carry.
     bool color_cells(const Query& query, std::span<const CellId> cells,
                      std::span<std::uint16_t> out, const std::stop_token& stop);
@@ -50,6 +54,7 @@ class LayerSearch {
     std::shared_ptr<const IndexFile> file_;
     const ChunkStore& store_;
     std::vector<std::unique_ptr<StepSlab>> slabs_; ///< by thread
+    std::vector<MeshMaker> makers_;                ///< likewise
 };
 
 /// The active cells at a level of detail, ascending; ids are those of the level's own grid, and where

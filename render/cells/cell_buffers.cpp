@@ -37,10 +37,11 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       styles_(gl, "colored cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       corner_values_(gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none),
-      corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none) {}
+      corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none),
+      mesh_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
-    return takes_processor_ways(gl) ? index::Shading::cells : index::Shading::none;
+    return takes_processor_ways(gl) ? index::Shading::cells_and_mesh : index::Shading::none;
 }
 
 CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points) {
@@ -153,6 +154,9 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     sending_bricks_ = volume == SendVolume::with_cells || !ranked_;
     if (sending_bricks_)
         bricks_->begin(set->bricks);
+    sending_mesh_ = ranked_ && MeshBuffers::has_meshes(*set);
+    if (sending_mesh_)
+        mesh_.begin(*set);
     arriving_ = std::move(set);
     return true;
 }
@@ -163,6 +167,8 @@ bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
     if (!merged_)
         return false;
     if (sending_bricks_ && !send_bricks(bytes, sent))
+        return false;
+    if (sending_mesh_ && !send_mesh(bytes, sent))
         return false;
     return ranked_ || (send_message(bytes, sent) && send_styles(bytes, sent));
 }
@@ -175,6 +181,16 @@ bool CellBuffers::send_bricks(std::size_t bytes, std::size_t& sent) {
         count_.brick_bytes += part;
     }
     return bricks_->complete();
+}
+
+/// @return whether all of it is there
+bool CellBuffers::send_mesh(std::size_t bytes, std::size_t& sent) {
+    if (!mesh_.complete() && sent < bytes) {
+        const std::size_t part = mesh_.send(bytes - sent);
+        sent += part;
+        count_.mesh_bytes += part;
+    }
+    return mesh_.complete();
 }
 
 /// Like a set, what has begun is finished before a newer set is taken.
@@ -256,6 +272,10 @@ void CellBuffers::show() {
     version_ = next_version();
     if (std::exchange(sending_bricks_, false))
         volume_version_ = version_;
+    if (std::exchange(sending_mesh_, false)) {
+        mesh_.show();
+        mesh_version_ = version_;
+    }
 }
 
 /// @return where they are

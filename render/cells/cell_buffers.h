@@ -8,6 +8,7 @@
 #include "index/extraction/extraction.h"
 #include "render/cells/brick_pool.h"
 #include "render/cells/cell_compute.h"
+#include "render/cells/mesh_buffers.h"
 #include "render/cells/ranked_points.h"
 #include "render/cells/slot_plan.h"
 #include "render/cells/upload_count.h"
@@ -87,6 +88,10 @@ class CellBuffers {
     /// GL_TEXTURE_BUFFER by slot, one RGB32UI texel: the words of an index::CellPoint.
     GLuint texture() const { return points_.texture(); }
 
+    /// Whether the shown set came with meshes of its surfaces, as `Footprint::mesh` needs.
+    bool has_mesh() const { return shown_ && mesh_version_ == version_; }
+    const MeshBuffers& mesh() const { return mesh_; }
+
     /// Whether the shown set's part of the volume is on the GPU, as the exact surface needs.
     bool has_volume() const { return volume_version_ == version_; }
     /// Whether it is not, and the driver can hold it.
@@ -118,6 +123,7 @@ class CellBuffers {
     bool begin(index::ExtractionPtr set, SendVolume volume);
     bool make_room_for(const index::VolumeBricks& bricks);
     bool send_on(std::size_t bytes, std::size_t& sent);
+    bool send_mesh(std::size_t bytes, std::size_t& sent);
     bool send_bricks(std::size_t bytes, std::size_t& sent);
     void send_volume_of_shown(std::size_t bytes, std::size_t& sent);
     bool send_message(std::size_t bytes, std::size_t& sent);
@@ -130,13 +136,15 @@ class CellBuffers {
     index::Grid grid_;
     StagingRing ring_;
     DeviceArray points_, message_, styles_, corner_values_, corner_gradients_;
+    MeshBuffers mesh_;
     std::optional<BrickPool> bricks_;    ///< made when the type is known
     std::optional<CellCompute> compute_; ///< likewise
     index::ExtractionPtr shown_, refused_;
     std::string refusal_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
-    std::uint64_t version_ = 0, corners_version_ = 0, volume_version_ = 0;
+    std::uint64_t version_ = 0, corners_version_ = 0, volume_version_ = 0, mesh_version_ = 0;
     UploadCount count_;
+    bool sending_mesh_ = false;   ///< of the set on its way
     bool sending_bricks_ = false; ///< of the set on its way, or of the shown one after it
     // The set on its way:
     index::ExtractionPtr arriving_;

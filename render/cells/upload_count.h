@@ -12,6 +12,7 @@ struct UploadCount {
     std::uint64_t id_bytes = 0;    ///< ids, with their slots where differences are sent
     std::uint64_t brick_bytes = 0; ///< bricks of the volume with their pages
     std::uint64_t color_bytes = 0; ///< color coordinates
+    std::uint64_t mesh_bytes = 0;  ///< vertices and triangles
 
     UploadCount& operator+=(const UploadCount& other) {
         sets += other.sets;
@@ -20,6 +21,7 @@ struct UploadCount {
         id_bytes += other.id_bytes;
         brick_bytes += other.brick_bytes;
         color_bytes += other.color_bytes;
+        mesh_bytes += other.mesh_bytes;
         return *this;
     }
     /// @param before an earlier count of the same
@@ -29,7 +31,8 @@ struct UploadCount {
                 whole_ids - before.whole_ids,
                 id_bytes - before.id_bytes,
                 brick_bytes - before.brick_bytes,
-                color_bytes - before.color_bytes};
+                color_bytes - before.color_bytes,
+                mesh_bytes - before.mesh_bytes};
     }
     bool operator==(const UploadCount&) const = default;
 };

@@ -12,6 +12,7 @@
 layout(binding = 0) uniform usamplerBuffer cells;
 
 #include "frame.glsl"
+#include "pixels.glsl"
 #include "cell_order.glsl"
 #include "lighting.glsl"
 #include "appearance.glsl"
@@ -23,10 +24,6 @@ flat out vec4 shaded;
 #ifndef POINTS
 const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
 #endif
-
-vec4 to_pixels(vec4 p) {
-    return vec4(dot(EYE(row_x), p), dot(EYE(row_y), p), dot(EYE(row_z), p), dot(EYE(row_w), p));
-}
 
 // A matrix F with F F^T = s, the ellipse's shape in pixels: its columns are the half axes. Where
 // the ellipse is nearly a circle its axes mean nothing, and the quad turns upright instead.

@@ -9,7 +9,8 @@
 
 vec3 reflected(vec3 n, vec3 to_eye, vec3 to_light, vec3 base) {
     float falling = max(dot(n, to_light), 0.0);
-    vec3 halfway = normalize(to_eye + to_light);
+    vec3 between = to_eye + to_light;
+    vec3 halfway = between * inversesqrt(max(dot(between, between), 1e-12));
     float grazing = 1.0 - max(dot(halfway, to_eye), 0.0);
     float grazing2 = grazing * grazing;
     float mirrored = material.x + (1.0 - material.x) * grazing2 * grazing2 * grazing;
@@ -19,23 +20,31 @@ vec3 reflected(vec3 n, vec3 to_eye, vec3 to_light, vec3 base) {
 
 // The light that a point of the surface sends to the eye.
 // @param at position, eye space [m]
-// @param normal in physical space, of any length; zero where there is none
+// @param normal in eye space, of any length; zero where there is none
 // @param base its color, linear light
-vec3 shade(vec3 at, vec3 normal, vec3 base) {
-    float distance_to_eye = length(at);
-    vec3 to_eye = EYE(eye_in_index).w == 0.0 ? vec3(0, 0, 1) : -at / max(distance_to_eye, 1e-6);
-    vec3 n = mat3(EYE(eye_from_physical)) * normal;
+vec3 shade_in_eye(vec3 at, vec3 normal, vec3 base) {
+    float to_distance = inversesqrt(max(dot(at, at), 1e-12)); // 1 / it
+    vec3 to_eye = EYE(eye_in_index).w == 0.0 ? vec3(0, 0, 1) : -at * to_distance;
     // Without a normal a cell faces the viewer; with one, both its sides are lit.
-    n = dot(n, n) > 0.0 ? normalize(n) : to_eye;
+    float length2 = dot(normal, normal);
+    vec3 n = length2 > 0.0 ? normal * inversesqrt(length2) : to_eye;
     float facing = dot(n, to_eye);
     n = facing < 0.0 ? -n : n;
+    facing = abs(facing);
 
-    vec3 lit = light.y * reflected(n, to_eye, to_eye, base);
+    // From the eye: `reflected` towards where the light comes from.
+    float highlight = (material.y + 8.0) / 8.0 * pow(facing, material.y);
+    vec3 lit = light.y * facing * (base * (1.0 - material.x) + material.x * highlight);
     lit += light.z * reflected(n, to_eye, EYE(key_light).xyz, base);
     // The sky gives more than the floor: upper and lower sides differ where no light falls.
     lit += light.x * base * mix(material.z, 1.0, 0.5 + 0.5 * dot(n, EYE(up).xyz));
     // Where the surface turns away, its outline.
-    lit *= 1.0 - material.w * (1.0 - smoothstep(0.0, 0.5, abs(facing)));
+    lit *= 1.0 - material.w * (1.0 - smoothstep(0.0, 0.5, facing));
     vec4 cue = EYE(depth_cue);
-    return lit * (1.0 - cue.z * clamp((distance_to_eye - cue.x) * cue.y, 0.0, 1.0));
+    return lit * (1.0 - cue.z * clamp((dot(at, at) * to_distance - cue.x) * cue.y, 0.0, 1.0));
+}
+
+// @param normal in physical space, else as above
+vec3 shade(vec3 at, vec3 normal, vec3 base) {
+    return shade_in_eye(at, mat3(EYE(eye_from_physical)) * normal, base);
 }

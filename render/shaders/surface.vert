@@ -10,6 +10,7 @@ layout(binding = 3) uniform samplerBuffer corner_values;
 layout(binding = 4) uniform usamplerBuffer corner_gradients;
 
 #include "frame.glsl"
+#include "pixels.glsl"
 #include "cell_order.glsl"
 #include "srgb.glsl"
 #include "appearance.glsl"
@@ -17,10 +18,6 @@ layout(binding = 4) uniform usamplerBuffer corner_gradients;
 
 const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
 const float kMargin = 0.002; // around the surface [voxels]: rounding must uncover no pixel
-
-vec4 to_pixels(vec4 p) {
-    return vec4(dot(EYE(row_x), p), dot(EYE(row_y), p), dot(EYE(row_z), p), dot(EYE(row_w), p));
-}
 
 // @param low, high values at the corners with the lower and the higher z, x fastest
 void set_value(vec4 low, vec4 high) {

@@ -55,7 +55,8 @@ TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
     log.write(folder.path() / "report.json", "a context");
     const auto report = nlohmann::json::parse(folder.read("report.json"));
     EXPECT_EQ(report["missed"], 3);
-    EXPECT_EQ(report["footprints"], (nlohmann::json{{"quad", 1}, {"gaussian", 2}, {"surface", 0}}));
+    EXPECT_EQ(report["footprints"],
+              (nlohmann::json{{"quad", 1}, {"gaussian", 2}, {"mesh", 0}, {"surface", 0}}));
     EXPECT_EQ(report["milliseconds"]["gpu"]["worst"], 6.5);
     const auto& rows = report["rows"];
     EXPECT_EQ(rows[0]["footprint"], "quad");

@@ -1,62 +1,15 @@
 // The choice of the footprint against simulated costs: it fits, it holds still, it never sticks.
-#include "tests/app/frame/simulated_display.h"
-
-#include "tests/support/test_seed.h"
+#include "tests/app/frame/quality_fixture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace isochron::app {
 namespace {
-
-using interaction::Pace;
-using interaction::QualityMode;
-using render::Footprint;
-
-constexpr double kBudget = 10; // ms
-using Costs = std::array<double, render::kFootprints>;
-
-/// Each footprint at its own cost, whatever the load.
-SimulatedDisplay::Cost constant(Costs costs) {
-    return [costs](Footprint footprint, const DrawLoad&) {
-        return costs[static_cast<std::size_t>(footprint)];
-    };
-}
-
-Footprint best_that_fits(const Costs& costs) {
-    for (const Footprint footprint : {Footprint::surface, Footprint::gaussian})
-        if (costs[static_cast<std::size_t>(footprint)] <= kBudget)
-            return footprint;
-    return Footprint::quad;
-}
-
-class QualityControllerTest : public testing::Test {
-  protected:
-    double uniform(double low, double high) {
-        return std::uniform_real_distribution<>(low, high)(random_);
-    }
-    bool chance(double probability) { return uniform(0, 1) < probability; }
-    Costs random_costs() { return {uniform(0, 12), uniform(0, 20), uniform(0, 20)}; }
-
-    std::mt19937 random_{test_seed()};
-};
-
-/// Every step up is at least the shortest wait after the last step down, while the pace stays.
-void expect_no_flicker(const SimulatedDisplay& display, std::size_t first = 1) {
-    std::optional<std::size_t> down;
-    for (std::size_t i = std::max<std::size_t>(first, 1); i < display.frames.size(); ++i) {
-        const Footprint before = display.frames[i - 1].choice.footprint;
-        const Footprint now = display.frames[i].choice.footprint;
-        if (now < before)
-            down = i;
-        if (now > before && down) {
-            EXPECT_GE(i - *down, QualityController::kShortestWait) << "at frame " << i;
-        }
-    }
-}
 
 TEST_F(QualityControllerTest, SettledEndsAtTheBestThatFitsAndSaysSo) {
     for (int trial = 0; trial < 400; ++trial) {
@@ -83,7 +36,7 @@ TEST_F(QualityControllerTest, AnEmptySceneTeachesNothingOfCells) {
     // Each footprint takes next to nothing without cells, and the surface far too long with them.
     SimulatedDisplay display(kBudget, [](Footprint footprint, const DrawLoad& load) {
         constexpr std::array kPerCell{1e-4, 3e-4, 30e-4};
-        return 0.01 + load.cells * kPerCell[static_cast<std::size_t>(footprint)];
+        return 0.01 + load.cells * kPerCell[rung(footprint)];
     });
     display.input.load.cells = 0;
     const QualityChoice empty = display.run(200).choice;
@@ -95,8 +48,9 @@ TEST_F(QualityControllerTest, AnEmptySceneTeachesNothingOfCells) {
     EXPECT_LE(display.over_budget(), 4);
 }
 
-TEST_F(QualityControllerTest, MotionAndFastModeDrawQuadsAtOnce) {
+TEST_F(QualityControllerTest, MotionThatMayNotMeasureAndFastModeDrawQuadsAtOnce) {
     SimulatedDisplay display(kBudget, constant({1, 2, 3}));
+    display.input.by_pace = true;
     display.run(100);
     ASSERT_EQ(display.frames.back().choice.footprint, Footprint::surface);
     display.input.pace = Pace::moving;
@@ -136,19 +90,19 @@ TEST_F(QualityControllerTest, AFixedFootprintIsTakenWithoutMeasuring) {
         EXPECT_EQ(display.frame().choice.footprint, Footprint::quad);
     }
     display.input.pace = Pace::settled;
-    display.input.best = Footprint::gaussian;
+    display.input.available = render::FootprintSet::up_to(Footprint::gaussian);
     EXPECT_EQ(display.frame().choice.footprint, Footprint::gaussian) << "surface cannot be drawn";
 }
 
 TEST_F(QualityControllerTest, NothingBetterThanTheCellsAllowIsChosen) {
     SimulatedDisplay display(kBudget, constant({1, 2, 3}));
     display.run(100);
-    display.input.best = Footprint::gaussian;
+    display.input.available = render::FootprintSet::up_to(Footprint::gaussian);
     EXPECT_EQ(display.frame().choice.footprint, Footprint::gaussian);
     display.run(100);
     EXPECT_EQ(display.at(Footprint::surface, 100), 0);
     EXPECT_TRUE(display.frames.back().choice.final);
-    display.input.best = Footprint::surface;
+    display.input.available.add(Footprint::surface);
     EXPECT_EQ(display.frame().choice.footprint, Footprint::surface);
 }
 
@@ -163,9 +117,8 @@ TEST_F(QualityControllerTest, AStillPictureIsDrawnNoMoreThanItTakesToMeasureIt) 
 TEST_F(QualityControllerTest, AMeasurementOverTheBudgetEndsItAtOnce) {
     for (int latency = 0; latency < 5; ++latency) {
         Costs costs{1, 2, 3};
-        SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad&) {
-            return costs[static_cast<std::size_t>(footprint)];
-        });
+        SimulatedDisplay display(
+            kBudget, [&](Footprint footprint, const DrawLoad&) { return costs[rung(footprint)]; });
         display.latency = latency;
         display.still = false;
         display.run(500);
@@ -219,7 +172,7 @@ TEST_F(QualityControllerTest, ASpikeCostsAMomentOfQualityAndNoMore) {
 
 TEST_F(QualityControllerTest, WithMoreCellsItLeavesBeforeTheFirstSlowFrame) {
     const auto by_cells = [](Footprint footprint, const DrawLoad& load) {
-        return (0.2 + 8e-5 * load.cells) * (1 + static_cast<int>(footprint));
+        return (0.2 + 8e-5 * load.cells) * (1 + static_cast<double>(rung(footprint)));
     };
     SimulatedDisplay display(kBudget, by_cells);
     display.still = false;
@@ -240,7 +193,7 @@ TEST_F(QualityControllerTest, WithMoreCellsItLeavesBeforeTheFirstSlowFrame) {
 
 TEST_F(QualityControllerTest, FewerCellsEndTheLongestWaitAtOnce) {
     SimulatedDisplay display(kBudget, [](Footprint footprint, const DrawLoad& load) {
-        return 1e-4 * load.cells * (1 + static_cast<int>(footprint));
+        return 1e-4 * load.cells * (1 + static_cast<double>(rung(footprint)));
     });
     display.still = false;
     display.input.load.cells = 1e5;
@@ -255,7 +208,7 @@ TEST_F(QualityControllerTest, ALoadOfOthersThatEndsIsNoticedWithinTheLongestWait
     for (const bool still : {false, true}) {
         double others = 10;
         SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad&) {
-            return others * (1 + static_cast<int>(footprint));
+            return others * (1 + static_cast<double>(rung(footprint)));
         });
         display.still = still;
         display.run(20000);
@@ -269,7 +222,7 @@ TEST_F(QualityControllerTest, ALoadOfOthersThatEndsIsNoticedWithinTheLongestWait
 TEST_F(QualityControllerTest, OldMeasurementsDoNotSpeakAgainstWhatFitsNow) {
     double others = 10;
     SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad& load) {
-        return others * 4e-5 * load.cells * (1 + static_cast<int>(footprint));
+        return others * 4e-5 * load.cells * (1 + static_cast<double>(rung(footprint)));
     });
     display.still = false;
     const auto run = [&](int frames) {
@@ -295,7 +248,9 @@ TEST_F(QualityControllerTest, ACostThatRoseInTheMeantimeIsNoticedInAStillPicture
     display.run(100);
     ASSERT_EQ(display.frames.back().choice.footprint, Footprint::surface);
     display.input.pace = Pace::moving;
+    display.input.by_pace = true;
     display.run(10);
+    display.input.by_pace = false;
     scale = 10;
     display.input.pace = Pace::settled;
     EXPECT_EQ(display.frame().choice.footprint, Footprint::surface) << "it did fit";
@@ -317,7 +272,8 @@ void stir(SimulatedDisplay& display, std::mt19937& random, int frames) {
         if (random() % 40 == 0)
             display.input.playing = random() % 2 == 0;
         if (random() % 100 == 0)
-            display.input.best = static_cast<Footprint>(1 + random() % 2);
+            display.input.available =
+                render::FootprintSet::up_to(static_cast<Footprint>(1 + random() % 3));
         if (random() % 10 == 0)
             display.input.load = {uniform(0, 1e6), uniform(0, 1e7)};
         if (random() % 30 == 0)
@@ -325,7 +281,7 @@ void stir(SimulatedDisplay& display, std::mt19937& random, int frames) {
         if (random() % 30 == 0)
             display.cost = [scale = std::exp(uniform(-4, 3)), &random](Footprint f,
                                                                        const DrawLoad& load) {
-                return scale * (1 + 1e-5 * load.cells * (1 + static_cast<int>(f))) *
+                return scale * (1 + 1e-5 * load.cells * (1 + static_cast<double>(rung(f)))) *
                        (random() % 50 == 0 ? 20 : 1);
             };
         display.frame();

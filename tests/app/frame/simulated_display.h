@@ -37,7 +37,8 @@ class SimulatedDisplay {
     static QualityInput settled_input() {
         QualityInput input;
         input.pace = interaction::Pace::settled;
-        input.best = render::Footprint::surface;
+        // A ladder of three rungs: nothing comes with a mesh.
+        input.available.remove(render::Footprint::mesh);
         input.load = {1e4, 1e6};
         return input;
     }

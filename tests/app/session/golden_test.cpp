@@ -22,7 +22,7 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
     constexpr auto kVoxel = render::CellShape::voxel;
     for (const Case& one :
          {Case{Footprint::quad, "quad", 0.05}, Case{Footprint::gaussian, "gaussian", 0.1},
-          Case{Footprint::surface, "surface", 0.0},
+          Case{Footprint::mesh, "mesh", 0.0}, Case{Footprint::surface, "surface", 0.0},
           Case{Footprint::quad, "voxel_quad", 0.3, kVoxel},
           Case{Footprint::gaussian, "voxel_gaussian", 0.42, kVoxel}}) {
         SCOPED_TRACE(one.name);
@@ -59,6 +59,17 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
         EXPECT_GT(disparity, 3.0) << "the sphere stands behind the screen";
         EXPECT_NEAR(actual_x[Eye::right] - actual_x[Eye::left], disparity, 0.5);
     }
+}
+
+TEST_P(GoldenPictures, ThePapersModeEndsAtSplats) {
+    const auto context = stereo::make_context(GetParam(), {.size = kPicture});
+    Session session(one_window(StereoMode::quadbuffer), file_, *context);
+    Commands commands = showing(kPlacement);
+    commands.quality = interaction::QualityMode::paper;
+    ASSERT_EQ(settle(session, commands), Footprint::gaussian);
+    for (const Eye eye : {Eye::left, Eye::right})
+        EXPECT_TRUE(matches_golden(session.outputs().display().read_eye(eye),
+                                   "gaussian_" + std::string(name_of(eye)), kTolerance));
 }
 
 /// Of the inner one of two surfaces: the outer, which is warm, and the background have less blue.

@@ -60,15 +60,16 @@ bool is_blended(Footprint footprint) {
     return footprint == Footprint::gaussian;
 }
 
-/// As a session's: in motion, quads are drawn.
+/// As a session's in motion, where neither quads nor meshes need it.
 render::SendVolume volume_for(Footprint footprint) {
-    return footprint == Footprint::quad ? render::SendVolume::never
-                                        : render::SendVolume::with_cells;
+    return footprint == Footprint::quad || footprint == Footprint::mesh
+               ? render::SendVolume::never
+               : render::SendVolume::with_cells;
 }
 
 /// Radius in voxels of the largest cells where the footprint is an ellipse or a rectangle.
 std::optional<float> radius_of(Footprint footprint, const render::FootprintShapes& shapes) {
-    if (footprint == Footprint::surface)
+    if (render::has_layers(footprint))
         return std::nullopt;
     return shapes.radius_of(footprint);
 }
@@ -95,7 +96,7 @@ class Bench {
         : gl_(gl), file_(std::move(file)), options_(options), picture_(picture),
           camera_(bench_camera(file_->info(), picture.size, picture.eyes)),
           target_(gl, {picture.size * picture.eyes, picture.size}), pass_(gl), as_quads_(gl),
-          cells_(gl, file_->info().grid), orders_(gl), bare_(gl), extract_(extraction()) {
+          cells_(gl, file_->info().grid), orders_(gl), bare_(gl) {
         look_.linear_light = !render::draws_in_software(gl); // as a session's
         as_quads_.draw_without_points();
         as_quads_.draw_hidden_cells();
@@ -108,6 +109,7 @@ class Bench {
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());
         const unsigned rounds = std::max(options_.rounds, 1u);
         Times times;
+        extract_ = extraction(footprint.footprint == Footprint::mesh);
         const std::size_t frames = std::size_t{steps} * rounds;
         measure_step(footprint.footprint, 0, times); // warms everything up
         times = {};
@@ -122,9 +124,11 @@ class Bench {
     }
 
   private:
-    /// As a session's.
-    index::Extract extraction() const {
-        return index::extract_from(file_, std::nullopt, render::CellBuffers::wanted_shading(gl_));
+    /// As a session's, with a mesh where it is drawn.
+    index::Extract extraction(bool with_mesh) const {
+        const index::Shading wanted = render::CellBuffers::wanted_shading(gl_);
+        const bool less = wanted == index::Shading::cells_and_mesh && !with_mesh;
+        return index::extract_from(file_, std::nullopt, less ? index::Shading::cells : wanted);
     }
 
     RenderRow row_of(const NamedFootprint& footprint, const Times& times) const {
@@ -243,7 +247,7 @@ class Bench {
         constexpr double kSoon = 3e3; // ms
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());
         const render::SendVolume volume = volume_for(footprint);
-        index::Extractor extractor(extraction());
+        index::Extractor extractor(extraction(footprint == Footprint::mesh));
         std::vector<double> over, noise;
         const double start = wall_ms();
         const auto enough = [&](std::size_t i) {
@@ -293,6 +297,7 @@ class Bench {
 const std::vector<NamedFootprint>& all_footprints() {
     static const std::vector<NamedFootprint> footprints{{"quad", Footprint::quad},
                                                         {"gaussian", Footprint::gaussian},
+                                                        {"mesh", Footprint::mesh},
                                                         {"surface", Footprint::surface}};
     return footprints;
 }

@@ -77,9 +77,15 @@ TEST_F(LayerSearchTest, FindsAndShadesWhatWholeStepsGiveForEveryTypeMethodAndGri
                                  << " x " << vertices[2] << " method " << int(method)
                                  << " isovalue " << isovalue << " noise " << noise);
                     const Query query{static_cast<std::uint32_t>(random_() % 2), isovalue};
-                    const CellSetPtr found = search_in(chunks, method)(query, {});
+                    const CellSetPtr found =
+                        search_in(chunks, method, Shading::cells_and_mesh)(query, {});
                     ASSERT_EQ(found->ids, BruteForce(values, query.step).active(isovalue));
-                    expect_same(*found, *search_in(whole, method)(query, {}));
+                    const CellSetPtr wanted =
+                        search_in(whole, method, Shading::cells_and_mesh)(query, {});
+                    expect_same(*found, *wanted);
+                    ASSERT_EQ(!found->mesh, found->ids.empty());
+                    if (found->mesh)
+                        EXPECT_TRUE(*found->mesh == *wanted->mesh);
                 }
         }
 }

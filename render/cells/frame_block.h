@@ -1,0 +1,71 @@
+// What a draw of cells tells its shaders: see frame.glsl.
+#pragma once
+
+#include "render/cells/cell_appearance.h"
+#include "render/cells/footprints.h"
+#include "render/cells/placement.h"
+#include "render/cells/traversal_order.h"
+#include "render/gl/limits.h"
+#include "render/gl/view.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace isochron::render {
+
+/// An eye of frame.glsl, in std140 layout.
+struct EyeBlock {
+    glm::mat4 rows;
+    glm::vec4 ray_right, ray_up, ray_ahead;
+    glm::mat4 eye_from_index;
+    glm::mat4 eye_from_physical;
+    glm::vec4 eye_in_index;
+    glm::vec4 clip_per_pixel;
+    glm::vec4 viewport;
+    glm::vec4 depth_cue;
+    glm::vec4 key_light;
+    glm::vec4 up;
+    glm::vec4 between_eyes;
+    glm::vec4 cut;
+};
+/// The uniform block likewise.
+struct FrameBlock {
+    std::array<EyeBlock, 2> eyes;
+    std::array<glm::vec4, index::kMostSurfaces> surfaces;
+    glm::vec4 no_value;
+    glm::vec4 light;
+    glm::vec4 material;
+    glm::vec4 near_fade;
+    glm::vec2 color_range;
+    std::int32_t colored;
+    std::int32_t linear_light;
+    float radius;
+    std::int32_t order_begin;
+    std::int32_t order_step;
+    std::int32_t blended;
+    std::int32_t drawn_surfaces;
+    std::int32_t soft_near_eye;
+    glm::vec2 padding{0.0f};
+    std::array<glm::vec4, 3> index_from_normal; ///< rows
+};
+static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 10) * 16);
+static_assert(sizeof(FrameBlock) <= kUniformBlockBytes);
+
+EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance);
+
+/// The part of the block that is the same for every eye.
+/// @param surfaces a bit for each that is drawn
+FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
+                    std::int32_t surfaces, bool blended, const Placement& placement);
+
+/// Of the order in which this view's cells are drawn.
+TraversalKey key_of(const View& view, const Placement& placement);
+
+/// Whether all quads are drawn whole: none is left out, which others would be seen through.
+bool hides_what_is_behind(const CellAppearance& look, const Placement& placement);
+
+} // namespace isochron::render

@@ -1,0 +1,85 @@
+// The way of meshes to the GPU, in portions.
+#include "render/cells/mesh_buffers.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::render {
+namespace {
+
+/// By half as much again, so that meshes that grow little by little rarely move.
+void fit(const Gl& gl, const Buffer& buffer, std::size_t bytes, std::size_t& room) {
+    if (bytes <= room)
+        return;
+    room = bytes + bytes / 2;
+    gl.NamedBufferData(buffer.name(), static_cast<GLsizeiptr>(room), nullptr, GL_DYNAMIC_DRAW);
+}
+
+} // namespace
+
+MeshBuffers::MeshBuffers(const Gl& gl) : gl_(&gl), shown_(gl), arriving_(gl) {}
+
+bool MeshBuffers::has_meshes(const index::Extraction& set) {
+    return std::ranges::all_of(set.surfaces, [](const index::CellSet& surface) {
+        return surface.mesh || surface.ids.empty();
+    });
+}
+
+void MeshBuffers::begin(const index::Extraction& set) {
+    arriving_.surfaces.clear();
+    pieces_.clear();
+    std::size_t vertices = 0, indices = 0;
+    for (const index::CellSet& surface : set.surfaces) {
+        const std::size_t own = surface.mesh ? surface.mesh->triangles.size() : 0;
+        arriving_.surfaces.push_back({vertices, indices, own});
+        if (surface.mesh)
+            vertices += surface.mesh->vertices.size();
+        indices += own;
+    }
+    for (const index::CellSet& surface : set.surfaces)
+        if (surface.mesh)
+            pieces_.push_back(std::as_bytes(std::span(surface.mesh->vertices)));
+    for (const index::CellSet& surface : set.surfaces)
+        if (surface.mesh)
+            pieces_.push_back(std::as_bytes(std::span(surface.mesh->triangles)));
+    arriving_.vertex_bytes = vertices * sizeof(index::MeshVertex);
+    arriving_.index_bytes = indices * sizeof(std::uint32_t);
+    fit(*gl_, arriving_.vertices, arriving_.vertex_bytes, arriving_.vertex_room);
+    fit(*gl_, arriving_.indices, arriving_.index_bytes, arriving_.index_room);
+    piece_ = piece_sent_ = sent_ = 0;
+}
+
+void MeshBuffers::send_part(GLuint buffer, std::size_t at, std::span<const std::byte> bytes) {
+    gl_->NamedBufferSubData(buffer, static_cast<GLintptr>(at),
+                            static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+std::size_t MeshBuffers::send(std::size_t bytes) {
+    const std::size_t most = std::max(bytes, kUnit);
+    std::size_t sent = 0;
+    while (sent < most && !complete()) {
+        const auto rest = pieces_[piece_].subspan(piece_sent_);
+        const auto part = rest.first(std::min(rest.size(), most - sent));
+        if (sent_ < arriving_.vertex_bytes)
+            send_part(arriving_.vertices.name(), sent_, part);
+        else
+            send_part(arriving_.indices.name(), sent_ - arriving_.vertex_bytes, part);
+        sent += part.size();
+        sent_ += part.size();
+        piece_sent_ += part.size();
+        if (part.size() == rest.size()) {
+            ++piece_;
+            piece_sent_ = 0;
+        }
+    }
+    return sent;
+}
+
+void MeshBuffers::show() {
+    std::swap(shown_, arriving_);
+    pieces_.clear();
+    arriving_.surfaces.clear();
+    arriving_.vertex_bytes = arriving_.index_bytes = sent_ = 0;
+}
+
+} // namespace isochron::render

@@ -1,0 +1,56 @@
+// The meshes of a set's surfaces on the GPU: the shown ones, and those on their way.
+#pragma once
+
+#include "index/extraction/extraction.h"
+#include "render/gl/gl_objects.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace isochron::render {
+
+/// Vertices of all surfaces one after the other, index::MeshVertex each, and likewise triangles,
+/// whose vertices are counted from the surface's first one.
+class MeshBuffers {
+  public:
+    explicit MeshBuffers(const Gl& gl);
+
+    /// Whether every surface of the set that has cells has a mesh, as `begin` needs.
+    static bool has_meshes(const index::Extraction& set);
+
+    /// Begins with the meshes of a set, which lives until `show`; what was on its way is dropped.
+    void begin(const index::Extraction& set);
+    /// Sends at most so many bytes of them, in units of kUnit. @return bytes sent
+    std::size_t send(std::size_t bytes);
+    bool complete() const { return sent_ == arriving_.bytes(); }
+    /// What has been sent is what is drawn from now on.
+    void show();
+
+    struct Surface {
+        std::size_t first_vertex = 0, first_index = 0, indices = 0;
+    };
+    /// Of the shown set.
+    std::span<const Surface> surfaces() const { return shown_.surfaces; }
+    GLuint vertices() const { return shown_.vertices.name(); }
+    GLuint indices() const { return shown_.indices.name(); }
+
+  private:
+    static constexpr std::size_t kUnit = 1 << 16;
+    struct Held {
+        explicit Held(const Gl& gl) : vertices(gl), indices(gl) {}
+        std::size_t bytes() const { return vertex_bytes + index_bytes; }
+        Buffer vertices, indices;
+        std::size_t vertex_room = 0, index_room = 0, vertex_bytes = 0, index_bytes = 0;
+        std::vector<Surface> surfaces;
+    };
+    void send_part(GLuint buffer, std::size_t at, std::span<const std::byte> bytes);
+
+    const Gl* gl_;
+    Held shown_, arriving_;
+    std::vector<std::span<const std::byte>> pieces_; ///< vertices, then indices, of each surface
+    std::size_t piece_ = 0, piece_sent_ = 0, sent_ = 0;
+};
+
+} // namespace isochron::render

@@ -1,0 +1,140 @@
+// The programs and GL state of a draw of triangles.
+#include "render/cells/mesh_pass.h"
+
+#include "index/extraction/mesh_cases.h"
+#include "render/gl/shader.h"
+
+#include <string>
+
+namespace isochron::render {
+
+constexpr GLuint kStylesUnit = 8; ///< of mesh.frag
+
+MeshPass::MeshPass(const Gl& gl, bool two_views_at_once)
+    : gl_(&gl), vertex_array_(gl), styles_(gl), order_(gl), styles_texture_(gl, GL_TEXTURE_BUFFER) {
+    for (const Kind kind : {Kind::plain, Kind::styled, Kind::blended})
+        for (const bool near : {false, true})
+            programs_[static_cast<std::size_t>(kind)][near] =
+                make_programs(kind, near, two_views_at_once && kind != Kind::blended);
+    gl.EnableVertexArrayAttrib(vertex_array_.name(), 0);
+    gl.VertexArrayAttribIFormat(vertex_array_.name(), 0, 4, GL_UNSIGNED_INT, 0);
+    gl.VertexArrayAttribBinding(vertex_array_.name(), 0, 0);
+}
+
+MeshPass::Programs MeshPass::make_programs(Kind kind, bool near, bool two_views_at_once) const {
+    // What blends is always asked how near it is.
+    if (kind == Kind::blended && near)
+        return {};
+    const std::string prelude = std::string(kind == Kind::plain ? "" : "#define STYLES\n") +
+                                (kind == Kind::blended ? "#define BLENDED\n" : "") +
+                                (near ? "#define NEAR\n" : "");
+    const std::vector sources{shader_file("mesh.vert"), shader_file("mesh.frag")};
+    Programs programs;
+    programs[0] = link_program(*gl_, sources, prelude);
+    if (two_views_at_once)
+        programs[1] = link_program(*gl_, sources, std::string(kTwoEyes) + prelude);
+    return programs;
+}
+
+GLuint MeshPass::program(Kind kind, bool near, std::size_t views) const {
+    const bool asked = near && kind != Kind::blended;
+    return programs_[static_cast<std::size_t>(kind)][asked][views - 1]->name();
+}
+
+/// Styles and places of the shown set's triangles.
+void MeshPass::find_styles(const CellBuffers& cells) {
+    if (cells_version_ == cells.version())
+        return;
+    cells_version_ = cells.version();
+    style_of_triangle_.clear();
+    first_of_cell_.clear();
+    const std::span<const CellPlace> places = cells.slots().places; // in ranks
+    for (const index::CellSet& surface : cells.shown()->surfaces)
+        for (std::size_t i = 0; i < surface.ids.size(); ++i) {
+            const std::size_t count = index::mesh_cases()[surface.mesh->cases[i]].triangles;
+            const std::uint16_t style = places[first_of_cell_.size()].style;
+            first_of_cell_.push_back(static_cast<std::uint32_t>(style_of_triangle_.size()));
+            style_of_triangle_.insert(style_of_triangle_.end(), count, style);
+        }
+}
+
+void MeshPass::draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
+                              std::size_t count, std::size_t base, std::size_t views) const {
+    gl_->VertexArrayVertexBuffer(vertex_array_.name(), 0, cells.mesh().vertices(), 0,
+                                 sizeof(index::MeshVertex));
+    gl_->VertexArrayElementBuffer(vertex_array_.name(), indices);
+    gl_->BindVertexArray(vertex_array_.name());
+    gl_->DrawElementsInstancedBaseVertex(
+        GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(first * sizeof(std::uint32_t)), static_cast<GLsizei>(views),
+        static_cast<GLint>(base));
+    gl_->BindVertexArray(0);
+}
+
+void MeshPass::draw(const CellBuffers& cells, const Look& look, std::size_t views) {
+    if (look.colored) {
+        find_styles(cells);
+        if (styles_version_ != cells.version()) {
+            gl_->NamedBufferData(
+                styles_.name(), static_cast<GLsizeiptr>(std::span(style_of_triangle_).size_bytes()),
+                style_of_triangle_.data(), GL_STREAM_DRAW);
+            gl_->TextureBuffer(styles_texture_.name(), GL_R16UI, styles_.name());
+            styles_version_ = cells.version();
+        }
+        gl_->BindTextureUnit(kStylesUnit, styles_texture_.name());
+    }
+    const GLuint of_look = program(look.colored ? Kind::styled : Kind::plain, look.near, views);
+    gl_->UseProgram(of_look);
+    const auto surfaces = cells.mesh().surfaces();
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        const auto& [first_vertex, first_index, indices] = surfaces[i];
+        if ((look.surfaces >> i & 1) == 0 || indices == 0)
+            continue;
+        if (look.colored)
+            gl_->ProgramUniform1i(of_look, 0, static_cast<GLint>(first_index / 3));
+        else
+            gl_->ProgramUniform3f(of_look, 0, look.colors[i].x, look.colors[i].y, look.colors[i].z);
+        draw_triangles(cells, cells.mesh().indices(), first_index, indices, first_vertex, views);
+    }
+}
+
+void MeshPass::draw_blended(const CellBuffers& cells, const Look& look,
+                            std::span<const std::uint32_t> back_to_front) {
+    find_styles(cells);
+    std::vector<std::uint32_t> indices;
+    std::vector<std::uint16_t> styles;
+    indices.reserve(3 * style_of_triangle_.size());
+    styles.reserve(style_of_triangle_.size());
+    const auto surfaces = cells.mesh().surfaces();
+    const auto& sets = cells.shown()->surfaces;
+    for (const std::uint32_t slot : back_to_front) {
+        const std::size_t first = first_of_cell_[slot];
+        const std::size_t end = slot + std::size_t{1} < first_of_cell_.size()
+                                    ? first_of_cell_[slot + 1]
+                                    : style_of_triangle_.size();
+        const std::size_t surface = cells.slots().places[slot].style & ((1u << kColorShift) - 1);
+        if ((look.surfaces >> surface & 1) == 0)
+            continue;
+        const auto& [first_vertex, first_index, count] = surfaces[surface];
+        for (std::size_t k = 3 * first - first_index; k < 3 * end - first_index; ++k)
+            indices.push_back(
+                static_cast<std::uint32_t>(first_vertex + sets[surface].mesh->triangles[k]));
+        styles.insert(styles.end(), style_of_triangle_.begin() + static_cast<std::ptrdiff_t>(first),
+                      style_of_triangle_.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    if (indices.empty())
+        return;
+    gl_->NamedBufferData(order_.name(), static_cast<GLsizeiptr>(std::span(indices).size_bytes()),
+                         indices.data(), GL_STREAM_DRAW);
+    gl_->NamedBufferData(styles_.name(), static_cast<GLsizeiptr>(std::span(styles).size_bytes()),
+                         styles.data(), GL_STREAM_DRAW);
+    gl_->TextureBuffer(styles_texture_.name(), GL_R16UI, styles_.name());
+    styles_version_ = 0; // of no set
+    gl_->BindTextureUnit(kStylesUnit, styles_texture_.name());
+    const GLuint of_look = program(Kind::blended, look.near, 1);
+    gl_->ProgramUniform1i(of_look, 0, 0);
+    gl_->UseProgram(of_look);
+    draw_triangles(cells, order_.name(), 0, indices.size(), 0, 1);
+}
+
+} // namespace isochron::render

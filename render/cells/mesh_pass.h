@@ -1,0 +1,59 @@
+// Draws the triangles of a set of cells, which come with it.
+#pragma once
+
+#include "render/cells/cell_buffers.h"
+
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::render {
+
+class MeshPass {
+  public:
+    /// @param two_views_at_once also makes the programs that draw two views in one pass
+    /// @throws Error when a shader does not compile
+    MeshPass(const Gl& gl, bool two_views_at_once);
+
+    /// How triangles are drawn beside their order.
+    struct Look {
+        std::int32_t surfaces = 0;         ///< a bit for each that is drawn
+        std::span<const glm::vec4> colors; ///< of each surface, linear light
+        bool colored = false;              ///< by the cells' coordinates
+        bool near = false;                 ///< some may be cut away or fade, as they are near
+    };
+
+    /// Draw with the frame and viewports that CellPass has bound, and its depth and blend state.
+    /// @param cells whose mesh is there
+    /// @param views 1 or 2
+    void draw(const CellBuffers& cells, const Look& look, std::size_t views);
+    /// Blended, cell after cell. @param back_to_front slots of the cells
+    void draw_blended(const CellBuffers& cells, const Look& look,
+                      std::span<const std::uint32_t> back_to_front);
+
+  private:
+    enum class Kind : std::uint8_t { plain, styled, blended };
+    /// [views - 1]
+    using Programs = std::array<std::optional<Program>, 2>;
+    Programs make_programs(Kind kind, bool near, bool two_views_at_once) const;
+    GLuint program(Kind kind, bool near, std::size_t views) const;
+    void find_styles(const CellBuffers& cells);
+    void draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
+                        std::size_t count, std::size_t base, std::size_t views) const;
+
+    const Gl* gl_;
+    std::array<std::array<Programs, 2>, 3> programs_; ///< [kind][near]
+    VertexArray vertex_array_;
+    Buffer styles_, order_; ///< by triangle; indices
+    Texture styles_texture_;
+    std::vector<std::uint16_t> style_of_triangle_; ///< of the set that styles_ is for
+    std::vector<std::uint32_t> first_of_cell_;     ///< triangle, by slot
+    std::uint64_t styles_version_ = 0, cells_version_ = 0;
+};
+
+} // namespace isochron::render

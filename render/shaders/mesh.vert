@@ -1,0 +1,35 @@
+#version 450 core
+// A vertex of a mesh (index::MeshVertex): where the surface cuts an edge of the grid.
+
+#include "frame.glsl"
+#include "pixels.glsl"
+
+layout(location = 0) in uvec4 vertex; // the lower end's x and y; z and axis; share; normal
+
+out vec3 at_in_eye;
+out vec3 normal; // in eye space
+#ifdef NEAR
+out vec3 at_in_index;
+#endif
+
+vec3 unpacked(uint word) {
+    vec2 at = unpackSnorm2x16(word);
+    vec3 n = vec3(at, 1.0 - abs(at.x) - abs(at.y));
+    float fold = max(-n.z, 0.0);
+    n.xy -= vec2(n.x < 0.0 ? -fold : fold, n.y < 0.0 ? -fold : fold);
+    return word == 0x80008000u ? vec3(0) : normalize(n);
+}
+
+void main() {
+    start_eye();
+    vec3 low = vec3(vertex.x & 0xffffu, vertex.x >> 16, vertex.y & 0xffffu);
+    uint axis = vertex.y >> 16;
+    vec4 at = vec4(low + float(vertex.z) / 2147483648.0 * vec3(axis == 0u, axis == 1u, axis == 2u), 1.0);
+    at_in_eye = (EYE(eye_from_index) * at).xyz;
+    normal = mat3(EYE(eye_from_physical)) * unpacked(vertex.w);
+#ifdef NEAR
+    at_in_index = at.xyz;
+#endif
+    vec4 p = to_pixels(at);
+    gl_Position = vec4(p.xy * EYE(clip_per_pixel).xy, p.zw);
+}

@@ -1,0 +1,100 @@
+// What is drawn while something moves, and what is never tried.
+#include "tests/app/frame/quality_fixture.h"
+
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+class QualityInMotion : public QualityControllerTest {};
+
+TEST_F(QualityInMotion, MotionDrawsTheBestThatIsKnownToFitWithRoomToSpare) {
+    for (const auto& [costs, wanted] : {std::pair{Costs{1, 2, 3}, Footprint::surface},
+                                        {Costs{1, 2, 9}, Footprint::gaussian},
+                                        {Costs{1, 8, 9}, Footprint::quad},
+                                        {Costs{1, 9, 7}, Footprint::surface},
+                                        {Costs{12, 30, 30}, Footprint::quad}}) {
+        SCOPED_TRACE(testing::Message() << costs[0] << " " << costs[1] << " " << costs[2]);
+        SimulatedDisplay display(kBudget, constant(costs));
+        display.run(100); // at rest
+        display.input.pace = Pace::moving;
+        const std::size_t first = display.frames.size();
+        EXPECT_EQ(display.frame().choice.footprint, wanted) << "from the first frame on";
+        display.run(3000);
+        EXPECT_EQ(display.at(wanted, first), 3001);
+        EXPECT_FALSE(display.frames.back().choice.final);
+        EXPECT_EQ(display.frames.back().choice.reason, QualityReason::moving);
+    }
+}
+
+TEST_F(QualityInMotion, MotionFromTheStartLearnsWithoutASlowFrame) {
+    for (int latency = 0; latency < 5; ++latency) {
+        SimulatedDisplay display(kBudget, constant({0.5, 2, 5}));
+        display.latency = latency;
+        display.input.pace = Pace::moving;
+        display.run(60);
+        EXPECT_EQ(display.frames.back().choice.footprint, Footprint::surface);
+        EXPECT_EQ(display.over_budget(), 0);
+        // Where quads take so long that nothing else may be tried, they stay.
+        SimulatedDisplay slow(kBudget, constant({8, 2, 5}));
+        slow.latency = latency;
+        slow.input.pace = Pace::moving;
+        slow.run(3000);
+        EXPECT_EQ(slow.at(Footprint::quad), 3000);
+    }
+}
+
+TEST_F(QualityInMotion, MotionDoesNotFlickerWhateverItCosts) {
+    for (int trial = 0; trial < 40; ++trial) {
+        const Costs costs = random_costs();
+        SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad& load) {
+            return costs[rung(footprint)] * uniform(0.7, 1.4) * (0.5 + load.cells / 1e4);
+        });
+        display.latency = trial % 5;
+        display.still = false;
+        display.input.pace = Pace::moving;
+        for (int i = 0; i < 2000; ++i) {
+            if (chance(0.1))
+                display.input.load.cells = uniform(1e3, 2e4);
+            display.frame();
+        }
+        expect_no_flicker(display);
+        const int floor = display.over_budget() - 2000 / 16 * (display.latency + 1);
+        EXPECT_LE(floor, display.at(Footprint::quad)) << "only quads may take so long";
+    }
+}
+
+TEST_F(QualityInMotion, NothingIsTriedThatWouldFreezeThePicture) {
+    SimulatedDisplay display(kBudget, [](Footprint footprint, const DrawLoad& load) {
+        constexpr std::array kPerCell{1e-4, 8e-4, 12e-4};
+        return 0.05 + load.cells * kPerCell[rung(footprint)];
+    });
+    display.run(200);
+    display.input.load.cells = 3.3e6; // 330 ms, 2.6 s, 4 s
+    for (const bool moving : {false, true, false}) {
+        display.input.pace = moving ? Pace::moving : Pace::settled;
+        const std::size_t first = display.frames.size();
+        EXPECT_EQ(display.run(20000).choice.footprint, Footprint::quad);
+        EXPECT_EQ(display.at(Footprint::quad, first), 20000);
+        EXPECT_EQ(display.frames.back().choice.final, !moving) << "a capture is taken all the same";
+    }
+    SimulatedDisplay fresh(kBudget, display.cost);
+    fresh.input.load.cells = 3.3e6;
+    fresh.run(20000);
+    EXPECT_EQ(fresh.at(Footprint::quad), 20000);
+    EXPECT_TRUE(fresh.frames.back().choice.final);
+}
+
+TEST_F(QualityInMotion, PaperModeDrawsQuadsInMotionAndSplatsAtRestAndNothingElse) {
+    SimulatedDisplay display(kBudget, constant({1, 300, 2}));
+    display.input.mode = QualityMode::paper;
+    for (int i = 0; i < 400; ++i) {
+        display.input.pace = i / 20 % 2 ? Pace::moving : Pace::settled;
+        EXPECT_EQ(display.frame().choice.footprint,
+                  i / 20 % 2 ? Footprint::quad : Footprint::gaussian);
+        EXPECT_EQ(display.frames.back().choice.final, i / 20 % 2 == 0);
+    }
+}
+
+} // namespace
+} // namespace isochron::app

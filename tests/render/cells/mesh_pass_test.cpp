@@ -1,0 +1,155 @@
+// Meshes on the screen against the exact surface, and their way to the GPU.
+#include "render/cells/cell_pass.h"
+
+#include "index/extraction/mesh_parts.h"
+#include "index/scan/scan.h"
+#include "render/gl/render_target.h"
+#include "tests/support/gl_test.h"
+#include "tests/support/test_field.h"
+
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace isochron::render {
+namespace {
+
+class MeshPassTest : public GlTest {
+  protected:
+    static constexpr glm::ivec2 kSize{128, 128};
+
+    /// Balls in a grid, with their planes, meshes and volume.
+    index::ExtractionPtr extraction(std::vector<double> isovalues, bool colors = false) {
+        auto set = std::make_shared<index::Extraction>();
+        set->query = {0, isovalues, index::CellColoring::none};
+        std::vector<index::MeshMaker> makers(2);
+        index::BrickValues values(index::ValueType::u8, {}, 0, 255);
+        index::BrickGatherer gatherer(field_.view().grid, values);
+        for (const double isovalue : isovalues) {
+            index::CellSet cells;
+            cells.query = {0, isovalue};
+            index::scan(field_.view(), cells.query, cells.ids);
+            EXPECT_TRUE(index::shade_cells(field_.view(), cells));
+            index::CellMesh mesh;
+            EXPECT_TRUE(make_mesh(makers, field_.view(), cells.query, cells.ids, mesh));
+            cells.mesh = std::make_shared<const index::CellMesh>(std::move(mesh));
+            gatherer.need(cells.ids);
+            set->surfaces.push_back(std::move(cells));
+        }
+        const index::BrickLevels levels = values.levels(isovalues);
+        set->levels = levels.units;
+        set->bricks = gatherer.none();
+        EXPECT_TRUE(gatherer.gather(field_.view(), 0, levels, set->bricks));
+        if (colors)
+            for (std::size_t i = 0; i < set->cells(); ++i)
+                set->colors.push_back(static_cast<std::uint16_t>(i % 4096));
+        return set;
+    }
+
+    Image draw(const index::ExtractionPtr& set, Footprint footprint, const CellAppearance& look,
+               glm::vec3 eye = {40, 35, 60}) {
+        CellBuffers cells(gl_, field_.view().grid);
+        while (cells.shown() != set)
+            cells.upload(set, std::numeric_limits<std::size_t>::max());
+        EXPECT_TRUE(cells.has_mesh());
+        cells.compute_corners();
+        RenderTarget target(gl_, kSize);
+        target.bind();
+        target.clear({0, 0, 0, 1});
+        const View view{.clip_from_eye = glm::perspective(0.6f, 1.0f, 5.0f, 200.0f),
+                        .eye_from_room = glm::lookAt(eye, glm::vec3(15), glm::vec3(0, 1, 0)),
+                        .size = kSize};
+        pass_.draw(view, Placement::of(field_.view().grid, glm::mat4(1.0f)), cells, footprint,
+                   look);
+        return target.read();
+    }
+
+    /// Share of pixels with a channel off by more than 8 of 255.
+    static double differing(const Image& a, const Image& b) {
+        int count = 0;
+        for (int y = 0; y < kSize.y; ++y)
+            for (int x = 0; x < kSize.x; ++x) {
+                int most = 0;
+                for (int channel = 0; channel < 3; ++channel)
+                    most = std::max(most, std::abs(a.at(x, y)[channel] - b.at(x, y)[channel]));
+                count += most > 8;
+            }
+        return count / double(kSize.x * kSize.y);
+    }
+
+    index::TestField field_{
+        {31, 31, 31}, 1, index::ValueType::u8, [](double x, double y, double z, double) {
+            return 230 -
+                   14 * std::sqrt((x - 15) * (x - 15) + (y - 15) * (y - 15) + (z - 15) * (z - 15));
+        }};
+    CellPass pass_{gl_};
+};
+
+INSTANTIATE_TEST_SUITE_P(, MeshPassTest, both_contexts(), context_name);
+
+TEST_P(MeshPassTest, LooksLikeTheExactSurface) {
+    const auto set = extraction({90.5});
+    CellAppearance look;
+    EXPECT_LT(differing(draw(set, Footprint::mesh, look), draw(set, Footprint::surface, look)),
+              0.01);
+}
+
+TEST_P(MeshPassTest, ColorsOfCellsAreThoseOfTheExactSurface) {
+    const auto set = extraction({90.5, 150.5}, true);
+    Texture map(gl_, GL_TEXTURE_1D);
+    gl_.TextureStorage1D(map.name(), 1, GL_RGBA8, 2);
+    constexpr std::array<std::uint8_t, 8> kTexels{255, 0, 0, 255, 0, 0, 255, 255};
+    gl_.TextureSubImage1D(map.name(), 0, 0, 2, GL_RGBA, GL_UNSIGNED_BYTE, kTexels.data());
+    gl_.TextureParameteri(map.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    CellAppearance look;
+    look.values = {.map = map.name()};
+    // Cells end a little elsewhere.
+    EXPECT_LT(differing(draw(set, Footprint::mesh, look), draw(set, Footprint::surface, look)),
+              0.03);
+}
+
+TEST_P(MeshPassTest, InnerSurfacesShowThroughTranslucentOnes) {
+    const auto set = extraction({90.5, 150.5});
+    CellAppearance look;
+    look.surfaces[0] = {{0.2f, 0.9f, 0.3f}, 0.4f};
+    look.surfaces[1] = {{0.9f, 0.2f, 0.2f}, 1.0f};
+    look.linear_light = false;
+    const Image mesh = draw(set, Footprint::mesh, look);
+    EXPECT_GT(mesh.at(64, 64)[0], mesh.at(64, 64)[1]) << "the inner one is red";
+    EXPECT_LT(differing(mesh, draw(set, Footprint::surface, look)), 0.02);
+}
+
+TEST_P(MeshPassTest, WhatIsCutAwayIsThatOfTheExactSurface) {
+    const auto set = extraction({90.5});
+    CellAppearance look;
+    look.cut = glm::vec4(1, 0, 0, -16.3f);
+    const Image mesh = draw(set, Footprint::mesh, look);
+    EXPECT_GT(differing(mesh, draw(set, Footprint::mesh, {})), 0.02);
+    EXPECT_LT(differing(mesh, draw(set, Footprint::surface, look)), 0.01);
+}
+
+TEST_P(MeshPassTest, AMeshComesInPortionsAndIsShownWhole) {
+    const auto first = extraction({150.5}), second = extraction({90.5});
+    CellBuffers cells(gl_, field_.view().grid);
+    while (cells.shown() != first)
+        cells.upload(first, 1 << 16);
+    const std::size_t indices = cells.mesh().surfaces()[0].indices;
+    int frames = 0;
+    for (; cells.shown() != second; ++frames) {
+        EXPECT_EQ(cells.mesh().surfaces()[0].indices, indices);
+        const std::uint64_t before = cells.count().mesh_bytes;
+        cells.upload(second, 1 << 16);
+        EXPECT_LE(cells.count().mesh_bytes - before, 1u << 16);
+        ASSERT_LT(frames, 1000);
+    }
+    EXPECT_GT(frames, 1);
+    EXPECT_EQ(cells.mesh().surfaces()[0].indices, second->surfaces[0].mesh->triangles.size());
+}
+
+} // namespace
+} // namespace isochron::render

@@ -56,7 +56,8 @@ void QualityController::measured(Footprint footprint, const DrawLoad& load, Mill
     if (load.cells <= 0)
         return; // what it takes to draw nothing says nothing of cells
     Candidate& candidate = of(footprint);
-    if (std::exchange(sampled_, footprint) != footprint && cost > budget_) {
+    const bool first = !candidate.known && !candidate.failed;
+    if (std::exchange(sampled_, footprint) != footprint && (first || cost > budget_)) {
         candidate.sampled.reset(); // to be measured again
         return;
     }
@@ -231,8 +232,10 @@ bool QualityController::returns(Footprint footprint, const QualityInput& input) 
 /// Whether it is known that the footprint fits, or that it does not.
 bool QualityController::decided(Footprint footprint, const QualityInput& input) const {
     const Candidate& candidate = of(footprint);
+    // The present one may be known from another picture, and not be drawn again.
     return candidate.fits || candidate.failed ||
-           (candidate.known && *candidate.cost.predict(input.load) > kMargin * budget_);
+           (candidate.known &&
+            (footprint == current_ || *candidate.cost.predict(input.load) > kMargin * budget_));
 }
 
 void QualityController::fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {

@@ -55,11 +55,10 @@ void MeshBuffers::send_part(GLuint buffer, std::size_t at, std::span<const std::
 }
 
 std::size_t MeshBuffers::send(std::size_t bytes) {
-    const std::size_t most = std::max(bytes, kUnit);
     std::size_t sent = 0;
-    while (sent < most && !complete()) {
+    while (sent < bytes && !complete()) {
         const auto rest = pieces_[piece_].subspan(piece_sent_);
-        const auto part = rest.first(std::min(rest.size(), most - sent));
+        const auto part = rest.first(std::min(rest.size(), bytes - sent));
         if (sent_ < arriving_.vertex_bytes)
             send_part(arriving_.vertices.name(), sent_, part);
         else

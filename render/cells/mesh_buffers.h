@@ -22,7 +22,7 @@ class MeshBuffers {
 
     /// Begins with the meshes of a set, which lives until `show`; what was on its way is dropped.
     void begin(const index::Extraction& set);
-    /// Sends at most so many bytes of them, in units of kUnit. @return bytes sent
+    /// Sends at most so many bytes of them. @return bytes sent
     std::size_t send(std::size_t bytes);
     bool complete() const { return sent_ == arriving_.bytes(); }
     /// What has been sent is what is drawn from now on.
@@ -37,7 +37,6 @@ class MeshBuffers {
     GLuint indices() const { return shown_.indices.name(); }
 
   private:
-    static constexpr std::size_t kUnit = 1 << 16;
     struct Held {
         explicit Held(const Gl& gl) : vertices(gl), indices(gl) {}
         std::size_t bytes() const { return vertex_bytes + index_bytes; }

@@ -283,7 +283,7 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
         prepare_walls(config, job, options.emulate);
         if (job.leads())
             open_trackers(config, trackers);
-        file = open_index_to_show(*options.data);
+        file = open_index_to_show(*options.data, config.cache_bytes());
         if (job.leads())
             check_start(options, *file);
         check_outputs(options, job);
@@ -345,7 +345,7 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
         memory.set_introduced();
     print_status(live);
     if (options.report)
-        session.log().write(job.own_file(*options.report), session.drawing());
+        session.log().write(job.own_file(*options.report), session.drawing(), session.reading());
     job.finish();
     if (options.record && job.leads())
         fmt::print(stderr, "recording: {}\n", *options.record);

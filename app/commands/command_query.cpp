@@ -91,6 +91,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
     const index::SeriesInfo& info = file.info();
     const std::uint64_t active = result.set->ids.size();
     const std::uint64_t false_positives = result.set->candidates - active;
+    const index::ReadUse reading = file.reading();
     nlohmann::ordered_json j{
         {"file", arguments.file.string()},
         {"step", arguments.step},
@@ -110,6 +111,12 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
         {"cold_shading_ms", result.cold.shading.count()},
         {"resident_bytes", result.usage.resident_bytes},
         {"read_bytes", result.usage.read_bytes},
+        {"reading",
+         {{"bytes", reading.bytes},
+          {"hits", reading.hits},
+          {"misses", reading.misses},
+          {"held", reading.held},
+          {"budget", reading.budget}}},
         {"repetitions", arguments.repeats}};
     if (arguments.repeats > 0) {
         j["search_ms"] = result.warm.search.count();

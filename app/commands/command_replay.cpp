@@ -138,7 +138,7 @@ Prepared prepare(const Options& options, const ClusterJob& job) {
     all.config = config_of(options, all.recording.header);
     all.names = picture_names(all.config.installation);
     prepare_walls(all.config, job, options.emulate);
-    all.file = data_of(options, all.recording.header);
+    all.file = data_of(options, all.recording.header, all.config);
     all.replay = replay_options(options);
     all.replay.from_devices = options.from_devices;
     return all;
@@ -201,7 +201,7 @@ void replay(const Options& options, ClusterJob& job) {
     for (const fs::path& path : written)
         fmt::print("wrote {}\n", path.string());
     if (options.report)
-        session.log().write(job.own_file(*options.report), session.drawing());
+        session.log().write(job.own_file(*options.report), session.drawing(), session.reading());
     job.finish();
     if (!job.leads())
         return;

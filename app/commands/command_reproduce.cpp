@@ -104,12 +104,12 @@ struct MadePicture {
 };
 
 MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
-    const auto file = open_index_to_show(data_path(options, note));
+    const Config config = config_for(options, note);
+    const auto file = open_index_to_show(data_path(options, note), config.cache_bytes());
     if (data_hash_of(*file) != note.data_hash)
         throw interaction::Error(
             fmt::format("{}: made of other data: expected hash {}, {} has {}", options.picture,
                         note.data_hash, data_path(options, note).string(), data_hash_of(*file)));
-    const Config config = config_for(options, note);
     Session session(config, file, windows_for(config, note));
     ExplorerState state = session.state();
     if (!state.apply(note.state, file->info().steps()))

@@ -8,9 +8,10 @@
 
 namespace isochron::app {
 
-std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path) {
+std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
+                                                   std::uint64_t cache_bytes) {
     try {
-        auto file = index::IndexFile::open(path);
+        auto file = index::IndexFile::open(path, cache_bytes);
         if (const auto lost = file->lost_state())
             fmt::print(stderr, "isochron: {}\n", *lost);
         return file;
@@ -25,8 +26,9 @@ std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& 
     }
 }
 
-std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path) {
-    auto file = open_index(path);
+std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,
+                                                           std::uint64_t cache_bytes) {
+    auto file = open_index(path, cache_bytes);
     if (const index::Grid& grid = file->info().grid; index::has_wide_ids(grid))
         throw index::Error(
             fmt::format("{}: {} cells, expected fewer than 2^32; isochron query finds "

@@ -82,7 +82,8 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
 }
 
 std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
-                                                const interaction::RecordingHeader& header) {
+                                                const interaction::RecordingHeader& header,
+                                                const Config& config) {
     std::string path = options.data.value_or(header.data);
     std::error_code ignored;
     if (!options.data && !fs::exists(path, ignored)) {
@@ -94,7 +95,7 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                 fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
                             options.recording, header.data));
     }
-    auto file = open_index_to_show(path);
+    auto file = open_index_to_show(path, config.cache_bytes());
     if (!options.any_data && !other_data(header, *file).empty())
         throw interaction::Error(
             fmt::format("{}: recorded on other data: expected hash {}, {} has {} "

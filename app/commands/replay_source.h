@@ -33,7 +33,8 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
 
 /// @throws index::Error, interaction::Error when they are not there, or others
 std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
-                                                const interaction::RecordingHeader& header);
+                                                const interaction::RecordingHeader& header,
+                                                const Config& config);
 
 /// The file name of these data, without its folder.
 std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header);

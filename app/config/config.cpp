@@ -156,6 +156,9 @@ void read_root(TomlReader& reader, Config& config) {
     reader.table("lighting", [&](TomlReader& inner) { read_lighting(inner, config.appearance); });
     reader.table("coloring", [&](TomlReader& inner) { read_coloring(inner, config.coloring); });
     read_surfaces(reader, config);
+    reader.table("memory", [&](TomlReader& inner) {
+        inner.integer("cache_megabytes", 0, 1 << 24, config.cache_megabytes);
+    });
     reader.table("placement", [&](TomlReader& inner) { read_placement(inner, config.placement); });
 }
 

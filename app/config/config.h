@@ -70,12 +70,16 @@ struct Config {
     render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< whose ways cells are drawn in
     int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
     int picture_samples = 0;  ///< likewise of pictures that are written; 0: 4, or more on displays
+    int cache_megabytes = 0;  ///< what is kept of the index; 0: a quarter of what there may be
     bool bounding_box = true; ///< with ticks and numbers
     bool wand_ray = true;
     bool picture_ray = false;     ///< pictures that are written show it, too
     bool picture_caption = false; ///< and say isovalue and time
     /// Nobody looks on: what is drawn is written, so that each picture is drawn once, as it is kept.
     bool only_kept = false;
+
+    /// As IndexFile::open takes it.
+    std::uint64_t cache_bytes() const { return std::uint64_t(cache_megabytes) << 20; }
 };
 
 /// @param name stands before the line number in messages

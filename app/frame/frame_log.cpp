@@ -135,7 +135,8 @@ double FrameLog::frames_per_second(std::size_t count) const {
     return span.count() > 0 ? static_cast<double>(frames - 1) / span.count() : 0;
 }
 
-void FrameLog::write(const std::filesystem::path& path, const std::string& context) const {
+void FrameLog::write(const std::filesystem::path& path, const std::string& context,
+                     const index::ReadUse& reading) const {
     nlohmann::json report{{"program", kProgram}, {"context", context}, {"frames", frames_.size()}};
     for (const auto& [name, member] : kStages)
         report["milliseconds"][name] = summary_json(stage(member));
@@ -145,6 +146,11 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
     for (const render::Footprint footprint : kFootprints)
         report["footprints"][name_of(footprint)] = frames_with(footprint);
     report["uploaded"] = upload_json(uploaded());
+    report["reading"] = {{"bytes", reading.bytes},
+                         {"hits", reading.hits},
+                         {"misses", reading.misses},
+                         {"held", reading.held},
+                         {"budget", reading.budget}};
     nlohmann::json& rows = report["rows"] = nlohmann::json::array();
     for (const FrameReport& frame : frames_) {
         nlohmann::json row{{"t", frame.time.count()},

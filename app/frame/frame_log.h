@@ -4,6 +4,7 @@
 #include "app/frame/device_tracking.h"
 #include "app/frame/milliseconds.h"
 #include "app/frame/quality_controller.h"
+#include "index/file/read_use.h"
 #include "index/volume/query.h"
 #include "interaction/comfort.h"
 #include "interaction/motion_gate.h"
@@ -78,8 +79,10 @@ class FrameLog {
 
     /// JSON with a summary per stage and a row per frame, under a temporary name, renamed.
     /// @param context description of the GL context, for the reader
+    /// @param reading of the index, since it was opened
     /// @throws index::Error
-    void write(const std::filesystem::path& path, const std::string& context) const;
+    void write(const std::filesystem::path& path, const std::string& context,
+               const index::ReadUse& reading) const;
 
     /// Of all frames.
     render::UploadCount uploaded() const;

@@ -181,7 +181,8 @@ void time_section(const PanelModel& model, Commands& commands) {
     const std::string format = fmt::format("step {} of {}", step + 1, last + 1);
     if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
         commands.step = static_cast<std::uint32_t>(step);
-    tip("step that is shown (Left, Right)");
+    tip("step that is shown (Left, Right); marked below: those that are at hand");
+    mark_steps_at_hand(model, last);
     const auto& shown = model.frame.shown;
     asked_and_shown("time", with_unit(times[model.asked.step], model.info.time_unit),
                     shown ? with_unit(times[shown->step], model.info.time_unit) : "nothing yet");
@@ -264,6 +265,12 @@ void measurements(const PanelModel& model) {
          kDim);
     note(fmt::format("search {:.2f} ms   bricks {:.2f} ms", frame.search.count(),
                      frame.gather.count()),
+         kDim);
+    const index::ReadUse& use = model.reading;
+    note(fmt::format("read {}   kept {} of {}   {} of {} at hand",
+                     human_bytes(static_cast<double>(use.bytes)),
+                     human_bytes(static_cast<double>(use.held)),
+                     human_bytes(static_cast<double>(use.budget)), use.hits, use.hits + use.misses),
          kDim);
     note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms", model.frames_per_second,
                      model.frame_times.median, model.frame_times.p99),

@@ -3,6 +3,7 @@
 
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
+#include "index/file/read_use.h"
 #include "interaction/actions.h"
 #include "interaction/control_context.h"
 
@@ -30,7 +31,9 @@ struct PanelModel {
     const FrameReport& frame;
     TimeSummary frame_times; ///< of the last frames
     double frames_per_second = 0;
-    bool searching = false; ///< the worker has not answered yet
+    index::ReadUse reading{};                   ///< of the index, since it was opened
+    std::vector<std::uint32_t> at_hand_steps{}; ///< that are shown without a search
+    bool searching = false;                     ///< the worker has not answered yet
     bool recording = false;
     std::string failure;      ///< of the worker; empty when all is well
     std::string message;      ///< newest note, such as a saved screenshot

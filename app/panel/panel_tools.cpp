@@ -63,6 +63,20 @@ void clip_buttons(const PanelModel& model, Commands& commands) {
 
 } // namespace
 
+void mark_steps_at_hand(const PanelModel& model, int last) {
+    // What is at hand differs from wall to wall, and one step is nothing to tell.
+    if (model.place == PanelPlace::in_room || model.at_hand_steps.size() < 2)
+        return;
+    constexpr float kHeight = 3.0f;
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const float width = (high.x - low.x) / static_cast<float>(last + 1);
+    for (const std::uint32_t step : model.at_hand_steps) {
+        const float left = low.x + width * static_cast<float>(step);
+        ImGui::GetWindowDrawList()->AddRectFilled({left, high.y - kHeight}, {left + width, high.y},
+                                                  ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+    }
+}
+
 void history_section(const PanelModel& model, Commands& commands) {
     step_button("Undo", "take back what changed last (Ctrl + Z)", model.undo, commands);
     ImGui::SameLine();

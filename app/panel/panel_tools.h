@@ -13,6 +13,9 @@ namespace isochron::app {
 void history_section(const PanelModel& model, interaction::Commands& commands);
 /// The tools of mouse and hands, and what they have made.
 void tools_section(const PanelModel& model, interaction::Commands& commands);
+/// Says which steps are shown without a search, below the slider that has just been laid out.
+/// @param last step
+void mark_steps_at_hand(const PanelModel& model, int last);
 /// What stands in the picture as long as it is true, and the newest message for a while, at its
 /// bottom. @param age of the message
 void message_window(const std::string& standing, const std::string& message,

@@ -39,7 +39,8 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       comfort_(config_.comfort),
       extractor_(extract ? std::move(extract)
                          : index::extract_from_newest(
-                               newest_, render::CellBuffers::wanted_shading(outputs_.gl()))),
+                               newest_, render::CellBuffers::wanted_shading(outputs_.gl())),
+                 file_->cache_bytes() / 2),
       scene_(outputs_.gl(), file_->info(), config_),
       panel_(outputs_.gl(), outputs_.windows(), config_.panel.font_scale),
       room_panel_(outputs_.gl(), config_.panel), picker_(file_),
@@ -132,9 +133,11 @@ Commands Session::commands_from(const interaction::InputState& input) {
 void Session::request_cells(Waiting waiting) {
     index::Request request{frames_->ask(state_.surfaces(), waiting), std::nullopt};
     const auto steps = static_cast<std::uint32_t>(this->steps());
-    if (state_.playback.playing && steps > 1)
-        request.next_step =
-            (request.query.step + (state_.playback.reverse ? steps - 1 : 1)) % steps;
+    if (state_.playback.playing && steps > 1) {
+        const bool reverse = state_.playback.reverse;
+        request.ahead = index::StepsAhead{(request.query.step + (reverse ? steps - 1 : 1)) % steps,
+                                          steps, reverse};
+    }
     extractor_.request(request);
 }
 

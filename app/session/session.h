@@ -115,6 +115,8 @@ class Session {
     const FrameLog& log() const { return log_; }
     /// The context and its driver, and what that was found not to do, for reports; one line.
     std::string drawing() const;
+    /// What reading the index has come to.
+    index::ReadUse reading() const { return file_->reading(); }
 
   private:
     /// Everything that the eyes' pictures depend on.

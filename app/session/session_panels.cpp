@@ -53,6 +53,8 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .frame = report,
             .frame_times = log_.stage(&FrameReport::total, kShownFrames),
             .frames_per_second = log_.frames_per_second(kShownFrames),
+            .reading = file_->reading(),
+            .at_hand_steps = extractor_.at_hand(),
             .searching = extractor_.busy(),
             .recording = recording_,
             .failure = failure(),

@@ -44,8 +44,9 @@ CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& c
 
 std::uint64_t CellTier::held_bytes() const {
     std::uint64_t bytes = 0;
-    for (const auto& pages : *pages_)
-        bytes += pages->held();
+    if (pages_)
+        for (const auto& pages : *pages_)
+            bytes += pages->held();
     return bytes;
 }
 

@@ -44,6 +44,9 @@ class CellTier {
     /// more has been read than the budget allows, and nobody else holds it, makes it begin anew.
     std::shared_lock<std::shared_mutex> hold() const;
 
+    /// Bytes of its pages that are in memory.
+    std::uint64_t held_bytes() const;
+
     bool has_deltas() const { return !deltas_.empty(); }
 
     /// Appends the active cells, and apart from them those that only the volume decides.
@@ -99,7 +102,6 @@ class CellTier {
         if (pages_)
             (*pages_)[epoch]->need(bytes);
     }
-    std::uint64_t held_bytes() const;
 
     std::uint32_t epoch_steps(std::uint32_t epoch) const;
     TimePath path_to(std::uint32_t step) const;

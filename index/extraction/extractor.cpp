@@ -1,10 +1,7 @@
 // The one background worker.
 #include "index/extraction/extractor.h"
 
-#include <algorithm>
-#include <bit>
 #include <condition_variable>
-#include <deque>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -12,44 +9,11 @@
 namespace isochron::index {
 namespace {
 
-/// Bitwise, so that a NaN equals itself: otherwise asking for one again would be something new.
-bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b) {
-    return a.coloring == b.coloring &&
-           std::ranges::equal(a.isovalues, b.isovalues, {}, std::bit_cast<std::uint64_t, double>,
-                              std::bit_cast<std::uint64_t, double>);
-}
 bool same(const SurfacesQuery& a, const SurfacesQuery& b) {
     return a.step == b.step && same_but_for_step(a, b);
 }
 
 } // namespace
-
-/// The newest few extractions, of answers and of prefetches.
-class RecentExtractions {
-  public:
-    ExtractionPtr find(const SurfacesQuery& query) const {
-        for (const ExtractionPtr& known : kept_)
-            if (same(known->query, query))
-                return known;
-        return nullptr;
-    }
-
-    std::deque<ExtractionPtr> take_all() { return std::exchange(kept_, {}); }
-
-    /// @return the one that had to go, for the caller to free where it does not hold anybody up
-    ExtractionPtr add(ExtractionPtr extraction) {
-        kept_.push_front(std::move(extraction));
-        if (kept_.size() <= kKept)
-            return nullptr;
-        ExtractionPtr oldest = std::move(kept_.back());
-        kept_.pop_back();
-        return oldest;
-    }
-
-  private:
-    static constexpr std::size_t kKept = 3; ///< shown, prefetched, and one for stepping back
-    std::deque<ExtractionPtr> kept_;
-};
 
 struct Extractor::State {
     struct Job {
@@ -63,17 +27,18 @@ struct Extractor::State {
         std::string failure;      ///< empty unless failed
     };
 
-    explicit State(Extract e) : extract(std::move(e)) {}
+    State(Extract e, std::uint64_t room) : extract(std::move(e)), recent(room) {}
 
-    SurfacesQuery prefetched_query() const {
+    /// What is to be prefetched, if anything.
+    std::optional<SurfacesQuery> prefetch_wanted() const {
+        if (!wanted || !wanted->ahead || in_flux || prefetch_done)
+            return {};
+        const auto step = recent.missing(wanted->query, *wanted->ahead);
+        if (!step)
+            return {};
         SurfacesQuery query = wanted->query;
-        query.step = *wanted->next_step;
+        query.step = *step;
         return query;
-    }
-
-    bool prefetch_wanted() const {
-        return wanted && wanted->next_step && !in_flux && !prefetch_done &&
-               !recent.find(prefetched_query());
     }
     bool has_work() const { return (wanted && !answered) || prefetch_wanted(); }
 
@@ -103,7 +68,7 @@ void Extractor::State::work(const std::stop_token& stop) {
         if (stop.stop_requested())
             return;
         const bool prefetch = answered;
-        const SurfacesQuery query = prefetch ? prefetched_query() : wanted->query;
+        const SurfacesQuery query = prefetch ? *prefetch_wanted() : wanted->query;
         if (ExtractionPtr known =
                 recent.find(query)) { // only an answer: known prefetches are no work
             answered = true;
@@ -137,38 +102,45 @@ Extractor::State::Outcome Extractor::State::run(const Job& job) {
 }
 
 void Extractor::State::finish(const Job& job, const Outcome& outcome) {
-    ExtractionPtr dropped, replaced = outcome.extraction; // freed after the lock
+    ExtractionPtr replaced = outcome.extraction; // freed after the lock
+    RecentExtractions::Dropped dropped;
     {
         const std::scoped_lock lock(mutex);
         running.reset();
         const bool stopped = job.stop.stop_requested();
         const bool is_answer = same(job.query, wanted->query) && !answered;
+        // What was asked for before something that was at hand comes too late.
+        const bool shows = is_answer || (!job.prefetch && !answered);
         if (job.times_forgotten != times_forgotten) {
             // Begun before `forget`: whatever came of it is not wanted.
         } else if (outcome.extraction) {
-            dropped = recent.add(outcome.extraction);
+            dropped = recent.add(outcome.extraction, wanted->ahead);
             if (is_answer)
                 answered = true;
-            if (is_answer || !job.prefetch) {
+            if (shows) {
                 failure.reset();
                 shown.swap(replaced);
             }
         } else if (!outcome.failure.empty() && !stopped) {
             // A failed prefetch is not reported: nobody has asked to see that step yet.
-            if (is_answer || !job.prefetch)
+            if (shows)
                 failure = outcome.failure;
             if (is_answer)
                 answered = true;
         }
-        if (job.prefetch && !stopped)
-            prefetch_done = wanted->next_step == job.query.step;
+        // Once is enough: of a step that fails, and of a single one.
+        if (job.prefetch && !stopped && wanted->ahead)
+            prefetch_done = outcome.extraction
+                                ? wanted->ahead->steps == 0 && wanted->ahead->next == job.query.step
+                                : same_but_for_step(job.query, wanted->query);
         if (!job.prefetch)
             abandoned = !outcome.extraction && stopped;
     }
     changed.notify_all();
 }
 
-Extractor::Extractor(Extract extract) : state_(std::make_unique<State>(std::move(extract))) {
+Extractor::Extractor(Extract extract, std::uint64_t room)
+    : state_(std::make_unique<State>(std::move(extract), room)) {
     state_->worker =
         std::jthread([state = state_.get()](std::stop_token stop) { state->work(stop); });
 }
@@ -187,20 +159,29 @@ Extractor::~Extractor() {
 
 void Extractor::request(const Request& request) {
     std::optional<std::stop_source>
-        stop; // used after the lock: it may run callbacks of the extraction
+        stop;            // used after the lock: it may run callbacks of the extraction
+    ExtractionPtr known; // and what was shown is freed there
     {
         const std::scoped_lock lock(state_->mutex);
         State& s = *state_;
         const bool same_query = s.wanted && same(s.wanted->query, request.query);
         const bool was_in_flux = std::exchange(
             s.in_flux, s.wanted && !same_but_for_step(s.wanted->query, request.query));
-        if (same_query && s.wanted->next_step == request.next_step && !was_in_flux)
+        if (same_query && s.wanted->ahead == request.ahead && !was_in_flux)
             return;
         s.wanted = request;
         s.prefetch_done = false;
         if (!same_query) {
-            s.answered = false;
-            const bool obsolete = s.running && !same(s.running->query, request.query);
+            known = s.recent.find(request.query);
+            s.answered = known != nullptr;
+            if (known) {
+                s.failure.reset();
+                s.shown.swap(known);
+            }
+            // What is prefetched for the same surfaces is still wanted where this is at hand.
+            const bool going_on = s.answered && s.running && s.running->prefetch &&
+                                  same_but_for_step(s.running->query, request.query);
+            const bool obsolete = s.running && !going_on && !same(s.running->query, request.query);
             if (obsolete && (s.running->prefetch || !s.abandoned))
                 stop = s.running->stop;
         }
@@ -211,7 +192,7 @@ void Extractor::request(const Request& request) {
 }
 
 void Extractor::forget() {
-    std::deque<ExtractionPtr> freed; // after the lock
+    RecentExtractions::Dropped freed; // after the lock
     std::optional<std::stop_source> stop;
     {
         const std::scoped_lock lock(state_->mutex);
@@ -230,6 +211,12 @@ void Extractor::forget() {
 ExtractionPtr Extractor::newest() const {
     const std::scoped_lock lock(state_->mutex);
     return state_->shown;
+}
+
+std::vector<std::uint32_t> Extractor::at_hand() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->wanted ? state_->recent.steps(state_->wanted->query)
+                          : std::vector<std::uint32_t>();
 }
 
 std::optional<std::string> Extractor::failure() const {

@@ -55,8 +55,11 @@ LayerSearch::LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t leve
 bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, const Work& work,
                                  const std::stop_token& stop) {
     const std::uint32_t layers = StepSlab::layers(store_.info().grid);
-    ReadAhead ahead(layers,
-                    [&](std::uint32_t layer) { return store_.expect(step, layer, places(layer)); });
+    ReadAhead ahead(layers, [&](std::uint32_t layer) {
+        if (stop.stop_requested())
+            throw Stopped();
+        return store_.expect(step, layer, places(layer));
+    });
     try {
         parallel_for(layers, static_cast<unsigned>(slabs_.size()),
                      [&](std::size_t at, unsigned worker) {

@@ -180,6 +180,8 @@ bool BrickGatherer::gather(const ChunkStore& chunks, std::uint32_t number,
             chunks.expect(number, at_layer, places);
             const auto found = chunks.chunks(number, at_layer, places, stop);
             for (auto brick = first; brick != last; ++brick) {
+                if ((brick - first) % 256 == 0 && stop.stop_requested())
+                    return;
                 const auto place = std::ranges::lower_bound(places, place_of(*brick));
                 const Chunk& chunk = *found[static_cast<std::size_t>(place - places.begin())];
                 auto corner = at(*brick);

@@ -54,6 +54,11 @@ class ByteCache {
     /// Which of them are held; counts as no use of them.
     std::vector<bool> held(std::span<const Key> keys) const;
     Use use() const;
+    /// Changes the budget; what is held is dropped when something is added.
+    void limit(std::uint64_t budget) {
+        const std::scoped_lock lock(mutex_);
+        use_.budget = budget;
+    }
 
   private:
     struct Hash {

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace isochron::index {
 namespace {
@@ -269,11 +270,21 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
         std::vector<std::uint32_t> places(grid_.chunks_of_layer());
         for (std::uint32_t place = 0; place < places.size(); ++place)
             places[place] = place;
-        ReadAhead ahead(grid_.layers(),
-                        [&](std::uint32_t layer) { return expect(step, layer, places); });
+        // Threads take time to start: not for the smallest steps.
+        const bool small = stride <= kSmallStep;
+        std::optional<ReadAhead> ahead;
+        if (small)
+            source_.expect(array_.steps[step].offset, array_.steps[step].bytes);
+        else
+            ahead.emplace(grid_.layers(), [&](std::uint32_t layer) {
+                if (stop.stop_requested())
+                    throw Stopped();
+                return expect(step, layer, places);
+            });
         const auto take = [&](std::size_t at, unsigned) {
             const auto layer = static_cast<std::uint32_t>(at);
-            ahead.reach(layer);
+            if (ahead)
+                ahead->reach(layer);
             const ChunkLayerPtr table = this->layer(step, layer);
             read_records(
                 *table, places, stop, [&](std::size_t i, std::span<const std::byte> record) {
@@ -291,8 +302,7 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
                         }
                 });
         };
-        // Threads take time to start: not for the smallest steps.
-        parallel_for(grid_.layers(), stride > kSmallStep ? thread_count(0) : 1, take, {});
+        parallel_for(grid_.layers(), small ? 1 : thread_count(0), take, {});
         cache_.add(key(whole_kept, step), all, stride + all->bricks.size());
         held = all;
     }

@@ -204,7 +204,9 @@ void IndexFile::set_cells() {
         stats.deltas_bytes += unit.deltas_bytes;
         stats.cell_entries += unit.entries;
     }
-    cells_.emplace(Chunking(grid), held, cells, deltas, &units_, cache_bytes_);
+    // What may be kept is for both.
+    cells_.emplace(Chunking(grid), held, cells, deltas, &units_, cache_bytes_ / 2);
+    cache_.limit(cache_bytes_ - cache_bytes_ / 2);
 }
 
 std::span<const std::uint64_t> IndexFile::color_checksums() const {
@@ -214,6 +216,15 @@ std::span<const std::uint64_t> IndexFile::color_checksums() const {
 }
 std::span<const std::uint64_t> IndexFile::source_states() const {
     return std::span(checksums_).last(steps());
+}
+
+ReadUse IndexFile::reading() const {
+    const ByteCache::Use use = cache_.use();
+    return {.bytes = bytes_->bytes_read(),
+            .hits = use.hits,
+            .misses = use.misses,
+            .held = use.held + (cells_ ? cells_->held_bytes() : 0),
+            .budget = cache_bytes_};
 }
 
 LoadedStep IndexFile::load(std::uint32_t step, const std::stop_token& stop) const {

@@ -8,6 +8,7 @@
 #include "index/file/file_layout.h"
 #include "index/file/index_contents.h"
 #include "index/file/metadata.h"
+#include "index/file/read_use.h"
 #include "index/file/step_source.h"
 #include "index/progress.h"
 #include "index/system/byte_source.h"
@@ -116,6 +117,10 @@ class IndexFile {
     std::span<const std::uint64_t> source_states() const;
     /// What is kept of the values, and what it may take.
     ByteCache::Use cache() const { return cache_.use(); }
+    /// What all that is kept of the file may take.
+    std::uint64_t cache_bytes() const { return cache_bytes_; }
+    /// What has been read since it was opened, and what was at hand.
+    ReadUse reading() const;
 
     /// Compares every checksum; reads the whole file, and the sources that it refers to.
     /// @throws Error naming the damaged section

@@ -10,7 +10,7 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
         const FileHeader now = checked_header(*open_bytes(path));
         if (now.content_hash == known.content_hash())
             return nullptr;
-        auto file = IndexFile::open(path);
+        auto file = IndexFile::open(path, known.cache_bytes());
         return file->info().steps() > known.info().steps() &&
                        file->has_had(known.content_hash(), known.info().steps())
                    ? file

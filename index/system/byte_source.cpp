@@ -51,6 +51,7 @@ void ByteSource::read(std::uint64_t offset, std::span<std::byte> out) const {
             throw Error(fmt::format("{}: truncated: nothing at byte {}, it had {} bytes when it "
                                     "was opened",
                                     name(), offset, size()));
+        bytes_read_ += count;
         offset += count;
         out = out.subspan(count);
     }

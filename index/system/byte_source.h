@@ -1,6 +1,7 @@
 // The one way to the bytes of an index: read by position, never mapped.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +22,8 @@ class ByteSource {
     /// Reads the bytes from `offset` on, all of them.
     /// @throws Error: what the system said, or that the file has become shorter
     void read(std::uint64_t offset, std::span<std::byte> out) const;
+    /// Bytes that `read` has given so far.
+    std::uint64_t bytes_read() const { return bytes_read_; }
     /// Says that these bytes are wanted soon, so that the disk works on many requests at once.
     virtual void expect(std::uint64_t /*offset*/, std::uint64_t /*bytes*/) const {}
 
@@ -28,6 +31,9 @@ class ByteSource {
     /// Reads some of the bytes. @return how many; 0 at the end of the file
     /// @throws Error naming the file
     virtual std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const = 0;
+
+  private:
+    mutable std::atomic<std::uint64_t> bytes_read_{0};
 };
 
 /// @throws Error: missing, unreadable, not a regular file

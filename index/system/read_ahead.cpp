@@ -1,8 +1,6 @@
 // How far ahead: enough for a disk to be busy, little enough to be still there when it is wanted.
 #include "index/system/read_ahead.h"
 
-#include "index/error.h"
-
 #include <utility>
 
 namespace isochron::index {
@@ -30,7 +28,7 @@ void ReadAhead::run(const std::stop_token& stop) {
         std::uint64_t bytes = 0;
         try {
             bytes = ask_(part);
-        } catch (const Error&) {
+        } catch (...) {
             return;
         }
         lock.lock();

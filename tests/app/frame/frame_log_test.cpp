@@ -52,9 +52,14 @@ TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
     last.latency = Milliseconds(12.5);
     log.add(last);
     log.set_gpu(2, Milliseconds(6.5));
-    log.write(folder.path() / "report.json", "a context");
+    log.write(folder.path() / "report.json", "a context",
+              {.bytes = 4000, .hits = 30, .misses = 10, .held = 3000, .budget = 5000});
     const auto report = nlohmann::json::parse(folder.read("report.json"));
     EXPECT_EQ(report["missed"], 3);
+    EXPECT_EQ(
+        report["reading"],
+        (nlohmann::json{
+            {"bytes", 4000}, {"hits", 30}, {"misses", 10}, {"held", 3000}, {"budget", 5000}}));
     EXPECT_EQ(report["footprints"],
               (nlohmann::json{{"quad", 1}, {"gaussian", 2}, {"mesh", 0}, {"surface", 0}}));
     EXPECT_EQ(report["milliseconds"]["gpu"]["worst"], 6.5);

@@ -155,7 +155,7 @@ TEST_F(ColoredExtraction, AChangeOfColoringIsANewQueryAlsoForThePrefetch) {
          {CellColoring::none, CellColoring::value, CellColoring::first_crossing}) {
         for (const std::uint32_t step : {0u, 1u}) {
             const SurfacesQuery query{step, {0.1}, coloring};
-            extractor.request({.query = query, .next_step = step + 1});
+            extractor.request({.query = query, .ahead = StepsAhead{step + 1}});
             extractor.wait();
             EXPECT_EQ(extractor.newest()->query, query);
         }
@@ -272,7 +272,8 @@ TEST(Extraction, IsMadeByTheWorkerAndReadByOthers) {
     const TestField field({24, 24, 24}, 6, ValueType::u8, moving_sphere);
     Extractor extractor(extract_from(indexed(folder, field.view())));
     for (std::uint32_t i = 0; i < 60; ++i) {
-        extractor.request({.query = {i % 6, {100.0, 150.0 + i % 3}}, .next_step = (i + 1) % 6});
+        extractor.request(
+            {.query = {i % 6, {100.0, 150.0 + i % 3}}, .ahead = StepsAhead{(i + 1) % 6}});
         if (const ExtractionPtr newest = extractor.newest()) {
             ASSERT_EQ(newest->surfaces.size(), 2u);
             ASSERT_EQ(newest->bricks.digests.size(), newest->bricks.ids.size());

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <latch>
@@ -12,6 +13,7 @@
 #include <random>
 #include <semaphore>
 #include <thread>
+#include <vector>
 
 namespace isochron::index {
 namespace {
@@ -61,7 +63,7 @@ TEST(Extractor, AnswersWhatIsAsked) {
     EXPECT_EQ(extractor.newest(), nullptr);
     EXPECT_FALSE(extractor.busy());
     extractor.wait(); // nothing asked: nothing to wait for
-    extractor.request({.query = {7, {1.5}}, .next_step = {}});
+    extractor.request({.query = {7, {1.5}}, .ahead = {}});
     extractor.wait();
     ASSERT_NE(extractor.newest(), nullptr);
     EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{7, {1.5}}));
@@ -71,7 +73,7 @@ TEST(Extractor, AnswersWhatIsAsked) {
 TEST(Extractor, WhatIsForgottenIsAnsweredAnewAlsoWhileItIsBeingFound) {
     HeldExtraction held(false); // gives what it found although it was stopped
     Extractor extractor(held.extract());
-    extractor.request({.query = {3, {1.0}}, .next_step = {}});
+    extractor.request({.query = {3, {1.0}}, .ahead = {}});
     held.wait_until_started();
     held.let_go();
     extractor.wait();
@@ -93,10 +95,10 @@ TEST(Extractor, WhatIsForgottenIsAnsweredAnewAlsoWhileItIsBeingFound) {
 TEST(Extractor, TheLatestRequestWins) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {0, {1.0}}, .next_step = {}});
+    extractor.request({.query = {0, {1.0}}, .ahead = {}});
     held.wait_until_started();
     for (std::uint32_t step = 1; step <= 5; ++step)
-        extractor.request({.query = {step, {1.0}}, .next_step = {}});
+        extractor.request({.query = {step, {1.0}}, .ahead = {}});
     held.let_go(2);
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query.step, 5u);
@@ -107,13 +109,13 @@ TEST(Extractor, TheLatestRequestWins) {
 TEST(Extractor, AfterAnAbandonedSearchTheNextIsFinishedAndShown) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {0, {1.0}}, .next_step = {}});
+    extractor.request({.query = {0, {1.0}}, .ahead = {}});
     held.wait_until_started();
-    extractor.request({.query = {1, {1.0}}, .next_step = {}}); // abandons step 0
+    extractor.request({.query = {1, {1.0}}, .ahead = {}}); // abandons step 0
     held.let_go();
     held.wait_until_started(); // step 1
     EXPECT_EQ(extractor.newest(), nullptr);
-    extractor.request({.query = {2, {1.0}}, .next_step = {}}); // does not abandon step 1
+    extractor.request({.query = {2, {1.0}}, .ahead = {}}); // does not abandon step 1
     held.let_go();
     held.wait_until_started(); // step 2; step 1 is shown meanwhile
     ASSERT_NE(extractor.newest(), nullptr);
@@ -127,15 +129,15 @@ TEST(Extractor, AfterAnAbandonedSearchTheNextIsFinishedAndShown) {
 TEST(Extractor, APrefetchedStepIsAnsweredWithoutAnotherSearch) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {3, {1.0}}, .next_step = 4});
+    extractor.request({.query = {3, {1.0}}, .ahead = StepsAhead{4}});
     held.let_go(2);
     held.wait_until_started();
     held.wait_until_started(); // the prefetch
-    extractor.request({.query = {4, {1.0}}, .next_step = {}});
+    extractor.request({.query = {4, {1.0}}, .ahead = {}});
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query.step, 4u);
     EXPECT_EQ(held.calls(4), 1);
-    extractor.request({.query = {3, {1.0}}, .next_step = {}});
+    extractor.request({.query = {3, {1.0}}, .ahead = {}});
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query.step, 3u);
     EXPECT_EQ(held.calls(3), 1) << "stepping back is answered from the recent sets too";
@@ -144,11 +146,11 @@ TEST(Extractor, APrefetchedStepIsAnsweredWithoutAnotherSearch) {
 TEST(Extractor, ARunningPrefetchOfTheRequestedStepGoesOn) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {3, {1.0}}, .next_step = 4});
+    extractor.request({.query = {3, {1.0}}, .ahead = StepsAhead{4}});
     held.let_go();
     held.wait_until_started();
     held.wait_until_started(); // the prefetch is now held
-    extractor.request({.query = {4, {1.0}}, .next_step = {}});
+    extractor.request({.query = {4, {1.0}}, .ahead = {}});
     EXPECT_TRUE(extractor.busy());
     held.let_go();
     extractor.wait();
@@ -159,14 +161,44 @@ TEST(Extractor, ARunningPrefetchOfTheRequestedStepGoesOn) {
 TEST(Extractor, APrefetchGivesWayToARequest) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {3, {1.0}}, .next_step = 4});
+    extractor.request({.query = {3, {1.0}}, .ahead = StepsAhead{4}});
     held.let_go();
     held.wait_until_started();
     held.wait_until_started(); // the prefetch is now held
-    extractor.request({.query = {9, {2.0}}, .next_step = {}});
+    extractor.request({.query = {9, {2.0}}, .ahead = {}});
     held.let_go(2);
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{9, {2.0}}));
+}
+
+void wait_until_at_hand(const Extractor& extractor, std::uint32_t step) {
+    for (bool there = false; !there; std::this_thread::yield()) {
+        const auto at_hand = extractor.at_hand();
+        there = std::ranges::find(at_hand, step) != at_hand.end();
+    }
+}
+
+TEST(Extractor, WhatIsAtHandIsNotReplacedByAnOlderSearch) {
+    HeldExtraction held(false);
+    Extractor extractor(held.extract());
+    held.let_go(2);
+    for (const std::uint32_t step : {1u, 2u}) {
+        extractor.request({.query = {step, {1.0}}, .ahead = {}});
+        extractor.wait();
+        held.wait_until_started();
+    }
+    extractor.request({.query = {3, {1.0}}, .ahead = {}});
+    held.wait_until_started();
+    extractor.request({.query = {1, {1.0}}, .ahead = {}});
+    EXPECT_EQ(extractor.newest()->query.step, 1u);
+    held.let_go();
+    wait_until_at_hand(extractor, 3);
+    EXPECT_EQ(extractor.newest()->query.step, 1u);
+    extractor.request({.query = {4, {1.0}}, .ahead = {}});
+    held.wait_until_started();
+    held.let_go();
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query.step, 4u);
 }
 
 TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
@@ -174,7 +206,7 @@ TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
     Extractor extractor(held.extract());
     held.let_go(1000);
     for (std::uint32_t step = 0; step < 50; ++step) {
-        extractor.request({.query = {step, {1.0 + step}}, .next_step = 100 + step});
+        extractor.request({.query = {step, {1.0 + step}}, .ahead = StepsAhead{100 + step}});
         extractor.wait();
         while (step == 0 && held.calls(100) == 0) // nothing says that it is dragged
             std::this_thread::yield();
@@ -189,11 +221,11 @@ TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
             std::this_thread::yield();
         EXPECT_EQ(held.calls(step), 1);
     };
-    extractor.request({.query = {49, {50.0}}, .next_step = 149});
+    extractor.request({.query = {49, {50.0}}, .ahead = StepsAhead{149}});
     expect_prefetch_of(149);
-    extractor.request({.query = {50, {51.0}}, .next_step = 150});
+    extractor.request({.query = {50, {51.0}}, .ahead = StepsAhead{150}});
     extractor.wait();
-    extractor.request({.query = {51, {51.0}}, .next_step = 151});
+    extractor.request({.query = {51, {51.0}}, .ahead = StepsAhead{151}});
     expect_prefetch_of(151);
     EXPECT_EQ(held.calls(150), 0);
 }
@@ -203,14 +235,14 @@ TEST(Extractor, AskingAgainForWhatIsAskedDoesNothing) {
     Extractor extractor(held.extract());
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double isovalue : {1.0, nan}) {
-        extractor.request({.query = {1, {isovalue}}, .next_step = {}});
+        extractor.request({.query = {1, {isovalue}}, .ahead = {}});
         held.wait_until_started();
         for (int i = 0; i < 10; ++i)
-            extractor.request({.query = {1, {isovalue}}, .next_step = {}});
+            extractor.request({.query = {1, {isovalue}}, .ahead = {}});
         held.let_go();
         extractor.wait();
         const ExtractionPtr shown = extractor.newest();
-        extractor.request({.query = {1, {isovalue}}, .next_step = {}});
+        extractor.request({.query = {1, {isovalue}}, .ahead = {}});
         EXPECT_FALSE(extractor.busy());
         EXPECT_EQ(extractor.newest(), shown);
     }
@@ -227,10 +259,10 @@ TEST(Extractor, AFailureIsReportedUntilALaterQuerySucceeds) {
             return nullptr;
         return empty_extraction(query);
     });
-    extractor.request({.query = {0, {1.0}}, .next_step = {}});
+    extractor.request({.query = {0, {1.0}}, .ahead = {}});
     extractor.wait();
     for (const std::uint32_t step : {1u, 2u, 3u}) {
-        extractor.request({.query = {step, {1.0}}, .next_step = {}});
+        extractor.request({.query = {step, {1.0}}, .ahead = {}});
         extractor.wait();
         EXPECT_TRUE(extractor.failure());
         EXPECT_EQ(extractor.newest()->query.step, 0u) << "the last picture stays";
@@ -238,7 +270,7 @@ TEST(Extractor, AFailureIsReportedUntilALaterQuerySucceeds) {
             EXPECT_EQ(*extractor.failure(), "step 1 cannot be read");
         }
     }
-    extractor.request({.query = {4, {1.0}}, .next_step = {}});
+    extractor.request({.query = {4, {1.0}}, .ahead = {}});
     extractor.wait();
     EXPECT_FALSE(extractor.failure());
     EXPECT_EQ(extractor.newest()->query.step, 4u);
@@ -256,11 +288,11 @@ TEST(Extractor, AFailedPrefetchIsSilentUntilItsStepIsAsked) {
         }
         throw std::runtime_error("bad step, asked");
     });
-    extractor.request({.query = {0, {1.0}}, .next_step = 1});
+    extractor.request({.query = {0, {1.0}}, .ahead = StepsAhead{1}});
     extractor.wait();
     prefetched.get_future().wait();
     EXPECT_FALSE(extractor.failure());
-    extractor.request({.query = {1, {1.0}}, .next_step = {}});
+    extractor.request({.query = {1, {1.0}}, .ahead = {}});
     extractor.wait();
     ASSERT_TRUE(extractor.failure());
     EXPECT_EQ(extractor.failure()->substr(0, 8), "bad step");
@@ -271,10 +303,10 @@ TEST(Extractor, NoCallWaitsForASearchThatIgnoresItsStop) {
     // search, the test would not come to an end.
     HeldExtraction held(false);
     Extractor extractor(held.extract());
-    extractor.request({.query = {0, {1.0}}, .next_step = 1});
+    extractor.request({.query = {0, {1.0}}, .ahead = StepsAhead{1}});
     held.wait_until_started();
     for (std::uint32_t i = 0; i < 1000; ++i) {
-        extractor.request({.query = {i % 7, {double(i)}}, .next_step = i % 5});
+        extractor.request({.query = {i % 7, {double(i)}}, .ahead = StepsAhead{i % 5}});
         EXPECT_EQ(extractor.newest(), nullptr);
         EXPECT_TRUE(extractor.busy());
         EXPECT_FALSE(extractor.failure());
@@ -296,7 +328,7 @@ TEST(Extractor, DestructionStopsTheSearchAndJoins) {
                 ended = true;
                 return nullptr;
             });
-        extractor.request({.query = {0, {1.0}}, .next_step = {}});
+        extractor.request({.query = {0, {1.0}}, .ahead = {}});
         started.wait();
     }
     EXPECT_TRUE(ended);
@@ -334,14 +366,14 @@ TEST(Extractor, RandomRequestsFromOneThreadAndReadersOnOthersEndWithTheLastAnswe
     std::thread reader_a(look), reader_b(look);
     for (int i = 0; i < 3000; ++i) {
         const auto step = static_cast<std::uint32_t>(random() % 20);
-        Request request{.query = {step, {double(random() % 3)}}, .next_step = {}};
+        Request request{.query = {step, {double(random() % 3)}}, .ahead = {}};
         if (random() % 2)
-            request.next_step = step + 1;
+            request.ahead = StepsAhead{step + 1};
         extractor.request(request);
         if (random() % 8 == 0)
             extractor.wait();
     }
-    extractor.request({.query = {5, {99.0}}, .next_step = 6});
+    extractor.request({.query = {5, {99.0}}, .ahead = StepsAhead{6}});
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{5, {99.0}}));
     EXPECT_FALSE(extractor.failure());

@@ -3,6 +3,7 @@
 #include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
+#include "index/system/parallel.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -12,6 +13,8 @@
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
+#include <latch>
 #include <thread>
 
 namespace isochron::index {
@@ -31,9 +34,12 @@ class PoorSource final : public ByteSource {
     std::atomic<std::uint64_t> most{~std::uint64_t{0}}; ///< bytes of one read
     std::atomic<std::uint64_t> ends{~std::uint64_t{0}};
     std::atomic<unsigned> late_ms{0};
+    std::function<void()> at_read; ///< called at the begin of every read
 
   protected:
     std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
+        if (at_read)
+            at_read();
         std::this_thread::sleep_for(std::chrono::milliseconds(late_ms));
         if (fails)
             throw Error(name_ + ": cannot be read: Input/output error");
@@ -90,12 +96,12 @@ TEST_F(ByteSourceTest, AFailureIsOneLineOfEveryMethodAndTheNextSearchIsRight) {
 TEST_F(ByteSourceTest, AFileThatIsMadeShorterIsOneLineAndTheLastPictureStays) {
     const auto file = IndexFile::open(path_, 1);
     Extractor extractor(extract_from(file));
-    extractor.request({.query = {0, {100.0}}, .next_step = {}});
+    extractor.request({.query = {0, {100.0}}, .ahead = {}});
     extractor.wait();
     const ExtractionPtr shown = extractor.newest();
     ASSERT_NE(shown, nullptr);
     std::filesystem::resize_file(path_, 5000);
-    extractor.request({.query = {1, {120.0}}, .next_step = {}});
+    extractor.request({.query = {1, {120.0}}, .ahead = {}});
     extractor.wait();
     ASSERT_TRUE(extractor.failure());
     EXPECT_THAT(*extractor.failure(), HasSubstr("a.isochron: truncated: nothing at byte "));
@@ -106,13 +112,72 @@ TEST_F(ByteSourceTest, ASlowDiskHoldsNobodyUpWhoAsks) {
     source_->late_ms = 20;
     Extractor extractor(extract_from(file_));
     const auto started = std::chrono::steady_clock::now();
-    extractor.request({.query = {0, {100.0}}, .next_step = {}});
+    extractor.request({.query = {0, {100.0}}, .ahead = {}});
     extractor.newest();
     EXPECT_TRUE(extractor.busy());
     source_->late_ms = 0;
     extractor.wait();
     EXPECT_EQ(extractor.newest()->surfaces[0].ids, BruteForce(field_.view(), 0).active(100.0));
     EXPECT_LT(std::chrono::steady_clock::now() - started, std::chrono::minutes(1));
+}
+
+TEST_F(ByteSourceTest, AnAbandonedSearchEndsWithTheReadsThatAreUnderWay) {
+    const TestField field({36, 34, 800}, 1, ValueType::u8, moving_sphere);
+    MemorySeries series(field.view());
+    build_index(series, path_, {.tiers = TierSet().with(Tier::bricks)});
+    for (const SearchMethod method : {SearchMethod::bricks, SearchMethod::scan})
+        for (const unsigned abandoned_at : {1u, 4u, 20u}) {
+            auto made = std::make_unique<PoorSource>(path_);
+            PoorSource& source = *made;
+            const Search search = search_in(IndexFile::open(std::move(made), 1), method);
+            std::stop_source stop;
+            std::atomic<unsigned> reads{0}, after{0};
+            source.at_read = [&] {
+                if (stop.stop_requested())
+                    ++after;
+                if (++reads == abandoned_at)
+                    stop.request_stop();
+            };
+            EXPECT_EQ(search({0, 100.0}, stop.get_token()), nullptr);
+            // Of each thread, and of the one that asks ahead: a table, and the chunks behind it.
+            EXPECT_LE(after, 2 * (thread_count(0) + 1));
+            source.at_read = [&] { ++reads; };
+            reads = 0;
+            EXPECT_EQ(search({0, 100.0}, {})->ids, BruteForce(field.view(), 0).active(100.0));
+            EXPECT_GT(reads, 30u) << "there was nothing to abandon";
+        }
+}
+
+TEST_F(ByteSourceTest, ANewerRequestIsNotHeldUpByTheReadsOfTheOneBefore) {
+    const TestField field({36, 34, 800}, 2, ValueType::u8, moving_sphere);
+    MemorySeries series(field.view());
+    build_index(series, path_, {.tiers = TierSet().with(Tier::bricks)});
+    auto made = std::make_unique<PoorSource>(path_);
+    PoorSource& source = *made;
+    const auto file = IndexFile::open(std::move(made), 1);
+    Extractor extractor(extract_from(file, {}, Shading::cells));
+    std::latch begun(1);
+    std::atomic<bool> asked{false}, first{true};
+    std::atomic<unsigned> after{0}, all{0};
+    source.at_read = [&] {
+        ++all;
+        if (first.exchange(false))
+            begun.count_down();
+        asked.wait(false); // as slow as it takes until the next request has come
+        ++after;
+    };
+    extractor.request({.query = {0, {100.0}}, .ahead = {}});
+    begun.wait();
+    extractor.request({.query = {1, {100.0}}, .ahead = {}});
+    asked = true;
+    asked.notify_all();
+    extractor.wait();
+    EXPECT_EQ(extractor.newest()->query.step, 1u);
+    const unsigned both = after;
+    after = 0;
+    extractor.request({.query = {0, {120.0}}, .ahead = {}});
+    extractor.wait();
+    EXPECT_LE(both, after + 2 * (thread_count(0) + 2)) << "both were read to the end";
 }
 
 TEST_F(ByteSourceTest, VerifyNoticesThatAnOpenFileHasBecomeShorter) {

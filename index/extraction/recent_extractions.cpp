@@ -1,0 +1,139 @@
+// Which extractions go when there is no more room.
+#include "index/extraction/recent_extractions.h"
+
+#include <algorithm>
+#include <bit>
+#include <iterator>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::size_t kFewest = 3; ///< shown, prefetched, and one for stepping back
+constexpr std::size_t kMostKept = 1024;
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+}
+
+std::uint64_t bytes_of(const Extraction& extraction) {
+    std::uint64_t bytes = sizeof extraction + bytes_of(extraction.colors) +
+                          bytes_of(extraction.bricks.ids) + bytes_of(extraction.bricks.digests) +
+                          bytes_of(extraction.bricks.bytes);
+    for (const CellSet& set : extraction.surfaces)
+        bytes += bytes_of(set.ids) + bytes_of(set.points) + bytes_of(set.rows);
+    return bytes;
+}
+
+} // namespace
+
+bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b) {
+    return a.coloring == b.coloring &&
+           std::ranges::equal(a.isovalues, b.isovalues, {}, std::bit_cast<std::uint64_t, double>,
+                              std::bit_cast<std::uint64_t, double>);
+}
+
+ExtractionPtr RecentExtractions::find(const SurfacesQuery& query) const {
+    if (kept_.empty())
+        return nullptr;
+    if (same_but_for_step(kept_.front().extraction->query, query)) {
+        const auto known = by_step_.find(query.step);
+        return known == by_step_.end() ? nullptr : known->second->extraction;
+    }
+    // Of other surfaces there are a few at most.
+    std::size_t looked_at = 0;
+    for (auto it = kept_.rbegin(); it != kept_.rend() && looked_at < kFewest; ++it, ++looked_at)
+        if (it->extraction->query.step == query.step &&
+            same_but_for_step(it->extraction->query, query))
+            return it->extraction;
+    return nullptr;
+}
+
+std::optional<std::uint32_t> RecentExtractions::missing(const SurfacesQuery& query,
+                                                        const StepsAhead& ahead) const {
+    SurfacesQuery at = query;
+    std::uint64_t bytes = 0;
+    const std::uint32_t count = std::min<std::uint32_t>(ahead.count(), kMostKept - kFewest);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        at.step = ahead.at(i);
+        if (const ExtractionPtr known = find(at))
+            bytes += bytes_of(*known);
+        else if (i == 0 || bytes + largest_ <= budget_)
+            return at.step;
+        else
+            return {};
+    }
+    return {};
+}
+
+std::vector<std::uint32_t> RecentExtractions::steps(const SurfacesQuery& query) const {
+    std::vector<std::uint32_t> steps;
+    if (!kept_.empty() && same_but_for_step(kept_.front().extraction->query, query))
+        for (const auto& [step, place] : by_step_)
+            steps.push_back(step);
+    std::ranges::sort(steps);
+    return steps;
+}
+
+void RecentExtractions::drop(Place place, Dropped& dropped) {
+    bytes_ -= place->bytes;
+    const auto known = by_step_.find(place->extraction->query.step);
+    if (known != by_step_.end() && known->second == place)
+        by_step_.erase(known);
+    dropped.push_back(std::move(place->extraction));
+    kept_.erase(place);
+}
+
+/// The oldest that is not ahead, but for the newest; where all are, the one that is needed last.
+RecentExtractions::Place RecentExtractions::victim(const std::optional<StepsAhead>& ahead) {
+    const Place oldest = std::prev(kept_.end());
+    if (!ahead || ahead->steps == 0)
+        return oldest;
+    // Those ahead that are at hand one after the other.
+    std::vector<const Kept*> needed;
+    Place last = oldest;
+    for (std::uint32_t i = 0; i < ahead->count(); ++i) {
+        const auto known = by_step_.find(ahead->at(i));
+        if (known == by_step_.end())
+            break;
+        last = known->second;
+        needed.push_back(&*last);
+    }
+    std::ranges::sort(needed);
+    for (Place place = oldest; place != kept_.begin(); --place)
+        if (!std::ranges::binary_search(needed, &*place))
+            return place;
+    return last;
+}
+
+RecentExtractions::Dropped RecentExtractions::add(ExtractionPtr extraction,
+                                                  const std::optional<StepsAhead>& ahead) {
+    Dropped dropped;
+    const std::uint64_t bytes = bytes_of(*extraction);
+    if (!kept_.empty() && !same_but_for_step(kept_.front().extraction->query, extraction->query)) {
+        by_step_.clear(); // the others are of no use soon: a few stay
+        largest_ = 0;
+        while (kept_.size() >= kFewest)
+            drop(std::prev(kept_.end()), dropped);
+    }
+    if (const auto known = by_step_.find(extraction->query.step); known != by_step_.end())
+        drop(known->second, dropped);
+    largest_ = std::max(largest_, bytes);
+    bytes_ += bytes;
+    kept_.push_front({std::move(extraction), bytes});
+    by_step_[kept_.front().extraction->query.step] = kept_.begin();
+    while (kept_.size() > kFewest && (bytes_ > budget_ || kept_.size() > kMostKept))
+        drop(victim(ahead), dropped);
+    return dropped;
+}
+
+RecentExtractions::Dropped RecentExtractions::take_all() {
+    Dropped dropped;
+    while (!kept_.empty())
+        drop(kept_.begin(), dropped);
+    largest_ = 0;
+    return dropped;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,113 @@
+// Steps that a playback comes to are made before it asks for them, as far as there is room.
+#include "index/extraction/extractor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace isochron::index {
+namespace {
+
+/// Extractions of some bytes, at once; which steps were made, in order.
+class SizedExtraction {
+  public:
+    explicit SizedExtraction(std::size_t bytes) : bytes_(bytes) {}
+    Extract extract() {
+        return [this](const SurfacesQuery& query, const std::stop_token&) -> ExtractionPtr {
+            auto extraction = std::make_shared<Extraction>();
+            extraction->query = query;
+            extraction->bricks.bytes.resize(bytes_);
+            const std::scoped_lock lock(mutex_);
+            steps_.push_back(query.step);
+            return extraction;
+        };
+    }
+    std::vector<std::uint32_t> steps() {
+        const std::scoped_lock lock(mutex_);
+        return steps_;
+    }
+    /// Waits until so many steps were made and are at hand.
+    void wait_for(const Extractor& extractor, std::size_t made) {
+        while (steps().size() < made)
+            std::this_thread::yield();
+        const std::uint32_t last = steps().back();
+        for (bool there = false; !there; std::this_thread::yield()) {
+            const auto at_hand = extractor.at_hand();
+            there = std::ranges::find(at_hand, last) != at_hand.end();
+        }
+    }
+
+  private:
+    std::size_t bytes_;
+    std::mutex mutex_;
+    std::vector<std::uint32_t> steps_;
+};
+
+TEST(Prefetch, AsManyStepsArePrefetchedAsThereIsRoomForAlongThePlayback) {
+    constexpr std::size_t kBytes = 1 << 20;
+    SizedExtraction made(kBytes);
+    Extractor extractor(made.extract(), 5 * kBytes + kBytes / 2);
+    extractor.request({.query = {8, {1.0}}, .ahead = StepsAhead{9, 10}});
+    made.wait_for(extractor, 6);
+    EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 9}));
+    EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3}));
+    extractor.request({.query = {9, {1.0}}, .ahead = StepsAhead{0, 10}});
+    EXPECT_EQ(extractor.newest()->query.step, 9u) << "at once";
+    EXPECT_FALSE(extractor.busy());
+    made.wait_for(extractor, 7);
+    EXPECT_EQ(made.steps().back(), 4u);
+    EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+    // Backwards, what is nearest comes first.
+    extractor.request({.query = {7, {1.0}}, .ahead = StepsAhead{6, 10, true}});
+    made.wait_for(extractor, 10);
+    EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3, 4, 7, 6, 5}));
+    EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{2, 3, 4, 5, 6}));
+}
+
+TEST(Prefetch, WithoutRoomIsOfTheNextStepAlone) {
+    SizedExtraction made(1000);
+    Extractor extractor(made.extract());
+    extractor.request({.query = {8, {1.0}}, .ahead = StepsAhead{9, 10}});
+    made.wait_for(extractor, 2);
+    for (std::uint32_t step = 9; step < 30; ++step) {
+        extractor.request({.query = {step % 10, {1.0}}, .ahead = StepsAhead{(step + 1) % 10, 10}});
+        EXPECT_EQ(extractor.newest()->query.step, step % 10);
+        made.wait_for(extractor, step - 6);
+        EXPECT_EQ(made.steps().back(), (step + 1) % 10);
+        EXPECT_LE(extractor.at_hand().size(), 3u);
+    }
+}
+
+TEST(Prefetch, OfAStepThatFailsEndsThere) {
+    std::mutex mutex;
+    std::vector<std::uint32_t> asked;
+    Extractor extractor(
+        [&](const SurfacesQuery& query, const std::stop_token&) -> ExtractionPtr {
+            const std::scoped_lock lock(mutex);
+            asked.push_back(query.step);
+            if (query.step == 3)
+                throw std::runtime_error("bad step");
+            auto extraction = std::make_shared<Extraction>();
+            extraction->query = query;
+            return extraction;
+        },
+        1 << 20);
+    extractor.request({.query = {1, {1.0}}, .ahead = StepsAhead{2, 6}});
+    for (bool tried = false; !tried; std::this_thread::yield()) {
+        const std::scoped_lock lock(mutex);
+        tried = !asked.empty() && asked.back() == 3;
+    }
+    extractor.request({.query = {2, {1.0}}, .ahead = {}});
+    EXPECT_EQ(extractor.newest()->query.step, 2u);
+    EXPECT_FALSE(extractor.failure());
+    const std::scoped_lock lock(mutex);
+    EXPECT_EQ(asked, (std::vector<std::uint32_t>{1, 2, 3}));
+}
+
+} // namespace
+} // namespace isochron::index

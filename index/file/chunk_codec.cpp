@@ -157,9 +157,9 @@ bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> p
     }
     if (head & kShuffled)
         unshuffle(plain, word, out.data());
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (head & kAlong[axis])
-            from_differences(type, size, axis, out);
+    from_differences(type, size,
+                     {(head & kAlong[0]) != 0, (head & kAlong[1]) != 0, (head & kAlong[2]) != 0},
+                     out);
     return true;
 }
 

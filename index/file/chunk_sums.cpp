@@ -4,7 +4,6 @@
 #include "index/file/chunk_grid.h"
 
 #include <algorithm>
-#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "index/file/chunk_sums.cpp"
@@ -21,23 +20,38 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Size = std::array<std::uint32_t, 3>;
 
 #if HWY_TARGET != HWY_SCALAR
+/// Sums within each 16 bytes.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V sums_of_blocks(D d, V values) {
+    constexpr std::size_t kLanes = 16 / sizeof(hn::TFromD<D>);
+    V sum = hn::Add(values, hn::ShiftLeftLanes<1>(d, values));
+    if constexpr (kLanes > 2)
+        sum = hn::Add(sum, hn::ShiftLeftLanes<2>(d, sum));
+    if constexpr (kLanes > 4)
+        sum = hn::Add(sum, hn::ShiftLeftLanes<4>(d, sum));
+    if constexpr (kLanes > 8)
+        sum = hn::Add(sum, hn::ShiftLeftLanes<8>(d, sum));
+    return sum;
+}
+
 /// Sums along rows of `kChunkEdge` values.
 template <class T>
 void sum_whole_rows(T* values, std::size_t count) {
+    if constexpr (sizeof(T) == 1) { // rows of 16 bytes, whose sums go on side by side
+        const hn::ScalableTag<T> wide;
+        std::size_t at = 0;
+        for (; at + hn::Lanes(wide) <= count; at += hn::Lanes(wide))
+            hn::StoreU(sums_of_blocks(wide, hn::LoadU(wide, values + at)), wide, values + at);
+        values += at;
+        count -= at;
+    }
     const hn::CappedTag<T, 16 / sizeof(T)> d;
     constexpr std::size_t kLanes = hn::MaxLanes(d);
     static_assert(kChunkEdge % kLanes == 0);
     for (std::size_t first = 0; first < count; first += kChunkEdge) {
         auto before = hn::Zero(d); // the sum up to here
         for (std::size_t i = first; i < first + kChunkEdge; i += kLanes) {
-            auto sum = hn::LoadU(d, values + i);
-            sum = hn::Add(sum, hn::ShiftLeftLanes<1>(d, sum));
-            if constexpr (kLanes > 2)
-                sum = hn::Add(sum, hn::ShiftLeftLanes<2>(d, sum));
-            if constexpr (kLanes > 4)
-                sum = hn::Add(sum, hn::ShiftLeftLanes<4>(d, sum));
-            if constexpr (kLanes > 8)
-                sum = hn::Add(sum, hn::ShiftLeftLanes<8>(d, sum));
+            auto sum = sums_of_blocks(d, hn::LoadU(d, values + i));
             sum = hn::Add(sum, before);
             hn::StoreU(sum, d, values + i);
             if constexpr (kLanes < kChunkEdge)
@@ -62,26 +76,43 @@ void sum_rows(T* values, std::size_t row, std::size_t count) {
 
 /// Adds to each of `count` values the one that lies `back` before it, `width` at a time: no two of
 /// them depend on each other.
-template <class T, class Width>
-void sum_back(T* values, std::size_t count, std::size_t back, Width width) {
+template <class T>
+void sum_back(T* values, std::size_t count, std::size_t back, std::size_t width) {
     for (std::size_t at = back; at < count; at += width)
         for (std::size_t i = 0; i < width; ++i)
             values[at + i] = static_cast<T>(values[at + i] + values[at + i - back]);
 }
 
+/// The same along y and z of rows of `kChunkEdge` values, in one go: a sum stays in a register
+/// until the next row needs it.
 template <class T>
-void sum_along(T* values, const Size& size, std::size_t axis) {
+void sum_whole_planes(T* values, std::size_t plane, std::size_t count, bool along_y, bool along_z) {
+    const hn::CappedTag<T, kChunkEdge> d;
+    for (std::size_t x = 0; x < kChunkEdge; x += hn::Lanes(d))
+        for (std::size_t first = 0; first < count; first += plane) {
+            auto above = hn::Zero(d);
+            for (std::size_t at = first + x; at < first + plane; at += kChunkEdge) {
+                auto sum = hn::LoadU(d, values + at);
+                if (along_y)
+                    above = sum = hn::Add(above, sum);
+                if (along_z && first > 0)
+                    sum = hn::Add(sum, hn::LoadU(d, values + at - plane));
+                hn::StoreU(sum, d, values + at);
+            }
+        }
+}
+
+template <class T>
+void sum_along(T* values, const Size& size, const std::array<bool, 3>& axes) {
     const std::size_t row = size[0], plane = row * size[1], count = plane * size[2];
-    constexpr std::integral_constant<std::size_t, kChunkEdge> kWhole;
-    if (axis == 0)
-        return sum_rows(values, row, count);
-    if (axis == 2)
-        return sum_back(values, count, plane, plane);
-    for (std::size_t first = 0; first < count; first += plane)
-        if (row == kChunkEdge)
-            sum_back(values + first, plane, row, kWhole);
-        else
-            sum_back(values + first, plane, row, row);
+    if (axes[0])
+        sum_rows(values, row, count);
+    if (row == kChunkEdge)
+        return sum_whole_planes(values, plane, count, axes[1], axes[2]);
+    for (std::size_t first = 0; axes[1] && first < count; first += plane)
+        sum_back(values + first, plane, row, row);
+    if (axes[2])
+        sum_back(values, count, plane, plane);
 }
 
 /// The compiler turns this into moves of whole vectors.
@@ -96,12 +127,13 @@ void join_bytes(const std::byte* bytes, std::size_t count, std::byte* out) {
     }
 }
 
-void sum_values(std::size_t bytes, const Size& size, std::size_t axis, std::byte* values) {
+void sum_values(std::size_t bytes, const Size& size, const std::array<bool, 3>& axes,
+                std::byte* values) {
     switch (bytes) {
-    case 1: return sum_along(reinterpret_cast<std::uint8_t*>(values), size, axis);
-    case 2: return sum_along(reinterpret_cast<std::uint16_t*>(values), size, axis);
-    case 4: return sum_along(reinterpret_cast<std::uint32_t*>(values), size, axis);
-    default: return sum_along(reinterpret_cast<std::uint64_t*>(values), size, axis);
+    case 1: return sum_along(reinterpret_cast<std::uint8_t*>(values), size, axes);
+    case 2: return sum_along(reinterpret_cast<std::uint16_t*>(values), size, axes);
+    case 4: return sum_along(reinterpret_cast<std::uint32_t*>(values), size, axes);
+    default: return sum_along(reinterpret_cast<std::uint64_t*>(values), size, axes);
     }
 }
 
@@ -124,9 +156,9 @@ namespace isochron::index {
 HWY_EXPORT(sum_values);
 HWY_EXPORT(join_values);
 
-void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size, std::size_t axis,
-                      std::span<std::byte> values) {
-    HWY_DYNAMIC_DISPATCH(sum_values)(size_of(type), size, axis, values.data());
+void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size,
+                      const std::array<bool, 3>& axes, std::span<std::byte> values) {
+    HWY_DYNAMIC_DISPATCH(sum_values)(size_of(type), size, axes, values.data());
 }
 
 void unshuffle(std::span<const std::byte> shuffled, std::size_t size, std::byte* out) {

@@ -10,11 +10,11 @@
 
 namespace isochron::index {
 
-/// Replaces differences along an axis by values, the first ones staying: sums of unsigned numbers
-/// of the type's size, modulo 2^bits. Axes may be undone in any order.
+/// Replaces differences along some axes by values, the first ones staying: sums of unsigned numbers
+/// of the type's size, modulo 2^bits.
 /// @param values [z][y][x], x fastest, `size` of them along x, y and z
-void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size, std::size_t axis,
-                      std::span<std::byte> values);
+void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size,
+                      const std::array<bool, 3>& axes, std::span<std::byte> values);
 
 /// From the first bytes of all values, then all second bytes and so on, to the values.
 /// @param size bytes of a value @param out as long as `shuffled`

@@ -51,6 +51,9 @@ void numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
                 (std::to_integer<unsigned>(planes[2 * bit + i / 8]) >> i % 8 & 1) << bit);
     std::ranges::transform(numbers, out, unfolded);
 }
+void whole_numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
+    numbers_of(planes, bits, out);
+}
 #else
 unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostBits>& planes) {
     const hn::CappedTag<std::uint8_t, kRow> d;
@@ -70,10 +73,12 @@ unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostB
     return bits;
 }
 
-HWY_INLINE void numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
+/// @param planes as many bytes as eight of them take can be read
+HWY_INLINE void whole_numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
     const hn::CappedTag<std::uint8_t, kRow> d;
     auto fold = hn::Zero(d);
-    for (unsigned bit = 0; bit < bits; ++bit) {
+    // All eight, those of the next numbers too: to find out at each costs more.
+    for (unsigned bit = 0; bit < kMostBits; ++bit) {
         std::array<std::uint8_t, 8> stored; // LoadMaskBits reads eight bytes
         std::uint64_t plane = 0;
         std::memcpy(&plane, planes + 2 * bit, 2);
@@ -82,13 +87,20 @@ HWY_INLINE void numbers_of(const std::byte* planes, unsigned bits, std::uint8_t*
         fold =
             hn::Or(fold, hn::IfThenElseZero(set, hn::Set(d, static_cast<std::uint8_t>(1u << bit))));
     }
-    const auto one = hn::Set(d, std::uint8_t{1});
-    const auto sign = hn::Sub(hn::Zero(d), hn::And(fold, one));
+    fold = hn::And(fold, hn::Set(d, static_cast<std::uint8_t>((1u << bits) - 1)));
+    const auto sign = hn::Sub(hn::Zero(d), hn::And(fold, hn::Set(d, std::uint8_t{1})));
     // Bytes have no shift of their own: the bit that comes in from above is masked away.
     const hn::Repartition<std::uint16_t, decltype(d)> wide;
     const auto half = hn::And(hn::BitCast(d, hn::ShiftRight<1>(hn::BitCast(wide, fold))),
                               hn::Set(d, std::uint8_t{0x7f}));
     hn::StoreU(hn::Xor(half, sign), d, out);
+}
+
+/// The same at the end of the bytes.
+void numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
+    std::array<std::byte, 2 * kMostBits> copy{};
+    std::copy_n(planes, 2 * bits, copy.begin());
+    whole_numbers_of(copy.data(), bits, out);
 }
 #endif
 
@@ -121,9 +133,12 @@ bool unpack(const std::byte* packed, std::size_t size, std::uint8_t* out, std::s
     const std::byte* const end = packed + size;
     for (std::size_t row = 0; row < rows; ++row) {
         const unsigned bits = std::to_integer<unsigned>(packed[row / 2]) >> row % 2 * 4 & 15;
-        if (bits > kMostBits || static_cast<std::size_t>(end - at) < 2 * bits)
+        const auto there = static_cast<std::size_t>(end - at);
+        if (bits > kMostBits || there < 2 * bits)
             return false;
-        if (const std::size_t left = count - row * kRow; left < kRow) {
+        if (const std::size_t left = count - row * kRow; left >= kRow && there >= 2 * kMostBits) {
+            whole_numbers_of(at, bits, out + row * kRow);
+        } else if (left < kRow) {
             std::array<std::uint8_t, kRow> last;
             numbers_of(at, bits, last.data());
             std::copy_n(last.begin(), left, out + row * kRow);

@@ -261,7 +261,7 @@ class Bench {
                 options_.isovalue * (1.0 + kDragged * std::sin(2.0 * std::numbers::pi * turn));
             Frames frame, still;
             frame.time([&] {
-                extractor.request({{step, {isovalue}}, (step + 1) % steps});
+                extractor.request({{step, {isovalue}}, index::StepsAhead{(step + 1) % steps}});
                 cells_.upload(extractor.newest(), kUploadBytes, volume);
                 draw(pass_, footprint);
             });

@@ -16,9 +16,11 @@ using index::StepValues;
 using index::Tier;
 using FilePtr = std::shared_ptr<const IndexFile>;
 
-/// Of the whole file, but for the volume and the tiers that a structure does without.
+/// Of the whole file, but for the volume with its levels of detail and the tiers that a structure
+/// does without.
 std::uint64_t bytes_without(const IndexFile& file, std::initializer_list<Tier> others) {
-    std::uint64_t bytes = file.stats().file_bytes - file.stats().volume_bytes;
+    std::uint64_t bytes =
+        file.stats().file_bytes - file.stats().volume_bytes - file.stats().detail_bytes;
     for (const Tier tier : others)
         bytes -= file.stats().bytes_of(tier);
     return bytes;

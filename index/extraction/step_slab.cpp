@@ -85,7 +85,7 @@ std::uint64_t StepSlab::bytes(const SeriesInfo& info) {
 
 void StepSlab::begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop) {
     for (auto& of_layer : state_)
-        std::ranges::fill(of_layer, std::uint8_t{kEmpty});
+        std::ranges::fill(of_layer, std::uint8_t{vacant});
     stop_ = std::move(stop);
     asked_.reset();
     step_ = step;
@@ -171,9 +171,9 @@ bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
                 need(at[0], at[1], at[2]);
         }
         // At hand already: looked up no more.
-        if (std::uint8_t& state = state_[1][places[i]]; state != kFilled) {
+        if (std::uint8_t& state = state_[1][places[i]]; state != filled) {
             copy(*chunks[i], layer_, places[i]);
-            state = kFilled;
+            state = filled;
         }
     }
     fill();
@@ -234,8 +234,8 @@ void StepSlab::fill_all() {
     const std::uint32_t end = std::min(layer_ + 2, chunks_.layers());
     for (std::uint32_t layer = layer_; layer < end; ++layer)
         for (std::uint8_t& state : state_[layer + 1 - layer_])
-            if (state == kEmpty)
-                state = kNeeded;
+            if (state == vacant)
+                state = needed;
     fill();
 }
 
@@ -244,7 +244,7 @@ void StepSlab::fill() {
     std::array<std::vector<std::uint32_t>, 3> places;
     for (std::uint32_t i = 0; i < state_.size(); ++i) {
         for (std::uint32_t place = 0; place < state_[i].size(); ++place)
-            if (state_[i][place] == kNeeded)
+            if (state_[i][place] == needed)
                 places[i].push_back(place);
         if (!places[i].empty()) // all of them before waiting for any
             expect(layer_ + i - 1, places[i]);
@@ -256,7 +256,7 @@ void StepSlab::fill() {
         const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer, places[i], stop_);
         for (std::size_t k = 0; k < places[i].size(); ++k) {
             copy(*chunks[k], layer, places[i][k]);
-            state_[i][places[i][k]] = kFilled;
+            state_[i][places[i][k]] = filled;
         }
     }
 }

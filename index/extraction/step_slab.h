@@ -58,12 +58,12 @@ class StepSlab {
 
   private:
     StepValues planes(std::uint32_t first, std::uint32_t end) const;
-    enum State : std::uint8_t { kEmpty, kNeeded, kFilled };
+    enum State : std::uint8_t { vacant, needed, filled };
 
     void need(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
         std::uint8_t& state = state_[layer + 1 - layer_][chunks_.place(x, y)];
-        if (state == kEmpty)
-            state = kNeeded;
+        if (state == vacant)
+            state = needed;
     }
     void set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y, std::uint32_t candidates);
     void fill();

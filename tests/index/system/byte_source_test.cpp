@@ -14,7 +14,6 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
-#include <latch>
 #include <thread>
 
 namespace isochron::index {
@@ -146,38 +145,6 @@ TEST_F(ByteSourceTest, AnAbandonedSearchEndsWithTheReadsThatAreUnderWay) {
             EXPECT_EQ(search({0, 100.0}, {})->ids, BruteForce(field.view(), 0).active(100.0));
             EXPECT_GT(reads, 30u) << "there was nothing to abandon";
         }
-}
-
-TEST_F(ByteSourceTest, ANewerRequestIsNotHeldUpByTheReadsOfTheOneBefore) {
-    const TestField field({36, 34, 800}, 2, ValueType::u8, moving_sphere);
-    MemorySeries series(field.view());
-    build_index(series, path_, {.tiers = TierSet().with(Tier::bricks)});
-    auto made = std::make_unique<PoorSource>(path_);
-    PoorSource& source = *made;
-    const auto file = IndexFile::open(std::move(made), 1);
-    Extractor extractor(extract_from(file, {}, Shading::cells));
-    std::latch begun(1);
-    std::atomic<bool> asked{false}, first{true};
-    std::atomic<unsigned> after{0}, all{0};
-    source.at_read = [&] {
-        ++all;
-        if (first.exchange(false))
-            begun.count_down();
-        asked.wait(false); // as slow as it takes until the next request has come
-        ++after;
-    };
-    extractor.request({.query = {0, {100.0}}, .ahead = {}});
-    begun.wait();
-    extractor.request({.query = {1, {100.0}}, .ahead = {}});
-    asked = true;
-    asked.notify_all();
-    extractor.wait();
-    EXPECT_EQ(extractor.newest()->query.step, 1u);
-    const unsigned both = after;
-    after = 0;
-    extractor.request({.query = {0, {120.0}}, .ahead = {}});
-    extractor.wait();
-    EXPECT_LE(both, after + 2 * (thread_count(0) + 2)) << "both were read to the end";
 }
 
 TEST_F(ByteSourceTest, VerifyNoticesThatAnOpenFileHasBecomeShorter) {

@@ -65,7 +65,8 @@ const std::vector<NamedFootprint>& splats() {
     static const std::vector<NamedFootprint> footprints = [] {
         auto all = all_footprints();
         std::erase_if(all, [](const NamedFootprint& one) {
-            return one.footprint == render::Footprint::surface;
+            return one.footprint == render::Footprint::surface ||
+                   one.footprint == render::Footprint::mesh;
         });
         return all;
     }();

@@ -208,7 +208,7 @@ TEST_F(RecordingFile, ValuesOutsideTheirRangeAreRefused) {
     EXPECT_THAT(with(R"("eye_separation":0.2)"), HasSubstr("eye_separation: expected a number"));
     EXPECT_THAT(with(R"("step":-1)"), HasSubstr("step: expected an integer from 0"));
     EXPECT_THAT(with(R"("step":1.5)"), HasSubstr("step: expected an integer from 0"));
-    EXPECT_THAT(with(R"("quality":"best")"), HasSubstr("expected auto, fast or quality"));
+    EXPECT_THAT(with(R"("quality":"best")"), HasSubstr("expected auto, fast, quality or paper"));
     EXPECT_THAT(
         with(R"("room_from_physical":{"translation":[0,0,0],"rotation":[0,0,0,1],"scale":0})"),
         HasSubstr("scale: expected a positive number, got 0"));

@@ -10,6 +10,7 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace isochron::index {
 namespace {
@@ -24,7 +25,7 @@ std::vector<std::uint8_t> flagged(vtkFieldData* fields, int hiding, std::size_t 
             continue;
         hidden.resize(tuples);
         // Levels count how far a ghost is from what is no ghost.
-        const int mask = name == kGhostFlags[0] ? hiding : 0xff;
+        const int mask = std::string_view(name) == kGhostFlags[0] ? hiding : 0xff;
         for (std::size_t i = 0; i < tuples; ++i)
             hidden[i] |=
                 (static_cast<int>(flags->GetTuple1(static_cast<vtkIdType>(i))) & mask) != 0;

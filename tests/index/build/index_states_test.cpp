@@ -36,7 +36,8 @@ class IndexStatesTest : public testing::Test {
     }
     std::uint64_t section_bytes() const {
         std::uint64_t bytes = 0;
-        for (const Section& section : IndexFile::open(path)->header().sections)
+        const auto file = IndexFile::open(path);
+        for (const Section& section : file->header().sections)
             bytes += section.bytes;
         return bytes;
     }

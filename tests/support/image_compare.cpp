@@ -56,20 +56,25 @@ testing::AssertionResult images_match(const Image& actual, const Image& expected
                << name << ": " << actual.width << "x" << actual.height << " pixels, expected "
                << expected.width << "x" << expected.height << "; see "
                << written(side_by_side({actual, expected}), name);
+    constexpr int kSeen = 8;
     int maximum = 0;
-    double sum = 0;
+    double sum = 0, strays = 0;
     for (std::size_t i = 0; i < actual.rgba.size(); ++i)
         if (i % 4 != 3) {
             const int difference = std::abs(actual.rgba[i] - expected.rgba[i]);
             maximum = std::max(maximum, difference);
             sum += difference;
+            strays += difference > kSeen;
         }
-    const double mean = sum / std::max<double>(1, 0.75 * static_cast<double>(actual.rgba.size()));
-    if (maximum <= tolerance.maximum && mean <= tolerance.mean)
+    const double channels = std::max<double>(1, 0.75 * static_cast<double>(actual.rgba.size()));
+    const double mean = sum / channels;
+    strays /= channels;
+    if (maximum <= tolerance.maximum && mean <= tolerance.mean && strays <= tolerance.strays)
         return testing::AssertionSuccess();
     return testing::AssertionFailure()
-           << name << ": differs by " << maximum << " at most and " << mean
-           << " on average, allowed " << tolerance.maximum << " and " << tolerance.mean << "; see "
+           << name << ": differs by " << maximum << " at most and " << mean << " on average, "
+           << 100 * strays << " % of it by more than " << kSeen << ", allowed " << tolerance.maximum
+           << ", " << tolerance.mean << " and " << 100 * tolerance.strays << " %; see "
            << written(side_by_side({actual, expected, difference_of(actual, expected)}), name);
 }
 

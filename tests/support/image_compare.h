@@ -15,6 +15,8 @@ namespace isochron::test_support {
 struct ImageTolerance {
     int maximum = 0; ///< largest difference of any channel of any pixel, 0 to 255
     double mean = 0; ///< mean difference over all channels (alpha left out)
+    /// Share of the channels that may be off by more than 8; any where no share is given.
+    double strays = 1;
 };
 
 /// Compares red, green and blue. On failure writes actual, expected and difference (times 8, black

@@ -2,8 +2,9 @@
 #include "index/formats/reordered_file.h"
 
 #include <cmath>
-#include <cstring>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace isochron::index {
 namespace {

@@ -1,6 +1,7 @@
 // What a user asked `isochron build` for, as options of the floor below.
 #include "app/commands/build_arguments.h"
 
+#include "app/commands/file_patterns.h"
 #include "index/file/index_file.h"
 
 #include <fmt/format.h>
@@ -28,6 +29,16 @@ std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
 }
 
 } // namespace
+
+BuildArguments with_path_within(BuildArguments arguments) {
+    const auto path = take_path_within(arguments.files);
+    if (path && arguments.read.array)
+        throw UsageError(fmt::format("--array {} and {} in the name of a file: expected one",
+                                     *arguments.read.array, *path));
+    if (path)
+        arguments.read.array = path;
+    return arguments;
+}
 
 index::ReadOptions read_options(const BuildArguments& arguments) {
     index::ReadOptions read = arguments.read;
@@ -124,8 +135,10 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
               "Read files in which data are left over after the values that the header says")
         .group("Reading");
     command
-        .flag("--extra-axis-is-time", read.extra_axis_is_time,
-              "Read the axis of an NRRD file as time that is none of space, whatever its kind")
+        .flag(
+            "--extra-axis-is-time", read.extra_axis_is_time,
+            "Read the axis that is none of space as time, whatever a file says of it, or where it "
+            "may be components")
         .group("Reading");
     command
         .flag("--times-from-names", read.times_from_names,

@@ -25,6 +25,9 @@ struct BuildArguments {
     double timeout = 30; ///< [s]
 };
 
+/// `run.h5:/fields/rho` as run.h5 with `--array /fields/rho`. @throws UsageError for both
+BuildArguments with_path_within(BuildArguments arguments);
+
 index::ReadOptions read_options(const BuildArguments& arguments);
 /// Of the second array: the same files, and all that was said of them, but another array.
 index::ReadOptions color_options(const BuildArguments& arguments);

@@ -197,7 +197,8 @@ void add_build(Command& program) {
         .option(
             "files", arguments->files,
             "A .pvd, or the files of the steps in any order, also as quoted patterns ('t*.vti'); "
-            "or an index, also of the file version before this. Known are " +
+            "or an index, also of the file version before this. A path of HDF5 may stand behind "
+            "the file (run.h5:/fields/rho). Known are " +
                 index::known_extensions())
         .required()
         .type_name("FILES");
@@ -263,7 +264,7 @@ void add_build(Command& program) {
         "build ... spreads the work over N processes that\nshare a file system.");
     command.on_run([arguments, lattice, variation] {
         arguments->build.with_tree = lattice.given() || variation.given();
-        run_build(*arguments);
+        run_build(with_path_within(*arguments));
     });
 }
 

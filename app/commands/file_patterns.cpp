@@ -31,6 +31,23 @@ std::vector<std::filesystem::path> expand_patterns(const std::vector<std::string
     return files;
 }
 
+std::optional<std::string> take_path_within(std::vector<std::string>& arguments) {
+    std::optional<std::string> found;
+    std::error_code ignored;
+    for (std::string& argument : arguments) {
+        const std::size_t colon = argument.find(":/");
+        if (colon == std::string::npos || colon == 0 || std::filesystem::exists(argument, ignored))
+            continue;
+        const std::string path = argument.substr(colon + 1);
+        if (found && *found != path)
+            throw index::Error(
+                fmt::format("{}: another path than {}, expected one array", argument, *found));
+        found = path;
+        argument.resize(colon);
+    }
+    return found;
+}
+
 void refuse_input_as_output(const std::vector<std::filesystem::path>& files,
                             const std::filesystem::path& out) {
     std::error_code ignored;

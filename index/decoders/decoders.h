@@ -20,6 +20,10 @@ std::unique_ptr<DecodedFile> decode_vtk(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_netcdf(const std::filesystem::path& path,
                                            const ReadOptions& options);
 
+/// HDF5 datasets by their path, VTKHDF image data and openPMD meshes.
+std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
+                                         const ReadOptions& options);
+
 /// The files and times of a ParaView collection (.pvd), in the order of their times, paths made
 /// relative to where the program runs. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> decode_pvd(const std::filesystem::path& path);

@@ -3,6 +3,7 @@
 
 #include "index/decoders/netcdf_roles.h"
 #include "index/error.h"
+#include "index/formats/axis_positions.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
 
@@ -68,33 +69,6 @@ std::string with_blank(const std::string& unit) {
     return unit.empty() ? "" : " " + unit;
 }
 
-// An even spread from the first vertex to the last, in their order.
-void spread(const std::vector<double>& at, const std::string& file, Positions& positions,
-            std::vector<std::string>& notes) {
-    const auto last = static_cast<double>(at.size() - 1);
-    const double first = at.front(), step = (at.back() - first) / last;
-    double least = HUGE_VAL, most = 0, off = 0;
-    for (std::size_t i = 1; i < at.size(); ++i) {
-        const double gap = (at[i] - at[i - 1]) * (step < 0 ? -1 : 1);
-        if (!(gap > 0) || !std::isfinite(gap))
-            throw Error(
-                fmt::format("{}: {}: {} after {}, expected coordinates that all increase or "
-                            "all decrease (--spacing does without them)",
-                            file, positions.label, at[i], at[i - 1]));
-        least = std::min(least, gap);
-        most = std::max(most, gap);
-        off = std::max(off, std::abs(at[i] - first - static_cast<double>(i) * step));
-    }
-    positions.first = first;
-    positions.step = step;
-    constexpr double kEven = 0.02; // of the spacing: Gaussian latitudes, coordinates in f32
-    if (off > kEven * std::abs(step))
-        notes.push_back(fmt::format("{} is not uniform: vertices {:.4g} to {:.4g}{} apart are "
-                                    "spread evenly, {:.4g}{} apart",
-                                    positions.label, least, most, with_blank(positions.unit),
-                                    std::abs(step), with_blank(positions.unit)));
-}
-
 /// Of the variable, or of the group that it is a component of.
 std::vector<double> of_the_grid(const NetcdfFile& file, const NetcdfVariable& variable,
                                 const char* attribute) {
@@ -140,7 +114,11 @@ Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable
     if (physical == 0 && positions.unit == "degrees")
         unwrap(at);
     try {
-        spread(at, file.name(), positions, notes);
+        const AxisSpread spread = spread_of(at, positions.label, positions.unit, file.name());
+        positions.first = spread.first;
+        positions.step = spread.step;
+        if (spread.note)
+            notes.push_back(*spread.note);
     } catch (const Error&) {
         if (!options.spacing)
             throw;

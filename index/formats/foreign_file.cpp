@@ -211,6 +211,10 @@ std::unique_ptr<VolumeFile> open_netcdf(const fs::path& path, const ReadOptions&
     return open_foreign(readers_of_this_process(), ForeignFormat::netcdf, path, options);
 }
 
+std::unique_ptr<VolumeFile> open_hdf5(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::hdf5, path, options);
+}
+
 std::vector<std::pair<fs::path, double>> read_pvd(const fs::path& path) {
     ReaderLease lease(readers_of_this_process(), kCollectionProgram, path);
     std::vector<std::pair<fs::path, double>> files;

@@ -28,7 +28,8 @@ constexpr std::array kFormats{
     Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},    Format{".nhdr", open_nrrd},
     Format{".nii", open_nifti},     Format{".nii.gz", open_nifti}, Format{".hdr", open_nifti},
     Format{".nc", open_netcdf},     Format{".nc4", open_netcdf},   Format{".cdf", open_netcdf},
-    Format{".raw", open_raw},
+    Format{".h5", open_hdf5},       Format{".hdf5", open_hdf5},    Format{".he5", open_hdf5},
+    Format{".hdf", open_hdf5},      Format{".vtkhdf", open_hdf5},  Format{".raw", open_raw},
 };
 
 SeriesFile series_file(const fs::path& path, const ReadOptions& options,

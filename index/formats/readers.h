@@ -30,6 +30,11 @@ std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path, const Re
 std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
                                         const ReadOptions& options);
 
+/// HDF5 (.h5, .hdf5, .he5, .vtkhdf, .hdf), in a reader, where it was built with the library:
+/// datasets by their path, VTKHDF image data, openPMD meshes.
+std::unique_ptr<VolumeFile> open_hdf5(const std::filesystem::path& path,
+                                      const ReadOptions& options);
+
 /// The files and times of a ParaView collection (.pvd), in its order, paths made relative to where
 /// the program runs; in a reader. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> read_pvd(const std::filesystem::path& path);

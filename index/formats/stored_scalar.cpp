@@ -35,10 +35,10 @@ std::string listed(std::span<const StoredArray> arrays) {
     for (const StoredArray& array : arrays) {
         if (!is_offered(array) || ++count > kShown)
             continue;
-        list +=
-            fmt::format("{}{} ({}{}{})", list.empty() ? "" : ", ", array.name, name_of(*array.type),
-                        array.components == 1 ? "" : fmt::format(" x {}", array.components),
-                        array.on_cells ? ", cell data" : "");
+        list += fmt::format(
+            "{}{} ({}{}{}{})", list.empty() ? "" : ", ", array.name, name_of(*array.type),
+            array.components == 1 ? "" : fmt::format(" x {}", array.components),
+            array.shape.empty() ? "" : ", " + array.shape, array.on_cells ? ", cell data" : "");
     }
     if (count > kShown)
         list += fmt::format(" and {} more", count - kShown);

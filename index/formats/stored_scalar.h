@@ -46,6 +46,7 @@ struct StoredArray {
     std::uint32_t components = 1;
     bool on_cells = false; ///< one tuple per cell rather than per vertex
     bool gaps = false;     ///< values may be missing, for which there is only NaN
+    std::string shape = {}; ///< where a list of arrays has it: `64 x 64 x 32`
 };
 
 /// An array, or one component of it, or its magnitude.

@@ -14,7 +14,7 @@ constexpr ValueType kLastValue<ValueType> = ValueType::f64;
 template <>
 constexpr Anatomy kLastValue<Anatomy> = Anatomy::enu;
 template <>
-constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::netcdf;
+constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::hdf5;
 
 namespace {
 
@@ -101,11 +101,17 @@ Message message_from(std::span<const std::byte> bytes) {
 
 } // namespace
 
-const std::string kReaderVersion = ISOCHRON_VERSION " 2";
+const std::string kReaderVersion = ISOCHRON_VERSION " 3";
 const std::string kCollectionProgram = "isochron-reader-vtk";
 
 std::string program_of(ForeignFormat format) {
-    return format == ForeignFormat::netcdf ? "isochron-reader-netcdf" : "isochron-reader-vtk";
+    switch (format) {
+    case ForeignFormat::netcdf: return "isochron-reader-netcdf";
+    case ForeignFormat::hdf5: return "isochron-reader-hdf5";
+    case ForeignFormat::vti:
+    case ForeignFormat::vtk: break;
+    }
+    return kCollectionProgram;
 }
 
 std::vector<std::byte> encoded(const ReaderRequest& request) {

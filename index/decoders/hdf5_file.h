@@ -1,0 +1,87 @@
+// An HDF5 file as its library gives it: datasets, attributes and values, its errors as ours.
+#pragma once
+
+#include "index/formats/stored_scalar.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace isochron::index {
+
+/// Something of the library that is open: its number, and what closes it.
+class Hdf5Handle {
+  public:
+    using Close = int (*)(std::int64_t);
+
+    Hdf5Handle() = default;
+    /// @param id negative: nothing is open
+    Hdf5Handle(std::int64_t id, Close close) : id_(id), close_(close) {}
+    ~Hdf5Handle() {
+        if (id_ >= 0)
+            close_(id_);
+    }
+    Hdf5Handle(Hdf5Handle&& other) noexcept
+        : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+    Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+        std::swap(id_, other.id_);
+        std::swap(close_, other.close_);
+        return *this;
+    }
+
+    explicit operator bool() const { return id_ >= 0; }
+    std::int64_t id() const { return id_; }
+
+  private:
+    std::int64_t id_ = -1;
+    Close close_ = nullptr;
+};
+
+struct Hdf5Dataset {
+    std::string path;                      ///< from the root: `/fields/rho`
+    std::optional<StoredType> type;        ///< none: text, compound, ...
+    std::vector<std::uint64_t> dimensions; ///< slowest first
+};
+
+/// `64 x 64 x 32`
+std::string shape_text(const std::vector<std::uint64_t>& dimensions);
+
+class Hdf5File {
+  public:
+    /// @throws Error naming the file: not HDF5, truncated, damaged
+    explicit Hdf5File(const std::filesystem::path& path);
+
+    const std::string& name() const { return name_; }
+    std::int64_t id() const { return file_.id(); }
+
+    /// All that hard links lead to, in the order of their names.
+    /// @throws Error: damaged, or more than 200,000 objects
+    std::vector<Hdf5Dataset> datasets() const;
+    /// Also behind soft and external links; none where there is no dataset of that path.
+    std::optional<Hdf5Dataset> dataset(const std::string& path) const;
+    bool holds(const std::string& path) const;
+
+    /// Attributes of the object at a path, empty where there is none of that name and kind.
+    std::vector<double> numbers(const std::string& object, const std::string& attribute) const;
+    std::string text(const std::string& object, const std::string& attribute) const;
+    std::vector<std::string> texts(const std::string& object, const std::string& attribute) const;
+
+    /// All values of a short dataset. @throws Error: of more than 2^24 values, or damaged
+    std::vector<double> values(const Hdf5Dataset& dataset) const;
+    /// The paths of the first dimension scale along each dimension; empty where there is none.
+    std::vector<std::string> scales(const Hdf5Dataset& dataset) const;
+
+    /// @throws Error naming file and object with what the library says, when `good` is false
+    void expect(bool good, const std::string& what) const;
+
+  private:
+    std::string name_;
+    Hdf5Handle file_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,11 @@
+// `isochron-reader-hdf5`: what HDF5 itself holds.
+#include "index/decoders/decoders.h"
+#include "index/decoders/reader_program.h"
+
+#include <array>
+
+int main() {
+    using namespace isochron::index;
+    constexpr std::array kDecoders{Decoder{ForeignFormat::hdf5, decode_hdf5}};
+    return run_reader(kDecoders);
+}

@@ -1,0 +1,189 @@
+// Files that other libraries wrote, as these read them: scripts of this folder make both.
+#include "index/formats/foreign_file.h"
+#include "tests/support/paths.h"
+#include "tests/support/reader_fixtures.h"
+#include "tests/support/test_seed.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <set>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+ReadOptions options_in(const json& given) {
+    ReadOptions options;
+    if (given.contains("array"))
+        options.array = given["array"];
+    if (given.contains("component"))
+        options.component = given["component"];
+    options.extra_axis_is_time = given.value("extra_axis_is_time", false);
+    return options;
+}
+
+std::vector<double> doubles_in(const fs::path& file) {
+    const std::string bytes = read_file(file);
+    std::vector<double> values(bytes.size() / sizeof(double));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+    return values;
+}
+
+std::vector<double> scaled_values(VolumeSeries& series) {
+    const SeriesInfo& info = series.info();
+    std::vector<double> all;
+    std::vector<std::byte> bytes(info.step_bytes());
+    for (std::size_t step = 0; step < info.steps(); ++step) {
+        series.read(step, bytes);
+        visit_value_type(info.type, [&]<class T>(std::type_identity<T>) {
+            const auto* values = reinterpret_cast<const T*>(bytes.data());
+            for (std::size_t i = 0; i < info.grid.vertex_count(); ++i)
+                all.push_back(info.scaling(static_cast<double>(values[i])));
+        });
+    }
+    return all;
+}
+
+void expect_places(const SeriesInfo& info, const json& expected) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        const double spacing = expected["spacing"][i], origin = expected["origin"][i];
+        EXPECT_NEAR(info.grid.spacing[axis], spacing, 1e-5 * spacing);
+        EXPECT_NEAR(info.grid.origin[axis], origin, 1e-5 * std::max(spacing, std::abs(origin)));
+        if (expected["direction"].is_null())
+            continue;
+        for (int row = 0; row < 3; ++row) {
+            const double wanted = expected["direction"][i][static_cast<std::size_t>(row)];
+            EXPECT_NEAR(info.grid.direction[axis][row], wanted, 1e-6);
+        }
+    }
+}
+
+void expect_values(const std::vector<double>& got, const std::vector<double>& wanted,
+                   bool rounded) {
+    ASSERT_EQ(got.size(), wanted.size());
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < got.size(); ++i) {
+        const double off = rounded ? 1e-6 * std::abs(wanted[i]) + 1e-7 : 0;
+        const bool same =
+            std::isnan(wanted[i]) ? std::isnan(got[i]) : std::abs(got[i] - wanted[i]) <= off;
+        if (!same && ++wrong <= 3)
+            ADD_FAILURE() << "value " << i << " is " << got[i] << ", expected " << wanted[i];
+    }
+    EXPECT_EQ(wrong, 0u);
+}
+
+class Conformance : public testing::TestWithParam<const char*> {
+  protected:
+    /// What the library wrote into the folder, and what is to be found in it.
+    json entries() const {
+        const fs::path scripts = fs::path(test_support::source_root()) / "tests/index/conformance";
+        const std::string command =
+            fmt::format("PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 {} {}",
+                        (scripts / GetParam()).string(), folder_.path().string());
+        EXPECT_EQ(std::system(command.c_str()), 0);
+        return json::parse(folder_.read("manifest.json"));
+    }
+
+    TestFolder folder_;
+};
+
+TEST_P(Conformance, ValuesPlacesAndTimesAreTheLibrarys) {
+    for (const json& entry : entries()) {
+        std::vector<fs::path> files;
+        for (const std::string name : entry["files"])
+            files.push_back(folder_.path() / name);
+        const ReadOptions options = options_in(entry["options"]);
+        SCOPED_TRACE(fmt::format("{} {}", entry["files"].dump(), entry["options"].dump()));
+        if (entry.contains("message")) {
+            EXPECT_THAT(error_of([&] { open_series(files, options); }),
+                        testing::HasSubstr(std::string(entry["message"])));
+            continue;
+        }
+        try {
+            const auto series = open_series(files, options);
+            const SeriesInfo& info = series->info();
+            ASSERT_EQ(info.grid.vertices, (entry["vertices"].get<std::array<std::uint32_t, 3>>()));
+            ASSERT_EQ(info.steps(), entry["steps"].get<std::size_t>());
+            expect_places(info, entry);
+            for (std::size_t i = 0; i < entry["times"].size(); ++i)
+                EXPECT_NEAR(info.times[i], double(entry["times"][i]), 1e-9);
+            expect_values(scaled_values(*series), doubles_in(folder_.path() / entry["values"]),
+                          entry["kind"] == "rounded");
+        } catch (const Error& error) {
+            ADD_FAILURE() << error.what();
+        }
+    }
+}
+
+/// As `open_series`, but with readers that are waited for no longer than a moment: HDF5 1.10 goes
+/// round in circles for ever in some damaged files.
+void read_impatiently(const fs::path& file, const ReadOptions& options) {
+    static ReaderPool readers({.patience = std::chrono::milliseconds(1500)});
+    const std::string extension = file.extension();
+    if (extension != ".h5" && extension != ".hdf5" && extension != ".vtkhdf") {
+        scaled_values(*open_series({file}, options));
+        return;
+    }
+    const auto volume = open_foreign(readers, ForeignFormat::hdf5, file, options);
+    std::vector<std::byte> bytes(volume->info().step_bytes());
+    for (std::size_t step = 0; step < volume->steps(); ++step)
+        volume->read(step, bytes);
+}
+
+/// Reads all of a file. @return whether it could be read; else it is one line that names the file
+bool reads(const fs::path& file, const ReadOptions& options) {
+    try {
+        read_impatiently(file, options);
+        return true;
+    } catch (const Error& error) {
+        const std::string line = error.what();
+        EXPECT_THAT(line, testing::HasSubstr(file.filename().string()));
+        EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+        return false;
+    }
+}
+
+// Where a file of these formats is cut short, what is left may still be a whole file, or its values
+// may all be there: no test can tell these apart, but none may crash or hang.
+TEST_P(Conformance, DamageIsOneLine) {
+    std::set<std::string> seen;
+    std::mt19937 random(test_seed());
+    std::size_t refused = 0, cut = 0;
+    for (const json& entry : entries()) {
+        const std::string name = entry["files"].front();
+        if (entry.contains("message") || entry["files"].size() > 1 || !seen.insert(name).second)
+            continue;
+        const std::string whole = folder_.read(name);
+        const ReadOptions options = options_in(entry["options"]);
+        constexpr std::size_t kCuts = 6, kFlips = 12;
+        for (std::size_t i = 0; i < kCuts; ++i, ++cut)
+            refused += !reads(
+                folder_.write("cut_" + name, whole.substr(0, whole.size() * i / kCuts)), options);
+        for (std::size_t i = 0; i < kFlips; ++i) {
+            std::string changed = whole;
+            for (int bit = 0; bit < 4; ++bit)
+                changed[random() % std::min<std::size_t>(changed.size(), 4096)] ^=
+                    static_cast<char>(1 << random() % 8);
+            reads(folder_.write("flipped_" + name, changed), options);
+        }
+    }
+    EXPECT_GE(refused * 10, cut * 9) << refused << " of " << cut << " cut files refused";
+}
+
+INSTANTIATE_TEST_SUITE_P(Libraries, Conformance, testing::Values("with_h5py.py"),
+                         [](const auto& script) {
+                             const std::string name = script.param;
+                             return name.substr(5, name.size() - 8);
+                         });
+
+} // namespace
+} // namespace isochron::index

@@ -4,6 +4,7 @@
 #include "index/system/huge_pages.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace isochron::index {
@@ -20,6 +21,13 @@ void make_room(std::vector<T>& values, std::size_t more, double done) {
     values.reserve(std::max(likely, size + size / 2));
     ask_for_huge_pages(values.data() + values.size(),
                        (values.capacity() - values.size()) * sizeof(T));
+}
+
+/// @return where they are now
+template <class T>
+std::span<T> appended(std::vector<T>& to, const std::vector<T>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+    return std::span(to).last(more.size());
 }
 
 } // namespace
@@ -57,14 +65,14 @@ void LayerResults::append(LayerResult& result) {
     make_room(set_.ids, from.ids.size(), done);
     make_room(set_.points, from.points.size(), done);
     make_room(set_.rows, from.rows.size(), done);
-    for (const CellId id : from.ids)
-        set_.ids.push_back(result.first + id);
-    for (CellPoint point : from.points) {
+    for (CellId& id : appended(set_.ids, from.ids))
+        id += result.first;
+    for (CellPoint& point : appended(set_.points, from.points))
         point.z = static_cast<std::uint16_t>(point.z + plane);
-        set_.points.push_back(point);
+    for (CellRow& row : appended(set_.rows, from.rows)) {
+        row.z = static_cast<std::uint16_t>(row.z + plane);
+        row.begin += before;
     }
-    for (const CellRow& row : from.rows)
-        set_.rows.push_back({row.y, static_cast<std::uint16_t>(row.z + plane), before + row.begin});
     set_.candidates += from.candidates;
     searching += result.searching;
     shading += result.shading;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -46,25 +47,77 @@ std::uint32_t candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut)
     return bits;
 }
 
+/// Of chunks side by side: where their values begin, and how many.
+struct Neighbors {
+    static constexpr std::size_t kMost = 8; ///< streams that a processor follows with ease
+    std::array<const std::byte*, kMost> from;
+    std::size_t count = 0;
+};
+
 template <std::size_t kWidth>
-void copy_rows_of(const std::byte* from, std::uint32_t rows, std::byte* to, std::size_t stride) {
-    for (std::uint32_t y = 0; y < rows; ++y, from += kWidth, to += stride)
-        std::memcpy(to, from, kWidth);
+void copy_rows_of(const Neighbors& chunks, std::size_t offset, std::uint32_t rows, std::byte* to,
+                  std::size_t stride) {
+    for (std::uint32_t y = 0; y < rows; ++y, offset += kWidth, to += stride)
+        for (std::size_t i = 0; i < chunks.count; ++i)
+            std::memcpy(to + i * kWidth, chunks.from[i] + offset, kWidth);
 }
 
-/// From rows back to back to rows `stride` bytes apart. The usual widths are known to the compiler.
-void copy_rows(const std::byte* from, std::size_t width, std::uint32_t rows, std::byte* to,
-               std::size_t stride) {
+/// From rows back to back, `offset` bytes within the chunks, to rows `stride` bytes apart: all of
+/// a row at once, since the next one lies in another part of the memory. The usual widths are known
+/// to the compiler.
+void copy_rows(const Neighbors& chunks, std::size_t offset, std::size_t width, std::uint32_t rows,
+               std::byte* to, std::size_t stride) {
     switch (width) {
-    case kChunkEdge: return copy_rows_of<kChunkEdge>(from, rows, to, stride);
-    case 2 * kChunkEdge: return copy_rows_of<2 * kChunkEdge>(from, rows, to, stride);
-    case 4 * kChunkEdge: return copy_rows_of<4 * kChunkEdge>(from, rows, to, stride);
-    case 8 * kChunkEdge: return copy_rows_of<8 * kChunkEdge>(from, rows, to, stride);
+    case kChunkEdge: return copy_rows_of<kChunkEdge>(chunks, offset, rows, to, stride);
+    case 2 * kChunkEdge: return copy_rows_of<2 * kChunkEdge>(chunks, offset, rows, to, stride);
+    case 4 * kChunkEdge: return copy_rows_of<4 * kChunkEdge>(chunks, offset, rows, to, stride);
+    case 8 * kChunkEdge: return copy_rows_of<8 * kChunkEdge>(chunks, offset, rows, to, stride);
     default: break;
     }
-    for (std::uint32_t y = 0; y < rows; ++y, from += width, to += stride)
-        std::memcpy(to, from, width);
+    for (std::uint32_t y = 0; y < rows; ++y, offset += width, to += stride)
+        for (std::size_t i = 0; i < chunks.count; ++i)
+            std::memcpy(to + i * width, chunks.from[i] + offset, width);
 }
+
+/// Where a cell lies in its chunk along an axis: what it and its neighbors need beyond.
+enum Side : unsigned { nothing, vertex_below, two_vertices_on, next_vertex };
+constexpr unsigned kSides = 4;
+
+/// By the cell's place.
+constexpr std::array<std::uint8_t, kChunkEdge> kSide = [] {
+    std::array<std::uint8_t, kChunkEdge> side{};
+    side[0] = vertex_below;
+    side[kChunkEdge - 2] = two_vertices_on;
+    side[kChunkEdge - 1] = next_vertex;
+    return side;
+}();
+
+/// A chunk and those around it: bit (dz + 1) * 9 + (dy + 1) * 3 + dx + 1.
+using Around = std::array<std::uint32_t, kSides * kSides * kSides>;
+
+/// Which chunks hold the vertices of a cell at these sides, x fastest, and with normals those of
+/// its neighbors along each axis.
+constexpr Around around_of(bool normals) {
+    Around around{};
+    for (unsigned i = 0; i < around.size(); ++i) {
+        const std::array<unsigned, 3> side{i % kSides, i / kSides % kSides, i / kSides / kSides};
+        for (int bit = 0; bit < 27; ++bit) {
+            const std::array<int, 3> d{bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
+            unsigned beyond = 0; // axes along which a neighbor needs it, but not the cell
+            bool reached = true;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const bool own = d[axis] == 0 || (d[axis] == 1 && side[axis] == next_vertex);
+                beyond += own ? 0 : 1;
+                reached = reached && (own || (d[axis] == 1 && side[axis] == two_vertices_on) ||
+                                      (d[axis] == -1 && side[axis] == vertex_below));
+            }
+            if (reached && beyond <= (normals ? 1u : 0u))
+                around[i] |= 1u << bit;
+        }
+    }
+    return around;
+}
+constexpr Around kAround = around_of(false), kAroundWithNormals = around_of(true);
 
 } // namespace
 
@@ -153,12 +206,12 @@ bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
     bricks_.assign(grid.bytes_per_step(), 0);
     std::fill_n(bricks_.begin(), grid.count(), std::uint8_t{255});
     const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer_, places, stop_);
-    bool any = false;
+    std::vector<std::uint32_t> own_places;
+    std::vector<ChunkPtr> own;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const std::uint32_t candidates = candidates_of(chunks[i]->bricks, cut);
         if (candidates == 0)
             continue;
-        any = true;
         const auto [x, y] = chunks_.at(places[i]);
         set_bricks(*chunks[i], x, y, candidates);
         unsigned reach = 0;
@@ -170,61 +223,44 @@ bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
             if (reach >> d & 1 && at[0] < n[0] && at[1] < n[1] && at[2] < n[2])
                 need(at[0], at[1], at[2]);
         }
-        // At hand already: looked up no more.
-        if (std::uint8_t& state = state_[1][places[i]]; state != filled) {
-            copy(*chunks[i], layer_, places[i]);
-            state = filled;
-        }
+        own_places.push_back(places[i]); // at hand already: looked up no more
+        own.push_back(chunks[i]);
     }
+    copy(layer_, own_places, own);
     fill();
-    return any;
+    return !own.empty();
 }
 
-/// Goes through the cells in stretches that need the same chunks.
+/// Marks for each chunk at which of its sides there are cells, and then what these need.
 void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
-    struct Range {
-        std::uint32_t first, last; ///< chunks
-        bool operator==(const Range&) const = default;
-    };
-    const auto& n = grid_.vertices;
-    const auto inner = [](std::uint32_t cell) {
-        return Range{cell / kChunkEdge, (cell + 1) / kChunkEdge};
-    };
-    const auto outer = [&](std::uint32_t cell, std::size_t axis) {
-        return Range{(cell - std::min(cell, 1u)) / kChunkEdge,
-                     std::min(cell + 2, n[axis] - 1) / kChunkEdge};
-    };
-    const auto need_all = [&](Range x, Range y, Range z) {
-        for (std::uint32_t cz = z.first; cz <= z.last; ++cz)
-            for (std::uint32_t cy = y.first; cy <= y.last; ++cy)
-                for (std::uint32_t cx = x.first; cx <= x.last; ++cx)
-                    need(cx, cy, cz);
-    };
+    const auto& n = chunks_.counts();
+    sides_.assign(std::size_t{n[0]} * n[1], 0);
     CellWalk walk(around().grid);
-    Range inner_y{}, outer_y{}, inner_z{}, outer_z{};
-    std::uint32_t same_from = 1, same_to = 0; // cells of the row that need what the last one did
+    std::uint64_t* of_row = nullptr;
+    unsigned row_side = 0;
     for (const CellId id : cells) {
         if (walk.to(id)) {
-            const std::uint32_t z = walk.z() + first_plane_;
-            inner_y = inner(walk.y());
-            outer_y = normals ? outer(walk.y(), 1) : inner_y;
-            inner_z = inner(z);
-            outer_z = normals ? outer(z, 2) : inner_z;
-            same_from = 1;
-            same_to = 0;
+            const std::uint32_t y = walk.y(), z = walk.z() + first_plane_;
+            assert(z / kChunkEdge == layer_);
+            row_side = kSides * (kSide[y % kChunkEdge] + kSides * kSide[z % kChunkEdge]);
+            of_row = sides_.data() + std::size_t{y / kChunkEdge} * n[0];
         }
         const std::uint32_t x = walk.x();
-        if (x >= same_from && x <= same_to)
-            continue;
-        const Range inner_x = inner(x), outer_x = normals ? outer(x, 0) : inner_x;
-        need_all(outer_x, inner_y, inner_z);
-        if (outer_y != inner_y)
-            need_all(inner_x, outer_y, inner_z);
-        if (outer_z != inner_z)
-            need_all(inner_x, inner_y, outer_z);
-        if (outer_x.first == outer_x.last) { // so do all cells that lie as deep within the chunk
-            same_from = x;
-            same_to = outer_x.first * kChunkEdge + kChunkEdge - 3;
+        of_row[x / kChunkEdge] |= std::uint64_t{1} << (row_side + kSide[x % kChunkEdge]);
+    }
+    const Around& around_side = normals ? kAroundWithNormals : kAround;
+    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
+        std::uint32_t around = 0;
+        for (std::uint64_t sides = sides_[i]; sides; sides &= sides - 1)
+            around |= around_side[static_cast<std::size_t>(std::countr_zero(sides))];
+        for (; around; around &= around - 1) {
+            const auto bit = static_cast<std::uint32_t>(std::countr_zero(around));
+            // One more than they are; what lies outside of the grid is not there.
+            const std::array<std::uint32_t, 3> at{i % n[0] + bit % 3, i / n[0] + bit / 3 % 3,
+                                                  layer_ + bit / 9};
+            if (at[0] > 0 && at[0] <= n[0] && at[1] > 0 && at[1] <= n[1] && at[2] > 0 &&
+                at[2] <= n[2])
+                need(at[0] - 1, at[1] - 1, at[2] - 1);
         }
     }
     fill();
@@ -253,11 +289,7 @@ void StepSlab::fill() {
         if (places[i].empty())
             continue;
         const std::uint32_t layer = layer_ + i - 1;
-        const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer, places[i], stop_);
-        for (std::size_t k = 0; k < places[i].size(); ++k) {
-            copy(*chunks[k], layer, places[i][k]);
-            state_[i][places[i][k]] = filled;
-        }
+        copy(layer, places[i], store_.chunks(step_, layer, places[i], stop_));
     }
 }
 
@@ -273,20 +305,42 @@ void StepSlab::expect(std::uint32_t layer, std::span<const std::uint32_t> places
     store_.expect(step_, layer, others);
 }
 
-/// As far as the slab reaches.
-void StepSlab::copy(const Chunk& chunk, std::uint32_t layer, std::uint32_t place) {
+/// As far as the slab reaches, unless they are there already.
+void StepSlab::copy(std::uint32_t layer, std::span<const std::uint32_t> places,
+                    std::span<const ChunkPtr> chunks) {
+    std::vector<std::uint8_t>& state = state_[layer + 1 - layer_];
+    by_column_.assign(state.size(), nullptr);
+    const std::uint32_t across = chunks_.counts()[0];
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (std::uint8_t& of_chunk = state[places[i]]; of_chunk != filled) {
+            const auto [x, y] = chunks_.at(places[i]);
+            by_column_[std::size_t{y} * across + x] = chunks[i].get();
+            of_chunk = filled;
+        }
     const std::size_t size = size_of(store_.info().type);
     const std::size_t row = grid_.vertices[0] * size, plane = grid_.vertices[1] * row;
-    const auto [x, y] = chunks_.at(place);
     const std::uint32_t bottom = layer * kChunkEdge;
-    const std::size_t width = chunk.size[0] * size;
     const std::uint32_t first = std::max(bottom, first_plane_);
-    const std::uint32_t end = std::min(bottom + chunk.size[2], end_plane_);
-    auto* const out =
-        reinterpret_cast<std::byte*>(words_.get()) + y * kChunkEdge * row + x * kChunkEdge * size;
-    for (std::uint32_t z = first; z < end; ++z)
-        copy_rows(chunk.values.data() + (z - bottom) * chunk.size[1] * width, width, chunk.size[1],
-                  out + (z - first_plane_) * plane, row);
+    for (std::uint32_t i = 0; i < by_column_.size();) {
+        const Chunk* const chunk = by_column_[i];
+        if (!chunk) {
+            ++i;
+            continue;
+        }
+        const std::uint32_t x = i % across, y = i / across;
+        Neighbors neighbors;
+        do {
+            neighbors.from[neighbors.count++] = by_column_[i++]->values.data();
+        } while (neighbors.count < Neighbors::kMost && i % across != 0 && by_column_[i] &&
+                 by_column_[i]->size == chunk->size);
+        const std::size_t width = chunk->size[0] * size;
+        const std::uint32_t end = std::min(bottom + chunk->size[2], end_plane_);
+        auto* const out = reinterpret_cast<std::byte*>(words_.get()) + y * kChunkEdge * row +
+                          x * kChunkEdge * size;
+        for (std::uint32_t z = first; z < end; ++z)
+            copy_rows(neighbors, (z - bottom) * chunk->size[1] * width, width, chunk->size[1],
+                      out + (z - first_plane_) * plane, row);
+    }
 }
 
 } // namespace isochron::index

@@ -44,7 +44,7 @@ class StepSlab {
     /// Of `cells()`, as from `build_bricks`; none but those that may hold active cells.
     std::span<const std::uint8_t> bricks() const { return bricks_; }
     /// Fills the vertices of cells, and with normals their neighbors along each axis.
-    /// @param cells ids within `around()`, ascending
+    /// @param cells of this layer, ids within `around()`, ascending
     void fill_around(std::span<const CellId> cells, bool normals);
     void fill_all();
 
@@ -68,7 +68,8 @@ class StepSlab {
     void set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y, std::uint32_t candidates);
     void fill();
     void expect(std::uint32_t layer, std::span<const std::uint32_t> places) const;
-    void copy(const Chunk& chunk, std::uint32_t layer, std::uint32_t place);
+    void copy(std::uint32_t layer, std::span<const std::uint32_t> places,
+              std::span<const ChunkPtr> chunks);
 
     const ChunkStore& store_;
     const ChunkGrid& chunks_;
@@ -78,6 +79,8 @@ class StepSlab {
     std::unique_ptr<std::uint64_t[]> words_; ///< the values; not set before they are filled
     std::vector<std::uint8_t> bricks_;
     std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
+    std::vector<std::uint64_t> sides_;               ///< of each column: where its cells lie
+    std::vector<const Chunk*> by_column_;            ///< what is copied
     std::stop_token stop_;
     std::optional<LevelMap::Cut> asked_; ///< whose candidate chunks the disk has been asked for
 };

@@ -84,9 +84,15 @@ void place_bricks(const Chunk& chunk, const BrickGrid& grid, const std::array<st
 
 ChunkStore::ChunkStore(const ByteSource& source, ByteCache& cache, ChunkArray array)
     : source_(source), cache_(cache), array_(std::move(array)), grid_(array_.info.grid),
-      visited_(array_.info.steps()) {
+      pool_(std::make_shared<SlotPool>(chunk_bytes())), visited_(array_.info.steps()) {
     if (!has_step_levels(array_.info.type))
         of_type_ = std::make_shared<LevelMap>(LevelMap::of_type(array_.info.type));
+}
+
+/// What a chunk takes with its values, which lie behind it.
+std::size_t ChunkStore::chunk_bytes() const {
+    constexpr std::size_t kVertices = std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge;
+    return sizeof(Chunk) + (array_.has_values ? kVertices * size_of(array_.info.type) : 0);
 }
 
 ByteCache::Key ChunkStore::key(unsigned kind, std::uint32_t step, std::uint32_t layer,
@@ -226,16 +232,21 @@ ChunkPtr ChunkStore::decoded(std::uint32_t step, std::uint32_t layer, std::uint3
     std::memcpy(&checksum, record.data(), sizeof checksum);
     if (record_checksum(record.subspan(sizeof checksum)) != checksum)
         refuse("its checksum does not match");
-    auto chunk = std::make_shared<Chunk>();
+    std::byte* const slot = pool_->take();
+    const std::shared_ptr<Chunk> chunk(new (slot) Chunk, [pool = pool_](Chunk* done) {
+        pool->give_back(reinterpret_cast<std::byte*>(done));
+    });
     chunk->size = grid_.size(layer, place);
     if (array_.has_bricks)
         std::memcpy(chunk->bricks.data(), record.data() + sizeof checksum, sizeof(ChunkBricks));
     if (!array_.has_values)
         return chunk;
     const auto& size = chunk->size;
-    chunk->values.resize(std::size_t{size[0]} * size[1] * size[2] * size_of(array_.info.type));
-    if (!unpack_chunk(array_.info.type, size, record.subspan(head), chunk->values))
+    const std::span values(slot + sizeof(Chunk),
+                           std::size_t{size[0]} * size[1] * size[2] * size_of(array_.info.type));
+    if (!unpack_chunk(array_.info.type, size, record.subspan(head), values))
         refuse("it cannot be unpacked");
+    chunk->values = values;
     return chunk;
 }
 
@@ -258,7 +269,7 @@ std::vector<ChunkPtr> ChunkStore::chunks(std::uint32_t step, std::uint32_t layer
     added.reserve(missing.size());
     read_records(*table, missing, stop, [&](std::size_t i, std::span<const std::byte> record) {
         const ChunkPtr chunk = decoded(step, layer, missing[i], record);
-        added.push_back({known[where[i]], chunk, sizeof(Chunk) + chunk->values.size()});
+        added.push_back({known[where[i]], chunk, chunk_bytes()});
         found[where[i]] = chunk;
     });
     cache_.add_all(std::move(added));

@@ -6,6 +6,7 @@
 #include "index/file/chunk_table.h"
 #include "index/file/file_layout.h"
 #include "index/file/index_contents.h"
+#include "index/system/slot_pool.h"
 #include "index/volume/level_map.h"
 
 #include <memory>
@@ -21,7 +22,7 @@ namespace isochron::index {
 struct Chunk {
     std::array<std::uint32_t, 3> size{}; ///< vertices along x, y and z
     ChunkBricks bricks{};                ///< of no meaning in an index without bricks
-    std::vector<std::byte> values;       ///< [z][y][x], x fastest; empty where the file has none
+    std::span<const std::byte> values;   ///< [z][y][x], x fastest; empty where the file has none
 };
 using ChunkPtr = std::shared_ptr<const Chunk>;
 
@@ -81,6 +82,7 @@ class ChunkStore {
   private:
     ByteCache::Key key(unsigned kind, std::uint32_t step, std::uint32_t layer = 0,
                        std::uint32_t place = 0) const;
+    std::size_t chunk_bytes() const;
     ChunkPtr decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                      std::span<const std::byte> record) const;
     template <class F>
@@ -96,7 +98,8 @@ class ChunkStore {
     ByteCache& cache_;
     ChunkArray array_;
     ChunkGrid grid_;
-    LevelMapPtr of_type_; ///< of an 8-bit type
+    LevelMapPtr of_type_;            ///< of an 8-bit type
+    std::shared_ptr<SlotPool> pool_; ///< of chunks with their values
     mutable std::mutex visits_mutex_;
     mutable std::vector<bool> visited_; ///< steps that have been worked on
 };

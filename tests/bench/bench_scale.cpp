@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include <fcntl.h>
@@ -118,6 +119,19 @@ double seconds_of_zstd(const Field& field) {
     return watch.seconds();
 }
 
+/// How many blocks of `edge`^3 cells hold an active one: no search of any kind can read less than
+/// these where values are kept in such blocks.
+std::size_t blocks_with(const std::vector<index::CellId>& ids, std::uint32_t size,
+                        std::uint32_t edge) {
+    const std::size_t cells = size - 1, across = (cells + edge - 1) / edge;
+    std::vector<bool> held(across * across * across);
+    for (const std::size_t id : ids) {
+        const std::size_t x = id % cells, y = id / cells % cells, z = id / cells / cells;
+        held[(z / edge * across + y / edge) * across + x / edge] = true;
+    }
+    return static_cast<std::size_t>(std::ranges::count(held, true));
+}
+
 /// What finding and shading the cells of one isovalue costs when nothing of the file is in memory.
 struct Cost {
     double seconds = 0;
@@ -197,6 +211,14 @@ void measure_field(const ScaleArguments& arguments, const std::string& name,
             fmt::print("; VTK {:.0f} ms, {:.1f}x", 1e3 * vtk.seconds, vtk.seconds / ours.seconds);
         }
         fmt::print("\n");
+        for (const std::uint32_t edge : {8u, 16u}) {
+            const auto blocks = static_cast<double>(
+                blocks_with(found->ids, static_cast<std::uint32_t>(arguments.size), edge));
+            const double bytes = blocks * std::pow(edge, 3);
+            fmt::print("  of it in blocks of {}^3 cells that hold an active one: {:.0f} blocks, "
+                       "{:.1f} MiB of values, {:.1f} %\n",
+                       edge, blocks, bytes / (1 << 20), 100 * bytes / cells);
+        }
     }
 }
 

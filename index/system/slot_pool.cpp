@@ -1,0 +1,93 @@
+// Blocks of slots, each with a list of those that are free.
+#include "index/system/slot_pool.h"
+
+#include "index/system/huge_pages.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64;
+
+} // namespace
+
+/// At the begin of its memory.
+struct alignas(kSlotAlignment) SlotPool::Block {
+    std::byte* next = nullptr;  ///< the first free slot, which holds where the one behind it is
+    std::byte* fresh = nullptr; ///< slots from here on have never been used
+    std::size_t used = 0;
+
+    static Block* of(std::byte* slot) {
+        return reinterpret_cast<Block*>(reinterpret_cast<std::uintptr_t>(slot) / kBlock * kBlock);
+    }
+    std::byte* end() { return reinterpret_cast<std::byte*>(this) + kBlock; }
+    bool full(std::size_t slot) { return !next && static_cast<std::size_t>(end() - fresh) < slot; }
+    std::byte* take(std::size_t slot) {
+        ++used;
+        if (std::byte* const found = next) {
+            next = *std::launder(reinterpret_cast<std::byte**>(found));
+            return found;
+        }
+        fresh += slot;
+        return fresh - slot;
+    }
+};
+
+SlotPool::SlotPool(std::size_t bytes)
+    : bytes_((bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment) {
+    assert(bytes > 0 && bytes <= kBlock / 2);
+}
+
+SlotPool::~SlotPool() {
+    for (Block* const block : free_)
+        std::free(block);
+}
+
+std::byte* SlotPool::take() {
+    const std::scoped_lock lock(mutex_);
+    if (free_.empty()) {
+        void* const memory = std::aligned_alloc(kBlock, kBlock);
+        if (!memory)
+            throw std::bad_alloc();
+        ask_for_huge_pages(memory, kBlock);
+        auto* const block = new (memory) Block;
+        block->fresh = reinterpret_cast<std::byte*>(block + 1);
+        free_.push_back(block);
+        ++blocks_;
+    }
+    Block* const block = free_.back();
+    std::byte* const slot = block->take(bytes_);
+    if (block->full(bytes_))
+        free_.pop_back();
+    return slot;
+}
+
+void SlotPool::give_back(std::byte* slot) {
+    Block* empty = nullptr;
+    {
+        const std::scoped_lock lock(mutex_);
+        Block* const block = Block::of(slot);
+        if (block->full(bytes_))
+            free_.push_back(block);
+        new (slot) std::byte*(block->next);
+        block->next = slot;
+        if (--block->used == 0 && free_.size() > 1) {
+            std::erase(free_, block);
+            empty = block;
+            --blocks_;
+        }
+    }
+    std::free(empty);
+}
+
+std::size_t SlotPool::bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return blocks_ * kBlock;
+}
+
+} // namespace isochron::index

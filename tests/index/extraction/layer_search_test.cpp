@@ -84,8 +84,9 @@ TEST_F(LayerSearchTest, FindsAndShadesWhatWholeStepsGiveForEveryTypeMethodAndGri
                         search_in(whole, method, Shading::cells_and_mesh)(query, {});
                     expect_same(*found, *wanted);
                     ASSERT_EQ(!found->mesh, found->ids.empty());
-                    if (found->mesh)
+                    if (found->mesh) {
                         EXPECT_TRUE(*found->mesh == *wanted->mesh);
+                    }
                 }
         }
 }

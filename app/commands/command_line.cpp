@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -170,6 +171,54 @@ void Command::on_run(std::function<void()> run) {
 
 namespace {
 
+/// The words of "{a,b,c}" in what the parser shows of a value; none where it lists none.
+std::vector<std::string> listed_words(const std::string& shown) {
+    std::vector<std::string> words;
+    const std::size_t begin = shown.find('{');
+    const std::size_t end = shown.find('}', begin);
+    if (begin == std::string::npos || end == std::string::npos)
+        return words;
+    std::istringstream list(shown.substr(begin + 1, end - begin - 1));
+    for (std::string word; std::getline(list, word, ',');)
+        words.push_back(word);
+    return words;
+}
+
+OptionReference reference_of(const CLI::Option& option) {
+    OptionReference reference;
+    for (const std::string& name : option.get_snames())
+        reference.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        reference.names.push_back("--" + name);
+    if (reference.names.empty())
+        reference.value = option.get_name();
+    else if (option.get_expected_max() > 0)
+        reference.value = option.get_type_name();
+    reference.words = listed_words(option.get_type_name());
+    reference.help = option.get_description();
+    reference.heading = reference.names.empty() ? "Arguments" : option.get_group();
+    reference.required = option.get_required();
+    return reference;
+}
+
+CommandReference reference_of(const CLI::App& app) {
+    CommandReference reference{app.get_name(), app.get_description(), app.get_footer(), {}, {}};
+    for (const CLI::Option* option : app.get_options())
+        if (!option->get_group().empty())
+            reference.options.push_back(reference_of(*option));
+    for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; }))
+        reference.commands.push_back(reference_of(*below));
+    return reference;
+}
+
+} // namespace
+
+CommandReference Command::reference() const {
+    return reference_of(*app_);
+}
+
+namespace {
+
 int fail(const std::string& program, const std::string& what, int status) {
     std::fprintf(stderr, "%s: %s\n", program.c_str(), one_line(what).c_str());
     return status;
@@ -266,11 +315,13 @@ std::vector<std::string> arguments_from(int argc, const char* const* argv) {
 
 } // namespace
 
-int run_program(const std::string& name, const std::string& description,
-                std::initializer_list<void (*)(Command& program)> commands, int argc,
-                const char* const* argv) {
-    CLI::App program{description, name};
-    program.set_version_flag("--version", fmt::format("{} {}", name, kVersion));
+int run_program(const ProgramText& text, std::initializer_list<void (*)(Command& program)> commands,
+                int argc, const char* const* argv) {
+    const std::string& name = text.name;
+    CLI::App program{text.description, name};
+    program.set_version_flag("--version", fmt::format("{} {}{}{}", name, kVersion,
+                                                      text.version_details.empty() ? "" : "\n",
+                                                      text.version_details));
     program.require_subcommand(1);
     program.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
     Command root(program);

@@ -8,6 +8,8 @@
 //     }
 #pragma once
 
+#include "app/commands/command_reference.h"
+
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
@@ -88,14 +90,23 @@ class Command {
     /// Text below the options in the command's help.
     void footer(const std::string& text);
     void on_run(std::function<void()> run);
+    /// What it offers, with the commands below it that have been added so far.
+    CommandReference reference() const;
 
   private:
     CLI::App* app_;
 };
 
+/// What a program says of itself.
+struct ProgramText {
+    std::string name;
+    std::string description;
+    std::string version_details; ///< what --version prints below name and version; may be empty
+};
+
 /// Parses the arguments, runs the one subcommand that they name, and turns errors into one line.
 /// Returns the exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted.
-int run_program(const std::string& name, const std::string& description,
+int run_program(const ProgramText& program,
                 std::initializer_list<void (*)(Command& program)> commands, int argc,
                 const char* const* argv);
 

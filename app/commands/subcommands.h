@@ -16,5 +16,7 @@ void add_movie(Command& program);
 void add_replay(Command& program);
 void add_reproduce(Command& program);
 void add_config(Command& program);
+void add_manual(Command& program);
+void add_completion(Command& program);
 
 } // namespace isochron::app

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 fs::path file_of_program(const std::string& name) {
     const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
     for (const fs::path& place :
-         std::array{folder / name, folder.parent_path() / "lib" / "isochron" / name})
+         std::array{folder / name, folder.parent_path() / "libexec" / "isochron" / name})
         if (fs::exists(place))
             return place;
     throw Error(fmt::format("{}: not found beside the program in {}", name, folder.string()));

@@ -7,7 +7,7 @@
 namespace isochron::index {
 
 /// A file of ours, `isochron-reader-vtk` or `libisochron_mpi.so`: beside the program, where a build
-/// puts it, or in ../lib/isochron. Nowhere else is looked.
+/// puts it, or in ../libexec/isochron, where it is installed. Nowhere else is looked.
 /// @throws Error naming the file and the folder of the program
 std::filesystem::path file_of_program(const std::string& name);
 

@@ -1,0 +1,44 @@
+# Debian packages by `cpack`: the program, and the library `index` for developers.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME isochron)
+set(CPACK_PACKAGE_VENDOR "The Isochron authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "immersive explorer of time-varying volume data")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program library)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Isochron authors <isochron@users.noreply.github.com>")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME isochron)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, libegl1, libgl1, libgl1-mesa-dri")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libosmesa6")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, openmpi-bin")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+"Isochron lets scientists stand inside a series of volumes, such as a
+simulation, a scan or a film of a microscope, and drag isovalue and time of
+its isosurfaces at display rate: on a desktop, in a CAVE, or in a headset.")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libisochron-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
+  "libfmt-dev, libglm-dev, libbz2-dev, zlib1g-dev, liblz4-dev, libzstd-dev, libxxhash-dev, libhwy-dev, pkg-config")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
+"Isochron's index of time-varying volumes as a static library with its headers
+and its package for CMake: find the active cells of an isosurface at any step.")
+
+# What Debian asks of each package's documents. Of the libraries that are compiled in, the notices are those of the
+# machine that compiles.
+set(documents ${CMAKE_BINARY_DIR}/documents)
+add_custom_command(OUTPUT ${documents}/made
+  COMMAND ${CMAKE_COMMAND} -DSOURCE=${CMAKE_SOURCE_DIR} -DOUT=${documents} -DVERSION=${PROJECT_VERSION} -DMAINTAINER=${CPACK_DEBIAN_PACKAGE_MAINTAINER}
+    -P ${CMAKE_SOURCE_DIR}/cmake/documents.cmake
+  DEPENDS LICENSE CHANGELOG.md cmake/documents.cmake VERBATIM)
+add_custom_target(isochron_documents DEPENDS ${documents}/made)
+add_dependencies(isochron_program isochron_documents)
+install(DIRECTORY ${documents}/isochron/ DESTINATION share/doc/isochron COMPONENT program)
+install(DIRECTORY ${documents}/libisochron-dev/ DESTINATION share/doc/libisochron-dev COMPONENT library)
+include(CPack)

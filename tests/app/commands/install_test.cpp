@@ -1,0 +1,129 @@
+// The installed tree: it works wherever it lies, other programs build against it, and its package leaves as it came.
+#include "tests/app/commands/command_line.h"
+
+#include <sstream>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Installed : public CommandLine {
+  protected:
+    /// Runs a shell's command in the test's folder; fails the test where it fails.
+    std::string shell(const std::string& command) {
+        const ChildResult result = run_child("/bin/sh", {"-ec", command}, folder.path());
+        EXPECT_EQ(result.status, 0) << command << '\n' << result.out << result.err;
+        return result.out;
+    }
+    /// Installs into `prefix`, below the test's folder.
+    void install(const std::string& prefix, const std::string& component) {
+        shell(fmt::format("cmake --install '{}' --prefix '{}' --component {}",
+                          test_support::binary_root(), (folder.path() / prefix).string(),
+                          component));
+    }
+    /// Regular files and links below a folder, sorted.
+    static std::vector<std::string> files_below(const fs::path& place) {
+        std::vector<std::string> found;
+        if (!fs::exists(place))
+            return found;
+        for (const auto& entry : fs::recursive_directory_iterator(place))
+            if (!entry.is_directory())
+                found.push_back(entry.path().string());
+        std::ranges::sort(found);
+        return found;
+    }
+};
+
+TEST_F(Installed, WorksFromAnyPrefixAndWhereItIsMovedTo) {
+    install("first", "program");
+    fs::create_directories(folder.path() / "elsewhere");
+    fs::rename(folder.path() / "first", folder.path() / "elsewhere" / "moved to");
+    // What lies in the working directory under the names of modules and readers is not taken.
+    folder.write("libisochron_images.so", "no module");
+    folder.write("isochron-reader-vtk", "no reader");
+    const std::string program = "'elsewhere/moved to/bin/isochron'";
+    EXPECT_THAT(shell(program + " --version"), HasSubstr("commit "));
+    shell(program +
+          " generate sphere --out sphere >/dev/null"); // .vti: of the reader of VTK's files
+    shell(program + " build sphere/*.pvd -o sphere.isochron");
+    shell(program +
+          " replay 'elsewhere/moved to/share/isochron/configs/demo.jsonl' --data sphere.isochron "
+          "--any-data --context egl --size 64 64 --stamps --out pictures");
+    EXPECT_THAT(shell("file pictures/*"), HasSubstr("PNG image data, 64 x 64"));
+}
+
+TEST_F(Installed, HasAManualPageAndCompletionsForEachCommand) {
+    install("tree", "program");
+    const fs::path share = folder.path() / "tree" / "share";
+    std::istringstream help(isochron({"--help"}).out);
+    std::string line;
+    while (std::getline(help, line) && line != "Subcommands:") {
+    }
+    std::vector<std::string> commands;
+    while (std::getline(help, line))
+        if (line.size() > 2 && line[2] != ' ')
+            commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+    ASSERT_GE(commands.size(), 10u);
+    const std::string bash = folder.read("tree/share/bash-completion/completions/isochron");
+    const std::string zsh = folder.read("tree/share/zsh/vendor-completions/_isochron");
+    const std::string fish = folder.read("tree/share/fish/vendor_completions.d/isochron.fish");
+    for (const std::string& command : commands) {
+        EXPECT_TRUE(fs::exists(share / "man/man1" / fmt::format("isochron-{}.1.gz", command)));
+        EXPECT_THAT(bash, HasSubstr(fmt::format("'isochron {}'", command)));
+        EXPECT_THAT(zsh, HasSubstr(fmt::format("_isochron_{}()", command)));
+        EXPECT_THAT(fish, HasSubstr(fmt::format("-a {} ", command)));
+    }
+    const auto completed = [&](const std::string& words, int at) {
+        return shell(fmt::format(
+            "bash -c '. tree/share/bash-completion/completions/isochron; COMP_WORDS=({}); "
+            "COMP_CWORD={}; _isochron; echo ${{COMPREPLY[*]}}'",
+            words, at));
+    };
+    EXPECT_EQ(completed("isochron ver", 1), "verify\n");
+    EXPECT_EQ(completed("isochron generate sp", 2), "sphere\n");
+    EXPECT_EQ(completed("isochron build --app", 2), "--append\n");
+    EXPECT_EQ(completed("isochron explore --context os", 3), "osmesa\n");
+    EXPECT_EQ(completed("isochron build --out v", 3), "\n"); // a file: the shell's own names
+}
+
+TEST_F(Installed, LibraryServesAnotherProject) {
+    install("tree", "library");
+    shell(fmt::format(
+        "cmake -S '{}/tests/examples/list_cells' -B example -DCMAKE_PREFIX_PATH=$PWD/tree >log && "
+        "cmake --build example >>log || (cat log; exit 1)",
+        test_support::source_root()));
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    std::string expected;
+    for (const std::uint32_t id : active(0, 0.1))
+        expected += fmt::format("{}\n", id);
+    EXPECT_EQ(shell("example/list_cells a.isochron 0.1"), expected);
+}
+
+TEST_F(Installed, PackagesComeAndGoWithoutATrace) {
+    shell(fmt::format("cpack --config '{}/CPackConfig.cmake' -B packages -D "
+                      "CPACK_DEBIAN_COMPRESSION_TYPE=gzip >log "
+                      "2>&1 || (cat log; exit 1)",
+                      test_support::binary_root()));
+    const std::string dpkg =
+        "dpkg --root=$PWD/root --force-not-root --force-depends --log=$PWD/dpkg.log ";
+    shell("mkdir -p root/var/lib/dpkg/info root/var/lib/dpkg/updates root/bin root/usr/bin && "
+          "touch root/var/lib/dpkg/status root/var/lib/dpkg/available");
+    const std::vector<std::string> before = files_below(folder.path() / "root" / "usr");
+    shell(dpkg + "--install packages/*.deb >log 2>&1 || (cat log; exit 1)");
+    const std::vector<std::string> installed = files_below(folder.path() / "root" / "usr");
+    EXPECT_GT(installed.size(), 50u);
+    for (const char* file :
+         {"bin/isochron", "libexec/isochron/isochron-reader-vtk",
+          "share/applications/isochron.desktop", "libexec/isochron/libisochron_images.so",
+          "share/mime/packages/isochron.xml", "share/doc/isochron/copyright",
+          "share/doc/isochron/third-party/libcli11-dev", "lib/cmake/Isochron/IsochronConfig.cmake"})
+        EXPECT_TRUE(fs::exists(folder.path() / "root/usr" / file)) << file;
+    EXPECT_THAT(shell("root/usr/bin/isochron --version"), HasSubstr("isochron "));
+    shell(dpkg + "--purge isochron libisochron-dev >log 2>&1 || (cat log; exit 1)");
+    EXPECT_EQ(files_below(folder.path() / "root" / "usr"), before);
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,4 +1,4 @@
-// Reading and writing of pictures through the module that knows OpenImageIO.
+// Reading and writing of pictures through the module that knows their formats.
 #include "stereo/image_file.h"
 
 #include "index/system/module.h"

@@ -12,7 +12,7 @@ namespace isochron::stereo {
 
 /// Writes the colors without alpha (a window is opaque); .png as they are (sRGB-encoded, 8 bits),
 /// .exr converted to linear light (half floats). The file appears complete or not at all.
-/// The first call loads OpenImageIO, which takes a fraction of a second.
+/// The first call loads the libraries of the formats.
 /// @throws render::Error for another extension or an empty picture, index::Error when the file
 /// cannot be written; both name the file
 /// @param note kept in the file as it is, for `read_note`; ASCII, empty: none
@@ -25,8 +25,8 @@ std::vector<std::byte> encoded_image(const render::Image& image, const std::file
 /// The note in a picture; empty where it has none. @throws render::Error naming the file
 std::string read_note(const std::filesystem::path& path);
 
-/// Reads back what `write_image` writes, and other files that OpenImageIO knows with one (gray),
-/// three or four channels; .exr is converted from linear light to sRGB. Alpha is 255 where there is
+/// Reads back what `write_image` writes, and other PNG and EXR files with one (gray), three or four
+/// channels, whatever their names; EXR is converted from linear light to sRGB. Alpha is 255 where there is
 /// none.
 /// @throws render::Error naming the file
 render::Image read_image(const std::filesystem::path& path);

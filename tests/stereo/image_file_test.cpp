@@ -5,6 +5,7 @@
 #include "render/gl/gl.h"
 #include "tests/support/image_compare.h"
 #include "tests/support/paths.h"
+#include "tests/support/test_seed.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -111,6 +112,35 @@ TEST_F(ImageFile, ErrorsNameTheFileInOneLine) {
     EXPECT_THAT(message([&] { read_image(folder_ / "text.png"); }),
                 AllOf(HasSubstr("text.png"), no_newline));
     EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ImageFile, DamageIsOneLineOrNone) {
+    const Image image = random_image(24, 16);
+    std::mt19937 random(test_seed());
+    for (const std::string name : {"a.png", "a.exr"}) {
+        write_image(image, folder_ / name, "a note");
+        EXPECT_EQ(read_note(folder_ / name), "a note");
+        std::ifstream file(folder_ / name, std::ios::binary);
+        const std::string whole(std::istreambuf_iterator<char>(file), {});
+        int refused = 0;
+        for (int i = 0; i < 100; ++i) {
+            std::string bytes = whole;
+            if (i % 2)
+                bytes.resize(random() % bytes.size());
+            else
+                bytes[random() % bytes.size()] ^= char(1 << random() % 8);
+            std::ofstream(folder_ / "damaged", std::ios::binary) << bytes;
+            try {
+                const Image back = read_image(folder_ / "damaged");
+                EXPECT_EQ(back.rgba.size(), std::size_t(4) * back.width * back.height);
+            } catch (const std::exception& error) {
+                ++refused;
+                EXPECT_THAT(error.what(), testing::HasSubstr("damaged"));
+                EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
+            }
+        }
+        EXPECT_GT(refused, 50) << name; // whatever is cut, at least
+    }
 }
 
 TEST(ImageCompare, SeesSmallDifferencesAndWritesThem) {

@@ -39,7 +39,7 @@ ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorAr
         StepWriter writer(info, target.contents, target.means);
         const auto [mine, mine_end] = team.share(info.steps() - first);
         stream_layers(
-            series, first + mine, first + mine_end,
+            series, first + mine, first + mine_end, target.means.threads,
             [&](std::size_t, const LayerView& layer) {
                 const auto stored = layer.own();
                 add_range(info.type, info.scaling, stored, range.low, range.high, range.nan_values);

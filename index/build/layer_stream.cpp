@@ -1,11 +1,13 @@
 // Steps that stream by, one layer of chunks after the other.
 #include "index/build/layer_stream.h"
 
+#include "index/build/parallel_steps.h"
 #include "index/file/chunk_grid.h"
 
 #include <algorithm>
 #include <cstring>
 #include <future>
+#include <optional>
 
 namespace isochron::index {
 namespace {
@@ -67,11 +69,14 @@ void LayerCutter::add(std::span<const std::byte> piece, const Take& take) {
     }
 }
 
-void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end,
+void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end, unsigned threads,
                    const std::function<void(std::size_t, const LayerView&)>& take,
                    const std::function<void(double)>& progress) {
     const SeriesInfo& info = series.info();
     LayerCutter cutter(info.grid, info.type);
+    std::optional<ParallelSteps> side_by_side;
+    if (const unsigned readers = ParallelSteps::readers_for(series, end - begin, threads))
+        side_by_side.emplace(series, begin, end, readers);
     std::future<void> taking; // its end is waited for when this is left
     const auto wait = [&] {
         if (taking.valid())
@@ -85,7 +90,7 @@ void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end,
                          static_cast<double>(end - begin));
         };
         report(0);
-        series.stream(step, [&](std::span<const std::byte> piece) {
+        const auto add = [&](std::span<const std::byte> piece) {
             cutter.add(piece, [&](const LayerView& layer) {
                 wait();
                 report(layer.begin);
@@ -95,7 +100,11 @@ void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end,
                     taking =
                         std::async(std::launch::async, [&take, step, layer] { take(step, layer); });
             });
-        });
+        };
+        if (side_by_side)
+            add(side_by_side->next());
+        else
+            series.stream(step, add);
     }
     wait();
 }

@@ -50,8 +50,9 @@ class LayerCutter {
 
 /// Calls `take(step, layer)` for all layers of the steps from `begin` to `end` in order, each while
 /// the next one is read.
+/// @param threads so many steps may be read side by side, where they are small
 /// @param progress may throw; gets the fraction that is done
-void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end,
+void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end, unsigned threads,
                    const std::function<void(std::size_t, const LayerView&)>& take,
                    const std::function<void(double)>& progress);
 

@@ -82,7 +82,7 @@ VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t 
                                     layer.own());
         };
         const auto stream = [&](std::size_t begin, std::size_t end, const auto& take) {
-            stream_layers(series, begin, end, take, [&](double done) {
+            stream_layers(series, begin, end, target.means.threads, take, [&](double done) {
                 if (progress)
                     progress("reading", done);
             });

@@ -48,7 +48,8 @@ struct CellMesh {
 
 using CellMeshPtr = std::shared_ptr<const CellMesh>;
 
-/// Sets of more cells come without a mesh: it would take half a gigabyte and more.
-constexpr std::size_t kMostMeshedCells = std::size_t{1} << 23;
+/// Sets of more cells come without a mesh: it would take a hundred megabytes and more, twice where
+/// the processor draws, which takes seconds for so many triangles.
+constexpr std::size_t kMostMeshedCells = std::size_t{1} << 21;
 
 } // namespace isochron::index

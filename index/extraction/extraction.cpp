@@ -30,11 +30,9 @@ class Extracting {
         by_chunks_ = !file_->better_whole(query.step);
         for (std::size_t i = 0; i < count; ++i) {
             if (searches_.size() == i)
-                searches_.push_back(search_in(file_, method_, shading_));
-            const CellSetPtr set = searches_[i](query.surface(i), stop);
-            if (!set)
+                searches_.push_back(search_into(file_, method_, shading_));
+            if (!searches_[i](query.surface(i), stop, result->surfaces.emplace_back()))
                 return nullptr;
-            result->surfaces.push_back(*set);
         }
         try {
             return fill(*result, stop) ? result : nullptr;
@@ -72,8 +70,8 @@ class Extracting {
     std::shared_ptr<const IndexFile> file_;
     std::optional<SearchMethod> method_;
     Shading shading_;
-    std::vector<Search> searches_; ///< by surface
-    bool by_chunks_ = false;       ///< the query's step is not loaded as a whole
+    std::vector<SearchInto> searches_; ///< by surface
+    bool by_chunks_ = false;           ///< the query's step is not loaded as a whole
     BrickValues values_;
     BrickGatherer gatherer_;
     SurfaceColors colors_;

@@ -29,34 +29,34 @@ class IndexSearch {
         : file_(std::move(file)), method_(forced ? *forced : cheapest_method(*file_)),
           shading_(shading), keys_(file_->info().type, file_->info().scaling), layers_(file_) {}
 
-    CellSetPtr operator()(const Query& query, const std::stop_token& stop) {
+    bool operator()(const Query& query, const std::stop_token& stop, CellSet& set) {
         const std::size_t steps = file_->info().steps();
         if (query.step >= steps)
             throw Error(fmt::format("step {}: expected 0 to {}", query.step, steps - 1));
         const auto started = Clock::now();
-        auto set = std::make_shared<CellSet>();
-        set->query = query;
-        set->method = method_at(query.step);
+        set = {};
+        set.query = query;
+        set.method = method_at(query.step);
         by_chunks_ = !file_->better_whole(query.step);
         step_.reset();
         try {
-            if (std::isfinite(query.isovalue) && !search(*set, stop))
-                return nullptr;
+            if (std::isfinite(query.isovalue) && !search(set, stop))
+                return false;
             // A search layer by layer shades, too, and says how long each took.
-            if (set->ids.empty() || set->points.empty()) {
+            if (set.ids.empty() || set.points.empty()) {
                 const auto found = Clock::now();
-                if (shading_ != Shading::none && !set->ids.empty() && !shade(*set, stop))
-                    return nullptr;
-                set->search_time = found - started;
-                set->shading_time = Clock::now() - found;
+                if (shading_ != Shading::none && !set.ids.empty() && !shade(set, stop))
+                    return false;
+                set.search_time = found - started;
+                set.shading_time = Clock::now() - found;
             }
-            if (!add_mesh(*set, stop))
-                return nullptr;
+            if (!add_mesh(set, stop))
+                return false;
         } catch (const Stopped&) {
-            return nullptr;
+            return false;
         }
         file_->chunks().worked_on(query.step);
-        return set;
+        return true;
     }
 
   private:
@@ -231,12 +231,20 @@ SearchMethod cheapest_method(const IndexFile& file) {
     return SearchMethod::scan;
 }
 
-Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
-                 Shading shading) {
+SearchInto search_into(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+                       Shading shading) {
     // `std::function` wants something that can be copied; the state of a search must not be.
     auto search = std::make_shared<IndexSearch>(std::move(file), method, shading);
-    return [search = std::move(search)](const Query& query, const std::stop_token& stop) {
-        return (*search)(query, stop);
+    return [search = std::move(search)](const Query& query, const std::stop_token& stop,
+                                        CellSet& set) { return (*search)(query, stop, set); };
+}
+
+Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+                 Shading shading) {
+    return [search = search_into(std::move(file), method, shading)](
+               const Query& query, const std::stop_token& stop) -> CellSetPtr {
+        auto set = std::make_shared<CellSet>();
+        return search(query, stop, *set) ? set : nullptr;
     };
 }
 

@@ -15,6 +15,9 @@ namespace isochron::index {
 /// Returns null when stopped. Throws to report a failure.
 using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
 
+/// The same into a set of the caller, who may go on changing it. False when stopped.
+using SearchInto = std::function<bool(const Query&, std::stop_token, CellSet&)>;
+
 /// What the file's tiers answer fastest: cells, else bricks, else the paper's tree, else the scan.
 SearchMethod cheapest_method(const IndexFile& file);
 /// Whether the file has what a method works on.
@@ -29,5 +32,7 @@ enum class Shading : std::uint8_t { none, cells, cells_and_mesh };
 Search search_in(std::shared_ptr<const IndexFile> file,
                  std::optional<SearchMethod> method = std::nullopt,
                  Shading shading = Shading::cells);
+SearchInto search_into(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+                       Shading shading);
 
 } // namespace isochron::index

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -42,6 +43,11 @@ class IndexFile {
                                                  std::uint64_t cache_bytes = 0);
     static std::shared_ptr<const IndexFile> open(std::unique_ptr<ByteSource> bytes,
                                                  std::uint64_t cache_bytes = 0);
+    /// Opens the newest state; when the file grows meanwhile, so that what was read belongs to
+    /// different states, from the start again.
+    using OpenBytes = std::function<std::unique_ptr<ByteSource>()>;
+    static std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open,
+                                                        std::uint64_t cache_bytes = 0);
 
     const std::string& name() const { return bytes_->name(); }
     const SeriesInfo& info() const { return metadata_.info; }

@@ -119,6 +119,13 @@ class FileSeries final : public VolumeSeries {
 
     const SeriesInfo& info() const override { return info_; }
 
+    /// Of files with one step each.
+    std::unique_ptr<VolumeSeries> another() const override {
+        return places_.size() == files_.size()
+                   ? std::unique_ptr<VolumeSeries>(new FileSeries(*this))
+                   : nullptr;
+    }
+
     void read(std::size_t step, std::span<std::byte> out) override {
         with_file_of(step, [&](std::size_t number) { open_->read(number, out); });
     }
@@ -154,6 +161,11 @@ class FileSeries final : public VolumeSeries {
     struct Place {
         std::size_t file, step;
     };
+
+    /// Knows what the other one knows, and has no file open.
+    FileSeries(const FileSeries& other)
+        : files_(other.files_), options_(other.options_), info_(other.info_), first_(other.first_),
+          timed_(other.timed_), places_(other.places_), found_(other.found_) {}
 
     /// Calls `work` with the number of the step in its file, which is open then.
     template <class Work>

@@ -82,6 +82,10 @@ class VolumeSeries {
         take(whole);
     }
 
+    /// The same series for another thread, which reads it at the same time; null where that gains
+    /// nothing, as where many steps lie in one file that is decoded from its start.
+    virtual std::unique_ptr<VolumeSeries> another() const { return nullptr; }
+
     /// A number that changes when what a step is read from is written to; 0 where that cannot be
     /// told without reading.
     virtual std::uint64_t state(std::size_t /*step*/) const { return 0; }

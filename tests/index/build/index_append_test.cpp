@@ -371,6 +371,71 @@ TEST_F(IndexAppendTest, ThatFailsOrIsCanceledLeavesTheFileAsItWas) {
     EXPECT_EQ(IndexFile::open(path)->info().steps(), 6u);
 }
 
+/// A file that becomes another one after a number of reads.
+class ChangingFile final : public ByteSource {
+  public:
+    struct Contents {
+        const std::string* now;
+        const std::string* later;
+        std::size_t reads; ///< until then
+    };
+    explicit ChangingFile(Contents& contents) : contents_(contents), size_(contents.now->size()) {}
+    const std::string& name() const override { return name_; }
+    std::uint64_t size() const override { return size_; }
+
+  protected:
+    std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
+        if (contents_.reads-- == 0)
+            contents_.now = contents_.later;
+        const std::string& now = *contents_.now;
+        const std::size_t count = std::min<std::size_t>(out.size(), now.size() - offset);
+        std::memcpy(out.data(), now.data() + offset, count);
+        return count;
+    }
+
+  private:
+    Contents& contents_;
+    std::uint64_t size_;
+    std::string name_ = "memory";
+};
+
+TEST_F(IndexAppendTest, WhoOpensItWhileTwoAppendsFinishSeesTheOldStateOrTheNew) {
+    const TestField field({20, 19, 18}, 6, ValueType::u8, moving_sphere);
+    const std::string before = built(first_steps(field.view(), 3));
+    const std::string between = appended(before, first_steps(field.view(), 4));
+    const std::string after = appended(between, field.view());
+    std::size_t once = 0, mixed = 0, old_states = 0; // opened in one go; from two states
+    for (std::size_t reads = 0; reads < 40; ++reads) {
+        ChangingFile::Contents contents{&before, &after, reads};
+        try {
+            IndexFile::open(std::make_unique<ChangingFile>(contents));
+            ++once;
+        } catch (const Error&) {
+            ++mixed;
+        }
+        contents = {&before, &after, reads};
+        const auto file =
+            IndexFile::open_newest([&] { return std::make_unique<ChangingFile>(contents); });
+        const bool old = file->info().steps() == 3;
+        EXPECT_EQ(file->content_hash(), opened(old ? before : after)->content_hash()) << reads;
+        old_states += old ? 1 : 0;
+    }
+    EXPECT_GT(once, 0u);
+    EXPECT_GT(mixed, 0u) << "nothing was to be tried again";
+    EXPECT_GT(old_states, 0u);
+    EXPECT_LT(old_states, 40u);
+    // What stays damaged is said, as it was.
+    std::string damaged = before;
+    damaged[opened(before)->header().section(SectionKind::metadata).offset] ^= 1;
+    ChangingFile::Contents contents{&damaged, &damaged, 0};
+    try {
+        IndexFile::open_newest([&] { return std::make_unique<ChangingFile>(contents); });
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the checksum of section metadata does not match"));
+    }
+}
+
 TEST_F(IndexAppendTest, ASourceThatHasChangedUnderAStepIsRefused) {
     TestField field({9, 8, 7}, 4, ValueType::u8, moving_sphere);
     built(first_steps(field.view(), 3));

@@ -11,7 +11,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
 #include <random>
+#include <stdexcept>
+#include <string>
 
 #include <malloc.h>
 
@@ -48,7 +54,7 @@ TEST(LayerStream, GivesEveryLayerWithItsNeighborsHoweverAStepComes) {
         const TestField field({3, 5, planes}, 3, ValueType::i16, white_noise(random));
         PiecewiseSeries series(field.view(), random);
         std::vector<std::size_t> seen(3);
-        stream_layers(series, 0, 3,
+        stream_layers(series, 0, 3, 2,
                       [&](std::size_t step, const LayerView& layer) {
                           EXPECT_EQ(layer.begin, seen[step]);
                           EXPECT_EQ(layer.begin % 16, 0u);
@@ -64,6 +70,77 @@ TEST(LayerStream, GivesEveryLayerWithItsNeighborsHoweverAStepComes) {
                       {});
         EXPECT_EQ(seen, std::vector<std::size_t>(3, planes));
     }
+}
+
+/// Can be read by several, which tell each other that they do.
+class SharedSeries final : public MemorySeries {
+  public:
+    struct Readers {
+        std::mutex mutex;
+        std::condition_variable came;
+        unsigned reading = 0, most = 0, expected = 1;
+        std::size_t bad = ~std::size_t{0}; ///< a step that cannot be read
+    };
+    SharedSeries(StepValues values, std::shared_ptr<Readers> readers)
+        : MemorySeries(values), stored_(values), readers_(std::move(readers)) {}
+
+    std::unique_ptr<VolumeSeries> another() const override {
+        return std::make_unique<SharedSeries>(stored_, readers_);
+    }
+    void read(std::size_t step, std::span<std::byte> out) override {
+        std::unique_lock lock(readers_->mutex);
+        readers_->most = std::max(readers_->most, ++readers_->reading);
+        readers_->came.notify_all();
+        // Until as many as expected have read at the same time; who reads alone gives up.
+        readers_->came.wait_for(lock, std::chrono::seconds(20),
+                                [&] { return readers_->most >= readers_->expected; });
+        --readers_->reading;
+        if (step == readers_->bad)
+            throw std::runtime_error("step " + std::to_string(step));
+        MemorySeries::read(step, out);
+    }
+
+  private:
+    StepValues stored_;
+    std::shared_ptr<Readers> readers_;
+};
+
+TEST(LayerStream, ReadsStepsSideBySideWhereTheSeriesAllowsItAndGivesThemInOrder) {
+    std::mt19937 random(test_seed());
+    for (const unsigned threads : {1u, 2u, 3u, 7u}) {
+        const TestField field({4, 3, 20}, 12, ValueType::u8, white_noise(random));
+        const auto readers = std::make_shared<SharedSeries::Readers>();
+        readers->expected = threads;
+        SharedSeries series(field.view(), readers);
+        std::vector<std::size_t> order;
+        stream_layers(series, 2, 12, threads,
+                      [&](std::size_t step, const LayerView& layer) {
+                          if (layer.begin == 0)
+                              order.push_back(step);
+                          EXPECT_TRUE(std::ranges::equal(
+                              layer.own(), field.view().step_bytes(step).subspan(
+                                               layer.begin * layer.plane, layer.own().size())));
+                      },
+                      {});
+        EXPECT_EQ(order, (std::vector<std::size_t>{2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+        EXPECT_EQ(readers->most, threads) << "at the same time";
+    }
+}
+
+TEST(LayerStream, TheFirstStepThatCannotBeReadEndsIt) {
+    const TestField field({4, 3, 20}, 30, ValueType::u8, moving_sphere);
+    const auto readers = std::make_shared<SharedSeries::Readers>();
+    readers->bad = 5;
+    SharedSeries series(field.view(), readers);
+    std::size_t seen = 0;
+    try {
+        stream_layers(series, 0, 30, 3,
+                      [&](std::size_t step, const LayerView&) { seen = std::max(seen, step); }, {});
+        FAIL() << "no error";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "step 5");
+    }
+    EXPECT_EQ(seen, 4u);
 }
 
 TEST(LayerStream, TheBytesOfAnIndexDependNeitherOnPiecesNorOnThreadsNorOnWhatWaitsInFiles) {

@@ -1,4 +1,5 @@
 // Active cells of a step of 2^32 cells, of an index that is nowhere as a whole.
+#include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/index_search.h"
 #include "index/extraction/layer_search.h"
@@ -6,13 +7,17 @@
 #include "index/file/detail_levels.h"
 #include "index/file/file_layout.h"
 #include "index/file/metadata.h"
+#include "tests/support/memory_series.h"
+#include "tests/support/test_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
 #include <set>
+#include <string>
 
 namespace isochron::index {
 namespace {
@@ -202,6 +207,38 @@ TEST(WideIds, OfAStepOf2To32CellsAreAllFoundInTheirPlaces) {
     EXPECT_EQ(wide_ids_of(*found, grid), expected);
     EXPECT_EQ(wide_ids_of(search_level(file, 0, query), grid), expected);
     EXPECT_TRUE(search_in(file)({0, 250}, {})->ids.empty());
+}
+
+TEST(WideIds, WhatTellsCellsApartBy32BitsRefusesThemBeforeAnythingIsRead) {
+    test_support::TestFolder folder;
+    StepValues values{.grid = {.vertices = {2048, 2048, 2048}},
+                      .type = ValueType::u8,
+                      .scaling = {},
+                      .steps = 1,
+                      .first = nullptr,
+                      .stride = 0};
+    MemorySeries series(values);
+    series.before_read = [](std::size_t) { FAIL() << "read"; };
+    const auto refusal = [&](const BuildOptions& options) -> std::string {
+        try {
+            build_index(series, folder.path() / "a.isochron", options);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    const std::string cells = "t0.raw: 8577357823 cells, expected fewer than 2^32 for ";
+    BuildOptions referring;
+    referring.referral.emplace();
+    EXPECT_EQ(refusal(referring), cells + "an index that refers to its sources");
+    BuildOptions with_cells;
+    with_cells.tiers = TierSet().with(Tier::bricks).with(Tier::cells);
+    BuildOptions with_tree;
+    with_tree.with_tree = true;
+    EXPECT_EQ(refusal(with_tree), cells + "the tiers cells and tree");
+    // Rows of 2047 cells are within what cells can index.
+    EXPECT_EQ(refusal(with_cells), cells + "the tiers cells and tree");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(WideIds, ReachBeyond32Bits) {

@@ -24,20 +24,6 @@ const char* section_name(SectionKind kind) {
     return kSectionNames[static_cast<std::size_t>(kind)];
 }
 
-/// Changes with every state of a file that grows.
-std::uint64_t newest_state(const ByteSource& bytes) {
-    std::uint64_t state = 0;
-    for (std::uint64_t slot = 0; slot < kHeaderSlots; ++slot) {
-        HeaderSlot stored{};
-        const std::uint64_t at = slot * kHeaderBytes;
-        const std::uint64_t there =
-            std::min(bytes.size() - std::min(bytes.size(), at), kHeaderBytes);
-        bytes.read(at, std::span(stored).first(there));
-        state = state * 31 + checksum_of(stored);
-    }
-    return state;
-}
-
 /// A step of which values and bricks come from two places.
 struct JoinedStep {
     LoadedStep values, bricks;
@@ -388,20 +374,6 @@ void IndexFile::check_gaps() const {
 std::shared_ptr<const IndexFile> IndexFile::open(const std::filesystem::path& path,
                                                  std::uint64_t cache_bytes) {
     return open_newest([&] { return open_bytes(path); }, cache_bytes);
-}
-
-std::shared_ptr<const IndexFile> IndexFile::open_newest(const OpenBytes& open,
-                                                        std::uint64_t cache_bytes) {
-    constexpr int kMostTimes = 8;
-    for (int time = 1;; ++time) {
-        const std::uint64_t state = newest_state(*open());
-        try {
-            return IndexFile::open(open(), cache_bytes);
-        } catch (const Error&) {
-            if (time == kMostTimes || newest_state(*open()) == state)
-                throw;
-        }
-    }
 }
 
 std::shared_ptr<const IndexFile> IndexFile::open(std::unique_ptr<ByteSource> bytes,

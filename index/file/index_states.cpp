@@ -1,4 +1,5 @@
 // What an index says of the states that it has grown from, or through.
+#include "index/error.h"
 #include "index/file/file_layout.h"
 #include "index/file/index_file.h"
 #include "index/file/series_content.h"
@@ -22,7 +23,35 @@ bool is_whole(const ByteSource& file, const Section& section) {
     return checksum_of(bytes) == section.checksum;
 }
 
+/// Changes with every state of a file that grows.
+std::uint64_t newest_state(const ByteSource& bytes) {
+    std::uint64_t state = 0;
+    for (std::uint64_t slot = 0; slot < kHeaderSlots; ++slot) {
+        HeaderSlot stored{};
+        const std::uint64_t at = slot * kHeaderBytes;
+        const std::uint64_t there =
+            std::min(bytes.size() - std::min(bytes.size(), at), kHeaderBytes);
+        bytes.read(at, std::span(stored).first(there));
+        state = state * 31 + checksum_of(stored);
+    }
+    return state;
+}
+
 } // namespace
+
+std::shared_ptr<const IndexFile> IndexFile::open_newest(const OpenBytes& open,
+                                                        std::uint64_t cache_bytes) {
+    constexpr int kMostTimes = 8;
+    for (int time = 1;; ++time) {
+        const std::uint64_t state = newest_state(*open());
+        try {
+            return IndexFile::open(open(), cache_bytes);
+        } catch (const Error&) {
+            if (time == kMostTimes || newest_state(*open()) == state)
+                throw;
+        }
+    }
+}
 
 bool IndexFile::has_had(std::uint64_t content_hash, std::size_t steps) const {
     return content_hash_of(metadata_.info, std::span(checksums_).first(steps)) == content_hash;

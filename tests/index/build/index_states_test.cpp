@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 namespace isochron::index {
@@ -52,6 +53,34 @@ class IndexStatesTest : public testing::Test {
     TestField field{{9, 8, 7}, kSteps, ValueType::u8, moving_sphere};
     TestFolder folder;
     std::filesystem::path path = folder.path() / "a.isochron";
+};
+
+/// A file that becomes another one after a number of reads.
+class ChangingFile final : public ByteSource {
+  public:
+    struct Contents {
+        const std::string* now;
+        const std::string* later;
+        std::size_t reads; ///< until then
+    };
+    explicit ChangingFile(Contents& contents) : contents_(contents), size_(contents.now->size()) {}
+    const std::string& name() const override { return name_; }
+    std::uint64_t size() const override { return size_; }
+
+  protected:
+    std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
+        if (contents_.reads-- == 0)
+            contents_.now = contents_.later;
+        const std::string& now = *contents_.now;
+        const std::size_t count = std::min<std::size_t>(out.size(), now.size() - offset);
+        std::memcpy(out.data(), now.data() + offset, count);
+        return count;
+    }
+
+  private:
+    Contents& contents_;
+    std::uint64_t size_;
+    std::string name_ = "memory";
 };
 
 TEST_F(IndexStatesTest, WhatManyAppendsLeaveBehindIsBoundedByTheDirectory) {
@@ -132,6 +161,50 @@ TEST_F(IndexStatesTest, ANewestHeaderThatIsDamagedIsToldWhereWhatItNamesIsWhole)
                 damage(section.offset + random() % section.bytes);
         EXPECT_EQ(IndexFile::open(path)->lost_state(), std::nullopt);
         folder.write("a.isochron", whole);
+    }
+}
+
+TEST_F(IndexStatesTest, WhoOpensItWhileTwoAppendsFinishSeesTheOldStateOrTheNew) {
+    build(3);
+    const std::string before = read_file(path);
+    append(4);
+    append(6);
+    const std::string after = read_file(path);
+    const auto hash_of = [&](const std::string& bytes) {
+        folder.write("a.isochron", bytes);
+        return IndexFile::open(path)->content_hash();
+    };
+    const std::uint64_t old_hash = hash_of(before), new_hash = hash_of(after);
+    std::size_t once = 0, mixed = 0, old_states = 0; // opened in one go; from two states
+    for (std::size_t reads = 0; reads < 40; ++reads) {
+        ChangingFile::Contents contents{&before, &after, reads};
+        try {
+            IndexFile::open(std::make_unique<ChangingFile>(contents));
+            ++once;
+        } catch (const Error&) {
+            ++mixed;
+        }
+        contents = {&before, &after, reads};
+        const auto file =
+            IndexFile::open_newest([&] { return std::make_unique<ChangingFile>(contents); });
+        const bool old = file->info().steps() == 3;
+        EXPECT_EQ(file->content_hash(), old ? old_hash : new_hash) << reads;
+        old_states += old ? 1 : 0;
+    }
+    EXPECT_GT(once, 0u);
+    EXPECT_GT(mixed, 0u) << "nothing was to be tried again";
+    EXPECT_GT(old_states, 0u);
+    EXPECT_LT(old_states, 40u);
+    // What stays damaged is said, as it was.
+    std::string damaged = before;
+    folder.write("a.isochron", before);
+    damaged[IndexFile::open(path)->header().section(SectionKind::metadata).offset] ^= 1;
+    ChangingFile::Contents contents{&damaged, &damaged, 0};
+    try {
+        IndexFile::open_newest([&] { return std::make_unique<ChangingFile>(contents); });
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the checksum of section metadata does not match"));
     }
 }
 

@@ -76,7 +76,7 @@ std::span<const KeyLine> key_lines() {
         {"P or F12", "screenshot", {{letter('P'), screenshot}, {Key::f12, screenshot}}},
         {"M", "stamp this moment in the recording", {{letter('M'), stamp}}},
         {"Tab", "panel on, off", {{Key::tab, panel}}},
-        {"Y", "panel in the room, before you: on, off", {{letter('Y'), room_panel}}},
+        {"Y", "panel in the room, beside the data: on, off", {{letter('Y'), room_panel}}},
         {"Enter",
          "pick the surface under the cursor, or where the wand points",
          {{Key::enter, pick}}},

@@ -60,6 +60,8 @@ struct ControlContext {
     bool panel = true;
     RoomPanel room_panel;
     float panel_distance = 0.65f; ///< [m] from the eyes to the room's panel, where it appears
+    /// Where it appears for a head that mouse and keyboard play, in its frame; nothing: beside.
+    std::optional<Pose> panel_place;
     bool grid = false;
     std::vector<Viewpoint> const* views = nullptr; ///< saved so far; may be null
     bool bounding_box = true;

@@ -185,7 +185,7 @@ struct Controls::State {
         if (now.pressed(Action::room_panel) || now.pressed(WandButton::room_panel) ||
             now.pressed(GamepadButton::back))
             commands.room_panel = called(context.room_panel, now.viewer(), context.panel_distance,
-                                         !Reading::hand(now.pointer));
+                                         context.panel_place);
         // At arm's length it is read in perspective alone.
         if (commands.room_panel && commands.room_panel->shown && context.orthographic)
             commands.orthographic = false;

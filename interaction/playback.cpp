@@ -7,8 +7,6 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr double kRoundSeconds = 10.0; ///< of one whole series at speed 1
-
 std::uint32_t step_at(std::span<const double> times, double cursor) {
     const auto after = std::ranges::partition_point(
         times, [&](double time) { return time - times.front() <= cursor; });

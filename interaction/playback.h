@@ -28,6 +28,8 @@ class Playback {
     bool was_playing_ = false;
 };
 
+inline constexpr double kRoundSeconds = 10.0; ///< of one whole series at speed 1
+
 /// Physical duration of one round: last minus first time plus one mean step; 0 for one step.
 double period(std::span<const double> times);
 

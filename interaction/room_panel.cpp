@@ -58,17 +58,24 @@ Pose beside(const Pose& head, float distance) {
     return facing(head.position + glm::angleAxis(kAside, kRoomUp) * ahead, head.position);
 }
 
-RoomPanel called(const RoomPanel& panel, const Pose& head, float distance, bool aside) {
+RoomPanel called(const RoomPanel& panel, const Pose& head, float distance,
+                 const std::optional<Pose>& place) {
     if (!is_finite(head))
         return panel;
+    const Pose next = place ? Pose{head.position + head.orientation * place->position,
+                                   glm::normalize(head.orientation * place->orientation)}
+                            : beside(head, distance);
     const glm::vec3 to_panel = panel.pose.position - head.position;
     const float away = glm::length(to_panel);
+    // Seen are the way ahead and, at a desktop, what is beside it.
     const glm::vec3 ahead = ahead_of(head, 1.0f).position - head.position;
-    const bool in_sight = away > 0.0f && glm::dot(to_panel, ahead) > kInSight * away;
+    const glm::vec3 there = glm::normalize(next.position - head.position);
+    const bool in_sight = away > 0.0f && (glm::dot(to_panel, ahead) > kInSight * away ||
+                                          (place && glm::dot(to_panel, there) > kInSight * away));
     const bool reads = glm::dot(panel.pose.orientation * glm::vec3(0, 0, 1), to_panel) < 0.0f;
     if (panel.shown && in_sight && reads && away < kInReach * distance)
         return {false, panel.pose};
-    return {true, aside ? beside(head, distance) : ahead_of(head, distance)};
+    return {true, next};
 }
 
 } // namespace isochron::interaction

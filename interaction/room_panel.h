@@ -46,7 +46,9 @@ Pose ahead_of(const Pose& head, float distance);
 Pose beside(const Pose& head, float distance);
 
 /// What calling for the panel leads to: it comes to where it can be read, or goes if it is there.
-/// @param aside beside the way ahead, for who sees more than a desktop's window shows
-RoomPanel called(const RoomPanel& panel, const Pose& head, float distance, bool aside = true);
+/// @param distance [m] from the eyes at which it stands beside the way ahead
+/// @param place in the head's frame where it stands instead
+RoomPanel called(const RoomPanel& panel, const Pose& head, float distance,
+                 const std::optional<Pose>& place = {});
 
 } // namespace isochron::interaction

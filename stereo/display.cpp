@@ -55,20 +55,35 @@ void Display::draw(std::span<const ViewerPose> viewers, StereoMode mode, const S
     compose(overlay);
 }
 
+render::View Display::view_in(const Viewport& viewport, const ViewerPose& viewer, Eye eye) const {
+    const glm::ivec2 size = region_of(viewport, place_of(eye, mode_)).size;
+    return viewer.parallel > 0 && viewport.screen.fit_aspect
+               ? parallel_view_of(viewport.screen, viewer.head, viewer.parallel, options_.far_plane,
+                                  size)
+               : view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
+                         options_.near_plane, options_.far_plane, size);
+}
+
 void Display::draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene) {
-    const Viewport& viewport = window_.viewports[number];
     std::vector<render::View> views;
     for (const Eye eye : eyes_of(mode_)) {
-        const glm::ivec2 size = region_of(viewport, place_of(eye, mode_)).size;
-        views.push_back(viewer.parallel > 0 && viewport.screen.fit_aspect
-                            ? parallel_view_of(viewport.screen, viewer.head, viewer.parallel,
-                                               options_.far_plane, size)
-                            : view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
-                                      options_.near_plane, options_.far_plane, size));
-        views.back().corner = corner_in_target(views.size() - 1, size);
+        views.push_back(view_in(window_.viewports[number], viewer, eye));
+        views.back().corner = corner_in_target(views.size() - 1, views.back().size);
     }
     draw_views(*gl_, targets_[number], views.back().corner + views.back().size, options_, views,
                scene);
+}
+
+std::vector<render::View> Display::views_in_window(std::span<const ViewerPose> viewers) const {
+    std::vector<render::View> views;
+    if (Multiplex::shows(mode_) || right_buffer_)
+        return views;
+    for (const Viewport& viewport : window_.viewports)
+        for (const Eye eye : eyes_of(mode_)) {
+            views.push_back(view_in(viewport, viewers[viewport.viewer], eye));
+            views.back().corner = region_of(viewport, place_of(eye, mode_)).corner;
+        }
+    return views;
 }
 
 void Display::draw_overlay_again(const Overlay& overlay) {

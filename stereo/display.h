@@ -73,6 +73,10 @@ class Display {
     /// the eyes see has changed.
     void draw_overlay_again(const Overlay& overlay);
 
+    /// The views of the eyes drawn last, where their pictures lie in the composed window: for what
+    /// an overlay draws into the room. None where both eyes share pixels.
+    std::vector<render::View> views_in_window(std::span<const ViewerPose> viewers) const;
+
     /// Shows the frame drawn last; without a window there is nothing to do.
     void present();
 
@@ -86,6 +90,12 @@ class Display {
     /// Leaves so many pixels free at the left of each eye's part, for a panel. Takes hold with the
     /// next frame that is drawn.
     void leave_free(int left) { left_ = left; }
+    /// Shows what is at the left of the screen, too, in so much of the width of each eye's part: for
+    /// a panel that stands there. Takes hold with the next frame that is drawn.
+    void show_aside(float share) {
+        for (Viewport& viewport : window_.viewports)
+            viewport.screen.aside = share;
+    }
     bool fills() const { return left_ == 0; } ///< nothing is left free
 
     const Window& window() const { return window_; }
@@ -112,6 +122,7 @@ class Display {
 
     int left_ = 0; ///< pixels that stay free
     Region region_of(const Viewport& viewport, Eye place) const;
+    render::View view_in(const Viewport& viewport, const ViewerPose& viewer, Eye eye) const;
     void draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene);
     /// The eye's picture to show in the place of `place`.
     EyePicture shown_at(Eye place, std::size_t viewport) const;

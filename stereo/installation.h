@@ -25,6 +25,9 @@ struct Screen {
     /// Widen or heighten the screen about its middle to the viewport's aspect (desktop windows), so
     /// that what the screen shows stays in view.
     bool fit_aspect = false;
+    /// Of the picture's width, from its left: shows what is beside the screen, which is fitted to
+    /// the rest. Not configured.
+    float aside = 0;
     bool operator==(const Screen&) const = default;
 };
 

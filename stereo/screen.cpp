@@ -42,13 +42,17 @@ Screen in_room(Screen screen, const interaction::Pose& head) {
 /// The screen as it stands in the room at the head's pose, fitted to a picture of that size.
 Plane plane_in_room(const Screen& screen, const interaction::Pose& head, glm::ivec2 pixels) {
     Plane plane = plane_of(in_room(screen, head));
+    const double share = 1.0 - static_cast<double>(screen.aside); // the screen's own
     if (screen.fit_aspect) {
-        const double aspect = static_cast<double>(pixels.x) / std::max(pixels.y, 1);
+        const double aspect = share * static_cast<double>(pixels.x) / std::max(pixels.y, 1);
         if (plane.half_width < plane.half_height * aspect)
             plane.half_width = plane.half_height * aspect;
         else
             plane.half_height = plane.half_width / aspect;
     }
+    const double whole = plane.half_width / share;
+    plane.middle -= (whole - plane.half_width) * plane.right;
+    plane.half_width = whole;
     return plane;
 }
 
@@ -61,7 +65,9 @@ glm::dvec3 in_front(const Plane& plane, glm::dvec3 position) {
 /// As much of the room as the plane shows of what is so far from the head.
 Plane widened(Plane plane, const interaction::Pose& head, float distance) {
     const glm::dvec3 eyes = in_front(plane, head.position);
-    const double wider = distance / glm::dot(eyes - plane.middle, plane.normal);
+    const double away = glm::dot(eyes - plane.middle, plane.normal), wider = distance / away;
+    const glm::dvec3 foot = eyes - away * plane.normal; // what is straight ahead stays there
+    plane.middle = foot + wider * (plane.middle - foot);
     plane.half_width *= wider;
     plane.half_height *= wider;
     return plane;

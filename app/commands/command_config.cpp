@@ -24,6 +24,11 @@ struct ImportOptions {
     std::vector<float> origin;
 };
 
+/// A .pvx file tells who looks, and not what tracks them.
+bool asks_for_tracker(const ConfigProblem& problem) {
+    return problem.key == "viewers.head";
+}
+
 /// What was imported must pass the check that it will meet. Its lines are not those of the file
 /// that it comes from, so messages leave them out.
 Config sound_config(const std::string& text, const std::string& source) {
@@ -32,7 +37,9 @@ Config sound_config(const std::string& text, const std::string& source) {
         Config config = parse_config(text, name);
         config.name = source;
         config.places = {};
-        expect_sound(config);
+        for (const ConfigProblem& problem : problems_of(config))
+            if (problem.wrong && !asks_for_tracker(problem))
+                throw ConfigError(line_of(problem, config));
         return config;
     } catch (const ConfigError& error) {
         const std::string what = error.what();
@@ -60,7 +67,11 @@ void import(ImportOptions options) {
     for (const std::string& note : imported.notes)
         fmt::print(stderr, "note: {}\n", note);
     for (const ConfigProblem& problem : problems_of(config))
-        fmt::print(stderr, "{}\n", line_of(problem, config));
+        if (asks_for_tracker(problem))
+            fmt::print(stderr, "note: {}: {}: its table is to be added (docs/TRACKERS.md)\n",
+                       config.name, problem.text);
+        else
+            fmt::print(stderr, "{}\n", line_of(problem, config));
 }
 
 } // namespace

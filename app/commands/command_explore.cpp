@@ -5,11 +5,13 @@
 #include "app/commands/explore_options.h"
 #include "app/commands/file_patterns.h"
 #include "app/commands/kept_session.h"
+#include "app/commands/live_setup.h"
 #include "app/commands/open_index.h"
 #include "app/commands/subcommands.h"
 #include "app/config/check_config.h"
 #include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
+#include "app/session/data_choice.h"
 #include "app/session/live_loop.h"
 #include "app/session/recording_file.h"
 #include "app/session/user_memory.h"
@@ -18,6 +20,7 @@
 #include "index/error.h"
 #include "index/system/new_file.h"
 #include "interaction/recording/recording.h"
+#include "stereo/context/display_loss.h"
 #include "stereo/loading_picture.h"
 
 #include <fmt/format.h>
@@ -82,21 +85,6 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     return state;
 }
 
-interaction::RecordingHeader header_of(const Session& session, const Config& config,
-                                       const index::IndexFile& file, const std::string& path) {
-    interaction::RecordingHeader header;
-    header.program = kProgram;
-    header.configuration = config.text;
-    header.data = std::filesystem::absolute(path).string();
-    const glm::ivec2 window = session.outputs().windows()[0].framebuffer_size();
-    // An emulated installation is as large as configured.
-    if (!session.outputs().windows().room() && session.outputs().windows().number(0) == 0)
-        header.window = {window.x, window.y};
-    header.data_hash = data_hash_of(file);
-    header.start = session.state().as_commands();
-    return header;
-}
-
 /// What a file holds already is lost only where the user says so.
 void refuse_to_replace(const std::string& recording) {
     for (const std::string& name : {recording, recording + ".part"})
@@ -132,8 +120,8 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
 /// @param headset that the first window mirrors: it paces the frames, not that window's display
 stereo::Windows open(const ExploreOptions& options, const Config& config, const ClusterJob& job,
                      const stereo::Headset* headset) {
-    const std::string title =
-        fmt::format("Isochron: {}", options.test_pattern ? "test pattern" : *options.data);
+    const std::string title = fmt::format(
+        "Isochron: {}", options.test_pattern ? "test pattern" : options.data.value_or("open data"));
     const stereo::Installation& installation = config.installation;
     if (options.emulate) {
         stereo::ContextOptions room{.title = title, .vsync = config.vsync};
@@ -160,28 +148,6 @@ void warn(const Config& config) {
         fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
     for (const std::string& warning : device_warnings(config))
         fmt::print(stderr, "isochron: warning: {}\n", one_line(warning));
-}
-
-/// What keeps this session from showing other data; empty: nothing does.
-std::string why_not_open(const ExploreOptions& options, const std::filesystem::path& data) {
-    if (options.record)
-        return "other data are not opened while a recording is made";
-    try {
-        open_index_to_show(data);
-        return {};
-    } catch (const index::Error& error) {
-        return one_line(error.what());
-    }
-}
-
-LiveOptions live_options(const ExploreOptions& options) {
-    LiveOptions live{.emulated = options.emulate,
-                     .length = std::nullopt,
-                     .ended = [] { return CancelOnSignal::received() != 0; },
-                     .why_not_open = {}};
-    if (options.seconds)
-        live.length = interaction::Seconds(*options.seconds);
-    return live;
 }
 
 std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
@@ -253,12 +219,36 @@ bool only_describes(const ExploreOptions& options) {
     return true;
 }
 
-/// Data, as the user knows them, are remembered; the first lines stand in the picture once.
-void greet(Session& session, UserMemory& memory, const std::string& data) {
-    memory.remember(data);
-    session.panel().offer_files([&memory] { return memory.recent(); });
-    if (!memory.introduced())
-        session.panel().introduce();
+/// What there is of a session whose display is gone.
+void save(const ExploreOptions& options, LiveLoop& live, Session& session) {
+    try {
+        live.finish(session.state());
+        session.outputs().pictures().finish();
+        if (options.record)
+            fmt::print(stderr, "recording: {}\n", *options.record);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "isochron: {}\n", one_line(error.what()));
+    }
+}
+
+/// What the user chooses in a window of its own, where the command line names no data.
+/// @return nothing: they leave
+std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob& job) {
+    const CancelOnSignal signals;
+    Config config = configure(options);
+    if (config.context != stereo::ContextKind::glfw)
+        throw UsageError("file is required: an index made by `isochron build`");
+    config.openxr.enabled = false; // nobody chooses a file in a headset
+    const stereo::Windows windows = open(options, config, job, nullptr);
+    const auto chosen =
+        choose_data(windows, {.recent = UserMemory(user_state_folder()).recent(),
+                              .why_not_open = [&](const auto& data) { return why_not_open(data); },
+                              .ended = [] { return CancelOnSignal::received() != 0; },
+                              .background = config.background,
+                              .frame_rate_limit = config.frame_rate_limit,
+                              .font_scale = config.panel.font_scale});
+    signals.check();
+    return chosen ? std::optional(chosen->string()) : std::nullopt;
 }
 
 /// @return data that the user wants to see instead; nothing: they leave
@@ -274,7 +264,7 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
     interaction::CompositeInput trackers;
     job.together([&] {
         if (!options.data)
-            throw UsageError("file is required: an index made by `isochron build`");
+            throw UsageError("file is required in a job: an index made by `isochron build`");
         config = configure(options);
         if (job.leads())
             warn(config);
@@ -318,22 +308,27 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
     job.share_frames(session);
     LiveOptions how = live_options(options);
     UserMemory memory(job.size() == 1 ? user_state_folder() : std::nullopt);
+    BackgroundWork remembering; // no frame waits for that disk
     if (job.size() == 1) {
         how.why_not_open = [&](const std::filesystem::path& data) {
             return why_not_open(options, data);
         };
-        greet(session, memory, *options.data);
+        greet(session, memory, remembering, *options.data);
     }
     LiveLoop live(config, std::move(trackers), how, session.outputs().headset());
     session.set_clock(live.clock());
     if (job.leads()) {
         if (job.size() == 1)
             keep_session(live, kept_in(options, *file), *options.data, *file, session, earlier);
+        const auto header = header_of(session, config, *file, *options.data);
         if (options.record) {
-            live.record(*options.record, header_of(session, config, *file, *options.data));
+            live.record(*options.record, header);
             session.set_recording(true);
         }
+        if (job.size() == 1)
+            live.offer_movies(movie_orders(options, header));
         live.watch(*options.data, file);
+        const stereo::DisplayLoss loss([&] { save(options, live, session); });
         live.run(session);
     } else {
         job.follow(session);
@@ -376,6 +371,11 @@ void add_explore(Command& program) {
         if (!only_describes(*options))
             run_in_cluster([&](ClusterJob& job) {
                 ExploreOptions now = *options;
+                if (!now.data && !now.test_pattern && job.size() == 1) {
+                    now.data = chosen_data(now, job);
+                    if (!now.data)
+                        return;
+                }
                 while (const auto next = explore(now, job))
                     now = with_data(std::move(now), *next);
             });

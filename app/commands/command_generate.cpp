@@ -28,7 +28,7 @@ std::pair<Command, std::shared_ptr<Request<Series>>> add_series(Command& generat
     const std::string name = Series::kName;
     Command command = generate_command.subcommand(name, description);
     auto request = std::make_shared<Request<Series>>();
-    command.option("--out", request->dir, "Folder to write into; made where it is missing")
+    command.option("-o,--out", request->dir, "Folder to write into; made where it is missing")
         .required();
     command.option("--type", request->type, "Stored type: f32 (default), or u8 (rounded)")
         .one_of({"f32", "u8"});

@@ -15,9 +15,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
 
 namespace isochron::app {
 namespace {
@@ -27,7 +31,7 @@ namespace fs = std::filesystem;
 struct MovieOptions : ReplaySource {
     std::string out, eyes = "window";
     double rate = 30;
-    bool force = false;
+    bool force = false, background = false;
 };
 
 /// One movie for the window, or one for each eye and viewport; written behind the drawing.
@@ -130,9 +134,24 @@ std::string hash_of(const fs::path& recording) {
     return fmt::format("{:016x}", index::checksum_of(std::as_bytes(std::span(text))));
 }
 
+/// For the program that started this one: `42 %`.
+void tell(double done) {
+    fmt::print("{} %\n", static_cast<int>(100 * done));
+    std::fflush(stdout);
+}
+
+/// Whatever needs a processor goes first; nobody waits for the movie of a program that is gone.
+void go_to_background() {
+    constexpr int kPolite = 10;
+    setpriority(PRIO_PROCESS, 0, kPolite);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+}
+
 void make_movie(const MovieOptions& options, ClusterJob& job) {
     if (job.size() > 1)
         throw UsageError("a movie is made by one process, without mpirun");
+    if (options.background)
+        go_to_background();
     refuse_input_as_output({options.recording}, options.out);
     const interaction::Recording recording = read_recording(options.recording);
     if (recording.frames.empty())
@@ -152,14 +171,18 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     {
         const CancelOnSignal signals;
         ProgressBar bar;
-        replay_fixed_step(
-            session, recording, replay, [&](std::size_t number, const interaction::RecordedFrame&) {
-                signals.check();
-                if (const std::size_t times = clock.frames_of(number))
-                    movies.add(session.outputs(), session.note(), times);
-                bar.show("making the movie", static_cast<double>(number + 1) /
-                                                 static_cast<double>(recording.frames.size()));
-            });
+        replay_fixed_step(session, recording, replay,
+                          [&](std::size_t number, const interaction::RecordedFrame&) {
+                              signals.check();
+                              if (const std::size_t times = clock.frames_of(number))
+                                  movies.add(session.outputs(), session.note(), times);
+                              const double done = static_cast<double>(number + 1) /
+                                                  static_cast<double>(recording.frames.size());
+                              if (options.background)
+                                  tell(done);
+                              else
+                                  bar.show("making the movie", done);
+                          });
     }
     for (const std::string& line : movies.finish())
         fmt::print("{}\n", line);
@@ -185,6 +208,9 @@ void add_movie(Command& program) {
         .one_of({"window", "each"})
         .shows_default();
     command.flag("--force", options->force, "Replace a movie that is there");
+    command.flag("--background", options->background,
+                 "Make way for other programs, end with the one that started this, and say how far "
+                 "it is in lines: as the panel's movies are made");
     command.footer("Each frame of the movie shows what the recording shows at its time; `replay "
                    "--every` writes single pictures.\nExit status: 0 done, 1 bad input, 2 bad "
                    "usage.");

@@ -218,7 +218,7 @@ void add_replay(Command& program) {
     Command command = program.subcommand(
         "replay", "Replay a recording: to pictures, to a timing report, or live in a window.");
     add_replay_source(command, *options);
-    command.option("--out", options->out, "Folder for the pictures; made where it is missing");
+    command.option("-o,--out", options->out, "Folder for the pictures; made where it is missing");
     command.option("--every", options->every, "Write a picture every N frames").positive();
     command.flag("--stamps", options->stamps, "Write a picture at every stamp");
     command

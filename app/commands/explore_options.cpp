@@ -35,7 +35,8 @@ std::string footer() {
 } // namespace
 
 void add_explore_options(Command& command, ExploreOptions& options) {
-    command.option("file", options.data, "Index made by `isochron build`");
+    command.option("file", options.data,
+                   "Index made by `isochron build`; without it the window lets you choose one");
     command
         .option("--config", options.config,
                 fmt::format("TOML file, or the name of a shipped one: {}",

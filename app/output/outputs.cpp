@@ -55,15 +55,22 @@ Outputs::ray_at(const interaction::MouseMoveEvent& cursor,
     return displays_[cursor.window].ray_at(viewers, {cursor.x, 1.0f - cursor.y});
 }
 
+/// Whether the first window's screens take on the shape of what they have.
+bool Outputs::adapts() const {
+    return !room_ && !displays_.empty() &&
+           std::ranges::all_of(
+               displays_.front().window().viewports,
+               [](const stereo::Viewport& viewport) { return viewport.screen.fit_aspect; });
+}
+
 void Outputs::leave_free(int pixels) {
-    if (room_ || displays_.empty())
-        return;
-    stereo::Display& first = displays_.front();
-    const bool adapts =
-        std::ranges::all_of(first.window().viewports, [](const stereo::Viewport& viewport) {
-            return viewport.screen.fit_aspect;
-        });
-    first.leave_free(adapts ? pixels : 0);
+    if (adapts())
+        displays_.front().leave_free(pixels);
+}
+
+void Outputs::show_aside(float share) {
+    if (adapts())
+        displays_.front().show_aside(share);
 }
 
 /// How a window shows what is drawn.

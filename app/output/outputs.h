@@ -33,10 +33,10 @@ namespace isochron::app {
 /// Who looks in one frame, how, and what of theirs stands in the room.
 struct Audience {
     std::vector<stereo::ViewerPose> viewers; ///< by number
-    std::vector<stereo::HeadsetEye> eyes;   ///< of a headset that wants a picture
-    std::optional<interaction::Pose> wand;  ///< where it is shown
-    std::optional<ShownPanel> panel;        ///< that stands in the room
-    stereo::StereoMode stereo{};            ///< chosen live
+    std::vector<stereo::HeadsetEye> eyes;    ///< of a headset that wants a picture
+    std::optional<interaction::Pose> wand;   ///< where it is shown
+    std::optional<ShownPanel> panel;         ///< that stands in the room
+    stereo::StereoMode stereo{};             ///< chosen live
     /// A wand's ray or what is under a cursor is shown, which pictures to keep leave out.
     bool aids = false;
     bool in_windows = true; ///< false: a headset shows them, and the first window mirrors it
@@ -107,6 +107,9 @@ class Outputs {
     /// Leaves the left of the first window to the panel that lies over it, where its screens take
     /// on the shape of what is left. @param pixels of each eye's part
     void leave_free(int pixels);
+    /// Shows what is at the left of the first window's screens, in the same case.
+    /// @param share of the width of each eye's part
+    void show_aside(float share);
 
     /// Draws what each eye sees.
     /// @param scene the same until the next call, for pictures to keep
@@ -143,6 +146,7 @@ class Outputs {
     };
 
     stereo::StereoMode mode_in(const stereo::Window& window) const;
+    bool adapts() const;
     Overlay overlay_of(std::size_t window, const Overlay& overlay) const;
     void draw_window(stereo::Display& display, const Scene& scene, const Overlay& overlay,
                      bool kept = false) const;

@@ -11,6 +11,10 @@ OperatorPanel::OperatorPanel(const render::Gl& gl, const stereo::Windows& window
         console_.emplace(gl, windows.drawing(), *windows.console(), font_scale);
 }
 
+std::optional<MovieWish> OperatorPanel::take_wanted_movie() {
+    return console_ ? console_->take_wanted_movie() : over_.take_wanted_movie();
+}
+
 std::vector<interaction::WindowEvent>
 OperatorPanel::feed(std::span<const interaction::WindowEvent> events, bool shown) {
     if (!console_)

@@ -30,6 +30,8 @@ class OperatorPanel {
     }
     std::optional<std::filesystem::path> take_chosen() { return over_.take_chosen(); }
 
+    std::optional<MovieWish> take_wanted_movie();
+
     /// Passes window events to the panel. @param shown it lies over the first window
     /// @return those that it has no use for
     std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,

@@ -5,6 +5,7 @@
 #include "render/gl/render_target.h"
 #include "stereo/presenter.h"
 
+#include <optional>
 #include <vector>
 
 namespace isochron::app {
@@ -23,6 +24,8 @@ class Console {
     /// Takes what happened in the window since the last call.
     /// @return keys that the panel has no use for: they steer as in any other window
     std::vector<interaction::WindowEvent> take_events();
+
+    std::optional<MovieWish> take_wanted_movie() { return layer_.take_wanted_movie(); }
 
     /// Lays out and draws the panel over all of the window. @return what the operator did
     interaction::Commands draw(const PanelModel& model, interaction::Seconds time);

@@ -377,6 +377,8 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
     if (ImGui::CollapsingHeader("tools", in_room ? 0 : ImGuiTreeNodeFlags_DefaultOpen))
         tools_section(model, commands);
     view_section(model, commands);
+    if (model.movies.offered && !in_room && ImGui::CollapsingHeader("movies"))
+        pages.movie = movie_section(model);
     ImGui::Separator();
     if (model.place != PanelPlace::in_room) {
         if (ImGui::CollapsingHeader("statistics"))

@@ -4,6 +4,7 @@
 #include "app/panel/panel_model.h"
 #include "interaction/commands.h"
 
+#include <optional>
 #include <string>
 
 namespace isochron::app {
@@ -21,6 +22,7 @@ struct PanelArea {
 struct PanelPages {
     bool offers_files = false;        ///< other data can be opened
     bool files = false, help = false; ///< asked for in this frame
+    std::optional<MovieWish> movie{}; ///< likewise
 };
 
 /// Lays the panel out in the current Dear ImGui frame. @return what the user did to it

@@ -248,7 +248,7 @@ void PanelLayer::point(const std::optional<glm::vec2>& at, bool pressed, float n
     io.MouseWheel = notches;
 }
 
-Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {
+void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
     constexpr double kShortest = 1e-4, kLongest = 0.1; // ImGui wants time to pass
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
@@ -267,6 +267,10 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         else
             help_ = false;
     }
+}
+
+Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {
+    begin_frame(picture, time);
     Commands commands;
     PanelPages pages{.offers_files = static_cast<bool>(recent_)};
     area_ = {};
@@ -274,8 +278,10 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
         commands = draw_panel(model, area_, pages);
     if (pages.files)
-        files_.open(recent_());
+        open_files();
     help_ = help_ || pages.help;
+    if (pages.movie)
+        wanted_movie_ = pages.movie;
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
     lay_out_pages(model, time);

@@ -14,6 +14,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -44,8 +45,13 @@ class PanelLayer {
     void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
         recent_ = std::move(recent);
     }
+    /// Opens the page on which they choose.
+    void open_files() { files_.open(recent_()); }
     /// What they have chosen, once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
+
+    /// What movie they want to be made, or no longer, once.
+    std::optional<MovieWish> take_wanted_movie() { return std::exchange(wanted_movie_, {}); }
 
     /// Takes events into account. Dear ImGui sees levels, once a frame: what it could not tell
     /// apart, such as a key that goes down twice, or Enter before a digit, waits for the next
@@ -66,6 +72,10 @@ class PanelLayer {
     interaction::Commands lay_out(glm::ivec2 picture, const PanelModel& model,
                                   interaction::Seconds time);
 
+    /// One frame of a window in which there is nothing but the choice of data.
+    /// @param complaint shown below it; empty: none
+    void lay_out_files(glm::ivec2 picture, const std::string& complaint, interaction::Seconds time);
+
     /// Draws what was laid out last onto a part of the bound framebuffer, of the size that it was
     /// laid out for. @param corner lower left, pixels
     void draw(glm::ivec2 picture, glm::ivec2 corner = glm::ivec2(0));
@@ -76,6 +86,8 @@ class PanelLayer {
 
     /// Of all that `draw` would draw: a panel that looks the same has the same one.
     std::size_t digest() const;
+    /// A page lies over the picture, which Escape closes.
+    bool has_page() const { return help_ || files_.is_open(); }
     const PanelArea& area() const { return area_; } ///< the panel's own pixels
     /// Whether the panel, or what it has opened, is there. @param at fractions of the picture from
     /// the top left
@@ -87,7 +99,7 @@ class PanelLayer {
   private:
     void make_font_texture();
     bool opens_page(const interaction::WindowEvent& event);
-    bool has_page() const { return help_ || files_.is_open(); }
+    void begin_frame(glm::ivec2 picture, interaction::Seconds time);
     void lay_out_pages(const PanelModel& model, interaction::Seconds time);
 
     const render::Gl& gl_;
@@ -106,6 +118,7 @@ class PanelLayer {
     FileWindow files_;
     std::function<std::vector<std::filesystem::path>()> recent_; ///< empty: no data are offered
     std::optional<std::filesystem::path> chosen_;
+    std::optional<MovieWish> wanted_movie_;
     bool newcomer_ = false, begun_ = false, introduced_ = false;
     std::optional<interaction::Seconds> introduced_at_; ///< when the first four lines came
     render::Program program_;

@@ -1,6 +1,7 @@
 // The pages that lie over the picture beside the panel.
 #include "app/panel/panel_help.h"
 #include "app/panel/panel_layer.h"
+#include "app/panel/panel_tools.h"
 
 #include <imgui.h>
 
@@ -29,8 +30,16 @@ bool PanelLayer::opens_page(const WindowEvent& event) {
     }
     if (!pressed || key->key != Key{'O'} || !io.KeyCtrl || !recent_)
         return false;
-    files_.open(recent_());
+    open_files();
     return true;
+}
+
+void PanelLayer::lay_out_files(glm::ivec2 picture, const std::string& complaint, Seconds time) {
+    begin_frame(picture, time);
+    if (auto file = files_.draw())
+        chosen_ = std::move(file);
+    message_window(complaint, {}, Seconds(0));
+    ImGui::Render();
 }
 
 /// What lies over the picture beside the panel.

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,19 @@ enum class PanelPlace : std::uint8_t {
     over,   ///< a picture, as a window that can be moved
     whole,  ///< a window of its own, which it fills
     in_room ///< likewise; it says only what is the same on every wall and in every replay
+};
+
+/// What the panel can have a movie made of, and what becomes of the one that is being made.
+enum class MovieWish : std::uint8_t {
+    recording, ///< of this session, so far
+    series,    ///< all steps, as they are seen now
+    give_up    ///< the one that is being made
+};
+
+struct MovieState {
+    bool offered = false;            ///< this session can have movies made
+    bool recorded = false;           ///< it is being recorded
+    std::optional<float> progress{}; ///< of the one that is being made, 0 to 1
 };
 
 /// What the panel shows in one frame; nothing in it is changed by showing it.
@@ -35,6 +49,7 @@ struct PanelModel {
     std::vector<std::uint32_t> at_hand_steps{}; ///< that are shown without a search
     bool searching = false;                     ///< the worker has not answered yet
     bool recording = false;
+    MovieState movies{};
     std::string failure;      ///< of the worker; empty when all is well
     std::string message;      ///< newest note, such as a saved screenshot
     std::size_t messages = 0; ///< how many there were

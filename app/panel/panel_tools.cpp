@@ -99,6 +99,33 @@ void tools_section(const PanelModel& model, Commands& commands) {
     }
 }
 
+std::optional<MovieWish> movie_section(const PanelModel& model) {
+    std::optional<MovieWish> wish;
+    if (model.movies.progress) {
+        ImGui::ProgressBar(*model.movies.progress, {-90.0f, 0.0f});
+        ImGui::SameLine();
+        if (ImGui::Button("Give up"))
+            wish = MovieWish::give_up;
+        tip("nothing is left of the movie");
+        return wish;
+    }
+    ImGui::BeginDisabled(!model.movies.recorded);
+    if (ImGui::Button("recording so far"))
+        wish = MovieWish::recording;
+    ImGui::EndDisabled();
+    tip(model.movies.recorded ? "movie of this session, in the folder of the screenshots"
+                              : "movie of this session; `isochron explore --record FILE` records "
+                                "it");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(model.asked.known_steps(model.info.steps()) < 2);
+    if (ImGui::Button("series, this view"))
+        wish = MovieWish::series;
+    ImGui::EndDisabled();
+    tip("movie of all steps as they are seen now, at the speed of playback, in the folder of the "
+        "screenshots");
+    return wish;
+}
+
 void message_window(const std::string& standing, const std::string& message,
                     interaction::Seconds age) {
     constexpr interaction::Seconds kShown{4.0};
@@ -131,6 +158,8 @@ void leaving_window(const PanelModel& model, Commands& commands) {
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
     if (model.recording)
         ImGui::TextUnformatted("The recording ends and is kept.");
+    if (model.movies.progress)
+        ImGui::TextUnformatted("The movie that is being made is given up.");
     if (ImGui::Button("Leave (Enter)"))
         commands.quit = true;
     ImGui::SameLine();

@@ -5,6 +5,7 @@
 #include "interaction/commands.h"
 #include "interaction/pose.h"
 
+#include <optional>
 #include <string>
 
 namespace isochron::app {
@@ -16,6 +17,9 @@ void tools_section(const PanelModel& model, interaction::Commands& commands);
 /// Says which steps are shown without a search, below the slider that has just been laid out.
 /// @param last step
 void mark_steps_at_hand(const PanelModel& model, int last);
+/// Buttons that have movies made, and how far the one is that is being made.
+/// @return what the user wants
+std::optional<MovieWish> movie_section(const PanelModel& model);
 /// What stands in the picture as long as it is true, and the newest message for a while, at its
 /// bottom. @param age of the message
 void message_window(const std::string& standing, const std::string& message,

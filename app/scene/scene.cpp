@@ -9,6 +9,7 @@
 #include "interaction/navigation.h"
 #include "render/gl/driver.h"
 #include "render/gl/shader.h"
+#include "render/gl/viewport.h"
 
 #include <glm/matrix.hpp>
 
@@ -269,10 +270,29 @@ void Scene::draw_guides(const render::View& view, const interaction::Similarity&
                         const std::optional<interaction::Pose>& wand) {
     if (!guides_.empty())
         line_pass_.draw(view, glm::mat4(1.0f), guides_);
-    if (wand) {
-        const std::array ray{wand_ray(room_from_physical, *wand)};
-        line_pass_.draw(view, glm::mat4(1.0f), ray, panel_ ? kPointing : kThin);
-    }
+    if (wand)
+        draw_ray(view, room_from_physical, *wand);
+}
+
+void Scene::draw_ray(const render::View& view, const interaction::Similarity& room_from_physical,
+                     const interaction::Pose& wand) {
+    const std::array ray{wand_ray(room_from_physical, wand)};
+    line_pass_.draw(view, glm::mat4(1.0f), ray, panel_ ? kPointing : kThin);
+}
+
+void Scene::draw_aids(const render::View& view, const interaction::Similarity& room_from_physical,
+                      const std::optional<interaction::Pose>& wand,
+                      const std::optional<interaction::Pointed>& pointed) {
+    pointed_ = pointed;
+    gl_.Enable(GL_SCISSOR_TEST);
+    render::set_viewport(gl_, view);
+    gl_.DepthMask(GL_TRUE);
+    gl_.Clear(GL_DEPTH_BUFFER_BIT); // of the aids before
+    if (wand)
+        draw_ray(view, room_from_physical, *wand);
+    if (pointed_)
+        draw_pointed(view, room_from_physical);
+    gl_.Disable(GL_SCISSOR_TEST);
 }
 
 void Scene::draw_over_cells(const render::View& view,

@@ -82,7 +82,14 @@ class Scene {
               const interaction::Similarity& room_from_physical, render::Footprint footprint,
               const std::optional<interaction::Pose>& wand);
 
+    /// Over a finished picture: a wand's ray, and what a cursor is over.
+    void draw_aids(const render::View& view, const interaction::Similarity& room_from_physical,
+                   const std::optional<interaction::Pose>& wand,
+                   const std::optional<interaction::Pointed>& pointed);
+
   private:
+    void draw_ray(const render::View& view, const interaction::Similarity& room_from_physical,
+                  const interaction::Pose& wand);
     bool writes_depth(render::Footprint footprint) const;
     render::BoxLines box_in(const render::View& view, const render::Placement& placement) const;
     void draw_among_cells(std::span<const render::View> views, const render::Placement& placement,

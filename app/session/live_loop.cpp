@@ -65,6 +65,35 @@ void LiveLoop::take_new_steps(Session& session, Commands& asked) {
         asked.step = steps - 1;
 }
 
+/// Empty: nothing keeps them from being opened.
+std::string LiveLoop::why_not_open(const std::filesystem::path& data) const {
+    if (movies_ && movies_->busy())
+        return "a movie is being made: other data are opened when it is whole, or given up";
+    return options_.why_not_open ? options_.why_not_open(data)
+                                 : "other data are not opened in this session";
+}
+
+/// Begins and ends those that the panel asks for.
+void LiveLoop::make_movies(Session& session) {
+    if (!movies_)
+        return;
+    constexpr double kRate = 30; // as `isochron movie` has it where nothing is said
+    const std::optional<MovieWish> wish = session.panel().take_wanted_movie();
+    if (wish == MovieWish::give_up)
+        movies_->give_up();
+    else if (wish == MovieWish::recording && recorder_)
+        movies_->make([recorder = recorder_](const auto& path) { recorder->copy_to(path); },
+                      recording_);
+    else if (wish == MovieWish::series)
+        movies_->make(
+            [series = series_seen(movies_->orders().header, session.note(), session.times(),
+                                  kRate)](const auto& path) { write_recording(path, series); },
+            recording_);
+    movies_->update();
+    session.show_messages(movies_->messages());
+    session.set_movies({true, recorder_ != nullptr, movies_->progress()});
+}
+
 /// Data that were chosen, or dropped onto a window.
 void LiveLoop::take_next_data(Session& session) {
     std::optional<std::filesystem::path> wanted = session.panel().take_chosen();
@@ -72,8 +101,7 @@ void LiveLoop::take_next_data(Session& session) {
         wanted = dropped;
     if (!wanted)
         return;
-    const std::string reason = options_.why_not_open ? options_.why_not_open(*wanted)
-                                                     : "other data are not opened in this session";
+    const std::string reason = why_not_open(*wanted);
     if (reason.empty())
         next_data_ = wanted;
     else
@@ -114,11 +142,12 @@ void LiveLoop::record(interaction::RecordedFrame frame) {
 
 /// Whether a window that is closed ends the loop. Where somebody would lose something, they are
 /// asked first; whoever closes it again means it.
-bool LiveLoop::closes(const Session& session, Commands& asked) {
+bool LiveLoop::closes(const Session& session, Commands& asked) const {
     if (!session.should_close())
         return false;
     const stereo::Windows& windows = session.outputs().windows();
-    if (!windows.should_close() || !session.history().has_changes() || session.state().leaving)
+    const bool loses = session.history().has_changes() || (movies_ && movies_->busy());
+    if (!windows.should_close() || !loses || session.state().leaving)
         return true;
     windows.keep_open();
     asked.leaving = true;
@@ -158,6 +187,7 @@ void LiveLoop::run(Session& session) {
             keeper_->update(session.state(), emulation_.standing(), input.time);
             session.show_messages(keeper_->messages());
         }
+        make_movies(session);
         take_next_data(session);
         running = goes_on(commands, input) && !next_data_;
         if (!paced_)
@@ -180,6 +210,10 @@ void LiveLoop::run(PatternShow& show) {
 }
 
 void LiveLoop::finish(const ExplorerState& state) {
+    if (movies_) {
+        movies_->finish();
+        last_words_ = movies_->messages();
+    }
     recording_.finish();
     if (recorder_)
         recorder_->finish();
@@ -191,6 +225,7 @@ std::vector<std::string> LiveLoop::status() const {
     std::vector<std::string> lines = trackers_.status();
     const std::vector<std::string> headset = headset_.status();
     lines.insert(lines.end(), headset.begin(), headset.end());
+    lines.insert(lines.end(), last_words_.begin(), last_words_.end());
     return lines;
 }
 

@@ -12,6 +12,7 @@
 #include "app/frame/late_latch.h"
 #include "app/output/room_camera.h"
 #include "app/session/headset_loop.h"
+#include "app/session/movie_maker.h"
 #include "app/session/pattern_show.h"
 #include "app/session/session.h"
 #include "app/session/session_keeper.h"
@@ -26,6 +27,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -58,6 +60,9 @@ class LiveLoop {
     /// Shows new steps of the index when they come. @param path of the index that is open
     void watch(const std::filesystem::path& path, std::shared_ptr<const index::IndexFile> file);
 
+    /// Lets the user have movies made.
+    void offer_movies(MovieOrders orders) { movies_.emplace(std::move(orders)); }
+
     /// Keeps what the user comes to, to go on from there. @param resumed what this session began as
     void keep_session(const std::filesystem::path& path, const SavedSession& start, bool resumed);
     /// Where the emulated head is.
@@ -83,8 +88,10 @@ class LiveLoop {
     bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
     void record(interaction::RecordedFrame frame);
     void take_next_data(Session& session);
+    std::string why_not_open(const std::filesystem::path& data) const;
+    void make_movies(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);
-    static bool closes(const Session& session, interaction::Commands& asked);
+    bool closes(const Session& session, interaction::Commands& asked) const;
 
     const Config& config_;
     const LiveOptions options_;
@@ -99,6 +106,8 @@ class LiveLoop {
     BackgroundWork recording_;
     /// Lives on the thread that writes.
     std::shared_ptr<interaction::RecordingWriter> recorder_;
+    std::optional<MovieMaker> movies_;
+    std::vector<std::string> last_words_; ///< what became of the last movie when the loop had ended
     const std::function<interaction::Seconds()> clock_; ///< last: its time starts when all is ready
 };
 

@@ -86,6 +86,7 @@ interaction::ControlContext Session::control_context() const {
     context.panel = state_.panel;
     context.room_panel = state_.room_panel;
     context.panel_distance = room_panel_.distance();
+    context.panel_place = panel_place();
     context.grid = state_.grid;
     context.views = &state_.views;
     context.stereo_modes = &outputs_.stereo_modes();
@@ -201,19 +202,21 @@ void Session::set_headset_period(std::optional<interaction::Seconds> period) {
 /// With the footprint that was drawn last.
 Session::Picture Session::picture(const interaction::InputState& input, const FrameReport& report) {
     const bool in_windows = this->in_windows(report);
-    const interaction::DeviceState* wand = config_.wand_ray ? input.find("wand") : nullptr;
-    const auto pointed = picker_.pointed(input, !room_panel_.touched(), state_, scene_.shown());
+    const Aids all = aids(input), none;
+    const bool over = aids_lie_over();
+    const Aids& seen = over ? none : all;
+    over_ = over ? all : none;
     return {
         .audience = {.viewers = viewer_poses(config_.installation, input, state_.eye_separation,
                                              parallel_center()),
                      .eyes = outputs_.headset_eyes(),
-                     .wand = wand ? wand->pose : std::nullopt,
+                     .wand = seen.wand,
                      .panel = room_panel_.shown(state_.room_panel),
                      .stereo = state_.stereo,
-                     .aids = wand || pointed,
+                     .aids = seen.wand || seen.pointed,
                      .in_windows = in_windows},
         .mark = state_.mark,
-        .pointed = pointed,
+        .pointed = seen.pointed,
         .tools = drawing_of({state_.mark, state_.clip, state_.ruler}, data_frame(file_->info())),
         .clip = state_.clip,
         .guides = {state_.grid, interaction::teleport_target(input)},
@@ -228,7 +231,8 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
         .windows = outputs_.window_sizes(),
         .free = flat_panel()
                     ? panel_.covered(outputs_.windows()[0].framebuffer_size().x / panel_places().x)
-                    : 0};
+                    : 0,
+        .aside = state_.room_panel.shown && head_is_emulated() ? kPanelShare : 0.0f};
 }
 
 /// The devices that the views are made of, asked for as late as can be.
@@ -277,12 +281,16 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
                         FrameReport& report) {
     const Outputs::Overlay panel = frames_->leads()
-                                       ? [&](glm::ivec2 size) { draw_panel_overlay(size, report); }
+                                       ? [&](glm::ivec2 size) {
+                                             draw_aids();
+                                             draw_panel_overlay(size, report);
+                                         }
                                        : Outputs::Overlay();
     drawn_ = now;
     StopWatch watch;
     if (report.redrawn) {
         outputs_.leave_free(now.free);
+        outputs_.show_aside(now.aside);
         quality_.begin(log_.next());
         scene_.set_guides(now.guides);
         scene_.set_panel(now.audience.panel);

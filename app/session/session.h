@@ -97,6 +97,10 @@ class Session {
     void show_messages(std::vector<std::string> messages);
     void say_refused(const index::ExtractionPtr& set, FrameReport& report);
     void set_recording(bool recording) { recording_ = recording; }
+    /// What the panel says of movies from now on.
+    void set_movies(const MovieState& movies) { movies_ = movies; }
+    /// Of the steps that are known.
+    std::span<const double> times() const { return times_; }
 
     /// The file name of the data, for pictures that say what they show.
     /// @param recorded_on hash of the recording's data, where these are others
@@ -119,6 +123,9 @@ class Session {
     index::ReadUse reading() const { return file_->reading(); }
 
   private:
+    /// Of a window's width, that the panel in the room has where the head is emulated.
+    static constexpr float kPanelShare = 0.4f;
+
     /// Everything that the eyes' pictures depend on.
     struct Picture {
         Audience audience;
@@ -135,8 +142,15 @@ class Session {
         std::optional<ColorScale> scale;
         bool bounding_box = true;
         std::vector<glm::ivec2> windows;
-        int free = 0; ///< pixels at the left of the first one
+        int free = 0;    ///< pixels at the left of the first one
+        float aside = 0; ///< of its width, see Outputs::show_aside
         bool operator==(const Picture&) const = default;
+    };
+
+    /// What shows where somebody points.
+    struct Aids {
+        std::optional<interaction::Pose> wand;
+        std::optional<interaction::Pointed> pointed;
     };
 
     interaction::ControlContext control_context() const;
@@ -147,6 +161,9 @@ class Session {
     void take_newest_cells(Waiting waiting, FrameReport& report);
     std::optional<ColorScale> shown_scale() const;
     Picture picture(const interaction::InputState& input, const FrameReport& report);
+    Aids aids(const interaction::InputState& input) const;
+    bool aids_lie_over() const;
+    void draw_aids();
     interaction::InputState seen(const interaction::InputState& input, const Latch& latch,
                                  FrameReport& report);
     bool in_windows(const FrameReport& report);
@@ -165,6 +182,8 @@ class Session {
     /// Of the data in the room, while they are shown in parallel projection.
     std::optional<glm::dvec3> parallel_center() const;
     bool flat_panel() const; ///< shown over the first window
+    bool head_is_emulated() const;
+    std::optional<interaction::Pose> panel_place() const;
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
 
     Config config_;
@@ -181,6 +200,7 @@ class Session {
     index::Extractor extractor_;
     Scene scene_;
     std::optional<Picture> drawn_; ///< what the eyes saw last
+    Aids over_;                    ///< drawn over it, where that is done
     OperatorPanel panel_;
     PanelInRoom room_panel_;
     Picker picker_;
@@ -198,6 +218,7 @@ class Session {
     CaptureWait captures_;
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
     bool recording_ = false;
+    MovieState movies_;
     std::string message_;
     std::string refused_; ///< why the newest set is not shown; empty where it is
     std::size_t messages_ = 0;

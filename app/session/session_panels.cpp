@@ -19,6 +19,30 @@ std::optional<glm::dvec3> Session::parallel_center() const {
     return interaction::transform(state_.room_from_physical, physical_center(file_->info().grid));
 }
 
+/// By mouse and keyboard, before a screen that it carries along.
+bool Session::head_is_emulated() const {
+    const stereo::Screen& screen = config_.installation.windows.front().viewports.front().screen;
+    return config_.devices.empty() && !config_.openxr.enabled && screen.carried_by_head &&
+           screen.fit_aspect;
+}
+
+/// Where the panel stands beside such a screen, in the head's frame: as far away as it has to be
+/// for the share of the window that it gets.
+std::optional<interaction::Pose> Session::panel_place() const {
+    constexpr float kFilled = 0.92f; // of that share
+    if (!head_is_emulated())
+        return std::nullopt;
+    const stereo::Screen& screen = config_.installation.windows.front().viewports.front().screen;
+    const glm::vec3 across = screen.upper_right - screen.upper_left;
+    const glm::vec3 right = glm::normalize(across);
+    const glm::vec3 up = glm::normalize(screen.upper_left - screen.lower_left);
+    const float aside = kPanelShare / (1 - kPanelShare) * glm::length(across);
+    const glm::vec3 middle = 0.5f * (screen.lower_left + screen.upper_left) - 0.5f * aside * right;
+    const float nearer = room_panel_.size().width / (kFilled * aside);
+    return interaction::Pose{nearer * middle,
+                             glm::quat_cast(glm::mat3(right, up, glm::cross(right, up)))};
+}
+
 /// The one in the room replaces it.
 bool Session::flat_panel() const {
     return state_.panel && !state_.room_panel.shown;
@@ -57,6 +81,7 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .at_hand_steps = extractor_.at_hand(),
             .searching = extractor_.busy(),
             .recording = recording_,
+            .movies = movies_,
             .failure = failure(),
             .message = message_,
             .messages = messages_,

@@ -28,6 +28,31 @@ void Session::draw_views(const ScenePlace& place, std::span<const render::View> 
                 aids ? drawn_->audience.wand : std::nullopt);
 }
 
+/// Where mouse and keyboard play the wand, it points while the cursor does.
+Session::Aids Session::aids(const interaction::InputState& input) const {
+    const bool points =
+        !head_is_emulated() || room_panel_.touched() || input.find("pointer") != nullptr;
+    const interaction::DeviceState* wand =
+        config_.wand_ray && points ? input.find("wand") : nullptr;
+    return {wand ? wand->pose : std::nullopt,
+            picker_.pointed(input, !room_panel_.touched(), state_, scene_.shown())};
+}
+
+/// At a desktop only the cursor moves for long: the picture below it stays as it is.
+bool Session::aids_lie_over() const {
+    const bool one_picture_each = !stereo::Multiplex::shows(state_.stereo) &&
+                                  stereo::upright(state_.stereo) != stereo::StereoMode::quadbuffer;
+    return head_is_emulated() && !outputs_.room() && !config_.picture_ray &&
+           outputs_.displays() == 1 && one_picture_each;
+}
+
+void Session::draw_aids() {
+    if (!over_.wand && !over_.pointed)
+        return;
+    for (const render::View& view : outputs_.display().views_in_window(outputs_.audience().viewers))
+        scene_.draw_aids(view, drawn_->room_from_physical, over_.wand, over_.pointed);
+}
+
 /// In windows that stand for no wall: there people ask where they are.
 bool Session::on_desktop() const {
     const auto& screens = config_.installation.windows.front().viewports;

@@ -170,6 +170,27 @@ void RecordingWriter::append(const RecordedFrame& frame) {
     s.before = frame;
 }
 
+void RecordingWriter::copy_to(const std::filesystem::path& path) {
+    state_->flush();
+    const std::filesystem::path part = path.string() + ".part";
+    std::error_code error;
+    std::filesystem::copy_file(state_->temporary, part, error);
+    if (!error)
+        std::filesystem::rename(part, path, error);
+    if (!error)
+        return;
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw Error(fmt::format("{}: cannot write: {}", path.string(), error.message()));
+}
+
+void write_recording(const std::filesystem::path& path, const Recording& recording) {
+    RecordingWriter writer(path, recording.header);
+    for (const RecordedFrame& frame : recording.frames)
+        writer.append(frame);
+    writer.finish();
+}
+
 void RecordingWriter::finish() {
     if (state_->file)
         state_->close();

@@ -42,6 +42,9 @@ class RecordingWriter {
     ~RecordingWriter(); ///< finishes what was written if `finish` was not called
     /// @throws Error when the disk is full, time goes back or a number is not finite
     void append(const RecordedFrame& frame);
+    /// Writes what was appended so far as a recording of its own.
+    /// @throws Error when that cannot be written
+    void copy_to(const std::filesystem::path& path);
     /// @throws Error when the file cannot be completed or renamed
     void finish();
 
@@ -49,6 +52,9 @@ class RecordingWriter {
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// Writes all of it at once. @throws Error as the writer does
+void write_recording(const std::filesystem::path& path, const Recording& recording);
 
 /// Only a last line without line end that is cut short is forgiven, with a note.
 /// @param name of the file, for messages

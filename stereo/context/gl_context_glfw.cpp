@@ -1,4 +1,5 @@
 // A context with a window: GLFW, and the translation of its events.
+#include "stereo/context/display_loss.h"
 #include "stereo/context/gl_context_backends.h"
 #include "stereo/context/gl_context_glfw_native.h"
 
@@ -45,6 +46,7 @@ class GlfwLibrary {
             throw NoDisplay(fmt::format("no display to open a window on ({}); `isochron replay` "
                                         "draws pictures of a recording without one",
                                         glfw_complaint()));
+        watch_display();
     }
     ~GlfwLibrary() { glfwTerminate(); }
     GlfwLibrary(const GlfwLibrary&) = delete;

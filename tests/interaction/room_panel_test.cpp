@@ -81,12 +81,23 @@ TEST(RoomPanel, CallingItShowsItSendsItAwayAndFetchesItFromBehind) {
     const RoomPanel first = called({}, kStanding, 0.65f);
     EXPECT_TRUE(first.shown);
     EXPECT_EQ(first.pose, beside(kStanding, 0.65f));
-    EXPECT_EQ(called({}, kStanding, 0.65f, false).pose, ahead_of(kStanding, 0.65f))
-        << "a desktop's window shows nothing beside";
     EXPECT_EQ(called(first, kStanding, 0.65f), (RoomPanel{false, first.pose}));
     EXPECT_EQ(called(first, turned, 0.65f), (RoomPanel{true, beside(turned, 0.65f)}));
     const Pose away{{3, 1.6f, 2}, {1, 0, 0, 0}};
     EXPECT_EQ(called(first, away, 0.65f), (RoomPanel{true, beside(away, 0.65f)}));
+}
+
+TEST(RoomPanel, WhereADesktopsWindowLeavesRoomForItItStandsThereHoweverTheHeadIsTurned) {
+    const Pose place{{-0.6f, 0.1f, -0.5f}, {1, 0, 0, 0}};
+    for (const float turn : {0.0f, 1.0f, 2.5f}) {
+        const Pose head{{1, 1.6f, 2}, glm::angleAxis(turn, glm::normalize(glm::vec3(0.3f, 1, 0)))};
+        const RoomPanel first = called({}, head, 0.65f, place);
+        const glm::vec3 seen =
+            glm::conjugate(head.orientation) * (first.pose.position - head.position);
+        EXPECT_NEAR(glm::distance(seen, place.position), 0, 1e-5);
+        EXPECT_NEAR(std::abs(glm::dot(first.pose.orientation, head.orientation)), 1, 1e-5);
+        EXPECT_EQ(called(first, head, 0.65f, place), (RoomPanel{false, first.pose}));
+    }
 }
 
 TEST(RoomPanel, KeyAndWandButtonCallItOncePerPress) {

@@ -124,6 +124,34 @@ TEST(Screen, DepthRunsFromNearToFar) {
     EXPECT_NEAR(ndc(view, eye + glm::vec3(0, 0, -kFar)).z, 1, 1e-4f);
 }
 
+/// What is beside the screen takes its share of the picture, and the screen is as in a picture of
+/// its own.
+TEST(Screen, AShareOfThePictureBesideItLeavesTheScreenAsItWas) {
+    SCOPED_TRACE(testing::Message() << "seed " << kScreenSeed);
+    RandomRoom room(kScreenSeed);
+    constexpr glm::ivec2 kOwn(600, 480), kBoth(1000, 480);
+    for (int i = 0; i < 300; ++i) {
+        auto [screen, head] = room.screen_and_head();
+        screen.fit_aspect = i % 2 == 0;
+        Screen both = screen;
+        both.aside = 0.4f;
+        const glm::vec3 point = room.point(3);
+        const bool parallel = i % 3 == 0;
+        const auto seen = [&, &h = head](const Screen& s, glm::ivec2 pixels) {
+            const render::View view = parallel
+                                          ? parallel_view_of(s, h, 1.5f, kFar, pixels)
+                                          : view_of(s, h, Eye::left, 0.06f, kNear, kFar, pixels);
+            return (ndc(view, point) * 0.5f + 0.5f) * glm::vec3(pixels, 1);
+        };
+        const glm::vec3 alone = seen(screen, kOwn), beside = seen(both, kBoth);
+        if (std::abs(alone.x) > 1e4f || std::abs(alone.y) > 1e4f)
+            continue;                                 // in the eye's own plane
+        const float rounded = parallel ? 4.0f : 0.3f; // floats, 500 m from the eye
+        EXPECT_NEAR(beside.x, alone.x + 400, rounded + 1e-3f * std::abs(alone.x));
+        EXPECT_NEAR(beside.y, alone.y, rounded + 1e-3f * std::abs(alone.y));
+    }
+}
+
 TEST(Screen, CarriedScreensFollowTheHead) {
     RandomRoom room(kScreenSeed);
     Screen carried;

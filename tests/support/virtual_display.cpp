@@ -1,6 +1,7 @@
 // Start of Xvfb, and requests to it through Xlib and xdotool.
 #include "tests/support/virtual_display.h"
 
+#include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 
@@ -12,12 +13,65 @@
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 namespace isochron::test_support {
 
 struct VirtualDisplay::Connection {
     Display* display;
-    ~Connection() { XCloseDisplay(display); }
+    ~Connection() {
+        if (display)
+            XCloseDisplay(display);
+    }
+    Atom atom(const char* name) const { return XInternAtom(display, name, False); }
+    /// Of the protocol XDND (https://freedesktop.org/wiki/Specifications/XDND), version 5.
+    void send_dnd(Window source, Window target, const char* type,
+                  const std::array<long, 4>& data) const {
+        XEvent event{};
+        event.xclient.type = ClientMessage;
+        event.xclient.display = display;
+        event.xclient.window = target;
+        event.xclient.message_type = atom(type);
+        event.xclient.format = 32;
+        event.xclient.data.l[0] = static_cast<long>(source);
+        for (std::size_t i = 0; i < data.size(); ++i)
+            event.xclient.data.l[i + 1] = data[i];
+        XSendEvent(display, target, False, NoEventMask, &event);
+        XFlush(display);
+    }
+    /// Hands out what is dragged, until the target says this. @return false when it never does
+    bool serve_dnd(const std::string& uris, const char* last_word) const {
+        constexpr int kPatience = 3000; // of 10 ms
+        for (int waited = 0; waited < kPatience; ++waited) {
+            while (XPending(display) > 0) {
+                XEvent event;
+                XNextEvent(display, &event);
+                if (event.type == ClientMessage && event.xclient.message_type == atom(last_word))
+                    return true;
+                if (event.type != SelectionRequest)
+                    continue;
+                const XSelectionRequestEvent& asked = event.xselectionrequest;
+                XChangeProperty(display, asked.requestor, asked.property, asked.target, 8,
+                                PropModeReplace,
+                                reinterpret_cast<const unsigned char*>(uris.data()),
+                                static_cast<int>(uris.size()));
+                XEvent answer{};
+                answer.xselection = {.type = SelectionNotify,
+                                     .serial = 0,
+                                     .send_event = True,
+                                     .display = display,
+                                     .requestor = asked.requestor,
+                                     .selection = asked.selection,
+                                     .target = asked.target,
+                                     .property = asked.property,
+                                     .time = asked.time};
+                XSendEvent(display, asked.requestor, False, NoEventMask, &answer);
+                XFlush(display);
+            }
+            usleep(10'000);
+        }
+        return false;
+    }
     Window window(const std::string& title) const {
         Window root, parent, *children = nullptr;
         unsigned count = 0;
@@ -71,6 +125,8 @@ VirtualDisplay::VirtualDisplay() {
 VirtualDisplay::~VirtualDisplay() {
     connection_.reset();
     unsetenv("DISPLAY");
+    if (server_ < 0)
+        return;
     kill(server_, SIGTERM);
     waitpid(server_, nullptr, 0);
 }
@@ -113,6 +169,42 @@ void VirtualDisplay::close_window(const std::string& title) const {
     event.xclient.data.l[0] = static_cast<long>(XInternAtom(display, "WM_DELETE_WINDOW", False));
     XSendEvent(display, window, False, NoEventMask, &event);
     XSync(display, False);
+}
+
+void VirtualDisplay::drop_file(const std::string& title, const std::string& path) const {
+    const Connection& x = *connection_;
+    const Window target = x.window(title);
+    const Window source =
+        XCreateSimpleWindow(x.display, DefaultRootWindow(x.display), 0, 0, 1, 1, 0, 0, 0);
+    XSetSelectionOwner(x.display, x.atom("XdndSelection"), source, CurrentTime);
+    constexpr long kVersion = 5L << 24;
+    const auto list = static_cast<long>(x.atom("text/uri-list"));
+    const auto copy = static_cast<long>(x.atom("XdndActionCopy"));
+    x.send_dnd(source, target, "XdndEnter", {kVersion, list, 0, 0});
+    x.send_dnd(source, target, "XdndPosition", {0, 100L << 16 | 100, CurrentTime, copy});
+    const std::string uris = "file://" + path + "\r\n";
+    bool taken = x.serve_dnd(uris, "XdndStatus");
+    x.send_dnd(source, target, "XdndDrop", {0, CurrentTime, 0, 0});
+    taken = taken && x.serve_dnd(uris, "XdndFinished");
+    XDestroyWindow(x.display, source);
+    XSync(x.display, False);
+    if (!taken)
+        throw std::runtime_error(title + " does not take what is dropped");
+}
+
+void VirtualDisplay::set_dots_per_inch(int dots) const {
+    Display* display = connection_->display;
+    const std::string resources = "Xft.dpi:\t" + std::to_string(dots) + "\n";
+    XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8,
+                    PropModeReplace, reinterpret_cast<const unsigned char*>(resources.data()),
+                    static_cast<int>(resources.size()));
+    XSync(display, False);
+}
+
+void VirtualDisplay::die() {
+    kill(server_, SIGKILL);
+    waitpid(std::exchange(server_, -1), nullptr, 0);
+    connection_->display = nullptr; // Xlib would end the test with it
 }
 
 std::array<int, 3> VirtualDisplay::pixel(int x, int y) const {

@@ -23,6 +23,13 @@ class VirtualDisplay {
     void resize_window(const std::string& title, int width, int height) const;
     /// Asks the window to close, as its close button does.
     void close_window(const std::string& title) const;
+    /// Drags a file from another program and drops it onto the window, by the XDND protocol that
+    /// desktops' file managers speak. Waits until the window has taken it.
+    void drop_file(const std::string& title, const std::string& path) const;
+    /// The server is killed, and the connections of all programs to it are cut.
+    void die();
+    /// What programs that start from now on are told of its resolution (Xft.dpi).
+    void set_dots_per_inch(int dots) const;
     /// Red, green and blue of what is shown, (0, 0) at the top left.
     std::array<int, 3> pixel(int x, int y) const;
 

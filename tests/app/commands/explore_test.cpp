@@ -1,80 +1,21 @@
 // The whole program in a window: a user presses keys, leaves, and the recording tells and replays
 // it.
+#include "tests/app/commands/explore_fixture.h"
 #include "tests/support/eventually.h"
-#include "tests/support/session_fixture.h"
 
 #include "app/config/shipped_configs.h"
 #include "app/session/recording_file.h"
-#include "app/session/user_memory.h"
 #include "stereo/image_file.h"
-#include "tests/support/paths.h"
-#include "tests/support/virtual_display.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <thread>
-
-#include <spawn.h>
-#include <sys/wait.h>
-
-extern char** environ;
 
 namespace isochron::app {
 namespace {
-
-/// The built program, run with arguments and awaited.
-class Program {
-  public:
-    explicit Program(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), test_support::binary_root() + "/isochron");
-        std::vector<char*> argv;
-        for (std::string& argument : arguments)
-            argv.push_back(argument.data());
-        argv.push_back(nullptr);
-        EXPECT_EQ(posix_spawn(&pid_, argv[0], nullptr, nullptr, argv.data(), environ), 0);
-    }
-    void signal(int number) const { kill(pid_, number); }
-    int exit_status() const {
-        int status = 0;
-        waitpid(pid_, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-
-  private:
-    pid_t pid_ = 0;
-};
-
-class ExploreTest : public testing::Test {
-  protected:
-    ExploreTest() {
-        build_sphere(folder_.path());
-        setenv("XDG_STATE_HOME", state_.path().c_str(), 1);
-    }
-
-    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
-
-    /// Starts the explorer, waits for its window and puts the mouse into it.
-    std::unique_ptr<Program> explore(std::vector<std::string> more) {
-        std::vector<std::string> arguments{"explore", file("sphere.isochron"), "--size", "640",
-                                           "480"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        auto program = std::make_unique<Program>(std::move(arguments));
-        screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron"});
-        screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
-                         "%1", "200", "200"});
-        return program;
-    }
-
-    /// Escape asks, Enter says yes; each has a frame of its own, however slow.
-    void leave() { screen_.xdotool({"key", "Escape", "sleep", "0.3", "key", "Return"}); }
-
-    TestFolder folder_, state_; ///< the data's, and the user's for what programs remember
-    test_support::VirtualDisplay screen_;
-};
 
 template <class Claim>
 bool any_frame(const interaction::Recording& recording, Claim claim) {
@@ -305,25 +246,6 @@ TEST_F(ExploreTest, AFolderForPicturesThatCannotBeMadeIsToldAtTheStart) {
     EXPECT_EQ(Program({"explore", file("sphere.isochron"), "--screenshots", file("taken/here")})
                   .exit_status(),
               1);
-}
-
-TEST_F(ExploreTest, WithoutADisplayItSaysSo) {
-    unsetenv("DISPLAY");
-    EXPECT_EQ(Program({"explore", file("sphere.isochron")}).exit_status(), 1);
-}
-
-TEST_F(ExploreTest, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {
-    std::filesystem::copy_file(file("sphere.isochron"), file("other.isochron"));
-    UserMemory(state_.path() / "isochron").remember(file("other.isochron"));
-    const auto program = explore({});
-    screen_.xdotool({"key", "ctrl+o", "sleep", "1"});
-    // The second line: the first are the data that are open.
-    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "126",
-                     "sleep", "0.3", "click", "1"});
-    screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron: .*/other.isochron"});
-    program->signal(SIGTERM);
-    EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
-    EXPECT_EQ(UserMemory(state_.path() / "isochron").recent().front(), file("other.isochron"));
 }
 
 TEST_F(ExploreTest, ResumesAfterTheDataHaveGrown) {

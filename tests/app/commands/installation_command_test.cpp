@@ -86,6 +86,20 @@ TEST_F(InstallationCommand, ImportWritesAConfigurationThatIsSound) {
     EXPECT_EQ(folder.read("cave.pvx"), kPvx);
 }
 
+TEST_F(InstallationCommand, AnImportOfTwoViewersSaysThatTheirTrackersAreMissing) {
+    const std::string corners =
+        "LowerLeft=\"-1 -1 -2\" LowerRight=\"1 -1 -2\" UpperRight=\"1 1 -2\"/>\n";
+    folder.write("two.pvx", "<pvx>\n<Machine Name=\"a\" ViewerId=\"0\" Geometry=\"300x300+0+0\" " +
+                                corners +
+                                "<Machine Name=\"b\" ViewerId=\"1\" Geometry=\"300x300+300+0\" " +
+                                corners + "</pvx>");
+    ChildResult result = isochron({"config", "import", "two.pvx", "-o", "two.toml"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("note: two.pvx: no tracker provides device head 2"));
+    result = isochron({"explore", "--check-config", "two.toml"});
+    EXPECT_EQ(result.status, 1) << "until they are added";
+}
+
 TEST_F(InstallationCommand, AnImportThatItsOwnCheckRejectsIsNotWritten) {
     // A corner that is not square, and one that no room holds.
     for (const auto& [corner, what] :

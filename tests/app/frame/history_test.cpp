@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 namespace isochron::app {
 namespace {
 
@@ -68,9 +70,10 @@ Commands one_change(interaction::Random& random) {
 TEST(History, AnySingleChangeIsUndoneAndRedone) {
     interaction::Random random(test_seed());
     Explorer explorer;
+    constexpr int kChanges = 10'000;
     int changed = 0, wrong = 0;
     double time = 0;
-    for (int round = 0; round < 10'000; ++round) {
+    for (int round = 0; changed < kChanges; ++round) {
         explorer.state.playback.playing = false; // what plays is tried below
         const ExplorerState before = explorer.state;
         explorer.obey(one_change(random), time += 10);
@@ -85,8 +88,8 @@ TEST(History, AnySingleChangeIsUndoneAndRedone) {
         if (round % 3 == 0)
             explorer.undo(time += 10);
     }
-    EXPECT_GT(changed, 1000);
-    EXPECT_EQ(wrong, 0) << "of " << changed;
+    std::printf("%d changes undone and done again: %d states differ\n", changed, wrong);
+    EXPECT_EQ(wrong, 0);
 }
 
 TEST(History, ManyStepsComeBackInTheirOrder) {

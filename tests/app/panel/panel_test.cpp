@@ -1,12 +1,15 @@
 // The panel without a window: whatever the data are called and hold, it can be laid out.
 #include "app/config/config.h"
 #include "app/panel/panel.h"
+#include "app/panel/panel_tools.h"
 
 #include <gtest/gtest.h>
 #include <imgui.h>
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 
 namespace isochron::app {
 namespace {
@@ -88,6 +91,57 @@ TEST_F(PanelTest, TakesValuesUpToTheGreatestOfADouble) {
         EXPECT_TRUE(!commands.isovalue ||
                     (low <= *commands.isovalue && *commands.isovalue <= high));
     }
+}
+
+/// The part on movies alone, of which every place is clicked.
+class MovieButtons : public PanelTest {
+  protected:
+    std::optional<MovieWish> frame(float x, float y, bool down) {
+        ImGui::GetIO().MousePos = {x, y};
+        ImGui::GetIO().MouseDown[0] = down;
+        ImGui::NewFrame();
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::SetNextWindowSize({380, 100});
+        ImGui::Begin("panel");
+        const auto wish = movie_section({.info = info_,
+                                         .stats = stats_,
+                                         .asked = asked_,
+                                         .frame = frame_,
+                                         .frame_times = {},
+                                         .movies = movies_,
+                                         .failure = {},
+                                         .message = {},
+                                         .controls = controls_,
+                                         .at_hand = {}});
+        ImGui::End();
+        ImGui::Render();
+        return wish;
+    }
+    std::set<MovieWish> wishes() {
+        std::set<MovieWish> all;
+        for (float y = 25; y < 100; y += 6)
+            for (float x = 10; x < 380; x += 20)
+                for (const bool down : {false, false, true, false})
+                    if (const auto wish = frame(x, y, down))
+                        all.insert(*wish);
+        return all;
+    }
+
+    MovieState movies_{.offered = true, .recorded = true};
+};
+
+TEST_F(MovieButtons, AskForAMovieOfTheRecordingOrOfTheSeriesWhereThereIsOne) {
+    using enum MovieWish;
+    EXPECT_EQ(wishes(), (std::set{recording, series}));
+    movies_.recorded = false;
+    EXPECT_EQ(wishes(), std::set{series});
+    info_.times = {0};
+    EXPECT_EQ(wishes(), std::set<MovieWish>());
+}
+
+TEST_F(MovieButtons, AMovieThatIsBeingMadeCanOnlyBeGivenUp) {
+    movies_.progress = 0.5f;
+    EXPECT_EQ(wishes(), std::set{MovieWish::give_up});
 }
 
 } // namespace

@@ -7,6 +7,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
 namespace isochron::app {
 namespace {
 
@@ -128,6 +132,46 @@ TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {
         state_of(read_session(path), session.state(), "0123456789abcdef", kSteps, "kept"));
     EXPECT_NE(before, left);
     EXPECT_EQ(settled(session), left);
+}
+
+/// Whatever a session may have come to: with a session of its own for each, as a new start is one.
+TEST(SessionFile, NoPixelOfAnyRestoredSessionDiffers) {
+    TestFolder folder;
+    const auto file = build_sphere(folder.path(), kSteps);
+    const auto context = stereo::make_context(stereo::ContextKind::egl, {.size = {256, 128}});
+    const auto path = folder.path() / "a.isochron-session";
+    interaction::Random random(test_seed());
+    const auto picture = [&](const ExplorerState& state) {
+        Session session(small_config(), file, *context);
+        session.set_state(state);
+        for (int frame = 0; frame < 3; ++frame)
+            session.frame(head_at_rest(frame / 60.0), {}, Waiting::for_cells);
+        return session.outputs().display().read_window().rgba;
+    };
+    std::size_t differing = 0;
+    std::set<std::vector<std::uint8_t>> pictures;
+    constexpr int kSessions = 12;
+    for (int i = 0; i < kSessions; ++i) {
+        ExplorerState state;
+        Commands commands = interaction::random_commands(random);
+        commands.room_from_physical = interaction::Similarity{
+            {-0.6, 0.9, -1.9}, glm::normalize(glm::dquat(0.9, 0.1, 0.3, 0.1 * i)), 0.04};
+        commands.isosurfaces = {{{3.0 + 0.5 * i, {0.2f, 0.7f, 0.9f}, i % 2 ? 0.4f : 1.0f}}};
+        commands.isovalue.reset();
+        commands.leaving.reset();
+        state.apply(commands, kSteps);
+        state.playback.playing = false; // time goes on while it plays
+        state.quality = interaction::QualityMode::quality;
+        save_session(path, kept_of(state));
+        const auto before = picture(state), after = picture(back_from(path));
+        for (std::size_t at = 0; at < before.size(); at += 4)
+            differing += !std::equal(&before[at], &before[at] + 4, &after[at]);
+        pictures.insert(before);
+    }
+    std::printf("%d restored sessions, %zu pictures: %zu pixels differ\n", kSessions,
+                pictures.size(), differing);
+    EXPECT_GT(pictures.size(), kSessions / 2u);
+    EXPECT_EQ(differing, 0u);
 }
 
 } // namespace

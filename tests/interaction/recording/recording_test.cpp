@@ -108,13 +108,6 @@ Recording random_recording(unsigned seed, int frames) {
     return recording;
 }
 
-void write_recording(const fs::path& path, const Recording& recording) {
-    RecordingWriter writer(path, recording.header);
-    for (const RecordedFrame& frame : recording.frames)
-        writer.append(frame);
-    writer.finish();
-}
-
 TEST_F(RecordingFile, EverythingComesBackBitForBit) {
     for (unsigned seed = 0; seed < 30; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -168,6 +161,21 @@ TEST_F(RecordingFile, ACrashLosesAtMostASecond) {
     const Recording left = recording_in(path_.string() + ".part");
     ASSERT_FALSE(left.frames.empty());
     EXPECT_GE(left.frames.back().input.time, Seconds(9.0));
+}
+
+TEST_F(RecordingFile, WhatWasAppendedSoFarIsARecordingOfItsOwn) {
+    const Recording recording = random_recording(4, 30);
+    RecordingWriter writer(path_, recording.header);
+    for (std::size_t i = 0; i < 12; ++i)
+        writer.append(recording.frames[i]);
+    writer.copy_to(folder_ / "so_far.jsonl");
+    for (std::size_t i = 12; i < 30; ++i)
+        writer.append(recording.frames[i]);
+    writer.finish();
+    EXPECT_EQ(recording_in(folder_ / "so_far.jsonl").frames.size(), 12u);
+    EXPECT_EQ(recording_in(folder_ / "so_far.jsonl").note, "");
+    EXPECT_EQ(recording_in(path_).frames.size(), 30u);
+    EXPECT_THROW(writer.copy_to(folder_ / "nowhere" / "so_far.jsonl"), Error);
 }
 
 TEST_F(RecordingFile, ACutLastLineIsLeftOutWithANote) {

@@ -1,0 +1,261 @@
+// Movies that a process of their own makes.
+#include "app/session/movie_maker.h"
+
+#include "app/frame/late_latch.h"
+#include "interaction/playback.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+using interaction::Seconds;
+
+/// The first name of which nothing is there yet. @return without its suffix
+fs::path free_movie_name(const fs::path& folder) {
+    for (int number = 1;; ++number) {
+        fs::path stem = folder / fmt::format("isochron_movie_{:04}", number);
+        std::error_code ignored;
+        if (!fs::exists(stem.string() + ".mp4", ignored) &&
+            !fs::exists(stem.string() + ".jsonl", ignored))
+            return stem;
+    }
+}
+
+/// `42 %`, as `isochron movie --background` says it.
+std::optional<float> progress_in(std::string_view line) {
+    int percent = 0;
+    const char* const end = line.data() + line.size();
+    const auto read = std::from_chars(line.data(), end, percent);
+    if (read.ec != std::errc() || std::string_view(read.ptr, end) != " %")
+        return std::nullopt;
+    return static_cast<float>(percent) / 100.0f;
+}
+
+/// Where devices were, with nothing pressed.
+interaction::InputState at_rest(interaction::InputState input) {
+    std::erase_if(input.devices,
+                  [](const interaction::DeviceState& each) { return each.name == "pointer"; });
+    for (interaction::DeviceState& device : input.devices) {
+        device.buttons = 0;
+        std::ranges::fill(device.valuators, 0.0f);
+    }
+    return input;
+}
+
+} // namespace
+
+MovieMaker::MovieMaker(MovieOrders orders) : orders_(std::move(orders)) {}
+
+MovieMaker::~MovieMaker() {
+    finish();
+}
+
+void MovieMaker::finish() {
+    if (!busy())
+        return;
+    give_up();
+    if (written_.valid())
+        written_.wait(); // it writes to a file that has to go
+    constexpr int kPauses = 3000;
+    constexpr std::chrono::milliseconds kPause{1};
+    for (int i = 0; i < kPauses && busy(); ++i) {
+        update();
+        std::this_thread::sleep_for(kPause);
+    }
+    if (process_ > 0) {
+        kill(process_, SIGKILL);
+        int status = 0;
+        waitpid(process_, &status, 0);
+        end(status);
+    }
+}
+
+void MovieMaker::make(const Write& write, BackgroundWork& writing) {
+    if (busy())
+        return;
+    const fs::path stem = free_movie_name(orders_.folder);
+    movie_ = stem.string() + ".mp4";
+    recording_ = stem.string() + ".jsonl";
+    given_up_ = false;
+    progress_ = 0;
+    const auto written = std::make_shared<std::promise<void>>();
+    written_ = written->get_future();
+    // A movie that fails is no failure of the recording, which is written there, too.
+    writing.post([write, written, path = recording_] {
+        try {
+            write(path);
+            written->set_value();
+        } catch (...) {
+            written->set_exception(std::current_exception());
+        }
+        return std::string();
+    });
+}
+
+void MovieMaker::give_up() {
+    given_up_ = busy();
+    if (process_ > 0)
+        kill(process_, SIGTERM);
+}
+
+void MovieMaker::start() {
+    try {
+        written_.get();
+    } catch (const std::exception& error) {
+        last_ = error.what();
+        return end(-1);
+    }
+    if (given_up_)
+        return end(-1);
+    std::vector<std::string> words{orders_.program.string(), "movie",
+                                   recording_.string(),      "-o",
+                                   movie_.string(),          "--background"};
+    words.insert(words.end(), orders_.options.begin(), orders_.options.end());
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) {
+        last_ = fmt::format("a pipe to the process: {}", std::strerror(errno));
+        return end(-1);
+    }
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, ends[1], STDERR_FILENO);
+    pid_t process = -1;
+    const int error =
+        posix_spawn(&process, orders_.program.c_str(), &files, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    close(ends[1]);
+    said_.clear();
+    last_.clear();
+    if (error != 0) {
+        close(ends[0]);
+        last_ = fmt::format("{}: {}", orders_.program.string(), std::strerror(error));
+        return end(-1);
+    }
+    process_ = process;
+    words_ = ends[0];
+    fcntl(words_, F_SETFL, O_NONBLOCK);
+}
+
+/// What has come of the process's lines.
+void MovieMaker::read_words() {
+    char bytes[512];
+    for (ssize_t count; (count = read(words_, bytes, sizeof bytes)) > 0;)
+        said_.append(bytes, static_cast<std::size_t>(count));
+    for (std::size_t at; (at = said_.find('\n')) != std::string::npos; said_.erase(0, at + 1)) {
+        const std::string line = said_.substr(0, at);
+        if (const auto progress = progress_in(line))
+            progress_ = *progress;
+        else if (!line.empty())
+            last_ = line;
+    }
+}
+
+void MovieMaker::update() {
+    constexpr std::chrono::seconds kNoWait{0};
+    if (written_.valid() && written_.wait_for(kNoWait) == std::future_status::ready)
+        return start();
+    if (process_ <= 0)
+        return;
+    int status = 0;
+    const bool ended = waitpid(process_, &status, WNOHANG) == process_;
+    read_words();
+    if (ended)
+        end(status);
+}
+
+/// @param status of the process; -1: there was none
+void MovieMaker::end(int status) {
+    process_ = -1;
+    if (words_ >= 0)
+        close(std::exchange(words_, -1));
+    std::error_code ignored;
+    if (status != 0)
+        fs::remove(recording_, ignored);
+    constexpr std::string_view kProgramsName = "isochron: ";
+    if (last_.starts_with(kProgramsName))
+        last_.erase(0, kProgramsName.size());
+    if (status == 0)
+        messages_.push_back(last_);
+    else if (given_up_)
+        messages_.push_back(fmt::format("given up: {}", movie_.string()));
+    else
+        messages_.push_back(
+            last_.empty() ? fmt::format("{}: its process ended without a word", movie_.string())
+                          : last_);
+}
+
+std::optional<float> MovieMaker::progress() const {
+    return busy() ? std::optional(progress_) : std::nullopt;
+}
+
+std::vector<std::string> MovieMaker::messages() {
+    return std::exchange(messages_, {});
+}
+
+interaction::Recording series_seen(interaction::RecordingHeader header, const PictureNote& view,
+                                   std::span<const double> times, double rate) {
+    interaction::Recording recording;
+    header.data_hash = view.data_hash;
+    header.start = view.state;
+    header.start.panel = false;
+    header.start.room_panel = interaction::RoomPanel{};
+    header.start.quality = interaction::QualityMode::quality;
+    header.start.leaving = false;
+    header.start.follow = false;
+    header.start.step = 0;
+    const interaction::PlaybackState played =
+        view.state.playback.value_or(interaction::PlaybackState{});
+    header.start.playback = interaction::PlaybackState{};
+    const interaction::InputState seen = at_rest(with_heads(view.input, view.latched));
+    // A frame's length, and a little, so that no rounding leaves a step out.
+    const double least = (1 + 1e-6) / rate;
+    const double round = interaction::period(times);
+    const double seconds = interaction::kRoundSeconds / played.speed;
+    double start = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        interaction::RecordedFrame frame{.input = seen, .commands = {}, .from_panel = {}};
+        const auto step = played.reverse ? times.size() - 1 - i : i;
+        frame.input.time = Seconds(start);
+        frame.commands.step = static_cast<std::uint32_t>(step);
+        const double end = step + 1 < times.size() ? times[step + 1] : times.front() + round;
+        const double share = (end - times[step]) / round;
+        start += std::isfinite(share) ? std::max(least, seconds * share) : least;
+        recording.frames.push_back(std::move(frame));
+    }
+    if (!recording.frames.empty()) { // the last one lasts, too
+        interaction::RecordedFrame last = recording.frames.back();
+        last.input.time = std::max(last.input.time, Seconds(start - least));
+        last.commands = {};
+        recording.frames.push_back(std::move(last));
+    }
+    recording.header = std::move(header);
+    return recording;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,83 @@
+// Movies that the panel asks for: a process of their own makes them, so that no frame waits.
+#pragma once
+
+#include "app/frame/background_work.h"
+#include "app/output/picture_note.h"
+#include "app/panel/panel_model.h"
+#include "interaction/recording/recording.h"
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace isochron::app {
+
+/// What all movies of a session have in common.
+struct MovieOrders {
+    std::filesystem::path program;       ///< that has the command `movie`
+    std::filesystem::path folder;        ///< of the movies
+    std::vector<std::string> options;    ///< of that command
+    interaction::RecordingHeader header; ///< of the session
+};
+
+/// One at a time: `isochron_movie_0001.mp4` and so on, and beside it the recording that it is made
+/// of. When it is given up, or fails, nothing is left of either.
+class MovieMaker {
+  public:
+    /// Writes the recording under that name. Throws where it cannot.
+    using Write = std::function<void(const std::filesystem::path&)>;
+
+    explicit MovieMaker(MovieOrders orders);
+    ~MovieMaker(); ///< as `finish`
+    MovieMaker(const MovieMaker&) = delete;
+    MovieMaker& operator=(const MovieMaker&) = delete;
+
+    const MovieOrders& orders() const { return orders_; }
+
+    /// Begins one, unless one is being made. @param write runs on another thread
+    void make(const Write& write, BackgroundWork& writing);
+    void give_up();
+    /// Gives up what is not whole, and waits until nothing of it is left.
+    void finish();
+    /// Once a frame; never waits.
+    void update();
+
+    bool busy() const { return written_.valid() || process_ > 0; }
+    /// Of the one that is being made, 0 to 1.
+    std::optional<float> progress() const;
+    /// What came of them since the last call: a line each.
+    std::vector<std::string> messages();
+
+  private:
+    void start();
+    void read_words();
+    void end(int status);
+
+    const MovieOrders orders_;
+    std::filesystem::path movie_, recording_; ///< of the one that is being made
+    std::future<void> written_;               ///< its recording
+    bool given_up_ = false;
+    pid_t process_ = -1;
+    int words_ = -1;   ///< what the process says
+    std::string said_; ///< the line that has not ended yet
+    std::string last_; ///< the newest line that is no progress
+    float progress_ = 0;
+    std::vector<std::string> messages_;
+};
+
+/// A recording in which all steps pass once, as fast as playback would show them, seen from one place
+/// in the best quality.
+/// @param header of the session
+/// @param view what is seen, see `Session::note`
+/// @param times of the steps, increasing
+/// @param rate frames per second: each step is shown for at least one
+interaction::Recording series_seen(interaction::RecordingHeader header, const PictureNote& view,
+                                   std::span<const double> times, double rate);
+
+} // namespace isochron::app

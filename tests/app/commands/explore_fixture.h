@@ -1,0 +1,71 @@
+// The whole program in a window, and a user who presses its keys.
+#pragma once
+
+#include "tests/support/session_fixture.h"
+
+#include "tests/support/paths.h"
+#include "tests/support/virtual_display.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace isochron::app {
+
+/// The built program, run with arguments and awaited.
+class Program {
+  public:
+    explicit Program(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), test_support::binary_root() + "/isochron");
+        std::vector<char*> argv;
+        for (std::string& argument : arguments)
+            argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        EXPECT_EQ(posix_spawn(&pid_, argv[0], nullptr, nullptr, argv.data(), environ), 0);
+    }
+    void signal(int number) const { kill(pid_, number); }
+    int exit_status() const {
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+  private:
+    pid_t pid_ = 0;
+};
+
+class ExploreTest : public testing::Test {
+  protected:
+    ExploreTest() {
+        build_sphere(folder_.path());
+        setenv("XDG_STATE_HOME", state_.path().c_str(), 1);
+    }
+
+    std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    /// Starts the explorer, waits for its window and puts the mouse into it.
+    std::unique_ptr<Program> explore(std::vector<std::string> more) {
+        std::vector<std::string> arguments{"explore", file("sphere.isochron"), "--size", "640",
+                                           "480"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        auto program = std::make_unique<Program>(std::move(arguments));
+        screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron"});
+        screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
+                         "%1", "200", "200"});
+        return program;
+    }
+
+    /// Escape asks, Enter says yes; each has a frame of its own, however slow.
+    void leave() { screen_.xdotool({"key", "Escape", "sleep", "0.3", "key", "Return"}); }
+
+    TestFolder folder_, state_; ///< the data's, and the user's for what programs remember
+    test_support::VirtualDisplay screen_;
+};
+
+} // namespace isochron::app

@@ -1,0 +1,99 @@
+// The explorer and its desktop: data to choose, files that are dropped, sizes, a display that goes.
+#include "tests/app/commands/explore_fixture.h"
+#include "tests/support/eventually.h"
+
+#include "app/session/recording_file.h"
+#include "app/session/user_memory.h"
+
+#include <filesystem>
+#include <thread>
+
+namespace isochron::app {
+namespace {
+
+class ExploreWindow : public ExploreTest {
+  protected:
+    /// The title of the window that shows these data.
+    std::string title(const std::string& name) const { return "Isochron: " + file(name); }
+    void wait_for_window(const std::string& pattern) {
+        screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", pattern});
+    }
+    /// The panel's title is blue, what is behind it nearly black.
+    bool is_title(int x) {
+        const auto color = screen_.pixel(x, 8);
+        return color[2] > color[0] + 40;
+    }
+};
+
+TEST_F(ExploreWindow, WithoutADisplayItSaysSo) {
+    unsetenv("DISPLAY");
+    EXPECT_EQ(Program({"explore", file("sphere.isochron")}).exit_status(), 1);
+    EXPECT_EQ(Program({"explore"}).exit_status(), 1);
+}
+
+TEST_F(ExploreWindow, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {
+    std::filesystem::copy_file(file("sphere.isochron"), file("other.isochron"));
+    UserMemory(state_.path() / "isochron").remember(file("other.isochron"));
+    const auto program = explore({});
+    screen_.xdotool({"key", "ctrl+o", "sleep", "1"});
+    // The second line: the first are the data that are open.
+    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "126",
+                     "sleep", "0.3", "click", "1"});
+    screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron: .*/other.isochron"});
+    program->signal(SIGTERM);
+    EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
+    EXPECT_EQ(UserMemory(state_.path() / "isochron").recent().front(), file("other.isochron"));
+}
+
+TEST_F(ExploreWindow, WithoutDataItLetsTheUserChooseSome) {
+    UserMemory(state_.path() / "isochron").remember(file("sphere.isochron"));
+    const Program program({"explore", "--size", "640", "480", "--seconds", "300"});
+    wait_for_window("Isochron: open data");
+    // The first of those that were open lately; until it is there, nothing is clicked.
+    while (system("xdotool search --onlyvisible --name sphere.isochron > /dev/null 2>&1") != 0)
+        screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
+                         "%1", "320", "104", "sleep", "0.2", "click", "1", "sleep", "0.3"});
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
+    const Program leaves({"explore", "--size", "640", "480"});
+    wait_for_window("Isochron: open data");
+    screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "key", "Escape"});
+    EXPECT_EQ(leaves.exit_status(), 0);
+}
+
+TEST_F(ExploreWindow, OpensTheFileThatIsDroppedOntoIt) {
+    std::filesystem::copy_file(file("sphere.isochron"), file("other.isochron"));
+    folder_.write("none.txt", "no index");
+    const auto program = explore({});
+    screen_.drop_file(title("sphere.isochron"), file("none.txt")); // said, and nothing else
+    screen_.drop_file(title("sphere.isochron"), file("other.isochron"));
+    wait_for_window("Isochron: .*/other.isochron");
+    program->signal(SIGTERM);
+    EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
+}
+
+TEST_F(ExploreWindow, EndsWithItsDisplayAndKeepsTheRecording) {
+    const auto program = explore({"--record", file("walk.jsonl")});
+    screen_.xdotool({"key", "2"});
+    while (folder_.read("walk.jsonl.part").find("\"fast\"") == std::string::npos)
+        std::this_thread::yield(); // the test's limit ends a hang
+    screen_.die();
+    EXPECT_EQ(program->exit_status(), 1);
+    EXPECT_FALSE(read_recording(file("walk.jsonl")).frames.empty());
+    EXPECT_FALSE(std::filesystem::exists(file("walk.jsonl.part")));
+}
+
+TEST_F(ExploreWindow, ADesktopWithTwiceTheDotsHasAPanelOfTwiceTheSize) {
+    for (const int scale : {1, 2}) {
+        screen_.set_dots_per_inch(96 * scale);
+        const Program program({"explore", file("sphere.isochron"), "--size", "1000", "800"});
+        wait_for_window("Isochron");
+        EXPECT_TRUE(test_support::eventually([&] { return is_title(300); }));
+        EXPECT_EQ(is_title(460), scale == 2) << "380 wide, or 2 x 260";
+        program.signal(SIGTERM);
+        program.exit_status();
+    }
+}
+
+} // namespace
+} // namespace isochron::app

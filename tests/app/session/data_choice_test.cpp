@@ -1,0 +1,122 @@
+// The window of an explorer without data, on a stand-in for a desktop.
+#include "tests/support/session_fixture.h"
+
+#include "app/session/data_choice.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+using interaction::Key;
+using interaction::KeyEvent;
+using interaction::MouseButton;
+using interaction::MouseButtonEvent;
+using interaction::MouseMoveEvent;
+using interaction::WindowEvent;
+
+constexpr glm::ivec2 kPlayed(640, 480);
+
+/// A window whose user does in each frame what the test says.
+class PlayedWindow final : public stereo::GlContext {
+  public:
+    using Frame = std::function<void(std::vector<WindowEvent>&, std::vector<fs::path>& dropped)>;
+    explicit PlayedWindow(Frame frame)
+        : context_(stereo::make_context(stereo::ContextKind::egl, {.size = kPlayed})),
+          frame_(std::move(frame)) {}
+    void make_current() override { context_->make_current(); }
+    render::GlLoader loader() const override { return context_->loader(); }
+    glm::ivec2 framebuffer_size() const override { return kPlayed; }
+    bool has_window() const override { return true; }
+    void present() override {}
+    bool should_close() const override { return false; }
+    std::vector<WindowEvent> poll_events() override {
+        std::vector<WindowEvent> events;
+        frame_(events, dropped_);
+        return events;
+    }
+    std::vector<fs::path> take_dropped() override { return std::exchange(dropped_, {}); }
+    std::string description() const override { return "played"; }
+
+  private:
+    std::unique_ptr<stereo::GlContext> context_;
+    Frame frame_;
+    std::vector<fs::path> dropped_;
+};
+
+class DataChoiceTest : public testing::Test {
+  protected:
+    DataChoiceTest() {
+        build_sphere(folder_.path());
+        fs::create_directory(folder_.path() / "deeper");
+        fs::rename(folder_.path() / "sphere.isochron", folder_.path() / "deeper/sphere.isochron");
+        folder_.write("lately.isochron", "");
+    }
+    /// @param frames after which nobody chooses any more
+    std::optional<fs::path> choose(const PlayedWindow::Frame& frame, int frames,
+                                   std::string complaint = {}) {
+        PlayedWindow window(frame);
+        const stereo::Windows windows(window);
+        return choose_data(windows, {.recent = {folder_.path() / "lately.isochron"},
+                                     .why_not_open =
+                                         [&](const fs::path& data) {
+                                             asked_.insert(data.filename().string());
+                                             return data == good_ ? std::string() : complaint;
+                                         },
+                                     .ended = [&] { return --frames < 0; },
+                                     .frame_rate_limit = 1e6});
+    }
+    /// Clicks on one line of the window after another, from below.
+    PlayedWindow::Frame clicks() {
+        return [at = 470.0f, part = 0](std::vector<WindowEvent>& events, auto&) mutable {
+            events.emplace_back(MouseMoveEvent{0.3f, at / kPlayed.y, kPlayed.x, kPlayed.y});
+            if (part > 1)
+                events.emplace_back(MouseButtonEvent{MouseButton::left, part == 2});
+            if (part = (part + 1) % 4; part == 0)
+                at = at > 60 ? at - 9 : 470.0f;
+        };
+    }
+
+    TestFolder folder_;
+    fs::path good_ = folder_.path() / "deeper/sphere.isochron";
+    std::set<std::string> asked_; ///< whether it could be opened
+};
+
+TEST_F(DataChoiceTest, GoesThroughTheFoldersAndTakesWhatCanBeOpened) {
+    const auto chosen = choose(clicks(), 4000, "no index");
+    ASSERT_TRUE(chosen);
+    EXPECT_EQ(*chosen, good_);
+    EXPECT_TRUE(asked_.contains("lately.isochron")) << "which is none, and was said to be none";
+}
+
+TEST_F(DataChoiceTest, TakesTheFileThatIsDropped) {
+    const auto chosen = choose(
+        [&, n = 0](auto&, auto& dropped) mutable {
+            if (++n == 3)
+                dropped.push_back(folder_.path() / "lately.isochron");
+            else if (n == 6)
+                dropped.push_back(good_);
+        },
+        100, "no index");
+    EXPECT_EQ(chosen, good_);
+    EXPECT_THAT(asked_, testing::ElementsAre("lately.isochron", "sphere.isochron"));
+}
+
+TEST_F(DataChoiceTest, EscapeAndTheEndOfTheProgramChooseNothing) {
+    int frames = 0;
+    EXPECT_FALSE(choose(
+        [&](std::vector<WindowEvent>& events, auto&) {
+            if (++frames == 5)
+                events.emplace_back(KeyEvent{Key::escape, true});
+        },
+        1000));
+    EXPECT_LT(frames, 20);
+    EXPECT_FALSE(choose([](auto&, auto&) {}, 3));
+}
+
+} // namespace
+} // namespace isochron::app

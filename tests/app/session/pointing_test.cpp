@@ -179,6 +179,8 @@ TEST(Pointing, AMissSaysSoAndHoveringTellsWhatIsThere) {
     const render::Image away = frame({MouseMoveEvent{0.01f, 0.01f, 160, 120}}, 0.1);
     const render::Image over = frame({MouseMoveEvent{0.5f, 0.5f, 160, 120}}, 0.2);
     EXPECT_NE(away.rgba, over.rgba) << "a label shows what is under the cursor";
+    EXPECT_FALSE(session.log().frames().back().redrawn) << "over the same picture";
+    EXPECT_EQ(frame({MouseMoveEvent{0.01f, 0.01f, 160, 120}}, 0.25).rgba, away.rgba);
     EXPECT_FALSE(session.state().mark.point);
 
     using interaction::MouseButton;

@@ -75,6 +75,7 @@ enum class Action : std::uint8_t {
     quality_paper,
     count
 };
+static_assert(static_cast<int>(Action::count) <= 64); // recordings keep one bit each of 64
 
 inline constexpr float kHurry = 3.0f; ///< times as fast while Shift is held
 

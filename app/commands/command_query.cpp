@@ -223,7 +223,8 @@ void add_query(Command& program) {
         "file), resident_bytes and read_bytes (of the process after that run: memory with mapped\n"
         "files, and what came from disk instead of the page cache), repetitions, search_ms and "
         "shading_ms (medians of the repetitions, each a full\n"
-        "search; absent with --repeat 0), ids (only with --ids). Search includes the exact test;\n"
+        "search; absent with --repeat 0), reading (what was read of the file and kept), ids (only "
+        "with\n--ids). Search includes the exact test;\n"
         "shading is positions and normals.");
     command.on_run([arguments] { run_query(*arguments); });
 }

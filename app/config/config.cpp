@@ -168,7 +168,7 @@ QualityMode quality_mode_from_name(const std::string& name) {
     if (const auto mode = interaction::value_named<QualityMode>(name))
         return *mode;
     throw ConfigError(
-        fmt::format("unknown quality mode '{}', expected auto, fast or quality", name));
+        fmt::format("unknown quality mode '{}', expected auto, fast, quality or paper", name));
 }
 
 std::optional<render::Footprint> settled_footprint_from_name(const std::string& name) {

@@ -199,8 +199,13 @@ PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
     return frame;
 }
 
+void Outputs::set_screenshots(const std::filesystem::path& folder) {
+    screenshot_folder_ = folder;
+    screenshots_taken_ = last_screenshot(folder);
+}
+
 void Outputs::take_screenshots(const PictureNote& frame) {
-    const std::string stem = fmt::format("isochron_{:04}", ++screenshots_taken_);
+    const std::string stem = screenshot_name(++screenshots_taken_);
     const auto write = [&](const PicturePart& part, const std::string& suffix,
                            render::Image image) {
         write_image(std::move(image), screenshot_folder_ / fmt::format("{}{}.png", stem, suffix),

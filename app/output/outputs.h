@@ -126,8 +126,10 @@ class Outputs {
 
     /// The last frame's pictures, drawn once more to be kept.
     KeptPictures kept_pictures();
-    /// Where screenshots go and what they are called: `<folder>/isochron_0001.png`.
-    void set_screenshots(const std::filesystem::path& folder) { screenshot_folder_ = folder; }
+    /// Where screenshots go. They are called `isochron_0001.png`, of several windows
+    /// `isochron_0001_front.png`, and are counted on from those that are there now: all processes of
+    /// a cluster must ask for the folder before the first screenshot.
+    void set_screenshots(const std::filesystem::path& folder);
     /// Of the room, of the headset's mirror, or of every window of this process.
     /// @param frame what the last frame shows
     void take_screenshots(const PictureNote& frame);

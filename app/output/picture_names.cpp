@@ -1,13 +1,18 @@
-// Names of the pictures of a frame.
+// Names of pictures.
 #include "app/output/picture_names.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <set>
+#include <string_view>
 
 namespace isochron::app {
 namespace {
+
+constexpr std::string_view kScreenshot = "isochron_";
 
 /// Makes names into suffixes that differ, whatever is left of the names.
 class Suffixes {
@@ -31,6 +36,24 @@ std::string file_name(std::string name) {
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_')
             c = '_';
     return name;
+}
+
+std::string screenshot_name(int number) {
+    return fmt::format("{}{:04}", kScreenshot, number);
+}
+
+int last_screenshot(const std::filesystem::path& folder) {
+    int last = 0;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+        const std::string name = entry.path().filename().string();
+        int number = 0;
+        if (name.starts_with(kScreenshot) &&
+            std::from_chars(name.data() + kScreenshot.size(), name.data() + name.size(), number)
+                    .ec == std::errc())
+            last = std::max(last, number);
+    }
+    return last;
 }
 
 PictureNames picture_names(const stereo::Installation& installation) {

@@ -218,6 +218,8 @@ void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, cons
                 for (std::size_t i = 0; i < count; ++i)
                     to[i] = static_cast<T>(
                         exact(from[i * chosen.array.components + chosen.component], file));
+            } else { // what value_type() never chooses
+                throw Error(fmt::format("{}: values of this type cannot be kept", file));
             }
             if constexpr (std::is_floating_point_v<T>)
                 if (!chosen.array.on_cells)

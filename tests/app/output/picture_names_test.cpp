@@ -1,6 +1,8 @@
 // File names of pictures: as they always were for one window, told apart for more.
 #include "app/output/picture_names.h"
 
+#include "tests/support/test_folder.h"
+
 #include <gtest/gtest.h>
 
 namespace isochron::app {
@@ -38,6 +40,18 @@ TEST(PictureNames, NamesThatLookAlikeAsFilesStillDiffer) {
     EXPECT_EQ(names.windows[0].suffix, "_a_b");
     EXPECT_EQ(names.windows[1].suffix, "_a_b_2");
     EXPECT_EQ(names.windows[2].suffix, "_a_b_3");
+}
+
+TEST(PictureNames, ScreenshotsAreCountedOnFromThoseThatAreThere) {
+    const test_support::TestFolder folder;
+    EXPECT_EQ(last_screenshot(folder.path() / "missing"), 0);
+    EXPECT_EQ(last_screenshot(folder.path()), 0);
+    folder.write("isochron_0007_front.png", "");
+    folder.write("isochron_0003.png", "");
+    folder.write("isochron_notes.txt", "");
+    EXPECT_EQ(last_screenshot(folder.path()), 7);
+    folder.write(screenshot_name(12345) + ".png", "");
+    EXPECT_EQ(last_screenshot(folder.path()), 12345);
 }
 
 } // namespace

@@ -34,7 +34,6 @@ class IndexSearch {
         if (query.step >= steps)
             throw Error(fmt::format("step {}: expected 0 to {}", query.step, steps - 1));
         const auto started = Clock::now();
-        set = {};
         set.query = query;
         set.method = method_at(query.step);
         by_chunks_ = !file_->better_whole(query.step);
@@ -231,20 +230,21 @@ SearchMethod cheapest_method(const IndexFile& file) {
     return SearchMethod::scan;
 }
 
+// `std::function` wants something that can be copied; the state of a search must not be.
 SearchInto search_into(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
                        Shading shading) {
-    // `std::function` wants something that can be copied; the state of a search must not be.
-    auto search = std::make_shared<IndexSearch>(std::move(file), method, shading);
-    return [search = std::move(search)](const Query& query, const std::stop_token& stop,
-                                        CellSet& set) { return (*search)(query, stop, set); };
+    return [search = std::make_shared<IndexSearch>(std::move(file), method, shading)](
+               const Query& query, const std::stop_token& stop, CellSet& set) {
+        return (*search)(query, stop, set);
+    };
 }
 
 Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
                  Shading shading) {
-    return [search = search_into(std::move(file), method, shading)](
+    return [search = std::make_shared<IndexSearch>(std::move(file), method, shading)](
                const Query& query, const std::stop_token& stop) -> CellSetPtr {
         auto set = std::make_shared<CellSet>();
-        return search(query, stop, *set) ? set : nullptr;
+        return (*search)(query, stop, *set) ? set : nullptr;
     };
 }
 

@@ -15,7 +15,7 @@ namespace isochron::index {
 /// Returns null when stopped. Throws to report a failure.
 using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
 
-/// The same into a set of the caller, who may go on changing it. False when stopped.
+/// The same into an empty set of the caller, who may go on changing it. False when stopped.
 using SearchInto = std::function<bool(const Query&, std::stop_token, CellSet&)>;
 
 /// What the file's tiers answer fastest: cells, else bricks, else the paper's tree, else the scan.

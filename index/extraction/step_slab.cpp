@@ -2,7 +2,6 @@
 #include "index/extraction/step_slab.h"
 
 #include "index/scan/bricks.h"
-#include "index/system/huge_pages.h"
 #include "index/volume/cell_walk.h"
 
 #include <algorithm>
@@ -124,9 +123,7 @@ constexpr Around kAround = around_of(false), kAroundWithNormals = around_of(true
 StepSlab::StepSlab(const ChunkStore& store)
     : store_(store), chunks_(store.grid()), grid_(store.info().grid),
       plane_cells_(grid_.cells()[0] * grid_.cells()[1]),
-      words_(std::make_unique_for_overwrite<std::uint64_t[]>(
-          (bytes(store.info()) + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t))) {
-    ask_for_huge_pages(words_.get(), bytes(store.info()));
+      values_(large_memory(bytes(store.info()))) {
     for (auto& layer : state_)
         layer.resize(chunks_.chunks_of_layer());
 }
@@ -156,8 +153,7 @@ StepValues StepSlab::planes(std::uint32_t first, std::uint32_t end) const {
                       .first_step = step_};
     const std::uint64_t plane =
         std::uint64_t{grid_.vertices[0]} * grid_.vertices[1] * size_of(values.type);
-    values.first =
-        reinterpret_cast<const std::byte*>(words_.get()) + (first - first_plane_) * plane;
+    values.first = values_.get() + (first - first_plane_) * plane;
     values.stride = (end - first) * plane;
     values.grid.vertices[2] = end - first;
     return values;
@@ -335,8 +331,7 @@ void StepSlab::copy(std::uint32_t layer, std::span<const std::uint32_t> places,
                  by_column_[i]->size == chunk->size);
         const std::size_t width = chunk->size[0] * size;
         const std::uint32_t end = std::min(bottom + chunk->size[2], end_plane_);
-        auto* const out = reinterpret_cast<std::byte*>(words_.get()) + y * kChunkEdge * row +
-                          x * kChunkEdge * size;
+        auto* const out = values_.get() + y * kChunkEdge * row + x * kChunkEdge * size;
         for (std::uint32_t z = first; z < end; ++z)
             copy_rows(neighbors, (z - bottom) * chunk->size[1] * width, width, chunk->size[1],
                       out + (z - first_plane_) * plane, row);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/chunk_store.h"
+#include "index/system/huge_pages.h"
 #include "index/volume/level_map.h"
 #include "index/volume/step_values.h"
 
@@ -76,7 +77,7 @@ class StepSlab {
     Grid grid_;
     CellId plane_cells_;
     std::uint32_t step_ = 0, layer_ = 0, first_plane_ = 0, end_plane_ = 0;
-    std::unique_ptr<std::uint64_t[]> words_; ///< the values; not set before they are filled
+    LargeMemory values_; ///< not set before they are filled
     std::vector<std::uint8_t> bricks_;
     std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
     std::vector<std::uint64_t> sides_;               ///< of each column: where its cells lie

@@ -33,19 +33,16 @@ constexpr std::uint64_t kSmallStep = 4 << 20;
 constexpr std::uint64_t kModerateStep = 64 << 20;
 
 struct WholeStep {
-    std::unique_ptr<std::uint64_t[]> words; ///< the values; their padding is zero
+    LargeMemory values; ///< their padding is zero
     std::vector<std::uint8_t> bricks;
 };
 
-/// Memory for a step, which is searched here and there: in large pages, which a processor finds
-/// faster.
-std::unique_ptr<std::uint64_t[]> step_words(std::size_t bytes) {
-    const std::size_t count = bytes / sizeof(std::uint64_t);
-    auto words = std::make_unique_for_overwrite<std::uint64_t[]>(count);
-    ask_for_huge_pages(words.get(), bytes);
-    std::fill_n(words.get() + count - std::min<std::size_t>(count, 8),
-                std::min<std::size_t>(count, 8), 0); // the padding
-    return words;
+/// Memory for a step, which is searched here and there.
+LargeMemory step_memory(std::size_t bytes) {
+    LargeMemory memory = large_memory(bytes);
+    const std::size_t padding = std::min(bytes, kPartAlignment);
+    std::fill_n(memory.get() + bytes - padding, padding, std::byte{0});
+    return memory;
 }
 
 /// Records that are read together.
@@ -284,12 +281,12 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
         const BrickGrid bricks(info.grid);
         auto all = std::make_shared<WholeStep>();
         if (array_.has_values)
-            all->words = step_words(stride);
+            all->values = step_memory(stride);
         if (array_.has_bricks)
             all->bricks.resize(bricks.bytes_per_step());
         const std::size_t size = size_of(info.type), row = info.grid.vertices[0] * size;
         const std::size_t plane = info.grid.vertices[1] * row;
-        auto* out = reinterpret_cast<std::byte*>(all->words.get());
+        std::byte* const out = all->values.get();
         std::vector<std::uint32_t> places(grid_.chunks_of_layer());
         for (std::uint32_t place = 0; place < places.size(); ++place)
             places[place] = place;
@@ -333,7 +330,7 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
                        .type = info.type,
                        .scaling = info.scaling,
                        .steps = info.steps(),
-                       .first = reinterpret_cast<const std::byte*>(held->words.get()),
+                       .first = held->values.get(),
                        .stride = stride,
                        .first_step = step},
             .bricks = held->bricks,

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <new>
 
+#include <sanitizer/asan_interface.h>
+
 namespace isochron::index {
 namespace {
 
@@ -30,10 +32,12 @@ struct alignas(kSlotAlignment) SlotPool::Block {
     std::byte* take(std::size_t slot) {
         ++used;
         if (std::byte* const found = next) {
+            ASAN_UNPOISON_MEMORY_REGION(found, slot);
             next = *std::launder(reinterpret_cast<std::byte**>(found));
             return found;
         }
         fresh += slot;
+        ASAN_UNPOISON_MEMORY_REGION(fresh - slot, slot);
         return fresh - slot;
     }
 };
@@ -44,8 +48,10 @@ SlotPool::SlotPool(std::size_t bytes)
 }
 
 SlotPool::~SlotPool() {
-    for (Block* const block : free_)
+    for (Block* const block : free_) {
+        ASAN_UNPOISON_MEMORY_REGION(block, kBlock);
         std::free(block);
+    }
 }
 
 std::byte* SlotPool::take() {
@@ -57,6 +63,8 @@ std::byte* SlotPool::take() {
         ask_for_huge_pages(memory, kBlock);
         auto* const block = new (memory) Block;
         block->fresh = reinterpret_cast<std::byte*>(block + 1);
+        // What is not in use is nobody's to read, where that is looked at.
+        ASAN_POISON_MEMORY_REGION(block->fresh, block->end() - block->fresh);
         free_.push_back(block);
         ++blocks_;
     }
@@ -76,9 +84,11 @@ void SlotPool::give_back(std::byte* slot) {
             free_.push_back(block);
         new (slot) std::byte*(block->next);
         block->next = slot;
+        ASAN_POISON_MEMORY_REGION(slot, bytes_);
         if (--block->used == 0 && free_.size() > 1) {
             std::erase(free_, block);
             empty = block;
+            ASAN_UNPOISON_MEMORY_REGION(block, kBlock);
             --blocks_;
         }
     }

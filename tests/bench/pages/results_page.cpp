@@ -218,7 +218,14 @@ std::string scale_section(const std::string& lines, const std::string& path) {
         "modes, "
         "*smooth* with wave numbers to 10, *rough* to a quarter of the grid. Index / data: the "
         "default index, with all levels of detail. Cold: nothing of the file is in memory; bytes "
-        "are what the disk gave from opening on, to cells with positions and normals.\n\n"
+        "are what the disk gave from opening on, to cells with positions and normals. *In blocks*: "
+        "how many blocks of so many cells hold an active one, and the bytes of their values. No "
+        "search reads less where values lie in such blocks: those around them come on top, for "
+        "cells and normals at their sides, and a disk gives no less than 4 KiB at a time, which is "
+        "a block of 16^3 values of a byte, or eight of 8^3. Where that is most of a step, as in "
+        "the "
+        "rough field, no order of the values makes the first look many times as fast as reading "
+        "it.\n\n"
         "```\n{}```\n",
         path, lines);
 }

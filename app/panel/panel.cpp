@@ -5,6 +5,7 @@
 #include "app/config/first_placement.h"
 #include "app/panel/panel_colors.h"
 #include "app/panel/panel_help.h"
+#include "app/panel/panel_statistics.h"
 #include "app/panel/panel_tools.h"
 #include "app/panel/panel_words.h"
 #include "app/scene/mark.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -250,43 +252,6 @@ void view_section(const PanelModel& model, Commands& commands) {
     tip("distance between the eyes ( [ and ] )");
 }
 
-void measurements(const PanelModel& model) {
-    const FrameReport& frame = model.frame;
-    text(fmt::format("{} cells", frame.cells));
-    ImGui::SameLine();
-    note(model.searching
-             ? "searching ..."
-             : fmt::format("of {} candidates, {} reused", frame.candidates, frame.reused),
-         kDim);
-    const glm::dvec3 size = physical_size(model.info.grid);
-    note(fmt::format("volume {:.4g} x {:.4g} x {:.4g}{}{}   shown at {:.3g} m", size.x, size.y,
-                     size.z, model.info.length_unit.empty() ? "" : " ", model.info.length_unit,
-                     std::max({size.x, size.y, size.z}) * model.asked.room_from_physical.scale),
-         kDim);
-    note(fmt::format("search {:.2f} ms   bricks {:.2f} ms", frame.search.count(),
-                     frame.gather.count()),
-         kDim);
-    const index::ReadUse& use = model.reading;
-    note(fmt::format("read {}   kept {} of {}   {} of {} at hand",
-                     human_bytes(static_cast<double>(use.bytes)),
-                     human_bytes(static_cast<double>(use.held)),
-                     human_bytes(static_cast<double>(use.budget)), use.hits, use.hits + use.misses),
-         kDim);
-    note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms", model.frames_per_second,
-                     model.frame_times.median, model.frame_times.p99),
-         kDim);
-    for (const DeviceTracking& device : frame.tracking)
-        note(in_words(device), device.tracking == interaction::Tracking::tracked ? kDim : kWarning);
-}
-
-/// Notes come when a disk is done: not in the room, where every replay shows the same.
-void complaints(const PanelModel& model) {
-    if (!model.failure.empty())
-        note(model.failure, kWarning);
-    if (!model.message.empty() && model.place != PanelPlace::in_room)
-        note(model.message, kDim);
-}
-
 /// The place that somebody picked, and what to do with it.
 void mark_section(const PanelModel& model, Commands& commands) {
     const auto& point = model.asked.mark.point;
@@ -342,7 +307,9 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
             {std::min({kDocked, std::max(kLeast, 0.45f * picture.x), 0.9f * picture.x}),
              picture.y});
         // It would hide the data.
-        ImGui::SetNextWindowCollapsed(picture.x < 1.5f * kLeast, ImGuiCond_Once);
+        const bool narrow = picture.x < 1.5f * kLeast;
+        if (std::exchange(area.narrow, narrow) != narrow)
+            ImGui::SetNextWindowCollapsed(narrow);
         ImGui::SetNextWindowBgAlpha(0.86f);
         flags |= ImGuiWindowFlags_NoMove;
     } else {
@@ -352,7 +319,11 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
         ImGui::PushStyleColor(ImGuiCol_WindowBg, kPaper);
         flags |= ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse;
     }
-    ImGui::Begin(("Isochron: " + model.info.array + "###panel").c_str(), nullptr, flags);
+    // A replay knows nothing of being recorded.
+    const bool recording = model.recording && model.place != PanelPlace::in_room;
+    const std::string title =
+        fmt::format("Isochron: {}{}###panel", model.info.array, recording ? " (recording)" : "");
+    ImGui::Begin(title.c_str(), nullptr, flags);
     history_section(model, commands);
     ImGui::SameLine();
     if (ImGui::Button("Screenshot"))
@@ -360,10 +331,6 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
     tip("of every window, with more samples (P)");
     if (model.place != PanelPlace::in_room)
         page_buttons(pages);
-    if (model.recording) {
-        ImGui::SameLine();
-        state_note("recording", kWarning);
-    }
     isovalue_section(model, commands);
     surfaces_section(model, commands);
     ImGui::Separator();
@@ -381,8 +348,10 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
         pages.movie = movie_section(model);
     ImGui::Separator();
     if (model.place != PanelPlace::in_room) {
-        if (ImGui::CollapsingHeader("statistics"))
+        if (ImGui::CollapsingHeader("statistics")) {
             measurements(model);
+            newest_note(model);
+        }
         complaints(model);
     }
     if (in_room && ImGui::CollapsingHeader("hands"))
@@ -390,7 +359,12 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
     if (model.place == PanelPlace::in_room) // below all controls, which it must not move
         complaints(model);
     const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-    area = {corner.x, corner.y, corner.x + size.x, corner.y + size.y, ImGui::GetFrameHeight()};
+    area = {.left = corner.x,
+            .top = corner.y,
+            .right = corner.x + size.x,
+            .bottom = corner.y + size.y,
+            .title = ImGui::GetFrameHeight(),
+            .narrow = area.narrow};
     ImGui::End();
     if (model.place != PanelPlace::over)
         ImGui::PopStyleColor();

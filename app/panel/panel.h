@@ -12,7 +12,8 @@ namespace isochron::app {
 /// The rectangle that the panel covers: its own pixels from the top left.
 struct PanelArea {
     float left = 0, top = 0, right = 0, bottom = 0;
-    float title = 0; ///< height of its title
+    float title = 0;     ///< height of its title
+    bool narrow = false; ///< the picture has no room for the data beside it
     bool contains(float x, float y) const {
         return x >= left && x < right && y >= top && y < bottom;
     }

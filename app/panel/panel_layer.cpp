@@ -273,7 +273,7 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     begin_frame(picture, time);
     Commands commands;
     PanelPages pages{.offers_files = static_cast<bool>(recent_)};
-    area_ = {};
+    area_ = {.narrow = area_.narrow};
     // The panel in the room stands for the one over the picture.
     if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
         commands = draw_panel(model, area_, pages);

@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -86,8 +87,14 @@ void history_section(const PanelModel& model, Commands& commands) {
 void tools_section(const PanelModel& model, Commands& commands) {
     interaction::Tools tools = model.asked.tools;
     bool changed = tool_choice("mouse", tools.mouse);
-    changed = tool_choice("right hand", tools.wand) || changed;
-    changed = tool_choice("left hand", tools.other) || changed;
+    const auto has = [&](interaction::DeviceKind kind) {
+        return std::ranges::find(model.at_hand, kind) != model.at_hand.end();
+    };
+    if (model.place == PanelPlace::in_room || has(interaction::DeviceKind::hands) ||
+        has(interaction::DeviceKind::gamepad)) {
+        changed = tool_choice("right hand", tools.wand) || changed;
+        changed = tool_choice("left hand", tools.other) || changed;
+    }
     if (changed)
         commands.tools = tools;
     clip_buttons(model, commands);

@@ -1,0 +1,54 @@
+// Program statistics, notes and failures in the panel.
+#include "app/panel/panel_statistics.h"
+
+#include "app/config/first_placement.h"
+#include "app/panel/panel_words.h"
+#include "app/text.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace isochron::app {
+
+void measurements(const PanelModel& model) {
+    const FrameReport& frame = model.frame;
+    text(fmt::format("{} cells", frame.cells));
+    ImGui::SameLine();
+    note(model.searching
+             ? "searching ..."
+             : fmt::format("of {} candidates, {} reused", frame.candidates, frame.reused),
+         kDim);
+    const glm::dvec3 size = physical_size(model.info.grid);
+    note(fmt::format("volume {:.4g} x {:.4g} x {:.4g}{}{}   shown at {:.3g} m", size.x, size.y,
+                     size.z, model.info.length_unit.empty() ? "" : " ", model.info.length_unit,
+                     std::max({size.x, size.y, size.z}) * model.asked.room_from_physical.scale),
+         kDim);
+    note(fmt::format("search {:.2f} ms   bricks {:.2f} ms", frame.search.count(),
+                     frame.gather.count()),
+         kDim);
+    const index::ReadUse& use = model.reading;
+    note(fmt::format("read {}   kept {} of {}   {} of {} at hand",
+                     human_bytes(static_cast<double>(use.bytes)),
+                     human_bytes(static_cast<double>(use.held)),
+                     human_bytes(static_cast<double>(use.budget)), use.hits, use.hits + use.misses),
+         kDim);
+    note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms", model.frames_per_second,
+                     model.frame_times.median, model.frame_times.p99),
+         kDim);
+    for (const DeviceTracking& device : frame.tracking)
+        note(in_words(device), device.tracking == interaction::Tracking::tracked ? kDim : kWarning);
+}
+
+void complaints(const PanelModel& model) {
+    if (!model.failure.empty())
+        note(model.failure, kWarning);
+}
+
+void newest_note(const PanelModel& model) {
+    if (!model.message.empty())
+        note(model.message, kDim);
+}
+
+} // namespace isochron::app

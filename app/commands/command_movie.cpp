@@ -10,10 +10,14 @@
 #include "index/error.h"
 #include "index/file/file_layout.h"
 #include "index/system/input_file.h"
+#include "index/system/new_file.h"
 #include "render/gl/driver.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -88,6 +92,9 @@ class Movies {
             movie = open(path, note, glm::ivec2(image.width, image.height));
         }
         writing_.wait_for_room();
+        // All that is said there is what keeps the movie from being written: nobody draws the rest.
+        if (const auto said = writing_.messages(); !said.empty())
+            throw index::Error(said.front());
         writing_.post([movie = movie, image = std::move(image), times, text = text_of(note)] {
             for (std::size_t i = 0; i < times; ++i)
                 movie->add(image, text);
@@ -134,6 +141,18 @@ std::string hash_of(const fs::path& recording) {
     return fmt::format("{:016x}", index::checksum_of(std::as_bytes(std::span(text))));
 }
 
+/// What cannot be written is told before anything is drawn.
+void check_output(const MovieOptions& options) {
+    const fs::path out(options.out);
+    constexpr std::array kSuffixes{".mp4", ".mkv", ".mov", ".gif"};
+    if (is_movie_folder(out))
+        return;
+    if (std::ranges::find(kSuffixes, out.extension().string()) == kSuffixes.end())
+        throw UsageError(fmt::format("--out: expected a name that ends in {}, or a folder, got {}",
+                                     fmt::join(kSuffixes, ", "), options.out));
+    index::NewFile{out};
+}
+
 /// For the program that started this one: `42 %`.
 void tell(double done) {
     fmt::print("{} %\n", static_cast<int>(100 * done));
@@ -153,6 +172,7 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     if (options.background)
         go_to_background();
     refuse_input_as_output({options.recording}, options.out);
+    check_output(options);
     const interaction::Recording recording = read_recording(options.recording);
     if (recording.frames.empty())
         throw interaction::Error(options.recording + ": it has no frames");

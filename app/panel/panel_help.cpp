@@ -65,11 +65,13 @@ void first_use_window(float left) {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PushTextWrapPos(std::min(480.0f, 0.94f * (picture.x - left)));
     for (const char* line : {"Drag with the left button to turn the data; the wheel scales them.",
                              "Up and Down change the isovalue, or drag in the histogram.",
                              "Space plays the steps; Left and Right go through them.",
                              "F1 tells what all keys do. This goes away once you begin."})
         ImGui::TextUnformatted(line);
+    ImGui::PopTextWrapPos();
     ImGui::End();
 }
 

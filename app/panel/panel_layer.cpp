@@ -222,14 +222,14 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
                 .late_releases = late_releases_,
                 .cursor = cursor_,
                 .places = places_,
-                .popups = imgui_->OpenPopupStack.Size > 0 || has_page(),
+                .popups = has_popup(),
                 .closes_popup = closes_popup_,
                 .begun = begun_};
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
         const WindowEvent event = waiting_.front();
         waiting_.pop_front();
-        if (opens_page(event))
+        if (turns_page(event))
             continue;
         const bool open = shown || has_page();
         const bool taken = std::visit(taker, event);
@@ -259,14 +259,8 @@ void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
     const Seconds elapsed = time - std::exchange(laid_out_, time);
     io.DeltaTime = static_cast<float>(std::clamp(elapsed.count(), kShortest, kLongest));
     ImGui::NewFrame();
-    if (std::exchange(closes_popup_, false)) {
-        if (imgui_->OpenPopupStack.Size > 0)
-            ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
-        else if (files_.is_open())
-            files_.close();
-        else
-            help_ = false;
-    }
+    if (std::exchange(closes_popup_, false) && has_popup())
+        ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
 }
 
 Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {

@@ -98,7 +98,8 @@ class PanelLayer {
 
   private:
     void make_font_texture();
-    bool opens_page(const interaction::WindowEvent& event);
+    bool turns_page(const interaction::WindowEvent& event);
+    bool has_popup() const;
     void begin_frame(glm::ivec2 picture, interaction::Seconds time);
     void lay_out_pages(const PanelModel& model, interaction::Seconds time);
 

@@ -4,6 +4,7 @@
 #include "app/panel/panel_tools.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <utility>
 #include <variant>
@@ -16,8 +17,9 @@ using interaction::Seconds;
 using interaction::TextEvent;
 using interaction::WindowEvent;
 
-/// F1, `?` and Ctrl + O, wherever the mouse is. @return whether it was one of them
-bool PanelLayer::opens_page(const WindowEvent& event) {
+/// F1, `?` and Ctrl + O, wherever the mouse is, and Escape from what they open. @return whether it
+/// was one of them
+bool PanelLayer::turns_page(const WindowEvent& event) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto* key = std::get_if<KeyEvent>(&event);
     const auto* typed = std::get_if<TextEvent>(&event);
@@ -26,6 +28,14 @@ bool PanelLayer::opens_page(const WindowEvent& event) {
         (typed && typed->character == U'?' && !io.WantTextInput)) {
         help_ = !help_;
         begun_ = true;
+        return true;
+    }
+    // At once: what comes after it may open the next page.
+    if (pressed && key->key == Key::escape && has_page() && !io.WantTextInput && !has_popup()) {
+        if (files_.is_open())
+            files_.close();
+        else
+            help_ = false;
         return true;
     }
     if (!pressed || key->key != Key{'O'} || !io.KeyCtrl || !recent_)
@@ -40,6 +50,10 @@ void PanelLayer::lay_out_files(glm::ivec2 picture, const std::string& complaint,
         chosen_ = std::move(file);
     message_window(complaint, {}, Seconds(0));
     ImGui::Render();
+}
+
+bool PanelLayer::has_popup() const {
+    return imgui_->OpenPopupStack.Size > 0;
 }
 
 /// What lies over the picture beside the panel.

@@ -1,6 +1,8 @@
 // Lines of text in the panel, and what is said of its controls.
 #include "app/panel/panel_words.h"
 
+#include <algorithm>
+
 namespace isochron::app {
 
 void text(const std::string& line) {
@@ -15,15 +17,29 @@ void note(const std::string& line, const ImVec4& color) {
     ImGui::PopStyleColor();
 }
 
+namespace {
+
+/// No wider than the picture that it stands in.
+void tooltip(const char* words) {
+    constexpr float kWidest = 420.0f;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(std::min(kWidest, 0.9f * ImGui::GetIO().DisplaySize.x));
+    ImGui::TextUnformatted(words);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+} // namespace
+
 void state_note(const std::string& line, const ImVec4& color) {
     ImGui::TextColored(color, "%s", line.c_str());
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", line.c_str());
+        tooltip(line.c_str());
 }
 
 void tip(const char* words) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-        ImGui::SetTooltip("%s", words);
+        tooltip(words);
 }
 
 } // namespace isochron::app

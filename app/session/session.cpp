@@ -2,6 +2,7 @@
 #include "app/session/session.h"
 
 #include "app/session/start_state.h"
+#include "interaction/device_reading.h"
 #include "interaction/navigator.h"
 #include "interaction/tool_table.h"
 
@@ -232,7 +233,7 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
         .free = flat_panel()
                     ? panel_.covered(outputs_.windows()[0].framebuffer_size().x / panel_places().x)
                     : 0,
-        .aside = state_.room_panel.shown && head_is_emulated() ? kPanelShare : 0.0f};
+        .aside = stands_beside(interaction::Reading(input).viewer()) ? kPanelShare : 0.0f};
 }
 
 /// The devices that the views are made of, asked for as late as can be.

@@ -184,6 +184,7 @@ class Session {
     bool flat_panel() const; ///< shown over the first window
     bool head_is_emulated() const;
     std::optional<interaction::Pose> panel_place() const;
+    bool stands_beside(const interaction::Pose& head) const;
     void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
 
     Config config_;

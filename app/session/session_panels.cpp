@@ -2,6 +2,7 @@
 #include "app/session/session.h"
 
 #include "interaction/navigation.h"
+#include "interaction/room_panel.h"
 
 #include <utility>
 
@@ -41,6 +42,14 @@ std::optional<interaction::Pose> Session::panel_place() const {
     const float nearer = room_panel_.size().width / (kFilled * aside);
     return interaction::Pose{nearer * middle,
                              glm::quat_cast(glm::mat3(right, up, glm::cross(right, up)))};
+}
+
+/// Whether the panel in the room is where such a window has room for it. Who turns away from it has
+/// the window to themselves.
+bool Session::stands_beside(const interaction::Pose& head) const {
+    const auto place = panel_place();
+    return place && state_.room_panel.shown &&
+           !interaction::called(state_.room_panel, head, room_panel_.distance(), place).shown;
 }
 
 /// The one in the room replaces it.

@@ -118,6 +118,11 @@ TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
     EXPECT_EQ(program({"movie", recording, "-o", movie, "--rate", "20"}).status, 0);
     EXPECT_EQ(bytes_of("walk.mp4"), 21u * 64 * 48 * 4) << "0, 0.05, ... 1 s";
     EXPECT_EQ(program({"movie", recording, "-o", movie}).status, 1) << "it is there already";
+    for (const char* wrong : {"walk.xyz", "nowhere/walk.mp4"}) {
+        const ChildResult refused = program({"movie", recording, "-o", wrong});
+        EXPECT_NE(refused.status, 0) << wrong;
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    }
     // A folder holds the same frames; each can be made again.
     EXPECT_EQ(
         program({"movie", recording, "-o", "frames/", "--rate", "20", "--eyes", "each"}).status, 0);

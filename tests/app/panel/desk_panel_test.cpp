@@ -72,6 +72,11 @@ TEST_P(DeskPanelTest, TheKeyPutsThePanelBesideTheDataWhateverTheWindowsShape) {
         EXPECT_LT(panel.high.x, data.low.x) << "it covers none of the data";
         EXPECT_LE(data.high.x, window.x) << "all of which are there";
         EXPECT_GT(panel.high.x - panel.low.x, 0.33 * window.x) << "and can be read";
+        InputState away = with_keys(1.5, 0);
+        away.devices.front().pose->orientation = glm::angleAxis(-1.5f, glm::vec3(0, 1, 0));
+        session.frame(away, {}, Waiting::for_cells);
+        EXPECT_EQ(session.outputs().display().window().viewports.front().screen.aside, 0)
+            << "who turns away from it has the window to themselves";
         const InputState released = with_keys(2, 0);
         session.frame(released, session.commands_from(released), Waiting::for_cells);
         InputState again = pressed;

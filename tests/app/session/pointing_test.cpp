@@ -175,18 +175,21 @@ TEST(Pointing, AMissSaysSoAndHoveringTellsWhatIsThere) {
         session.frame(input, commands, Waiting::for_cells);
         return session.outputs().display().read_window();
     };
-    frame({}, 0);
-    const render::Image away = frame({MouseMoveEvent{0.01f, 0.01f, 160, 120}}, 0.1);
-    const render::Image over = frame({MouseMoveEvent{0.5f, 0.5f, 160, 120}}, 0.2);
+    const MouseMoveEvent beside{0.01f, 0.01f, 160, 120}, onto{0.5f, 0.5f, 160, 120};
+    for (const double time : {0.0, 0.2, 0.4}) // until it has settled
+        frame({}, time);
+    const render::Image away = frame({beside}, 0.5);
+    const render::Image over = frame({onto}, 0.6);
     EXPECT_NE(away.rgba, over.rgba) << "a label shows what is under the cursor";
     EXPECT_FALSE(session.log().frames().back().redrawn) << "over the same picture";
-    EXPECT_EQ(frame({MouseMoveEvent{0.01f, 0.01f, 160, 120}}, 0.25).rgba, away.rgba);
+    EXPECT_EQ(frame({beside}, 0.7).rgba, away.rgba);
+    frame({onto}, 0.8);
     EXPECT_FALSE(session.state().mark.point);
 
     using interaction::MouseButton;
     using interaction::MouseButtonEvent;
-    frame({MouseButtonEvent{MouseButton::left, true}}, 0.3);
-    frame({MouseButtonEvent{MouseButton::left, false}}, 0.4);
+    frame({MouseButtonEvent{MouseButton::left, true}}, 0.9);
+    frame({MouseButtonEvent{MouseButton::left, false}}, 1.0);
     ASSERT_TRUE(session.state().mark.point) << "a click picks";
     EXPECT_TRUE(session.history().undo());
 }

@@ -9,7 +9,7 @@ namespace {
 
 /// The lines of --version that help whoever is asked what went wrong.
 std::string version_details() {
-    std::string details = "commit " + std::string(kCommit) + "\nwith " ISOCHRON_PARTS_WITH;
+    std::string details = "\ncommit " + std::string(kCommit) + "\nwith " ISOCHRON_PARTS_WITH;
     constexpr std::string_view without = ISOCHRON_PARTS_WITHOUT;
     return without.empty() ? details : details.append("; without ").append(without);
 }
@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
     using namespace isochron::app;
     return run_program({.name = "isochron",
                         .description = "Explore time-varying volume data immersively.",
-                        .version_details = version_details()},
+                        .version_details = version_details},
                        {add_build, add_query, add_change, add_info, add_verify, add_explore,
                         add_replay, add_reproduce, add_movie, add_generate, add_config, add_manual,
                         add_completion},

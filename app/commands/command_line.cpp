@@ -219,8 +219,8 @@ CommandReference Command::reference() const {
 
 namespace {
 
-int fail(const std::string& program, const std::string& what, int status) {
-    std::fprintf(stderr, "%s: %s\n", program.c_str(), one_line(what).c_str());
+int fail(const char* program, const std::string& what, int status) {
+    std::fprintf(stderr, "%s: %s\n", program, one_line(what).c_str());
     return status;
 }
 
@@ -315,13 +315,16 @@ std::vector<std::string> arguments_from(int argc, const char* const* argv) {
 
 } // namespace
 
-int run_program(const ProgramText& text, std::initializer_list<void (*)(Command& program)> commands,
-                int argc, const char* const* argv) {
-    const std::string& name = text.name;
-    CLI::App program{text.description, name};
-    program.set_version_flag("--version", fmt::format("{} {}{}{}", name, kVersion,
-                                                      text.version_details.empty() ? "" : "\n",
-                                                      text.version_details));
+namespace {
+
+/// Errors of the commands pass through; those of the parser become an exit status.
+int parse_and_run(const ProgramText& text,
+                  std::initializer_list<void (*)(Command& program)> commands, int argc,
+                  const char* const* argv) {
+    CLI::App program{text.description, text.name};
+    program.set_version_flag("--version",
+                             fmt::format("{} {}{}", text.name, kVersion,
+                                         text.version_details ? text.version_details() : ""));
     program.require_subcommand(1);
     program.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
     Command root(program);
@@ -332,26 +335,38 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
     } catch (const CLI::Success& request) {
         return program.exit(request);
     } catch (const CLI::ParseError& error) {
-        return fail(name, complaint(program, error), 2);
+        return fail(text.name, complaint(program, error), 2);
+    }
+    return 0;
+}
+
+} // namespace
+
+int run_program(const ProgramText& text, std::initializer_list<void (*)(Command& program)> commands,
+                int argc, const char* const* argv) {
+    int status = 0;
+    try {
+        status = parse_and_run(text, commands, argc, argv);
     } catch (const Canceled& canceled) {
-        return fail(name, canceled.what(), canceled.status);
+        return fail(text.name, canceled.what(), canceled.status);
     } catch (const ReportedElsewhere&) {
         return 0;
     } catch (const UsageError& error) {
-        return fail(name, error.what(), 2);
+        return fail(text.name, error.what(), 2);
     } catch (const std::bad_alloc&) {
-        return fail(name, "there is not enough memory", 1);
+        std::fprintf(stderr, "%s: there is not enough memory\n", text.name);
+        return 1;
     } catch (const std::filesystem::filesystem_error& error) {
         const std::string path = error.path1().empty() ? "." : error.path1().string();
-        return fail(name, fmt::format("{}: {}", path, error.code().message()), 1);
+        return fail(text.name, fmt::format("{}: {}", path, error.code().message()), 1);
     } catch (const std::exception& error) {
-        return fail(name, error.what(), 1);
+        return fail(text.name, error.what(), 1);
     }
     // What was printed must have arrived: a full disk behind a pipe or a redirection is an error
     // too.
     if (std::fflush(stdout) != 0)
-        return fail(name, "the output cannot be written", 1);
-    return 0;
+        return fail(text.name, "the output cannot be written", 1);
+    return status;
 }
 
 } // namespace isochron::app

@@ -99,9 +99,10 @@ class Command {
 
 /// What a program says of itself.
 struct ProgramText {
-    std::string name;
-    std::string description;
-    std::string version_details; ///< what --version prints below name and version; may be empty
+    const char* name;
+    const char* description;
+    std::string (
+        *version_details)(); ///< what --version prints behind name and version; may be null
 };
 
 /// Parses the arguments, runs the one subcommand that they name, and turns errors into one line.

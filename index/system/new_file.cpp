@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -14,7 +15,9 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <memory>
 #include <random>
+#include <string_view>
 
 namespace isochron::index {
 namespace fs = std::filesystem;
@@ -79,15 +82,17 @@ NewFile::~NewFile() {
 
 void NewFile::remove_remains() const {
     const std::string start = fmt::format(".{}.", target_.filename().string());
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(target_), error)) {
-        const std::string name = entry.path().filename().string();
+    const fs::path folder = folder_of(target_);
+    // Not by std::filesystem's iterator, which ends the program where memory is short.
+    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
+    while (const dirent* entry = entries ? ::readdir(entries.get()) : nullptr) {
+        const std::string_view name = entry->d_name;
         if (name.size() != start.size() + 8 || !name.starts_with(start) ||
-            !name.ends_with(".tmp") || entry.path() == temporary_)
+            !name.ends_with(".tmp") || name == temporary_.filename().string())
             continue;
         // What somebody else put there under such a name may be anything, a pipe or a link, too.
-        const int file =
-            ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+        const fs::path path = folder / name;
+        const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
         if (file < 0)
             continue;
         // A new one may not have its lock yet.
@@ -95,7 +100,7 @@ void NewFile::remove_remains() const {
         const bool old = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
                          status.st_mtime + 60 < std::time(nullptr);
         if (old && ::flock(file, LOCK_EX | LOCK_NB) == 0)
-            ::unlink(entry.path().c_str());
+            ::unlink(path.c_str());
         ::close(file);
     }
 }

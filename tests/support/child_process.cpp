@@ -49,6 +49,8 @@ std::string file_contents(const fs::path& path) {
             };
             ::setitimer(ITIMER_REAL, &alarm, nullptr); // stays over the next line
         }
+        for (const std::string& variable : options.environment)
+            ::putenv(const_cast<char*>(variable.c_str()));
         ::execv(program.c_str(), argv.data());
     }
     ::_exit(127);

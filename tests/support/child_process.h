@@ -18,6 +18,7 @@ struct ChildOptions {
     std::uint64_t largest_file = 0; ///< [bytes] no file can grow beyond, as on a full disk; 0: any
     std::string interrupt_after{};  ///< SIGINT once this stands on its stderr
     std::uint64_t dies_after = 0;   ///< [us] after which an alarm kills it wherever it is; 0: never
+    std::vector<std::string> environment{}; ///< NAME=VALUE, beside what this process has
 };
 
 struct ChildResult {

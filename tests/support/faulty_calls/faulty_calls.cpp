@@ -1,0 +1,240 @@
+// A library to be preloaded (LD_PRELOAD) that makes the n-th call of a kind fail: a full disk, a disk that fails, an
+// interrupted or short transfer, no memory. Only files below the working directory count, so that libraries and the
+// system's own files stay as they are.
+//
+//     ISOCHRON_FAULT=write:3:ENOSPC    from the third write on the disk is full
+//     ISOCHRON_FAULT_MARK=FILE         appears once the fault has been met
+//
+// Kinds: open, read, write, sync, rename, size, new. Faults: ENOSPC and EIO (from then on), EINTR and short (once).
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <sys/types.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace {
+
+enum class How { none, no_space, failed, interrupted, part };
+
+struct Plan {
+    std::array<char, 8> kind{};
+    long at = 0;
+    How how = How::none;
+
+    Plan() {
+        const char* text = std::getenv("ISOCHRON_FAULT");
+        std::array<char, 8> name{};
+        if (!text || std::sscanf(text, "%7[a-z]:%ld:%7s", kind.data(), &at, name.data()) != 3)
+            return;
+        how = !std::strcmp(name.data(), "ENOSPC")  ? How::no_space
+              : !std::strcmp(name.data(), "EIO")   ? How::failed
+              : !std::strcmp(name.data(), "EINTR") ? How::interrupted
+                                                   : How::part;
+    }
+};
+
+const Plan& plan() {
+    static const Plan the_plan;
+    return the_plan;
+}
+
+std::atomic<bool> in_main{false}; // what happens before is not the program's
+int (*program_main)(int, char**, char**) = nullptr;
+
+int watched_main(int argc, char** argv, char** environment) {
+    in_main = true;
+    const int status = program_main(argc, argv, environment);
+    in_main = false;
+    return status;
+}
+
+std::atomic<long> calls{0};
+std::array<std::atomic<bool>, 4096> watched{};
+
+/// Says that the fault was met, without any call that counts.
+void mark() {
+    if (const char* file = std::getenv("ISOCHRON_FAULT_MARK"))
+        ::syscall(SYS_close,
+                  ::syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+}
+
+/// What this call shall do: none for most.
+How fault_of(const char* kind) {
+    if (!in_main || plan().how == How::none || std::strcmp(kind, plan().kind.data()) != 0)
+        return How::none;
+    const long call = ++calls;
+    const bool lasts = plan().how == How::no_space || plan().how == How::failed;
+    if (call != plan().at && !(lasts && call > plan().at))
+        return How::none;
+    mark();
+    return plan().how;
+}
+
+int error_of(How how) {
+    return how == How::no_space ? ENOSPC : how == How::interrupted ? EINTR : EIO;
+}
+
+bool counts(const char* path) {
+    return path[0] != '/' || std::strncmp(path, "/tmp/", 5) == 0;
+}
+
+bool is_watched(int file) {
+    return file >= 0 && file < int(watched.size()) && watched[file];
+}
+
+int opened(int file, bool watch) {
+    if (file >= 0 && file < int(watched.size()))
+        watched[file] = watch;
+    return file;
+}
+
+template <class F>
+F* real(const char* name) {
+    return reinterpret_cast<F*>(dlsym(RTLD_NEXT, name));
+}
+
+int open_with(const char* name, const char* path, int flags, unsigned mode) {
+    static const auto call = real<int(const char*, int, ...)>(name);
+    const bool watch = counts(path);
+    if (const How how = watch ? fault_of("open") : How::none;
+        how != How::none && how != How::part) {
+        errno = error_of(how);
+        return -1;
+    }
+    return opened(call(path, flags, mode), watch);
+}
+
+/// Runs a transfer of `bytes`: fails it, or shortens it to a half.
+template <class Call>
+ssize_t transfer(const char* kind, int file, std::size_t bytes, Call call) {
+    const How how = is_watched(file) ? fault_of(kind) : How::none;
+    if (how == How::none)
+        return call(bytes);
+    if (how == How::part)
+        return call((bytes + 1) / 2);
+    errno = error_of(how);
+    return -1;
+}
+
+} // namespace
+
+extern "C" {
+
+int __libc_start_main(int (*begin)(int, char**, char**), int argc, char** argv, void (*init)(),
+                      void (*fini)(), void (*rtld_fini)(), void* stack_end) {
+    static const auto call = real<int(int (*)(int, char**, char**), int, char**, void (*)(),
+                                      void (*)(), void (*)(), void*)>("__libc_start_main");
+    program_main = begin;
+    return call(watched_main, argc, argv, init, fini, rtld_fini, stack_end);
+}
+
+int open(const char* path, int flags, ...) {
+    va_list more;
+    va_start(more, flags);
+    const unsigned mode = va_arg(more, unsigned);
+    va_end(more);
+    return open_with("open", path, flags, mode);
+}
+int open64(const char* path, int flags, ...) {
+    va_list more;
+    va_start(more, flags);
+    const unsigned mode = va_arg(more, unsigned);
+    va_end(more);
+    return open_with("open64", path, flags, mode);
+}
+FILE* fopen(const char* path, const char* mode) {
+    static const auto call = real<FILE*(const char*, const char*)>("fopen");
+    const bool watch = counts(path);
+    if (const How how = watch ? fault_of("open") : How::none;
+        how != How::none && how != How::part) {
+        errno = error_of(how);
+        return nullptr;
+    }
+    FILE* file = call(path, mode);
+    if (file)
+        opened(fileno(file), watch);
+    return file;
+}
+FILE* fopen64(const char* path, const char* mode) {
+    return fopen(path, mode);
+}
+ssize_t read(int file, void* to, size_t bytes) {
+    static const auto call = real<ssize_t(int, void*, size_t)>("read");
+    return transfer("read", file, bytes, [&](size_t part) { return call(file, to, part); });
+}
+ssize_t pread(int file, void* to, size_t bytes, off_t at) {
+    static const auto call = real<ssize_t(int, void*, size_t, off_t)>("pread");
+    return transfer("read", file, bytes, [&](size_t part) { return call(file, to, part, at); });
+}
+ssize_t pread64(int file, void* to, size_t bytes, off64_t at) {
+    return pread(file, to, bytes, at);
+}
+ssize_t write(int file, const void* from, size_t bytes) {
+    static const auto call = real<ssize_t(int, const void*, size_t)>("write");
+    return transfer("write", file, bytes, [&](size_t part) { return call(file, from, part); });
+}
+ssize_t pwrite(int file, const void* from, size_t bytes, off_t at) {
+    static const auto call = real<ssize_t(int, const void*, size_t, off_t)>("pwrite");
+    return transfer("write", file, bytes, [&](size_t part) { return call(file, from, part, at); });
+}
+ssize_t pwrite64(int file, const void* from, size_t bytes, off64_t at) {
+    return pwrite(file, from, bytes, at);
+}
+ssize_t writev(int file, const iovec* parts, int count) {
+    static const auto call = real<ssize_t(int, const iovec*, int)>("writev");
+    return transfer("write", file, count,
+                    [&](size_t part) { return call(file, parts, int(part)); });
+}
+int fsync(int file) {
+    static const auto call = real<int(int)>("fsync");
+    return int(transfer("sync", file, 1, [&](size_t) { return call(file); }));
+}
+int rename(const char* from, const char* to) {
+    static const auto call = real<int(const char*, const char*)>("rename");
+    if (const How how = counts(to) ? fault_of("rename") : How::none;
+        how != How::none && how != How::part) {
+        errno = error_of(how);
+        return -1;
+    }
+    return call(from, to);
+}
+int ftruncate(int file, off_t bytes) {
+    static const auto call = real<int(int, off_t)>("ftruncate");
+    return int(transfer("size", file, 1, [&](size_t) { return call(file, bytes); }));
+}
+int ftruncate64(int file, off64_t bytes) {
+    return ftruncate(file, bytes);
+}
+int fallocate(int file, int mode, off_t begin, off_t bytes) {
+    static const auto call = real<int(int, int, off_t, off_t)>("fallocate");
+    return int(transfer("size", file, 1, [&](size_t) { return call(file, mode, begin, bytes); }));
+}
+int fallocate64(int file, int mode, off64_t begin, off64_t bytes) {
+    return fallocate(file, mode, begin, bytes);
+}
+
+} // extern "C"
+
+void* operator new(std::size_t bytes) {
+    if (fault_of("new") != How::none)
+        throw std::bad_alloc();
+    if (void* place = std::malloc(bytes ? bytes : 1))
+        return place;
+    throw std::bad_alloc();
+}
+void operator delete(void* place) noexcept {
+    std::free(place);
+}
+void operator delete(void* place, std::size_t) noexcept {
+    std::free(place);
+}

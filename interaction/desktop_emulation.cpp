@@ -16,8 +16,11 @@ namespace {
 constexpr double kLongestStep = 0.1;     ///< [s] a stall must not become a leap
 constexpr float kSteepest = 1.5f;        ///< [rad] of looking up or down
 constexpr glm::vec2 kHand{0.2f, -0.25f}; ///< [m] the wand, right of and below the head
-constexpr float kAimDistance = 1.5f;     ///< [m] from the head, where cursor and wand ray meet
-constexpr int kMostTaps = 16;            ///< remembered while frames are slow
+/// [m] likewise while it points at a panel, which it must not be beside: from there the ray meets all
+/// of a panel that the eyes can read.
+constexpr glm::vec3 kAtTheEyes{0.08f, -0.12f, -0.08f};
+constexpr float kAimDistance = 1.5f; ///< [m] from the head, where cursor and wand ray meet
+constexpr int kMostTaps = 16;        ///< remembered while frames are slow
 
 } // namespace
 
@@ -229,9 +232,11 @@ struct DesktopEmulation::State {
     /// Rests at the right below the head; its ray meets the cursor's at `kAimDistance`, or on the
     /// panel.
     Pose wand(const Pose& head) const {
-        const glm::vec3 rest(kHand, -options.wand_reach);
         const auto hit = on_panel();
         const bool on = hit && (presses_panel || hit->inside());
+        // What it holds must not leap.
+        const bool points = on && !shown(Action::grab) && !shown(Action::fly);
+        const glm::vec3 rest = points ? kAtTheEyes : glm::vec3(kHand, -options.wand_reach);
         const Pose ray = aim();
         const glm::vec3 ahead(0.0f, 0.0f, -(on ? hit->distance : kAimDistance));
         const glm::vec3 target = glm::conjugate(head.orientation) *

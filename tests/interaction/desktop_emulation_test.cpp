@@ -282,6 +282,30 @@ TEST(DesktopEmulation, OverThePanelInTheRoomTheCursorIsTheWandsAndTheLeftButtonI
     EXPECT_EQ(buttons(poll({down})), 0u);
 }
 
+/// Such a panel is far to the side and near, and stays where it is when the head comes closer.
+TEST(DesktopEmulation, TheWandReachesAllOfAPanelThatStandsBesideTheData) {
+    const PanelSize size;
+    const RoomPanel panel{true, {{-0.62f, 1.6f, -0.5f}, {1, 0, 0, 0}}};
+    DesktopEmulation emulation{EmulationOptions{}};
+    emulation.set_panel(panel, size);
+    emulation.set_eye([&](const Pose& head, const MouseMoveEvent& cursor) {
+        const glm::vec3 way = place_on(panel.pose, size, {cursor.x, cursor.y}) - head.position;
+        return Pose{head.position, glm::quatLookAt(glm::normalize(way), glm::vec3(0, 1, 0))};
+    });
+    double now = 0;
+    for (const float closer : {0.0f, 0.3f})
+        for (const float x : {0.01f, 0.5f, 0.99f})
+            for (const float y : {0.01f, 0.5f, 0.99f}) {
+                emulation.stand({{0.0f, 1.6f, -closer}, 0, 0});
+                emulation.feed(std::vector<WindowEvent>{cursor_at(x, y)});
+                const InputState input = emulation.poll(Seconds(now += 0.02));
+                const auto hit = hit_of(pose_of(input, "wand"), panel.pose, size);
+                ASSERT_TRUE(hit) << x << ", " << y << ", " << closer << " m closer";
+                EXPECT_NEAR(hit->at.x, x, 2e-3);
+                EXPECT_NEAR(hit->at.y, y, 2e-3);
+            }
+}
+
 TEST(DesktopEmulation, AskingTwiceAtOneTimeMovesOnce) {
     DesktopEmulation emulation{EmulationOptions{}};
     emulation.poll(Seconds(0));

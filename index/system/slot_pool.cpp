@@ -1,8 +1,6 @@
 // Blocks of slots, each with a list of those that are free.
 #include "index/system/slot_pool.h"
 
-#include "index/system/huge_pages.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
@@ -10,11 +8,24 @@
 #include <new>
 
 #include <sanitizer/asan_interface.h>
+#include <sys/mman.h>
 
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64;
+constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64, kSmallPage = 4096;
+constexpr std::size_t kTogether = 64 << 10; ///< pages that come at a time
+
+/// Makes pages come together: one by one, as they are touched, takes longer. Not as one large page,
+/// though it takes half of the time where the machine is real: a virtual one may have given free
+/// large pages back to its host, and then waits for them.
+void fetch_pages(std::byte* begin, std::byte* end) {
+#ifdef MADV_POPULATE_WRITE
+    ::madvise(begin, static_cast<std::size_t>(end - begin), MADV_POPULATE_WRITE);
+#else
+    static_cast<void>(begin), static_cast<void>(end);
+#endif
+}
 
 } // namespace
 
@@ -22,8 +33,20 @@ constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64;
 struct alignas(kSlotAlignment) SlotPool::Block {
     std::byte* next = nullptr;  ///< the first free slot, which holds where the one behind it is
     std::byte* fresh = nullptr; ///< slots from here on have never been used
+    std::byte* there = nullptr; ///< pages from here on have not been asked for
     std::size_t used = 0;
 
+    static Block* make() {
+        void* const memory = std::aligned_alloc(kBlock, kBlock);
+        if (!memory)
+            throw std::bad_alloc();
+        auto* const block = new (memory) Block;
+        block->there = reinterpret_cast<std::byte*>(block);
+        block->fresh = reinterpret_cast<std::byte*>(block + 1);
+        // What is not in use is nobody's to read, where that is looked at.
+        ASAN_POISON_MEMORY_REGION(block->fresh, block->end() - block->fresh);
+        return block;
+    }
     static Block* of(std::byte* slot) {
         return reinterpret_cast<Block*>(reinterpret_cast<std::uintptr_t>(slot) / kBlock * kBlock);
     }
@@ -55,23 +78,27 @@ SlotPool::~SlotPool() {
 }
 
 std::byte* SlotPool::take() {
-    const std::scoped_lock lock(mutex_);
-    if (free_.empty()) {
-        void* const memory = std::aligned_alloc(kBlock, kBlock);
-        if (!memory)
-            throw std::bad_alloc();
-        ask_for_huge_pages(memory, kBlock);
-        auto* const block = new (memory) Block;
-        block->fresh = reinterpret_cast<std::byte*>(block + 1);
-        // What is not in use is nobody's to read, where that is looked at.
-        ASAN_POISON_MEMORY_REGION(block->fresh, block->end() - block->fresh);
-        free_.push_back(block);
-        ++blocks_;
+    std::byte *slot = nullptr, *begin = nullptr, *end = nullptr;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (free_.empty()) {
+            free_.push_back(Block::make());
+            ++blocks_;
+        }
+        Block* const block = free_.back();
+        slot = block->take(bytes_);
+        if (block->full(bytes_))
+            free_.pop_back();
+        if (slot + bytes_ > block->there) {
+            begin = block->there;
+            const auto more = static_cast<std::size_t>(slot + bytes_ - begin) + kTogether;
+            end = begin + std::min(more / kSmallPage * kSmallPage,
+                                   static_cast<std::size_t>(block->end() - begin));
+            block->there = end;
+        }
     }
-    Block* const block = free_.back();
-    std::byte* const slot = block->take(bytes_);
-    if (block->full(bytes_))
-        free_.pop_back();
+    if (begin)
+        fetch_pages(begin, end);
     return slot;
 }
 

@@ -1,4 +1,4 @@
-// Memory for many things of the same size, in large pages.
+// Memory for many things of the same size, whose pages come together.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace isochron::index {
 
-/// Gives pieces of one size out of blocks of 2 MiB, which come as one page where the system has
-/// such: fresh memory costs more than decoding into it. A block goes back when nothing of it is in
-/// use, but for one. Thread-safe.
+/// Gives pieces of one size out of blocks of 2 MiB, whose pages come many at a time: fresh memory
+/// costs as much as decoding into it. A block goes back when nothing of it is in use, but for one.
+/// Thread-safe.
 class SlotPool {
   public:
     /// @param bytes of a slot, at most 1 MiB

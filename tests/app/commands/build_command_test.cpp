@@ -138,38 +138,6 @@ TEST_F(CommandLine, ASourceThatWasTouchedIsReadAgainAndOneThatHasChangedIsRefuse
     EXPECT_EQ(folder.read("a.isochron"), held);
 }
 
-TEST_F(CommandLine, AppendingThatIsKilledAtAnyMomentLeavesTheOldIndexOrTheNewOne) {
-    ASSERT_EQ(isochron(build_of("t[01].raw")).status, 0);
-    const std::string held = folder.read("a.isochron");
-    const std::vector<std::string> append = build_of("t*.raw", {"--append", "--quiet"});
-    const auto begun = std::chrono::steady_clock::now();
-    ASSERT_EQ(isochron(append).status, 0);
-    const auto took = std::chrono::duration_cast<std::chrono::microseconds>(
-                          std::chrono::steady_clock::now() - begun)
-                          .count();
-    const auto steps_now = [&] {
-        EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
-        return nlohmann::json::parse(isochron({"info", "a.isochron", "--json"}).out)
-            .at("steps")
-            .get<int>();
-    };
-    std::mt19937 random(test_seed());
-    int killed = 0;
-    folder.write("a.isochron", held);
-    for (int moment = 0; moment < 20; ++moment) {
-        const ChildResult result =
-            isochron(append, {.dies_after = 1 + random() % std::uint64_t(took)});
-        killed += result.status >= 1000;
-        const int now = steps_now();
-        EXPECT_TRUE(now == 2 || now == 5) << now;
-        if (now == 5) // what a kill leaves behind is kept until then
-            folder.write("a.isochron", held);
-    }
-    EXPECT_GT(killed, 5);
-    EXPECT_EQ(isochron(append).status, 0);
-    EXPECT_EQ(steps_now(), 5);
-}
-
 TEST_F(CommandLine, AnIndexThatRefersToItsSourcesAnswersAsOneThatCarriesThem) {
     ASSERT_EQ(isochron(build_of("t*.raw", {"--refer"})).status, 0);
     EXPECT_LT(folder.read("a.isochron").size(), kSteps * kX * kY * kZ * 4);

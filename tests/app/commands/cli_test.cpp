@@ -211,7 +211,8 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
              {{"query", "a.isochron", "--isovalue", "x", "--step", "1"},
               "--isovalue: expected a number, got x"},
              {{"explore", "a.isochron", "--quality", "fsat"},
-              "--quality: expected one of auto, fast, quality, paper, got fsat, did you mean fast?"}})
+              "--quality: expected one of auto, fast, quality, paper, got fsat, did you mean "
+              "fast?"}})
         expect_failure(isochron(arguments), 2, message);
     expect_failure(isochron({"change", "a.isochron", "--isovalue", "0", "--step", "1"}), 2,
                    "--to-step or --to-isovalue is missing");

@@ -29,6 +29,7 @@ class Program {
         argv.push_back(nullptr);
         EXPECT_EQ(posix_spawn(&pid_, argv[0], nullptr, nullptr, argv.data(), environ), 0);
     }
+    pid_t pid() const { return pid_; }
     void signal(int number) const { kill(pid_, number); }
     int exit_status() const {
         int status = 0;

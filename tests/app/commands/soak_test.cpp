@@ -1,0 +1,175 @@
+// A user who does anything at random in the window, and a program that is killed under them. ISOCHRON_SOAK_SECONDS in
+// the environment says how long the user plays, a few seconds otherwise; ISOCHRON_KILLS how often it is killed.
+#include "tests/app/commands/explore_fixture.h"
+
+#include "app/session/recording_file.h"
+#include "stereo/image_file.h"
+#include "tests/support/test_seed.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <thread>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+int setting(const char* name, int otherwise) {
+    const char* text = std::getenv(name);
+    return text ? std::atoi(text) : otherwise;
+}
+
+class Soak : public ExploreTest {
+  protected:
+    /// One random act of a user. Escape and Enter do not follow each other, which would end the program.
+    void act() {
+        static const std::vector<std::string> kKeys{"w",
+                                                    "a",
+                                                    "s",
+                                                    "d",
+                                                    "e",
+                                                    "q",
+                                                    "g",
+                                                    "f",
+                                                    "x",
+                                                    "z",
+                                                    "Up",
+                                                    "Down",
+                                                    "Prior",
+                                                    "Next",
+                                                    "Left",
+                                                    "Right",
+                                                    "space",
+                                                    "r",
+                                                    "l",
+                                                    "End",
+                                                    "plus",
+                                                    "minus",
+                                                    "Home",
+                                                    "8",
+                                                    "9",
+                                                    "0",
+                                                    "j",
+                                                    "k",
+                                                    "t",
+                                                    "c",
+                                                    "b",
+                                                    "n",
+                                                    "h",
+                                                    "1",
+                                                    "2",
+                                                    "3",
+                                                    "ctrl+1",
+                                                    "bracketleft",
+                                                    "bracketright",
+                                                    "o",
+                                                    "i",
+                                                    "u",
+                                                    "v",
+                                                    "p",
+                                                    "m",
+                                                    "Tab",
+                                                    "y",
+                                                    "Insert",
+                                                    "ctrl+z",
+                                                    "ctrl+shift+z",
+                                                    "4",
+                                                    "5",
+                                                    "6",
+                                                    "7",
+                                                    "Delete",
+                                                    "F1",
+                                                    "Escape"};
+        const auto place = [&](int most) { return std::to_string(random_() % most); };
+        switch (random_() % 8) {
+        case 0:
+            return screen_.xdotool({"mousemove", place(640), place(480), "mousedown", "1",
+                                    "mousemove", place(640), place(480), "mouseup", "1"});
+        case 1:
+            return screen_.xdotool(
+                {"mousemove", place(640), place(480), "click", std::to_string(1 + random_() % 5)});
+        case 2:
+            if (random_() % 4 == 0)
+                return screen_.resize_window("Isochron: " + file("sphere.isochron"),
+                                             int(160 + random_() % 700),
+                                             int(120 + random_() % 500));
+            [[fallthrough]];
+        default:
+            const std::string key = kKeys[random_() % kKeys.size()];
+            screen_.xdotool({"key", key});
+            if (key == "Escape")
+                screen_.xdotool({"sleep", "0.2", "key", "Escape"}); // takes the question back
+        }
+    }
+
+    static std::size_t entries(const fs::path& folder) {
+        return std::size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+    }
+
+    std::mt19937 random_{test_seed()};
+};
+
+TEST_F(Soak, ARandomUserIsFollowedAndReplayed) {
+    const auto program = explore(
+        {"--record", file("walk.jsonl"), "--isovalue", "8", "--screenshots", file("shots")});
+    const fs::path process = fmt::format("/proc/{}", program->pid());
+    const auto play = [&](double seconds) {
+        const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+        while (Clock::now() < end && fs::exists(process / "exe"))
+            act();
+    };
+    const double seconds = setting("ISOCHRON_SOAK_SECONDS", 3);
+    play(seconds / 2); // until all is there that is made when first needed
+    const std::size_t threads = entries(process / "task"), files = entries(process / "fd");
+    play(seconds / 2);
+    EXPECT_LE(entries(process / "task"), threads + 2);
+    EXPECT_LE(entries(process / "fd"), files + 4);
+    screen_.xdotool({"key", "m"});
+    leave();
+    ASSERT_EQ(program->exit_status(), 0);
+    for (const char* folder : {"first", "second"})
+        ASSERT_EQ(Program({"replay", file("walk.jsonl"), "--stamps", "--out", file(folder)})
+                      .exit_status(),
+                  0);
+    std::size_t pictures = 0;
+    for (const auto& entry : fs::directory_iterator(file("first"))) {
+        const fs::path again = fs::path(file("second")) / entry.path().filename();
+        EXPECT_EQ(stereo::read_image(entry.path()).rgba, stereo::read_image(again).rgba) << again;
+        ++pictures;
+    }
+    EXPECT_GE(pictures, 1u);
+}
+
+TEST_F(Soak, AKilledExplorerLeavesWholeFiles) {
+    for (int i = 0; i < setting("ISOCHRON_KILLS", 2); ++i) {
+        const auto program = explore(
+            {"--record", file("walk.jsonl"), "--force", "--session", file("s.isochron-session")});
+        const auto end = Clock::now() + std::chrono::milliseconds(random_() % 1000);
+        while (Clock::now() < end)
+            act();
+        program->signal(SIGKILL);
+        EXPECT_EQ(program->exit_status(), -1);
+        EXPECT_FALSE(fs::exists(file("walk.jsonl"))); // it was not finished
+        if (fs::exists(file("s.isochron-session"))) {
+            EXPECT_TRUE(nlohmann::json::accept(folder_.read("s.isochron-session")));
+        }
+        if (fs::exists(file("walk.jsonl.part")) && fs::file_size(file("walk.jsonl.part")) > 0) {
+            std::ifstream part(file("walk.jsonl.part"));
+            std::string line;
+            for (int number = 1; std::getline(part, line) && !part.eof();
+                 ++number) // the last may be cut
+                EXPECT_TRUE(nlohmann::json::accept(line)) << number << ": " << line;
+        }
+    }
+}
+
+} // namespace
+} // namespace isochron::app

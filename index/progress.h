@@ -1,4 +1,4 @@
-// How long work reports how far it is.
+// Progress reports of long work.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace isochron::index {
 /// in [0, 1]. Throwing from it cancels the work, which then leaves nothing behind.
 using Progress = std::function<void(std::string_view phase, double fraction)>;
 
-/// The part of the report that is one phase; empty when nobody wants a report.
+/// The report of one phase, as a function of the fraction; empty if `progress` is.
 inline std::function<void(double)> phase_of(const Progress& progress, std::string phase) {
     if (!progress)
         return {};

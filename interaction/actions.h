@@ -1,4 +1,4 @@
-// What keys, mouse, wand and gamepad buttons stand for: the bits and valuators of the devices.
+// What keys, mouse, wand and gamepad do: the meaning of each button bit and valuator.
 #pragma once
 
 #include "interaction/window_event.h"
@@ -11,7 +11,7 @@
 
 namespace isochron::interaction {
 
-/// Bits of the device `keys`: what is asked for, whichever key asks.
+/// Bits of the device `keys`: the action, whichever key is bound to it.
 enum class Action : std::uint8_t {
     walk_forward,
     walk_back,
@@ -47,7 +47,7 @@ enum class Action : std::uint8_t {
     stamp,
     panel,
     quit,
-    // New ones come last: recordings hold the bits.
+    // Add new ones at the end: recordings store the bits.
     turn_left,
     turn_right,
     teleport,
@@ -86,7 +86,7 @@ enum class MouseBit : std::uint8_t { left, right, middle };
 inline constexpr std::size_t kMouseWheel = 6;
 inline constexpr std::size_t kMouseValuators = 7;
 
-/// Bits of the device `wand`, and of `wand2`, the other hand's, of which only `grab` is read.
+/// Bits of the device `wand`, and of `wand2` (the other hand). Of `wand2` only `grab` is read.
 enum class WandButton : std::uint8_t {
     grab,
     fly,
@@ -100,8 +100,8 @@ enum class WandButton : std::uint8_t {
     undo,
     redo
 };
-/// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rates of isovalue and scale,
-/// speed of flying where it points, and turning by steps, right positive.
+/// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rate of the isovalue, rate of the
+/// scale, speed of flying in the direction of the wand, and snap turns (right positive).
 enum class WandValuator : std::uint8_t { isovalue, scale, fly, turn, count };
 
 /// Bits of the device `gamepad`, in the order in which windowing libraries report them.
@@ -142,8 +142,7 @@ constexpr std::uint64_t bit(Button button) {
 /// Whether Ctrl and Shift are held.
 enum class Chord : std::uint8_t { any, control, control_shift };
 
-/// Of a key's bindings, those hold whose modifiers are held most exactly: with Ctrl one for Ctrl
-/// where there is one.
+/// A key's bindings for exactly the modifiers that are held win over its bindings for `any`.
 struct KeyBinding {
     Key key;
     Action action;
@@ -156,29 +155,29 @@ struct KeyLine {
     std::string_view effect; ///< what they do
     std::vector<KeyBinding> bindings;
 };
-/// Every key there is. Shift and Ctrl are explained where they matter, so their line comes last.
+/// Every key that is an action; keys that the window itself obeys are in `control_lines`. Other
+/// lines explain what Shift and Ctrl do there, so the line for Shift and Ctrl comes last.
 std::span<const KeyLine> key_lines();
 
-/// What somebody holds or sits at.
+/// The devices that controls are grouped by in the help.
 enum class DeviceKind : std::uint8_t { mouse, keyboard, hands, gamepad };
-/// For people: `Keyboard`, `Tracked hands and headset controllers`, ...
+/// For people: `Keyboard`, `Tracked hands (wands) and a headset's controllers`, ...
 std::string_view words_of(DeviceKind device);
 
-/// Mouse, wand, gamepad, and the keys that the window itself obeys, one line per control: name,
-/// effect.
+/// A control of mouse, wand or gamepad, or a key that the window itself obeys.
 struct ControlLine {
     DeviceKind device;
     std::string_view control, effect;
 };
 std::span<const ControlLine> control_lines();
 
-/// What one kind of device does, a line for each control: its name, a run of spaces, its effect.
+/// The controls of one kind of device, one line each: name, spaces, effect.
 struct ControlGroup {
     DeviceKind device;
     std::vector<std::string> lines;
 };
 
-/// Actions that leave the picture of the data as it is: they do not disturb stillness.
+/// Actions that do not change the picture of the data: the motion gate ignores them.
 constexpr std::uint64_t quiet_actions() {
     return bit(Action::shift) | bit(Action::control) | bit(Action::quality_auto) |
            bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::quality_paper) |

@@ -9,7 +9,7 @@
 namespace isochron::interaction {
 namespace {
 
-/// Columns: to the right, up, towards the eye.
+/// The view's axes as columns: to the right, up, towards the eye.
 glm::dmat3 frame_of(const AxisView& view) {
     const glm::dvec3 back = glm::normalize(view.towards_eye);
     const glm::dvec3 right = glm::normalize(glm::cross(view.up, back));
@@ -47,7 +47,7 @@ Similarity seen_from(const AxisView& view, const Similarity& from, const glm::dv
 }
 
 std::size_t axis_view_after(const Similarity& from, const Pose& viewer) {
-    constexpr double kSame = 1e-6; ///< off the cosine of half the angle between rotations
+    constexpr double kSame = 1e-6; ///< tolerance of the cosine of half the angle between rotations
     for (std::size_t i = 0; i < kIsometric; ++i) {
         const double cosine = glm::dot(rotation_to(axis_views()[i], viewer), from.rotation);
         if (std::abs(cosine) > 1 - kSame)

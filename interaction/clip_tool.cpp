@@ -1,4 +1,4 @@
-// A plane that cuts the surfaces.
+// The clip plane: placing, moving and drawing it.
 #include "interaction/clip_tool.h"
 
 #include "interaction/navigation.h"
@@ -13,8 +13,8 @@ namespace isochron::interaction {
 namespace {
 
 constexpr glm::vec4 kClipColor(1.0f, 0.62f, 0.32f, 0.95f);
-constexpr double kBeside = 0.05; ///< of the box: so far beside it the plane can still be pulled
-constexpr double kAlong = 0.02;  ///< squared sine: a ray along the normal pulls nothing
+constexpr double kBeside = 0.05; ///< of the box: the mouse can pull the plane this far outside it
+constexpr double kAlong = 0.02;  ///< squared sine below which a ray runs along the normal
 
 glm::dvec3 ahead_of(const Pose& ray) {
     return glm::normalize(glm::dquat(ray.orientation)) * glm::dvec3(0, 0, -1);
@@ -25,7 +25,7 @@ glm::dvec3 in_data(const Similarity& room_from_physical, const glm::dvec3& p) {
            room_from_physical.scale;
 }
 
-/// Where a ray meets the plane within the data's box, in the room.
+/// The point in the room where a ray meets the plane within the data's box or just outside it.
 std::optional<glm::dvec3> met(const Pose& ray, const ClipPlane& plane, const ToolContext& now) {
     const Similarity& room = now.room_from_physical;
     const glm::dvec3 from(ray.position), way = ahead_of(ray);
@@ -44,7 +44,8 @@ std::optional<glm::dvec3> met(const Pose& ray, const ClipPlane& plane, const Too
     return at;
 }
 
-/// How far along a line the place is that is nearest to a ray.
+/// Distance along a line, from `at`, to its point that is nearest to a ray; none if the ray runs
+/// nearly along the line.
 std::optional<double> nearest_along(const glm::dvec3& at, const glm::dvec3& direction,
                                     const Pose& ray) {
     const glm::dvec3 way = ahead_of(ray), between = glm::dvec3(ray.position) - at;
@@ -54,7 +55,7 @@ std::optional<double> nearest_along(const glm::dvec3& at, const glm::dvec3& dire
     return (glm::dot(between, direction) - cosine * glm::dot(between, way)) / sine2;
 }
 
-/// Unit normal of the planes in which the box's axis does not change.
+/// Unit normal of the faces at the two ends of one axis of the box.
 glm::dvec3 across(int axis, const DataFrame& data) {
     const glm::dmat4& box = data.physical_from_box;
     return glm::normalize(
@@ -69,7 +70,7 @@ void ClipTool::move_with(const ToolHand& hand, const ToolContext& now, Commands&
     if (!held_)
         return;
     const Similarity& room = now.room_from_physical;
-    // The plane as if it were a thing in the room that the hand carries.
+    // Treats the plane as a thing in the room that the hand carries.
     const Similarity before{transform(room, held_->plane.point), {1, 0, 0, 0}, 1.0};
     const Similarity after = carried(before, held_->hand, *hand.ray);
     ClipPlane plane = held_->plane;
@@ -152,7 +153,7 @@ ClipPlane snapped_next(const ClipPlane& plane, const DataFrame& data) {
 
 std::vector<glm::dvec3> outline(const ClipPlane& plane, const DataFrame& data) {
     std::vector<glm::dvec3> corners;
-    // The twelve edges of the box, each met once.
+    // The corners are where the plane crosses the twelve edges of the box.
     for (int axis = 0; axis < 3; ++axis)
         for (int edge = 0; edge < 4; ++edge) {
             glm::dvec3 from(0.0), to;

@@ -1,13 +1,14 @@
-// A plane that cuts the surfaces, so that one sees what is inside.
+// The clip plane: cuts the surfaces open to show their inside.
 #pragma once
 
 #include "interaction/tool.h"
 
 namespace isochron::interaction {
 
-/// Where there is no plane, a chosen place lays one through it that faces the viewer. Else a hand
-/// that closes holds the plane: it moves and turns with it; the mouse pulls it along its normal by
-/// where its ray meets it.
+/// While no plane is shown, choosing a place on a surface lays a plane through it, across the ray;
+/// the side towards the hand is cut away. While one is shown, a hand whose button is down holds it:
+/// the plane moves and turns with the hand. The mouse pulls the plane along its normal, at the
+/// point where the mouse's ray hit it.
 class ClipTool final : public Tool {
   public:
     ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) override;
@@ -18,10 +19,10 @@ class ClipTool final : public Tool {
         Pose hand;
         ClipPlane plane;
     };
-    /// Room distances along the plane's normal.
+    /// The plane as it was when the mouse's button went down, and where the ray hit it.
     struct Pulled {
         ClipPlane plane;
-        glm::dvec3 at, normal; ///< of the place that is pulled, in the room
+        glm::dvec3 at, normal; ///< the point that was hit and the plane's normal, in the room
     };
     void move_with(const ToolHand& hand, const ToolContext& now, Commands& commands);
     void pull_with(const ToolHand& hand, const ToolContext& now, Commands& commands);
@@ -30,18 +31,19 @@ class ClipTool final : public Tool {
     std::optional<Pulled> pulled_;
 };
 
-/// Through the middle of the data, across one of its axes; the part towards its higher end is cut
-/// away. Of a plane that lies across that axis already, the other part. @param axis 0 to 2
+/// The plane turned across one of the data's axes. It keeps its point; a plane that is not shown
+/// goes through the middle of the data. It cuts away the part towards the axis's higher end; a
+/// plane that already did so cuts away the other part. @param axis 0 to 2
 ClipPlane snapped(const ClipPlane& plane, int axis, const DataFrame& data);
 
-/// Across the axis after the one that it lies across; the first one where it lies across none.
+/// `snapped` across the axis after the plane's current one; across the first if it has none.
 ClipPlane snapped_next(const ClipPlane& plane, const DataFrame& data);
 
 /// Its outline on the data's box.
 ToolDrawing draw_clip(const ToolState& state, const DataFrame& data);
 
-/// Where a plane cuts the data's box: the corners in order around, physical space; none where it
-/// does not.
+/// The polygon in which a plane cuts the data's box: its corners in order, in physical space; empty
+/// if they do not meet.
 std::vector<glm::dvec3> outline(const ClipPlane& plane, const DataFrame& data);
 
 } // namespace isochron::interaction

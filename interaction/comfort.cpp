@@ -1,4 +1,4 @@
-// What eases a viewer.
+// Computes vignette and fade from motion and tracking.
 #include "interaction/comfort.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLongestFade = 0.1; ///< [s] a stall must not darken the picture at once
 
-/// Moves towards `wanted` at the pace of a fade.
+/// `value` moved towards `wanted`, at a rate of 1 per `fade`.
 double approached(double value, double wanted, double seconds, Seconds fade) {
     const double step = fade.count() > 0 ? seconds / fade.count() : 1.0;
     return std::clamp(wanted, value - step, value + step);
@@ -26,12 +26,12 @@ double ramp(double value, double from, double to) {
 
 double Comfort::wanted_vignette(const glm::dvec3& head, const Similarity& volume,
                                 double seconds) const {
-    // A leap, such as a reset, is over within its frame; there is nothing to ease.
+    // A leap, such as a reset, lasts one frame only, so the vignette hardly starts to close.
     if (!options_.vignette || seconds <= 0)
         return 0;
     const glm::dquat turn = volume.rotation * glm::conjugate(before_.rotation);
     const double angle = 2 * std::acos(std::clamp(std::abs(turn.w), 0.0, 1.0));
-    // Where the viewer's place in the data was, and is.
+    // The place in the data where the head is: where it was before the volume moved, and is now.
     const glm::dvec3 in_data =
         glm::conjugate(before_.rotation) * (head - before_.translation) / before_.scale;
     const glm::dvec3 now = volume.translation + volume.scale * (volume.rotation * in_data);

@@ -1,4 +1,4 @@
-// What eases a viewer: how dark the picture is while tracking is lost, how narrow while flying.
+// The viewer's comfort: darkens the picture while tracking is lost, narrows it while flying.
 #pragma once
 
 #include "interaction/pose.h"
@@ -7,32 +7,33 @@
 namespace isochron::interaction {
 
 struct ComfortOptions {
-    bool vignette = false;         ///< for pictures that the head carries
-    double vignette_speed = 0.5;   ///< [m/s] of the volume past the viewer from which it closes
-    double vignette_full = 2.0;    ///< [m/s] at which it is closed
-    double vignette_turn = 0.5;    ///< [rad/s] and
-    double vignette_turn_full = 2; ///< [rad/s] for turning
-    Seconds vignette_fade{0.15};   ///< to close or open all the way
+    bool vignette = false;         ///< meant for head-mounted displays
+    double vignette_speed = 0.5;   ///< [m/s] of the volume past the viewer: starts to close
+    double vignette_full = 2.0;    ///< [m/s] closed
+    double vignette_turn = 0.5;    ///< [rad/s] of the volume's turning: starts to close
+    double vignette_turn_full = 2; ///< [rad/s] closed
+    Seconds vignette_fade{0.15};   ///< time to close or open all the way
     bool fade_when_lost = true;
-    /// [m] from between the eyes: what is nearer than the first is not drawn, beyond the second
-    /// all; both 0: all, at any distance.
+    /// [m] from the point between the eyes: what is nearer than `near_gone` is not drawn, what is
+    /// beyond `near_whole` is drawn whole; it fades between them. Both 0: everything is drawn.
     float near_gone = 0, near_whole = 0;
-    Seconds lost_fade{0.5}; ///< from the full picture to darkness, once the head is lost
+    Seconds lost_fade{0.5}; ///< time from the full picture to black, once the head is lost
     bool operator==(const ComfortOptions&) const = default;
 };
 
-/// What the drawing needs: each from 0, as if there were none, to 1.
+/// Strengths for the renderer, each from 0 (no effect) to 1.
 struct ComfortState {
     double fade = 0;     ///< of the whole picture towards black
     double vignette = 0; ///< of the field of view
     bool operator==(const ComfortState&) const = default;
 };
 
-/// Pure function of the inputs and navigations that it was given: a replay shows the same.
+/// Depends only on the inputs and similarities that it was given, so a replay shows the same.
 class Comfort {
   public:
     explicit Comfort(const ComfortOptions& options) : options_(options) {}
-    /// One frame. The volume's motion past the head counts, whatever moved it; not the head's own.
+    /// Advances by one frame. The vignette follows the volume's motion past the head, whatever
+    /// moved the volume; the head's own motion does not count.
     ComfortState update(const InputState& input, const Similarity& room_from_physical);
 
   private:

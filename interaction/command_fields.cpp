@@ -4,7 +4,8 @@
 namespace isochron::interaction {
 namespace {
 
-/// How a later field and an earlier one become one.
+// `combine` merges a later value of a field into an earlier one.
+
 template <class T>
 void combine(std::optional<T>& into, const std::optional<T>& later) {
     if (later)
@@ -21,7 +22,7 @@ void combine(std::vector<T>& into, const std::vector<T>& later) {
 } // namespace
 
 void merge(Commands& into, const Commands& later) {
-    // A list that comes later has its isovalues itself.
+    // A later list has its own isovalues, and an isovalue belonged to the surface picked before.
     if (later.isosurfaces || later.picked)
         into.isovalue.reset();
     each_field([](const Field&, auto& a, const auto& b) { combine(a, b); }, into, later);

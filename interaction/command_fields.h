@@ -1,4 +1,4 @@
-// The fields of commands, said once: their keys in recordings and what they may hold.
+// The list of all fields of commands: their keys in recordings and the values they may have.
 //
 // A new field is a member of Commands and one line here. Merging, JSON, the check for finite
 // numbers, the comparison of replays, ExplorerState::apply and the random recordings of the tests
@@ -21,14 +21,14 @@ inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
 inline constexpr std::size_t kLongestText = 256; ///< [byte]
 inline constexpr std::size_t kMostEvents = 64;   ///< stamps, or haptic pulses, of one frame
 
-/// What holds of a field, whatever record it is in.
+/// The properties of a field, which are the same in every record that has it.
 struct Field {
     const char* key;
-    double low = -kAnyNumber, high = kAnyNumber; ///< of a number, or of each number of several
+    double low = -kAnyNumber, high = kAnyNumber; ///< range of a number, or of each number of a list
     std::size_t least = 0, most = kLongestText;  ///< items of a list, or bytes of a text
-    const char* old_key = nullptr;               ///< what recordings of older versions say
-    bool undone = true;                          ///< changes of a setting can be taken back
-    bool dragged = false; ///< changes that follow one another closely are one, of a setting
+    const char* old_key = nullptr;               ///< its key in recordings of older versions
+    bool undone = true;                          ///< for a setting: undo takes its changes back
+    bool dragged = false; ///< for a setting: undo joins changes that follow one another closely
 };
 
 template <class T, class Record>
@@ -101,8 +101,8 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{.key = "places", .most = kMostRulerPlaces}, r.places...);
 }
 
-/// What a session keeps, and commands change: members of the same names in Commands and in the
-/// records of those who keep them.
+/// The settings: what a session keeps and commands change. Commands and the records that keep
+/// settings have members of the same names.
 template <class Visit, class... Records>
 void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces, .dragged = true},
@@ -131,7 +131,7 @@ void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "leaving", .undone = false}, r.leaving...);
 }
 
-/// The settings, the isovalue of the picked surface, and what happens once.
+/// The settings, the isovalue of the picked surface, and the commands that happen once.
 template <class Visit, Of<Commands>... Records>
 void each_field(Visit&& visit, Records&... r) {
     each_setting(visit, r...);

@@ -1,4 +1,4 @@
-// What input led to in one frame: the commands that a recording stores and a replay obeys.
+// Commands: what input led to in one frame. Recordings store them, replays obey them.
 #pragma once
 
 #include "interaction/enum_names.h"
@@ -24,8 +24,8 @@ inline constexpr std::array<std::string_view, 4> kNames<QualityMode>{"auto", "fa
 inline constexpr double kSlowest = 1.0 / 64.0, kFastest = 64.0; ///< playback speeds
 inline constexpr float kWidestEyes = 0.1f;                      ///< [m]
 
-/// How time plays. Speed is steps' physical time per second, as a factor of the base speed that
-/// plays the whole series in 10 s.
+/// How time plays. `speed` is a factor of the base speed, at which the whole series takes 10 s; it
+/// counts physical time, not steps.
 struct PlaybackState {
     bool playing = false;
     bool reverse = false;
@@ -52,11 +52,11 @@ struct Isosurface {
     bool operator==(const Isosurface&) const = default;
 };
 
-/// What the colors on the surfaces say.
+/// What the colors on the surfaces show.
 enum class ColorBy : std::uint8_t {
     surface,       ///< which surface it is
     value,         ///< the second array that the index carries
-    first_crossing ///< when a surface of this isovalue first came by
+    first_crossing ///< when a surface of this isovalue first crossed the place
 };
 template <>
 inline constexpr std::array<std::string_view, 3> kNames<ColorBy>{"surface", "value",
@@ -65,7 +65,7 @@ inline constexpr std::array<std::string_view, 3> kNames<ColorBy>{"surface", "val
 struct Coloring {
     ColorBy by = ColorBy::surface;
     std::string map = "lagoon"; ///< a color map's name
-    /// Values at the ends of the map, ascending; all that occur in the series when there is none.
+    /// Values at the ends of the map, ascending; if none, the range of the whole series.
     std::optional<std::array<double, 2>> range;
     bool operator==(const Coloring&) const = default;
 };
@@ -73,14 +73,14 @@ struct Coloring {
 /// The panel that stands in the room.
 struct RoomPanel {
     bool shown = false;
-    Pose pose; ///< of its middle: +X to its right, +Y up, +Z towards who reads it
+    Pose pose; ///< of its middle: +X to its right, +Y up, +Z towards the reader
     bool operator==(const RoomPanel&) const = default;
 };
 
-/// A place in the data that somebody picked, and what is there.
+/// A place in the data that the user picked, and the value there.
 struct MarkedPoint {
     glm::dvec3 position{0.0}; ///< physical space
-    std::uint32_t step = 0;   ///< at which it was picked
+    std::uint32_t step = 0;   ///< shown when it was picked
     double value = 0;         ///< of the data there
     bool operator==(const MarkedPoint&) const = default;
 };
@@ -90,7 +90,7 @@ struct Mark {
     bool operator==(const Mark&) const = default;
 };
 
-/// What a hand's button does.
+/// The tools: what a hand's button does.
 enum class ToolKind : std::uint8_t { grab, pick, clip, ruler };
 template <>
 inline constexpr std::array<std::string_view, 4> kNames<ToolKind>{"grab", "pick", "clip", "ruler"};
@@ -106,7 +106,7 @@ struct Tools {
 struct ClipPlane {
     bool shown = false;
     glm::dvec3 point{0.0};            ///< on it
-    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit; towards what is cut away
+    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit; points to the side that is cut away
     bool operator==(const ClipPlane&) const = default;
 };
 
@@ -117,11 +117,11 @@ struct Ruler {
     bool operator==(const Ruler&) const = default;
 };
 
-/// A buzz for a hand that holds a device which can.
+/// A vibration for a hand whose device can vibrate.
 struct HapticPulse {
     std::string hand = "wand"; ///< name of the device
     double seconds = 0;        ///< 0 to kLongestPulse
-    float amplitude = 0;       ///< 0 to 1, the strongest that the device can
+    float amplitude = 0;       ///< 0 to 1; 1 is the device's strongest
     bool operator==(const HapticPulse&) const = default;
 };
 inline constexpr double kLongestPulse = 1.0; ///< [s]
@@ -132,8 +132,8 @@ struct Commands {
     std::optional<std::uint32_t> picked; ///< the surface that `isovalue` moves, counted from 0
     std::optional<double> isovalue;
     std::optional<std::uint32_t> step;
-    std::optional<std::uint32_t> steps; ///< that the series has from now on; 0: all there are
-    std::optional<bool> follow;         ///< the last step is shown as soon as there is a new one
+    std::optional<std::uint32_t> steps; ///< number of steps from now on; 0: all that the index has
+    std::optional<bool> follow;         ///< show the last step whenever a new one arrives
     std::optional<PlaybackState> playback;
     std::optional<Similarity> room_from_physical; ///< navigation's result
     std::optional<QualityMode> quality;
@@ -150,18 +150,18 @@ struct Commands {
     std::optional<ClipPlane> clip;
     std::optional<Ruler> ruler;
     std::optional<bool> orthographic; ///< desktop screens show the data in parallel projection
-    std::optional<bool> leaving;      ///< the user is asked whether to leave
+    std::optional<bool> leaving;      ///< the program asks the user whether to quit
     bool screenshot = false;
     bool quit = false;
-    bool undo = false; ///< the settings of this frame take back those of the newest change
-    bool redo = false; ///< or bring back what was taken back last
+    bool undo = false; ///< the settings in these commands undo the newest change
+    bool redo = false; ///< the settings in these commands redo the change that was undone last
     std::vector<std::string> stamps;  ///< named moments of a recording
-    std::vector<HapticPulse> haptics; ///< to be played now, by whatever backend has the devices
+    std::vector<HapticPulse> haptics; ///< to be played now by the backend that has the devices
     bool operator==(const Commands&) const = default;
     bool empty() const { return *this == Commands{}; }
 };
 
-// Both go by the list of fields, and are defined beside it, in command_fields.cpp.
+// Both use the list of fields and are defined beside it, in command_fields.cpp.
 
 /// Fields set in `later` win; stamps and haptics are appended.
 void merge(Commands& into, const Commands& later);

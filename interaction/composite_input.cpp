@@ -1,4 +1,4 @@
-// Several sources of input as one.
+// Combines several input sources into one.
 #include "interaction/composite_input.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ DeviceState merged(const DeviceState& first, const DeviceState& second) {
     DeviceState result = first;
     if (!first.pose && second.pose) {
         result.pose = second.pose;
-        // A device without a pose of its own, such as buttons, has lost nothing.
+        // A device that never has a pose, such as buttons, has lost nothing.
         if (first.pose_valid) {
             result.pose_valid = second.pose_valid;
             result.pose_lost = second.pose_lost;

@@ -1,4 +1,4 @@
-// Several sources of input as one.
+// Combines several input sources into one.
 #pragma once
 
 #include "interaction/tracked_input.h"
@@ -7,13 +7,14 @@
 
 namespace isochron::interaction {
 
-/// Two sources' states of one device. The first one owns the pose: while it has none at all, the
-/// second one's stands in and counts as lost. Buttons are down when they are down in either;
-/// valuators are the first one's where they are off rest.
+/// Combines what two sources say of one device. The pose is the first source's; if that has none,
+/// it is the second one's, which counts as lost if the first source tracks the device but has had
+/// no pose yet. A button is down if it is down in either. A valuator is the first source's unless
+/// that is at rest.
 DeviceState merged(const DeviceState& first, const DeviceState& second);
 
-/// Every device that any source states, in the order of the sources; a device of several sources is
-/// merged in that order.
+/// States every device of every source, in the order of the sources. A device that several sources
+/// state is merged in that order.
 class CompositeInput final : public TrackedInput {
   public:
     void add(std::unique_ptr<TrackedInput> source) { sources_.push_back(std::move(source)); }

@@ -1,4 +1,4 @@
-// What a session is at, for those who make commands that change it.
+// The session's current state, from which controls and tools make commands.
 #pragma once
 
 #include "interaction/commands.h"
@@ -43,7 +43,7 @@ struct DataFrame {
     }
 };
 
-/// What commands are relative to; owned by the session, passed in every frame.
+/// The state that new commands start from; owned by the session, passed in every frame.
 struct ControlContext {
     double isovalue = 0;
     double low = 0, high = 1; ///< value range of the data
@@ -53,31 +53,31 @@ struct ControlContext {
     bool follow = false;
     Similarity room_from_physical;
     Similarity home;       ///< what reset returns to
-    glm::dvec3 pivot{0.0}; ///< center of the volume, physical space: what orbit turns about
+    glm::dvec3 pivot{0.0}; ///< center of the volume, physical space: orbit turns about it
     QualityMode quality = QualityMode::automatic;
     float eye_separation = 0.063f;
     std::string stereo;
     bool panel = true;
     RoomPanel room_panel;
     float panel_distance = 0.65f; ///< [m] from the eyes to the room's panel, where it appears
-    /// Where it appears for a head that mouse and keyboard play, in its frame; nothing: beside.
+    /// Where the panel appears for an emulated head, in the head's frame; nothing: `beside`.
     std::optional<Pose> panel_place;
     bool grid = false;
     std::vector<Viewpoint> const* views = nullptr; ///< saved so far; may be null
     bool bounding_box = true;
-    std::uint32_t isosurfaces = 1, picked = 0; ///< how many there are, and the one that is moved
+    std::uint32_t isosurfaces = 1, picked = 0; ///< their number, and the one the isovalue moves
     Coloring coloring;
-    bool has_second_array = false;                          ///< something to color by
+    bool has_second_array = false;                          ///< the index has one to color by
     std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
     Tools tools;
     ToolState state;
     DataFrame data;
-    SurfaceFinder find_surface; ///< among what is shown; may be empty
+    SurfaceFinder find_surface; ///< on the surfaces that are shown; may be empty
     bool orthographic = false;
-    const Commands* start = nullptr; ///< what leads back to how the data were seen at the start
-    bool leaving = false;            ///< the user is being asked
-    const Commands* undo = nullptr;  ///< what takes the newest change back; null: nothing to undo
-    const Commands* redo = nullptr;
+    const Commands* start = nullptr; ///< commands that restore the view of the start; may be null
+    bool leaving = false;            ///< the program is asking whether to quit
+    const Commands* undo = nullptr;  ///< commands that undo the newest change; null: none
+    const Commands* redo = nullptr;  ///< commands that redo what was undone last; null: none
 };
 
 } // namespace isochron::interaction

@@ -17,10 +17,10 @@ namespace isochron::interaction {
 namespace {
 
 constexpr double kLongestFrame = 0.1;    ///< [s] for rates: a stall must not become a leap
-constexpr double kLongestPlayback = 1.0; ///< [s] time plays on through slow frames
+constexpr double kLongestPlayback = 1.0; ///< [s] that time may play on in one slow frame
 constexpr double kRangeSeconds = 4.0;    ///< isovalue: whole range at full deflection
 constexpr double kCoarse = 0.01;         ///< isovalue per key press, of the range
-constexpr double kFine = 0.001;          ///< and with Shift or by the wheel
+constexpr double kFine = 0.001;          ///< the same with Shift, or per notch of the wheel
 constexpr float kEyeStep = 0.001f;       ///< [m]
 constexpr Seconds kRepeatDelay{0.4};     ///< a held key repeats after this
 constexpr Seconds kRepeatInterval{0.05}; ///< and then this often
@@ -46,7 +46,7 @@ struct KeyRepeat {
     }
 };
 
-/// The next thing to color by. A range belongs to what is colored by, so it goes.
+/// The next quantity to color by. The range belonged to the previous one, so it is dropped.
 Coloring after(const Coloring& coloring, bool has_second_array) {
     const auto next =
         static_cast<ColorBy>((static_cast<std::size_t>(coloring.by) + 1) % kNames<ColorBy>.size());
@@ -68,7 +68,7 @@ struct Controls::State {
                     double seconds) {
         const bool shift = now.key(Action::shift);
         const double range = context.high - context.low;
-        // Recordings of older versions move the wand's valuator with the same keys.
+        // In recordings of older versions the same keys also move the wand's valuator.
         const bool moved = now.wand_rate(WandValuator::isovalue) != 0;
         const auto down = [&](Action key, Action page) {
             return now.key(key) || (now.key(page) && !moved);
@@ -90,7 +90,7 @@ struct Controls::State {
         return std::clamp(from + change * range, context.low, context.high);
     }
 
-    /// Sets `step` and `playback` where they change.
+    /// Sets `step`, `playback` and `follow` if they change.
     void play(const Reading& now, const ControlContext& context, Seconds time, Seconds elapsed,
               Commands& commands) {
         static const std::vector<double> kNone;
@@ -134,7 +134,8 @@ struct Controls::State {
             commands.playback = state;
     }
 
-    /// Where the volume is in this frame, under the next free name; the oldest of too many goes.
+    /// Saves the volume's place in this frame under the next free name; drops the oldest view if
+    /// there are `kMostViews`.
     static void save_view(const ControlContext& context, Commands& commands) {
         std::vector<Viewpoint> views = context.views ? *context.views : std::vector<Viewpoint>{};
         std::size_t number = 1;
@@ -186,7 +187,7 @@ struct Controls::State {
             now.pressed(GamepadButton::back))
             commands.room_panel = called(context.room_panel, now.viewer(), context.panel_distance,
                                          context.panel_place);
-        // At arm's length it is read in perspective alone.
+        // The panel at arm's length can only be read in perspective projection.
         if (commands.room_panel && commands.room_panel->shown && context.orthographic)
             commands.orthographic = false;
         if (now.pressed(Action::grid))
@@ -198,8 +199,8 @@ struct Controls::State {
         commands.screenshot = now.pressed(Action::screenshot);
     }
 
-    /// Escape leaves the tool that is no hand's first one, then asks. Who types the answer before
-    /// the next frame has it heard.
+    /// Escape goes back to the first tools, or else asks whether to quit; Enter answers yes. An
+    /// answer in the same frame as the question counts.
     static void leave(const Reading& now, const ControlContext& context, Commands& commands) {
         const bool asks = now.pressed(Action::quit) && context.tools == Tools{};
         if (now.pressed(Action::pick) && context.leaving != asks)
@@ -212,7 +213,7 @@ struct Controls::State {
             commands.tools = Tools{};
     }
 
-    /// Keys choose for the mouse and the wand, a button for the wand alone.
+    /// Keys choose the tool of mouse and wand; the wand's button chooses for the wand alone.
     static void choose_tools(const Reading& now, const ControlContext& context,
                              Commands& commands) {
         Tools tools = context.tools;
@@ -241,7 +242,7 @@ struct Controls::State {
         }
     }
 
-    /// Over all else that happens in the frame.
+    /// Undo and redo override all other commands of the frame.
     static void take_back(const Reading& now, const ControlContext& context, Commands& commands) {
         const auto obey = [&](Action action, WandButton button, const Commands* change) {
             if (change && (now.pressed(action) || now.pressed(button)))

@@ -12,21 +12,22 @@
 
 namespace isochron::interaction {
 
-/// Pure function of the device states and contexts it was given: the same sequence, the same
-/// commands.
+/// Depends only on the device states and contexts that it was given: the same sequence gives the
+/// same commands.
 class Controls {
   public:
     Controls();
     ~Controls();
-    /// One frame. Includes the step that playback has reached in physical time.
+    /// Advances by one frame. The commands include the step that playback has reached.
     Commands update(const InputState& input, const ControlContext& context);
 
-    /// What tools found in that frame among what is shown: devices alone do not explain it.
+    /// The part of the last frame's commands that depends on the surfaces shown, not on devices
+    /// alone (places that tools found). `update` does not return it.
     const Commands& found() const;
-    /// What tools had to say in that frame, for people.
+    /// Messages of the tools in the last frame, for people.
     const std::vector<std::string>& notes() const;
 
-    /// What all devices do, for `--help` and the panel.
+    /// The controls of all devices, for `--help` and the panel.
     static std::vector<ControlGroup> documentation();
 
   private:

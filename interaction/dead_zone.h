@@ -1,4 +1,4 @@
-// Sticks that are let go do not quite return to the middle.
+// The dead zone of sticks, which do not quite return to the middle when they are let go.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace isochron::interaction {
 
-/// 0 within `zone` of the middle, from there steadily to 1 (or -1) at full deflection.
+/// 0 within `zone` of the middle, rising linearly from there to 1 (or -1) at full deflection.
 /// @param zone 0 to below 1
 inline float past_dead_zone(float value, float zone) {
     const float size = std::min(std::abs(value), 1.0f);

@@ -16,18 +16,18 @@ namespace {
 constexpr double kLongestStep = 0.1;     ///< [s] a stall must not become a leap
 constexpr float kSteepest = 1.5f;        ///< [rad] of looking up or down
 constexpr glm::vec2 kHand{0.2f, -0.25f}; ///< [m] the wand, right of and below the head
-/// [m] likewise while it points at a panel, which it must not be beside: from there the ray meets all
-/// of a panel that the eyes can read.
+/// [m] the wand while it points at a panel, in the head's frame (+x right, +y up, -z ahead): near
+/// the eyes, so that its ray meets every part of a panel that the eyes can read.
 constexpr glm::vec3 kAtTheEyes{0.08f, -0.12f, -0.08f};
 constexpr float kAimDistance = 1.5f; ///< [m] from the head, where cursor and wand ray meet
 constexpr int kMostTaps = 16;        ///< remembered while frames are slow
 
 } // namespace
 
-/// A key's state as polls show it. Every press is shown as one rising edge, even where several fall
-/// between two polls.
+/// A key's state as polls show it. Every press is shown as one rising edge, even if several presses
+/// happen between two polls.
 struct KeySwitch {
-    int held = 0; ///< keys bound to it that are down
+    int held = 0; ///< number of keys bound to it that are down
     int taps = 0; ///< presses not shown yet
     bool shown = false;
 
@@ -48,7 +48,7 @@ struct KeySwitch {
     }
 };
 
-/// What a key does while those modifiers are held.
+/// What a key does while the modifiers of `chord` are held.
 std::vector<Action> actions_of(Key key, Chord chord) {
     std::vector<Action> plain, exact;
     for (const KeyLine& line : key_lines())
@@ -93,7 +93,7 @@ struct DesktopEmulation::State {
     EyeRay eye;
     RoomPanel panel;
     PanelSize panel_size;
-    bool presses_panel = false; ///< with the left button, since it went down there
+    bool presses_panel = false; ///< the left button went down on the panel and still is
     bool tapped_panel = false;
     EmulatedGamepad gamepad;
 
@@ -192,7 +192,7 @@ struct DesktopEmulation::State {
                                          glm::angleAxis(pitch, glm::vec3(1, 0, 0)))};
     }
 
-    /// Where the cursor is on the panel's plane.
+    /// The cursor's place on the panel's plane.
     std::optional<PanelHit> on_panel() const {
         if (!panel.shown || !cursor)
             return std::nullopt;
@@ -203,7 +203,7 @@ struct DesktopEmulation::State {
         return hit && hit->inside();
     }
 
-    /// Towards what the cursor is over, in the head's own frame, of length 1.
+    /// Unit direction from the head through the cursor, in the head's own frame.
     glm::vec3 cursor_ray() const {
         glm::vec2 aim(0.0f);
         if (cursor) {
@@ -217,7 +217,7 @@ struct DesktopEmulation::State {
         return glm::normalize(glm::vec3(aim, -1.0f));
     }
 
-    /// The eye's ray under the cursor, where the windows tell.
+    /// The eye's ray through the cursor, if the windows know it.
     std::optional<Pose> pointer() const {
         return eye && cursor ? eye(head(), *cursor) : std::nullopt;
     }
@@ -229,12 +229,13 @@ struct DesktopEmulation::State {
         return {position, glm::normalize(head().orientation * turn)};
     }
 
-    /// Rests at the right below the head; its ray meets the cursor's at `kAimDistance`, or on the
-    /// panel.
+    /// The wand is to the right of and below the head, or near the eyes while it points at the
+    /// panel. Its ray meets the cursor's ray at `kAimDistance`, or on the panel.
     Pose wand(const Pose& head) const {
         const auto hit = on_panel();
         const bool on = hit && (presses_panel || hit->inside());
-        // What it holds must not leap.
+        // While it grabs or flies, the wand stays in its usual place, so that the volume does not
+        // leap.
         const bool points = on && !shown(Action::grab) && !shown(Action::fly);
         const glm::vec3 rest = points ? kAtTheEyes : glm::vec3(kHand, -options.wand_reach);
         const Pose ray = aim();

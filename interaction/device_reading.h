@@ -1,4 +1,4 @@
-// One frame's devices, read safely: absent ones are at rest, and nothing is ever NaN.
+// Safe reading of one frame's devices: absent devices are at rest, and no value is NaN.
 #pragma once
 
 #include "interaction/actions.h"
@@ -9,7 +9,7 @@
 
 namespace isochron::interaction {
 
-/// Which buttons were down in a frame: what tells in the next one which of them are pressed.
+/// The buttons that were down in a frame; the next frame compares with them to find presses.
 struct ButtonLevels {
     std::uint64_t keys = 0, gamepad = 0, wand = 0, other = 0, mouse = 0;
 };
@@ -18,14 +18,14 @@ struct ButtonLevels {
 struct Reading {
     const DeviceState* head;
     const DeviceState* wand;
-    const DeviceState* other; ///< `wand2`, the other hand's
+    const DeviceState* other; ///< `wand2`, of the other hand
     const DeviceState* mouse;
     const DeviceState* keys;
     const DeviceState* gamepad;
-    const DeviceState* pointer; ///< the eye's ray under the cursor
-    ButtonLevels before;        ///< the frame before
+    const DeviceState* pointer; ///< the eye's ray through the cursor
+    ButtonLevels before;        ///< of the frame before
 
-    /// @param levels of the frame before, for those who ask what is pressed and released
+    /// @param levels of the frame before; needed by `pressed`
     explicit Reading(const InputState& input, const ButtonLevels& levels = {})
         : head(input.find("head")), wand(input.find("wand")), other(input.find("wand2")),
           mouse(input.find("mouse")), keys(input.find("keys")), gamepad(input.find("gamepad")),
@@ -61,18 +61,18 @@ struct Reading {
         return wand_button(which) && !(before.wand & bit(which));
     }
 
-    /// Where a hand is that is tracked; a pose that is only held moves nothing.
+    /// The pose of a hand while it is tracked; none for a pose that is only held.
     static std::optional<Pose> hand(const DeviceState* device) {
         return device && device->pose && device->pose_valid && is_finite(*device->pose)
                    ? device->pose
                    : std::nullopt;
     }
-    /// The ray that picks: the eye's under the cursor, or else the wand's.
+    /// The ray that picks: the eye's ray through the cursor, or else the wand's.
     std::optional<Pose> picking_ray() const {
         const auto eye = hand(pointer);
         return eye ? eye : hand(wand);
     }
-    /// A head pose that is only held still tells where the viewer is.
+    /// The head's pose, tracked or held; without one, standing at the room's origin.
     Pose viewer() const {
         return head && head->pose ? *head->pose : Pose{{0.0f, 1.6f, 0.0f}, {1.0f, 0, 0, 0}};
     }

@@ -1,6 +1,6 @@
-// What the values of enumerations are called in files, on command lines and in panels.
+// Names of enumeration values, as used in files, on command lines and in panels.
 //
-// A table stands beside its enumeration, in the order of the values:
+// The table of names is beside its enumeration, in the order of the values:
 //
 //     template <>
 //     inline constexpr std::array<std::string_view, 2> kNames<Hand>{"left", "right"};

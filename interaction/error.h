@@ -1,4 +1,4 @@
-// What the interaction floor throws.
+// The exception type of the interaction floor.
 #pragma once
 
 #include <stdexcept>

@@ -1,10 +1,10 @@
-// The volume in one hand, or between two.
+// The grab tool: one hand, or two, hold the volume.
 #include "interaction/grab_tool.h"
 
 namespace isochron::interaction {
 
-/// A lost hand, another number of hands, or anything else that moves the volume, only opens and
-/// closes the clutch.
+/// If the number of hands changes or anything else moves the volume, the grab begins anew from the
+/// volume's present place.
 Similarity GrabTool::held(const Pose& first, const std::optional<Span>& both,
                           const ToolContext& now) {
     const Similarity& volume = now.room_from_physical;
@@ -14,7 +14,8 @@ Similarity GrabTool::held(const Pose& first, const std::optional<Span>& both,
     if (!goes_on) {
         grab_ = Grab{first, both, both, {1, 0, 0, 0}, volume, volume};
     } else if (both) {
-        // From frame to frame, so that hands may turn by more than half a circle.
+        // The turn is summed from frame to frame, so that hands may turn by more than half a
+        // circle.
         grab_->turn = glm::normalize(rotation_onto(*grab_->newest, *both) * grab_->turn);
         grab_->newest = both;
         grab_->result = stretched(grab_->held, *grab_->span, *both, grab_->turn, home / kScaleRange,

@@ -1,4 +1,4 @@
-// The volume in one hand, or between two.
+// The grab tool: one hand, or two, hold the volume.
 #pragma once
 
 #include "interaction/navigation.h"
@@ -6,7 +6,8 @@
 
 namespace isochron::interaction {
 
-/// The clutch: the volume follows one hand, or two, as it lay when they closed around it.
+/// Works like a clutch: while the buttons of one or two hands are down, the volume keeps its place
+/// relative to them. Two hands also scale it.
 class GrabTool final : public Tool {
   public:
     ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) override;
@@ -14,11 +15,11 @@ class GrabTool final : public Tool {
   private:
     struct Grab {
         Pose hand;
-        std::optional<Span> span;    ///< between two hands, when they closed
-        std::optional<Span> newest;  ///< and in the last frame
-        glm::dquat turn{1, 0, 0, 0}; ///< of the span since
-        Similarity held;
-        Similarity result; ///< what it led to; anything else moved the volume meanwhile
+        std::optional<Span> span;    ///< between two hands, when the grab began
+        std::optional<Span> newest;  ///< between them in the last frame
+        glm::dquat turn{1, 0, 0, 0}; ///< of the span since the grab began
+        Similarity held;             ///< the volume when the grab began
+        Similarity result;           ///< the last result; differs if anything else moved the volume
     };
     Similarity held(const Pose& first, const std::optional<Span>& both, const ToolContext& now);
 

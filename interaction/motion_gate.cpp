@@ -9,8 +9,8 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr Seconds kWindow{0.1};     ///< over which stillness is judged
-constexpr Seconds kReaction{0.020}; ///< over which a start is noticed; long against tracker noise
+constexpr Seconds kWindow{0.1};     ///< window over which stillness is judged
+constexpr Seconds kReaction{0.020}; ///< shortest window to notice a start despite tracker noise
 
 bool below(const Velocity& speeds, const StillnessLimits& limits, double factor) {
     return glm::length(speeds.linear) <= factor * limits.linear &&

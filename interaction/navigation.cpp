@@ -9,7 +9,7 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr double kShortestSpan = 0.01; ///< [m] hands do not come nearer to each other
+constexpr double kShortestSpan = 0.01; ///< [m] between hands; a shorter span tells no direction
 
 } // namespace
 

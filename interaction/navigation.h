@@ -22,7 +22,7 @@ Similarity moved(const Similarity& from, const glm::dvec3& offset);
 Similarity scaled(const Similarity& from, const glm::dvec3& center, double factor, double low,
                   double high);
 
-inline constexpr double kScaleRange = 1e3; ///< of the volume, either way of its scale at home
+inline constexpr double kScaleRange = 1e3; ///< largest factor between the scale and home's
 
 /// Carried along rigidly by a hand that went from pose `before` to pose `after`.
 Similarity carried(const Similarity& from, const Pose& before, const Pose& after);
@@ -33,10 +33,10 @@ struct Span {
     glm::dvec3 middle() const { return (a + b) / 2.0; }
     glm::dvec3 direction() const { return b - a; }
 };
-/// The shortest rotation that lays one span's direction along another's; none where one is too
-/// short to tell.
+/// The smallest rotation that turns the direction of `from` into the direction of `to`; the
+/// identity if either span is at most 1 cm long.
 glm::dquat rotation_onto(const Span& from, const Span& to);
-/// Turned by `turn` and scaled by the growth of the span, its middle following the span's middle.
+/// Turned by `turn`, scaled by the ratio of the spans' lengths, and moved with the span's middle.
 /// The scale stays within [low, high]; spans shorter than 1 cm count as 1 cm.
 Similarity stretched(const Similarity& from, const Span& before, const Span& after,
                      const glm::dquat& turn, double low, double high);

@@ -1,4 +1,4 @@
-// Mouse, keys, stick and gamepad move the volume.
+// Navigation: mouse, keys, sticks and gamepad move the volume.
 #include "interaction/navigator.h"
 
 #include "interaction/axis_views.h"
@@ -14,14 +14,14 @@ constexpr double kNotch = 1.1;            ///< scale per notch of the wheel
 constexpr double kFlySpeed = 1.0;         ///< [m/s]
 constexpr double kTurnSpeed = 1.2;        ///< [rad/s]
 constexpr double kTurnStep = 0.523598776; ///< [rad] of a snap turn: 30 degrees
-constexpr double kTurnAt = 0.7;           ///< deflection that turns
-constexpr double kTurnAgain = 0.3;        ///< and below which the next one is armed
+constexpr double kTurnAt = 0.7;           ///< deflection above which a snap turn happens
+constexpr double kTurnAgain = 0.3;        ///< deflection below which the next one is armed
 constexpr double kGrowth = 2.0;           ///< scale per second
 constexpr double kTeleportReach = 20.0;   ///< [m] of the wand's ray
-constexpr double kAheadOf = 0.6;          ///< [rad] off the way ahead
+constexpr double kAheadOf = 0.6;          ///< [rad] off the heading that still counts as ahead
 constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  ///< of the room
 
-/// A head that is not finite turns nothing.
+/// Whether the head's pose is finite; otherwise nothing is turned about it.
 bool can_see(const Reading& now) {
     return is_finite(now.viewer());
 }
@@ -82,14 +82,14 @@ Similarity resized(const Reading& now, const ControlContext& context, const Simi
                   context.home.scale / kScaleRange, context.home.scale * kScaleRange);
 }
 
-/// Home as it lies ahead of a viewer who stands at the room's origin, carried to where the viewer
-/// stands and looks now; heights stay.
+/// `home` moved and turned so that it lies to the viewer's present place and heading as it lies to
+/// the room's origin and -Z; heights stay.
 Similarity recentered(const Similarity& home, const Pose& viewer) {
     const glm::dvec3 place(viewer.position.x, 0, viewer.position.z);
     return moved(turned(home, glm::dvec3(0), kUp, heading(viewer)), place);
 }
 
-/// The saved viewpoint after the one at which the volume is; the first one when it is at none.
+/// The saved viewpoint after the current one; the first if the volume is at none of them.
 std::optional<Similarity> next_view(const ControlContext& context) {
     if (!context.views || context.views->empty())
         return std::nullopt;
@@ -103,15 +103,15 @@ bool aims(const Reading& now) {
     return now.key(Action::teleport) || now.wand_button(WandButton::teleport);
 }
 
-/// Who points with a cursor aims along the eye's ray.
+/// The place on the floor under the eye's ray through the cursor, or else under the wand's ray.
 std::optional<glm::dvec3> aimed_at(const Reading& now) {
     const auto eye = Reading::hand(now.pointer);
     const auto ray = eye ? eye : Reading::hand(now.wand);
     return ray ? floor_point(*ray, kTeleportReach) : std::nullopt;
 }
 
-/// Turned about the viewer until the data are ahead, where they would be beside or behind; who
-/// stands in them sees them anyway.
+/// The volume turned about the viewer so that the data are ahead, if they would be beside or behind
+/// the viewer. A viewer who stands in the data, or nearly, sees them anyway.
 Similarity kept_in_sight(const Similarity& volume, const ControlContext& context,
                          const Pose& viewer) {
     glm::dvec3 way = transform(volume, context.pivot) - glm::dvec3(viewer.position);
@@ -132,7 +132,7 @@ std::optional<glm::dvec3> teleport_target(const InputState& input) {
     return aims(now) ? aimed_at(now) : std::nullopt;
 }
 
-/// A place that a button asks for.
+/// The volume's place if a button asks for one: home, recentered, a viewpoint or an axis view.
 std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlContext& context) {
     if (now.pressed(Action::reset) || now.pressed(GamepadButton::x))
         return context.home;
@@ -152,7 +152,7 @@ std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlCon
     return std::nullopt;
 }
 
-/// Snap turns, about the viewer: a valuator turns once and must come back before it turns again.
+/// Snap turns about the viewer. The valuator turns once, and must go back before it turns again.
 Similarity Navigator::stepped(const Reading& now, Similarity volume) {
     const double deflection = now.wand_rate(WandValuator::turn);
     double steps = 0; // to the right
@@ -170,8 +170,8 @@ Similarity Navigator::stepped(const Reading& now, Similarity volume) {
                : turned(volume, glm::dvec3(now.viewer().position), kUp, kTurnStep * steps);
 }
 
-/// While the button is held the wand's ray shows the place; letting go brings the place to the
-/// viewer's feet.
+/// While the button is held, a ray chooses a place on the floor; releasing the button moves that
+/// place to the viewer's feet.
 Similarity Navigator::teleported(const Reading& now, const ControlContext& context,
                                  const Similarity& volume) {
     if (aims(now)) {

@@ -1,5 +1,5 @@
-// Mouse, keys, stick and gamepad move the volume: what navigation comes to in a frame. What hands
-// hold is the grab tool's.
+// Navigation: mouse, keys, sticks and gamepad move the volume. Holding it by hand is the grab
+// tool's work.
 #pragma once
 
 #include "interaction/control_context.h"
@@ -8,17 +8,17 @@
 
 namespace isochron::interaction {
 
-/// Where letting go of the teleport button would lead: what the wand points at on the floor. Empty
-/// while nobody aims there.
+/// The place on the floor to which releasing the teleport button would lead: under the eye's ray
+/// through the cursor, or else under the wand's ray. Empty while the button is up or the ray meets
+/// no floor.
 std::optional<glm::dvec3> teleport_target(const InputState& input);
 
-/// The viewer stays where the tracker says; what flies, turns and teleports is the volume, the
-/// other way. Everything returns a valid similarity whose scale is within `kScaleRange`
-/// of home's.
+/// The viewer stays where the tracker says: to fly, turn or teleport, the volume moves the opposite
+/// way. Results are valid similarities; scaling keeps the scale within `kScaleRange` of home's.
 class Navigator {
   public:
     /// @param seconds since the last frame, for rates
-    /// @param drag_taken the mouse's left drag is somebody else's
+    /// @param drag_taken a tool takes the mouse's left drag
     Similarity update(const Reading& now, const ControlContext& context, double seconds,
                       bool drag_taken);
 

@@ -1,13 +1,13 @@
-// Ownership of the wand's buttons and stick between panel and world.
+// Decides whether the wand's buttons and stick belong to the panel or to the world.
 #include "interaction/panel_pointer.h"
 
 namespace isochron::interaction {
 namespace {
 
 constexpr const char* kWand = "wand";
-constexpr const char* kMouse = "mouse"; ///< whose wheel scrolls where the wand points
+constexpr const char* kMouse = "mouse"; ///< its wheel scrolls the panel where the wand points
 
-/// The button that calls the panel also sends it away, wherever the wand points.
+/// The panel never takes the button that shows and hides it, wherever the wand points.
 constexpr std::uint64_t kTakeable = ~bit(WandButton::room_panel);
 
 } // namespace
@@ -22,12 +22,12 @@ void PanelPointer::update(const InputState& input, const TouchedPanel& touched) 
     const bool dragging = touch_.pressed && (taken_ & bit(WandButton::grab)) != 0;
     const bool holds_world = ((buttons & before) & ~taken_) != 0;
     if (!touched.panel.shown) {
-        touch_ = {}; // a button that it has taken stays taken, or the world would see it pressed
+        touch_ = {}; // buttons stay taken, or the world would see them pressed
     } else if (hand) {
         touch_.hit = hit_of(*hand, touched.panel.pose, touched.size);
         if (!dragging && (holds_world || !touch_.hit || !touch_.hit->inside()))
             touch_.hit.reset();
-    } else if (!dragging) { // a drag outlives a gap in tracking, and nothing begins in one
+    } else if (!dragging) { // in a gap of tracking a drag goes on, and no new one begins
         touch_.hit.reset();
     }
     if (hand && touch_.hit && touch_.hit->inside())
@@ -40,8 +40,8 @@ void PanelPointer::update(const InputState& input, const TouchedPanel& touched) 
         grip_ = Grip{touch_.hit->at, touch_.hit->distance};
     touch_.pressed = pressed;
     if (grip_ && hand) {
-        // The place that was gripped stays on the ray, at its distance. How the panel turns depends
-        // on where it comes to and the other way round: a few rounds settle both.
+        // The gripped place stays on the ray, at its distance. The panel's turn depends on its
+        // position and its position on its turn: a few iterations settle both.
         const glm::vec3 held =
             hand->position + hand->orientation * glm::vec3(0.0f, 0.0f, -grip_->distance);
         Pose pose = touched.panel.pose;

@@ -1,4 +1,4 @@
-// A mark on the surface where a ray meets it.
+// The pick tool: marks the place where a ray meets a surface.
 #include "interaction/pick_tool.h"
 
 namespace isochron::interaction {
@@ -18,7 +18,7 @@ ToolOutcome PickTool::update(std::span<const ToolHand> hands, const ToolContext&
             outcome.commands.haptics.push_back(kFound);
         else
             outcome.note = "no surface there";
-        // A click beside the data leaves nothing where nothing was.
+        // A click beside the surfaces removes the mark; without a mark it gives no command.
         if (found || now.session.state.mark.point)
             outcome.commands.mark = found ? Mark{found->point} : Mark{};
     }

@@ -1,4 +1,4 @@
-// A mark on the surface where a ray meets it.
+// The pick tool: marks the place where a ray meets a surface.
 #pragma once
 
 #include "interaction/tool.h"

@@ -1,4 +1,4 @@
-// Which step is shown as physical time runs.
+// Playback: finds the step to show as physical time runs.
 #include "interaction/playback.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ std::uint32_t step_at(std::span<const double> times, double cursor) {
     return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(after - times.begin(), 1) - 1);
 }
 
-/// Where time enters `step`: at its beginning, or in reverse at its end.
+/// The time at which playback enters `step`: its beginning, or in reverse its end.
 double entry(std::span<const double> times, std::uint32_t step, bool reverse) {
     if (!reverse)
         return times[step] - times.front();

@@ -1,4 +1,4 @@
-// Which step is shown as physical time runs: steps may be unevenly spaced.
+// Playback: finds the step to show as physical time runs; steps may be unevenly spaced.
 #pragma once
 
 #include "interaction/commands.h"
@@ -13,11 +13,11 @@ class Playback {
   public:
     struct Result {
         std::uint32_t step; ///< what to show now
-        bool playing;       ///< false once an end was reached without `loop`
+        bool playing;       ///< false while paused, and once an end is reached without `loop`
     };
-    /// Advances by `elapsed` from where time stands. When `step` is not what this object last
-    /// returned, time continues from that step. Playing that starts at the end it runs towards,
-    /// without `loop`, starts over from the other end. Fewer than two steps never play.
+    /// Advances physical time by `elapsed` at the speed of `state`. If `step` is not the one that
+    /// this object returned last, time continues from `step`. Without `loop`, playing that starts
+    /// at its last step starts over from the other end. Fewer than two steps never play.
     /// @param times physical times of the steps, increasing
     Result advance(std::span<const double> times, std::uint32_t step, const PlaybackState& state,
                    Seconds elapsed);
@@ -28,7 +28,7 @@ class Playback {
     bool was_playing_ = false;
 };
 
-inline constexpr double kRoundSeconds = 10.0; ///< of one whole series at speed 1
+inline constexpr double kRoundSeconds = 10.0; ///< [s] of one whole series at speed 1
 
 /// Physical duration of one round: last minus first time plus one mean step; 0 for one step.
 double period(std::span<const double> times);

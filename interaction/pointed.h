@@ -1,4 +1,4 @@
-// A place on one of the surfaces that are shown.
+// A place on a surface that is shown, and how to find one.
 #pragma once
 
 #include "interaction/commands.h"
@@ -11,11 +11,11 @@ namespace isochron::interaction {
 
 struct Pointed {
     MarkedPoint point;
-    std::size_t surface = 0; ///< of the isosurfaces that are shown, from 0
+    std::size_t surface = 0; ///< number of the isosurface, from 0
     bool operator==(const Pointed&) const = default;
 };
 
-/// The first surface that a ray meets, which starts at the pose and goes along its -Z.
+/// Finds the first surface that a ray meets. The ray starts at the pose and goes along its -Z.
 using SurfaceFinder = std::function<std::optional<Pointed>(const Pose& ray)>;
 
 } // namespace isochron::interaction

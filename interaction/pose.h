@@ -9,7 +9,7 @@
 
 namespace isochron::interaction {
 
-/// Session time, from 0 at the start of a session or recording.
+/// Session time: 0 at the start of a session or recording.
 using Seconds = std::chrono::duration<double>;
 
 /// Rigid pose in the room frame (OpenXR STAGE): right-handed, +Y up, -Z forward, meters.
@@ -19,7 +19,7 @@ struct Pose {
     bool operator==(const Pose&) const = default;
 };
 
-/// Of a posed thing, in the room: linear [m/s] and angular [rad/s, along the axis of turning].
+/// Velocity in the room: linear [m/s] and angular [rad/s, along the axis of turning].
 struct Velocity {
     glm::dvec3 linear{0.0}, angular{0.0};
     bool operator==(const Velocity&) const = default;
@@ -29,7 +29,7 @@ struct Velocity {
 glm::mat4 room_from(const Pose& pose);
 bool is_finite(const Pose& pose);
 bool is_finite(const Velocity& velocity);
-/// Rotation vector [rad] that turns `from` into `to` the short way, in the room.
+/// Rotation vector [rad], at most pi long, that turns `from` into `to`, in the room.
 glm::dvec3 rotation_between(const glm::quat& from, const glm::quat& to);
 
 /// Where the data stands in the room: room = translation + scale * rotation * physical.

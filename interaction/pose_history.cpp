@@ -1,4 +1,4 @@
-// The recent poses of one thing, and what velocity they show.
+// The recent poses of a device, and its velocity estimated from them.
 #include "interaction/pose_history.h"
 
 #include <algorithm>

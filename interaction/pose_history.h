@@ -1,4 +1,4 @@
-// The recent poses of one thing, and what velocity they show.
+// The recent poses of a device, and its velocity estimated from them.
 #pragma once
 
 #include "interaction/pose.h"
@@ -7,19 +7,19 @@
 
 namespace isochron::interaction {
 
-/// Poses of the last moments. Fewer than it takes to tell show no motion.
+/// Keeps the poses of the last moments. The velocity is 0 while they span less than `shortest`.
 class PoseHistory {
   public:
-    /// @param window of the poses that are remembered
-    /// @param shortest time between poses that says anything above their noise
+    /// @param window how long poses are remembered; at least two are
+    /// @param shortest time between two poses from which a velocity rises above the noise
     PoseHistory(Seconds window, Seconds shortest) : window_(window), shortest_(shortest) {}
-    /// A pose that is not later than the newest one takes its place.
+    /// Adds a pose; one that is not later than the newest replaces the newest.
     void add(Seconds time, const Pose& pose);
     void forget() { samples_.clear(); }
 
     /// Slope of the least-squares line through the window: averages tracker noise away.
     Velocity steady() const;
-    /// From the newest pose that is `shortest` old: quick, and still above the noise.
+    /// Velocity since the newest pose that is at least `shortest` old: reacts quickly, but noisier.
     Velocity sudden() const;
 
   private:

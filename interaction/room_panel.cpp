@@ -9,11 +9,11 @@ namespace isochron::interaction {
 namespace {
 
 constexpr float kAside =
-    0.42f; ///< [rad] to the left of the way ahead, so that the data stay in sight
-constexpr float kGaze = 0.26f;   ///< [rad] below the horizon, where eyes rest: 15 degrees
-constexpr float kEdgeOn = 0.05f; ///< cosine to the normal below which nobody can read or point
-constexpr float kInSight = 0.7f; ///< cosine of the angle off the way ahead, up to which it is there
-constexpr float kInReach = 2.0f; ///< times the distance at which it appears, likewise
+    0.42f;                     ///< [rad] to the left of the heading, so that the data stay in sight
+constexpr float kGaze = 0.26f; ///< [rad] below the horizon, where eyes rest: 15 degrees
+constexpr float kEdgeOn = 0.05f; ///< cosine to the normal; below it the panel counts as edge-on
+constexpr float kInSight = 0.7f; ///< cosine to where it appears; above it the panel is in sight
+constexpr float kInReach = 2.0f; ///< times the distance at which it appears; within it is in reach
 constexpr glm::vec3 kRoomUp(0.0f, 1.0f, 0.0f);
 
 } // namespace
@@ -67,7 +67,7 @@ RoomPanel called(const RoomPanel& panel, const Pose& head, float distance,
                             : beside(head, distance);
     const glm::vec3 to_panel = panel.pose.position - head.position;
     const float away = glm::length(to_panel);
-    // Seen are the way ahead and, at a desktop, what is beside it.
+    // In sight is what is ahead, and what is near the place at which the panel would appear.
     const glm::vec3 ahead = ahead_of(head, 1.0f).position - head.position;
     const glm::vec3 there = glm::normalize(next.position - head.position);
     const bool in_sight = away > 0.0f && (glm::dot(to_panel, ahead) > kInSight * away ||

@@ -1,4 +1,4 @@
-// A distance between two places on surfaces.
+// The ruler tool: measures the distance between two places on surfaces.
 #include "interaction/ruler_tool.h"
 
 #include <glm/geometric.hpp>
@@ -9,7 +9,7 @@ namespace isochron::interaction {
 namespace {
 
 constexpr glm::vec4 kRulerColor(0.45f, 0.85f, 1.0f, 1.0f);
-constexpr double kTick = 0.012; ///< half a cross at an end, of the box's longest side
+constexpr double kTick = 0.012; ///< half the size of a cross, as a fraction of the longest side
 
 void add_cross(const glm::dvec3& at, const DataFrame& data, ToolDrawing& drawing) {
     const double arm = kTick * data.longest_side();

@@ -1,4 +1,4 @@
-// A distance between two places on surfaces.
+// The ruler tool: measures the distance between two places on surfaces.
 #pragma once
 
 #include "interaction/tool.h"
@@ -11,7 +11,7 @@ class RulerTool final : public Tool {
     ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) override;
 };
 
-/// The way between the places and its length in the data's units, which hold along every axis.
+/// A line between the two places and its length in the data's unit, with a cross at each place.
 ToolDrawing draw_ruler(const ToolState& state, const DataFrame& data);
 
 } // namespace isochron::interaction

@@ -1,4 +1,4 @@
-// The seam for tools: what a hand's button does with the data.
+// The interface of tools: what a hand's button does with the data.
 //
 //     const ToolOutcome outcome = tool.update(hands, now); // once a frame
 //     merge(commands, outcome.commands);
@@ -19,27 +19,28 @@
 
 namespace isochron::interaction {
 
-/// One hand that holds the tool: what it says in a frame.
+/// One hand that holds the tool, in one frame.
 struct ToolHand {
-    bool is_mouse = false;   ///< whose ray is the eye's under the cursor
+    bool is_mouse = false;   ///< the mouse; its ray is the eye's ray through the cursor
     std::optional<Pose> ray; ///< along -Z; nothing while the hand is not tracked
-    bool down = false;       ///< its button
-    bool pressed = false;    ///< it went down in this frame
-    /// A place is meant: the button went down; of the mouse, it came up where it went down.
+    bool down = false;       ///< its button is down
+    bool pressed = false;    ///< its button went down in this frame
+    /// The ray chooses a place in this frame: a hand's button went down, or the mouse clicked (its
+    /// button came up where it went down).
     bool chosen = false;
 };
 
 struct ToolContext {
     const ControlContext& session;
-    Similarity room_from_physical; ///< as navigation has left it in this frame
+    Similarity room_from_physical; ///< after this frame's navigation
 };
 
 struct ToolOutcome {
     Commands commands;
-    std::string note; ///< for people, where there is nothing to show; may be empty
+    std::string note; ///< message for people, such as that no surface is there; may be empty
 };
 
-/// What is drawn for a tool, in the data's physical space.
+/// A line that is drawn for a tool, in the data's physical space.
 struct ToolLine {
     glm::dvec3 from, to;
     glm::vec4 color{1.0f}; ///< sRGB and opacity
@@ -56,16 +57,16 @@ struct ToolDrawing {
     bool operator==(const ToolDrawing&) const = default;
 };
 
-/// Turns the readings of the hands that hold it into commands: a pure function of the sequence of
-/// frames that it is given. What it has led to lies in the session's state, so that it is recorded,
-/// replayed, saved and undone like everything else.
+/// Turns the readings of the hands that hold it into commands. It depends only on the frames that
+/// it is given. Its results are kept in the session's state, so they are recorded, replayed, saved
+/// and undone like everything else.
 class Tool {
   public:
     virtual ~Tool() = default;
-    /// Once a frame, also while no hand holds it.
-    /// @param hands those that hold it; none, one or several
+    /// Call once a frame, also while no hand holds the tool.
+    /// @param hands the hands that hold it; none, one or several
     virtual ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) = 0;
-    /// Whether the tool takes the mouse's left drag, which else turns the volume.
+    /// Whether the tool takes the mouse's left drag, which otherwise turns the volume.
     virtual bool takes_drag() const { return false; }
 };
 

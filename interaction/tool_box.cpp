@@ -1,4 +1,4 @@
-// From buttons of hands to their tools.
+// Passes each hand's readings to the tool that it holds.
 #include "interaction/tool_box.h"
 
 #include "interaction/tool_table.h"
@@ -8,7 +8,7 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr double kStill = 0.008; ///< window heights that a click may drag
+constexpr double kStill = 0.008; ///< [window heights] longest drag that is still a click
 
 bool left_down(const Reading& now) {
     return (Reading::buttons(now.mouse) & bit(MouseBit::left)) != 0;
@@ -28,7 +28,7 @@ ToolBox::ToolBox() {
         tools_[static_cast<std::size_t>(row.kind)] = row.make();
 }
 
-/// The left button came up where it went down.
+/// Whether the left button came up in this frame, about where it went down.
 bool ToolBox::clicks(const Reading& now) {
     if (left_down(now) && !left_before(now))
         dragged_ = 0;
@@ -51,7 +51,7 @@ std::vector<ToolHand> ToolBox::hands_with(ToolKind kind, const Reading& now,
     if (tools.mouse == kind)
         hands.push_back({true, Reading::hand(now.pointer), left_down(now),
                          left_down(now) && !left_before(now), clicked_});
-    // Picking has a button and a key of its own, whatever the hands hold.
+    // Picking also has its own button and key, whatever tools the hands hold.
     if (kind == ToolKind::pick)
         hands.push_back(hand_of(now.picking_ray(),
                                 now.key(Action::pick) || now.wand_button(WandButton::pick),

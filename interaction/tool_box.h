@@ -1,4 +1,4 @@
-// Which hand holds which tool, and what comes of it.
+// Passes each hand's readings to the tool that it holds, and collects the results.
 #pragma once
 
 #include "interaction/device_reading.h"
@@ -16,15 +16,14 @@ class ToolBox {
     ToolBox();
 
     struct Outcome {
-        Commands commands; ///< that devices alone explain
-        Commands found;    ///< that what is shown has a part in
+        Commands commands; ///< that depend on devices alone
+        Commands found;    ///< that depend on the surfaces shown, too
         std::vector<std::string> notes;
     };
-    /// Once a frame, after navigation.
+    /// Call once a frame, after navigation.
     Outcome update(const Reading& now, const ToolContext& context);
 
-    /// Whether the mouse's left drag is a tool's in this frame, which has not been given to
-    /// `update` yet.
+    /// Whether a tool takes the mouse's left drag in this frame. Call it before `update`.
     bool takes_drag(const Reading& now, const ControlContext& context) const;
 
   private:

@@ -1,4 +1,4 @@
-// Every tool there is.
+// The table of all tools.
 #include "interaction/tool_table.h"
 
 #include "interaction/clip_tool.h"

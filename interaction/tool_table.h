@@ -1,4 +1,4 @@
-// Every tool there is, a row each.
+// The table of all tools, one row each.
 #pragma once
 
 #include "interaction/tool.h"
@@ -11,19 +11,19 @@ namespace isochron::interaction {
 
 struct ToolRow {
     ToolKind kind;
-    std::string_view words;  ///< what it is called on the panel
-    std::string_view effect; ///< what a hand and what the mouse does with it
-    /// It asks what its ray meets among what is shown: what it finds depends on more than devices.
+    std::string_view words;  ///< its name on the panel
+    std::string_view effect; ///< what a hand, and what the mouse does with it
+    /// It asks which surface its ray meets, so its commands depend on more than devices.
     bool looks_at_surfaces;
     std::unique_ptr<Tool> (*make)();
-    /// What is drawn for it, also while no hand holds it; null: nothing.
+    /// The drawing for it, also while no hand holds it; null: none.
     ToolDrawing (*draw)(const ToolState& state, const DataFrame& data);
 };
 
 /// In the order of `ToolKind`.
 const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table();
 
-/// Of all tools.
+/// The drawings of all tools together.
 ToolDrawing drawing_of(const ToolState& state, const DataFrame& data);
 
 } // namespace isochron::interaction

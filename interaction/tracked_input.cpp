@@ -1,4 +1,4 @@
-// Looking a device up by name, and words for its state.
+// Finds a device by its name; names of tracking states.
 #include "interaction/tracked_input.h"
 
 #include <algorithm>

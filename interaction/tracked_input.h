@@ -11,22 +11,23 @@
 
 namespace isochron::interaction {
 
-/// What a device's pose is worth.
+/// How far a device's pose can be trusted.
 enum class Tracking : std::uint8_t {
     tracked, ///< measured a moment ago
     held,    ///< the last good pose, kept through a gap
-    lost     ///< the last good pose, too old to say where the thing is; or none at all
+    lost     ///< the last good pose, too old to say where the device is; or no pose at all
 };
 
-/// State of one device at one time. Well-known names: `head`, `wand`, `mouse`, `keys`, `gamepad`.
+/// State of one device at one time. Well-known names: `head`, `wand`, `wand2`, `mouse`, `keys`,
+/// `gamepad`, `pointer`, `camera`.
 struct DeviceState {
     std::string name;
     std::optional<Pose> pose;     ///< last good pose in the room; empty for devices without one
     bool pose_valid = true;       ///< false while `pose` is only held from before
     std::uint64_t buttons = 0;    ///< bit i: button i is down
     std::vector<float> valuators; ///< 0 at rest; meaning and range by device (actions.h)
-    bool pose_lost = false;       ///< not valid, and no longer worth to be acted on
-    std::optional<Velocity> velocity = std::nullopt;   ///< of the pose, where it is known
+    bool pose_lost = false;       ///< `pose` is not valid and too old to be used
+    std::optional<Velocity> velocity = std::nullopt;   ///< of the pose, if it is known
     std::optional<Seconds> measured = std::nullopt;    ///< session time when the pose was measured
     std::optional<Seconds> device_time = std::nullopt; ///< the same moment by the device's clock
     Tracking tracking() const;
@@ -48,14 +49,14 @@ class TrackedInput {
     virtual ~TrackedInput() = default;
     /// @param now session time of the frame, never decreasing
     virtual InputState poll(Seconds now) = 0;
-    /// Where things are with what has come since the last poll: asked right before drawing, for the
-    /// same display time. States poses only; buttons and valuators stay for the next poll. Devices
-    /// of which nothing can be learned between polls are left out.
-    /// @param now session time, not before that of the last poll
+    /// Poses that include what has arrived since the last poll, for the same display time as that
+    /// poll. Called right before drawing. States poses only; buttons and valuators wait for the
+    /// next poll. Devices that learn nothing between polls are left out.
+    /// @param now session time, not before the last poll's
     virtual InputState latch(Seconds now) { return {now, {}}; }
-    /// Throws away what has come so far: a session begins with what comes from now on.
+    /// Throws away what has arrived so far, so that a session begins with what arrives from now on.
     virtual void begin() {}
-    /// What has been received and refused so far, a line per source; for people.
+    /// What has been received and refused so far, in lines for people.
     virtual std::vector<std::string> status() const { return {}; }
 };
 

@@ -1,4 +1,5 @@
-// What a window tells about mouse, keyboard and gamepad, free of any windowing library.
+// Events of mouse, keyboard and gamepad that a window reports, independent of the windowing
+// library.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 
 namespace isochron::interaction {
 
-/// Letters and digits are their upper-case ASCII code; the rest is named.
+/// Keys. The value of a letter or digit is its upper-case ASCII code; other keys have names.
 enum class Key : std::uint16_t {
     unknown = 0,
     space = 32,
@@ -65,11 +66,11 @@ struct MouseButtonEvent {
     bool down;
 };
 /// Cursor position as a fraction of the window, (0,0) at the top left, and the window's size in
-/// screen units so that aspect and pixel distances are known.
+/// screen units, from which aspect and pixel distances follow.
 struct MouseMoveEvent {
     float x, y;
     int width, height;
-    std::size_t window = 0; ///< which one, counted as the installation's that are open here
+    std::size_t window = 0; ///< index among the installation's windows that are open here
 };
 struct ScrollEvent {
     float dx, dy;
@@ -77,9 +78,10 @@ struct ScrollEvent {
 struct FocusEvent {
     bool focused;
 };
-/// The whole state of the first gamepad, sent when it changes: axes left x, left y, right x, right
-/// y, left trigger, right trigger in [-1, 1], +x right, +y down, triggers -1 at rest; bit i of
-/// `buttons` in the order of `GamepadButton` (GLFW's); `present` false when it was unplugged.
+/// The whole state of the first gamepad, sent when it changes. `axes`: left x, left y, right x,
+/// right y, left trigger, right trigger, in [-1, 1], +x right, +y down, triggers -1 at rest.
+/// `buttons`: bits in the order of `GamepadButton` (GLFW's). `present` is false once it is
+/// unplugged.
 struct GamepadEvent {
     bool present;
     float axes[6];

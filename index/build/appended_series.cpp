@@ -1,4 +1,4 @@
-// A series of which an index already holds the first steps.
+// A series whose first steps come from an index that holds them already.
 #include "index/build/appended_series.h"
 
 #include "index/error.h"
@@ -11,7 +11,7 @@
 namespace isochron::index {
 namespace {
 
-/// One step of what the index holds.
+/// The function that loads one step from the index.
 using Load = LoadedStep (IndexFile::*)(std::uint32_t) const;
 
 class AppendedSeries final : public VolumeSeries {
@@ -48,7 +48,8 @@ bool begins_with(const std::vector<T>& all, const std::vector<T>& first) {
     return all.size() >= first.size() && std::equal(first.begin(), first.end(), all.begin());
 }
 
-/// Reads those steps again of which nothing else tells that they are what was indexed.
+/// Checks that the sources of the held steps are unchanged. Reads only the steps whose state does
+/// not show it.
 void expect_unchanged(const std::string& name, VolumeSeries& all, std::size_t held,
                       std::span<const std::uint64_t> checksums,
                       std::span<const std::uint64_t> states) {

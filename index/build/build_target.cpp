@@ -1,4 +1,4 @@
-// Where a build writes, and what makes it count.
+// The file that a build writes, and its commit.
 #include "index/build/build_target.h"
 
 #include "index/error.h"
@@ -42,7 +42,7 @@ GrowingTarget::GrowingTarget(Team& team, GrowingSink& file, const FileHeader& he
     : team_(team), file_(file), held_bytes_(held.file_bytes) {
     team.together([&] {
         if (team.rank() == 0)
-            file.cut(held_bytes_); // what an append that was killed left
+            file.cut(held_bytes_); // cuts off what a killed append has left
     });
 }
 
@@ -51,7 +51,7 @@ GrowingTarget::~GrowingTarget() {
         return;
     try {
         file_.cut(held_bytes_);
-    } catch (const Error&) { // it does no harm there
+    } catch (const Error&) { // what is left there is harmless
     }
 }
 

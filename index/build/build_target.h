@@ -1,4 +1,4 @@
-// Where a build writes: a file that appears when it is whole, or an index that grows in place.
+// The file that a build writes: a new file that appears when complete, or an index that grows.
 #pragma once
 
 #include "index/file/file_layout.h"
@@ -11,17 +11,17 @@
 
 namespace isochron::index {
 
-/// Shared by all members of a team; every function is called by all of them, and throws as
-/// `Team::together` does.
+/// Shared by all members of a team: all of them call every function. Throws as `Team::together`
+/// does.
 class BuildTarget {
   public:
     virtual ~BuildTarget() = default;
     virtual ByteSink& sink() = 0;
-    /// Makes what was written count. @param header of the first member; of no meaning for others
+    /// Makes what was written valid. @param header used from the rank 0 only
     virtual void commit(const FileHeader& header) = 0;
 };
 
-/// A new file, made by the first member.
+/// A new file, which rank 0 creates.
 class NewTarget final : public BuildTarget {
   public:
     NewTarget(Team& team, const std::filesystem::path& target);
@@ -33,12 +33,12 @@ class NewTarget final : public BuildTarget {
     std::optional<NewFile> file_;
 };
 
-/// An index that has steps already. What the header that counts so far names is not touched, until
-/// the new one is there: whatever ends the process or the machine, and whenever, one of both
-/// counts. Destroyed without a commit it cuts off what was written.
+/// An index that has steps already. The present header and the parts that it names are not touched
+/// until the new header is written, so at any crash of process or machine one of the two is valid.
+/// Destroyed without a commit, it cuts off what was written.
 class GrowingTarget final : public BuildTarget {
   public:
-    /// @param file of each member, opened for the first member alone @param held its header
+    /// @param file each member's own, opened with `alone` on rank 0 @param held its header
     GrowingTarget(Team& team, GrowingSink& file, const FileHeader& held);
     ~GrowingTarget() override;
     GrowingTarget(const GrowingTarget&) = delete;

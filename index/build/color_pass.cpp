@@ -1,4 +1,4 @@
-// The pass of a build that reads the array to color by.
+// The pass of a build that reads and packs the array to color by.
 #include "index/build/color_pass.h"
 
 #include "index/build/value_stats.h"

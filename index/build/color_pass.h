@@ -1,4 +1,4 @@
-// The pass of a build that reads the array to color by.
+// The pass of a build that reads and packs the array to color by.
 #pragma once
 
 #include "index/build/volume_pass.h"
@@ -8,19 +8,19 @@
 
 namespace isochron::index {
 
-/// @throws Error naming the array when its grid or its steps are not the volume's
+/// @throws Error naming the array when its grid or steps differ from the volume's
 void expect_colors_of(const SeriesInfo& colors, const SeriesInfo& volume);
 
-/// What the pass has found, the same for every member.
+/// The results of the pass, the same for every member of the team.
 struct ColorFindings {
     ColorArray array; ///< `chosen_*` are left empty
     std::vector<StepEntry> steps;
     std::vector<std::uint64_t> checksums; ///< of the stored values of every step
 };
 
-/// Reads each member's share of the steps from `first` on and packs their values where the contents
-/// say so.
-/// @param held what is known of the steps before, if there are any
+/// Reads each member's share of the steps from `first` on, and packs their values if
+/// `target.contents` asks for values.
+/// @param held results for the steps before `first`; null if there are none
 ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorArray* held,
                           const PassTarget& target, Team& team, const Progress& progress);
 

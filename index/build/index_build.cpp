@@ -1,4 +1,4 @@
-// Building of .isochron files: one pass over the series, then the tiers over what was written.
+// Builds .isochron files: one pass over the series, then the tiers from the values that were kept.
 #include "index/build/index_build.h"
 
 #include "index/build/build_target.h"
@@ -27,7 +27,7 @@
 namespace isochron::index {
 namespace {
 
-/// A slip of the hand must not cost anybody a volume.
+/// Refuses to replace a file that is not an index, so that a typing error does not destroy data.
 void refuse_foreign_file(const std::filesystem::path& out) {
     std::error_code ignored;
     if (!std::filesystem::exists(out, ignored))
@@ -39,18 +39,18 @@ void refuse_foreign_file(const std::filesystem::path& out) {
             fmt::format("{}: exists and is not an isochron index: not replaced", out.string()));
 }
 
-/// First steps that cells are built of where an index has them. Those of an epoch lie in one tree,
-/// so they are built when it is complete, or when there are as many new steps in it as old ones.
+/// The number of first steps for which cells are built. The steps of an epoch are in one tree, so
+/// its cells are built once it is complete or has at least as many new steps as old ones.
 std::uint32_t covered_steps(std::uint32_t held, std::uint32_t steps, std::uint32_t covered) {
     const std::uint32_t begin = steps / TimePath::kMaxSteps * TimePath::kMaxSteps;
     const std::uint32_t old = std::max(held, begin) - begin;
     return steps - begin >= 2 * old ? steps : std::max(covered, begin);
 }
 
-/// The parts of a file in the making.
+/// Builds or extends one file.
 class Build {
   public:
-    /// @param held what is appended to, if anything
+    /// @param held the index to append to; null for a new one
     Build(VolumeSeries& series, const std::filesystem::path& out, const BuildOptions& options,
           const Progress& progress, Team& team, BuildTarget& target, const IndexFile* held)
         : series_(series), out_(out), options_(options), work_(progress),
@@ -68,7 +68,7 @@ class Build {
             take(*held);
     }
 
-    /// @return false where appending would give cells that miss values
+    /// @return false if appending would give cells whose levels lack values
     bool run() {
         plan_cells();
         plan_tiers_ahead();
@@ -118,7 +118,7 @@ class Build {
             append_to(array[level], more.subspan(level * count, count));
     }
 
-    /// What an index holds already stays where it is.
+    /// Takes over the parts that an index has already; they stay where they are.
     void take(const IndexFile& held) {
         const Metadata& known = held.metadata();
         fresh_ = known.info.steps();
@@ -138,7 +138,7 @@ class Build {
         }
     }
 
-    /// Which steps get cells, and what has to be read for them.
+    /// Decides which steps get cells, and which values must be read for them.
     void plan_cells() {
         window_ = fresh_;
         covered_ = steps_;
@@ -159,8 +159,8 @@ class Build {
         window_ = std::min(window_, begin - before);
     }
 
-    /// What has to be known before the first step is read: whether chunks have bricks, and whether
-    /// cells or the tree may be built of the values later.
+    /// Decides what must be known before the first step is read: whether chunks have bricks, and
+    /// whether values must be kept because cells or the tree may be built from them.
     void plan_tiers_ahead() {
         const SeriesInfo& info = metadata_.info;
         const auto& known = held_ ? std::optional(metadata_.plan) : options_.plan;
@@ -185,7 +185,8 @@ class Build {
         });
     }
 
-    /// In bytes that are read: packing them takes twice as long as copying, cells longer.
+    /// Estimates the work of each phase in bytes that are read. Building cells takes about four
+    /// times as long as reading and packing; flushing takes a twentieth of all the rest.
     void plan_work(bool cells) {
         const auto step = static_cast<double>(metadata_.info.step_bytes());
         const auto fresh = static_cast<double>(steps_ - fresh_);
@@ -217,7 +218,7 @@ class Build {
         header_.content_hash = content_hash_of(info, checksums_);
     }
 
-    /// Whether the cells that there are know every value of the new steps.
+    /// Whether the levels of the existing cells have every value of the new steps.
     bool fits_held_levels() const {
         if (!has(Tier::cells) || !metadata_.levels->lossless() ||
             !has_step_levels(metadata_.info.type))
@@ -250,7 +251,7 @@ class Build {
         return {target_.sink(), end_, in, {threads_, options_.waiting_bytes, spill(what)}};
     }
     std::string spill(const char* what) const { return out_.string() + what; }
-    /// Where the next part begins.
+    /// Moves the end to where the next part begins.
     void align() { end_ = align_up(end_, kPartAlignment); }
 
     void write_colors() {
@@ -317,18 +318,18 @@ class Build {
     Team& team_;
     unsigned threads_;
     BuildTarget& target_;
-    std::optional<NewTarget> scratch_; ///< the values as they are read; never gets its name
+    std::optional<NewTarget> scratch_; ///< the kept values; never committed
     KeptValues kept_;
     bool bricks_ = true; ///< in the chunks
     const IndexFile* held_;
     Metadata metadata_;
     FileHeader header_;
     std::uint32_t steps_;           ///< of the series
-    std::size_t levels_;            ///< of detail
+    std::size_t levels_;            ///< number of levels of detail
     std::size_t fresh_ = 0;         ///< the first step that is not held
-    std::size_t window_ = 0;        ///< the first step of which values are needed
-    std::uint32_t covered_ = 0;     ///< first steps that cells hold
-    std::uint32_t first_epoch_ = 0; ///< of which cells are built
+    std::size_t window_ = 0;        ///< the first step whose values are needed
+    std::uint32_t covered_ = 0;     ///< number of first steps that cells hold
+    std::uint32_t first_epoch_ = 0; ///< the first epoch whose cells are built
     ValueCounts counts_;
     std::optional<LevelMap> found_levels_; ///< of the new steps together
     std::optional<MappedFile> written_;    ///< the values, once they are complete

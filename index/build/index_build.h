@@ -1,4 +1,4 @@
-// Building of .isochron files.
+// Builds .isochron files, and appends steps to them.
 #pragma once
 
 #include "index/file/chunk_codec.h"
@@ -11,50 +11,52 @@ namespace isochron::index {
 
 struct BuildOptions {
     std::optional<TierSet> tiers =
-        {}; ///< instead of the planner's choice, which leaves out the tree
-    /// Instead of a choice: that of an index which is written anew, where it still can be.
+        {}; ///< instead of the planner's choice, which never includes the tree
+    /// The plan of an index that is written anew: kept, instead of a choice, if it is still
+    /// possible.
     std::optional<TierPlan> plan = {};
-    bool with_tree = false; ///< besides
+    bool with_tree = false; ///< add the tree to the planner's choice
     ThiOptions tree = {};
-    unsigned threads = 0; ///< 0 for as many as there are processors
-    /// Of planes of a level of detail, and of steps whose values have more than 8 bits, that wait in
-    /// memory to be packed; more wait in a file.
+    unsigned threads = 0; ///< 0: one for each processor
+    /// Most bytes that wait in memory to be packed: planes of a level of detail, and of steps whose
+    /// values have more than 8 bits. More of them wait in a file.
     std::uint64_t waiting_bytes = 64 << 20;
     Codec codec = Codec::fitting;
-    /// When set the file refers to these instead of carrying a copy of the values.
+    /// If set, the file refers to these files instead of carrying a copy of the values.
     std::optional<Referral> referral = {};
-    /// Carried to color surfaces by: another array of the same files. Outlives the build.
+    /// The array to color by: another array of the same files; null: none. Outlives the build.
     VolumeSeries* color = nullptr;
-    /// What picks it in the files, for an index that refers to them.
+    /// The options that select it in the files, for an index that refers to them.
     std::optional<std::string> color_array = {}, color_component = {};
-    /// What picks the volume itself.
+    /// The options that select the volume itself.
     std::optional<std::string> array = {}, component = {};
 };
 
-/// Reads a series once and writes NAME.isochron under a temporary name, then renames it.
-/// Progress is that of the whole build, whatever the phase. On any failure, also a canceled one, nothing is left behind. An existing index is replaced;
-/// any other existing file is refused. The same series and options give the same bytes, whatever
-/// the number of threads and of processes. Memory of each process: a few layers of 16 planes, where
-/// the format can be read piece by piece, and a little more than twice `waiting_bytes`; where cells
-/// are built some 150 MiB for each thread; the paper's tree, where asked for, takes 30 bytes for
-/// each cell-step more.
-/// @param team all of whose members call this with the same series and options
-/// @throws Error: as the series reads, unwritable, disk full, larger than `CellId` can count
+/// Reads a series once and writes NAME.isochron under a temporary name, then renames it. Reported
+/// fractions are of the whole build, not of the phase. A build that fails or is canceled leaves
+/// nothing behind. An existing index is replaced; any other existing file is refused. The same
+/// series and options give the same bytes for any number of threads and processes. Memory of each
+/// process: a few layers of 16 planes, if the format can be read piece by piece, and a little more
+/// than twice `waiting_bytes`. Building cells takes some 150 MiB more for each thread, and the
+/// paper's tree 30 bytes more for each cell and step.
+/// @param team all its members call this with the same series and options
+/// @throws Error: as reading the series, unwritable, disk full, larger than `CellId` can count
 void build_index(VolumeSeries& series, const std::filesystem::path& out,
                  const BuildOptions& options, const Progress& progress = {});
 void build_index(VolumeSeries& series, const std::filesystem::path& out,
                  const BuildOptions& options, const Progress& progress, Team& team);
 
-/// Appends the steps that an index does not hold yet, in place: it writes behind the end of the
-/// file and where no header that counts names anything, and last the header. Killed at any moment it leaves the old index or the new one; whoever
-/// has the old one open goes on with it. What queries answer and the content hash are those of an
-/// index built anew. Cells come by whole epochs: where fewer steps are new than old in an epoch,
-/// they wait until it is complete, and bricks are searched meanwhile.
-/// @param series all steps; of those that are held it is asked for values that cells need
-/// @param held the newest state of the file @param file opened for writing, for the first member
-///        alone @param options tiers, codec, referral and colors as the index has them
-/// @return false, and nothing is written, where that cannot be: its cells are of a type of more
-///         than 8 bits and miss values of the new steps
+/// Appends, in place, the steps that an index does not hold yet. It writes after the end of the
+/// file and where the present header names nothing, and writes the header last. If it is killed at
+/// any moment, the old index or the new one is left; programs that have the old one open can go on
+/// with it. Queries and the content hash are those of an index built anew. Cells are added for
+/// whole epochs: if an epoch has fewer new steps than old ones, its cells wait until it is
+/// complete, and searches use bricks there meanwhile.
+/// @param series all steps; steps that the index holds are read only if cells need their values
+/// @param held the newest state of the file @param file opened for writing, with `alone` on
+///        rank 0 only @param options tiers, codec, referral and colors as the index has them
+/// @return false, without writing anything, if appending is impossible: the type has more than 8
+///         bits and the levels of the cells lack values of the new steps
 /// @throws Error as `build_index`; the index stays as it was
 bool append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
                   const std::filesystem::path& out, const BuildOptions& options,

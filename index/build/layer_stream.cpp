@@ -1,4 +1,4 @@
-// Steps that stream by, one layer of chunks after the other.
+// Streams the values of steps, one layer of chunks after the other.
 #include "index/build/layer_stream.h"
 
 #include "index/build/parallel_steps.h"
@@ -12,7 +12,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kTooSmall = 32 << 10; ///< [bytes] starting a thread takes longer
+constexpr std::size_t kTooSmall = 32 << 10; ///< [bytes] of a step; starting a thread takes longer
 
 } // namespace
 
@@ -77,7 +77,7 @@ void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end, uns
     std::optional<ParallelSteps> side_by_side;
     if (const unsigned readers = ParallelSteps::readers_for(series, end - begin, threads))
         side_by_side.emplace(series, begin, end, readers);
-    std::future<void> taking; // its end is waited for when this is left
+    std::future<void> taking; // its destructor waits for it
     const auto wait = [&] {
         if (taking.valid())
             taking.get();

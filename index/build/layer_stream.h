@@ -1,4 +1,4 @@
-// Steps that stream by, one layer of chunks after the other.
+// Streams the values of steps, one layer of chunks after the other.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -11,29 +11,29 @@
 
 namespace isochron::index {
 
-/// The planes of a layer of chunks, and their neighbors: what packing it takes.
+/// The planes of a layer of chunks and the planes next to them, which packing needs.
 struct LayerView {
-    std::uint32_t begin = 0, end = 0;  ///< its planes
-    std::uint32_t first = 0, last = 0; ///< planes that are there: `first` to `last` - 1
-    std::size_t plane = 0;             ///< [bytes]
+    std::uint32_t begin = 0, end = 0;  ///< the layer's planes: `begin` to `end` - 1
+    std::uint32_t first = 0, last = 0; ///< planes in memory: `first` to `last` - 1
+    std::size_t plane = 0;             ///< [bytes] of a plane
     const std::byte* held = nullptr;   ///< plane `first`, aligned for the type
 
-    /// Planes from `from` on, before `to`.
+    /// Planes `from` to `to` - 1.
     std::span<const std::byte> planes(std::uint32_t from, std::uint32_t to) const {
         return {held + (from - first) * plane, (to - from) * plane};
     }
     std::span<const std::byte> own() const { return planes(begin, end); }
 };
 
-/// Cuts the values of a step, as they come, into layers, each with the plane before and the one
-/// behind, where there are such. Holds two layers.
+/// Cuts the values of steps, as they arrive, into layers, each with the plane before it and the
+/// plane after it if the step has them. Holds two layers.
 class LayerCutter {
   public:
     LayerCutter(const Grid& grid, ValueType type);
 
-    /// Gets the layers in order; a view lasts until the second call after.
+    /// Receives the layers in order; a view is valid until the second call after.
     using Take = std::function<void(const LayerView&)>;
-    /// Takes the next values of a step; after its last the next one begins.
+    /// Takes the next values of a step; after the last values of a step the next step begins.
     void add(std::span<const std::byte> piece, const Take& take);
 
   private:
@@ -48,9 +48,9 @@ class LayerCutter {
     std::array<std::vector<std::uint64_t>, 2> buffers_;
 };
 
-/// Calls `take(step, layer)` for all layers of the steps from `begin` to `end` in order, each while
-/// the next one is read.
-/// @param threads so many steps may be read side by side, where they are small
+/// Calls `take(step, layer)` for all layers of the steps `begin` to `end` - 1 in order, while the
+/// next layer is read.
+/// @param threads at most this many small steps are read in parallel
 /// @param progress may throw; gets the fraction that is done
 void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end, unsigned threads,
                    const std::function<void(std::size_t, const LayerView&)>& take,

@@ -1,4 +1,4 @@
-// Levels from the distinct values of a series, or from a sample of them.
+// Chooses levels from the distinct values of a series, or from a sample of the values.
 #include "index/build/level_choice.h"
 
 #include "index/volume/ordinal.h"
@@ -22,7 +22,7 @@ std::uint64_t hash_of(std::uint64_t number) {
     return number ^ number >> 31;
 }
 
-/// Collects distinct numbers as long as they are not too many.
+/// Collects up to 256 distinct numbers.
 class DistinctSet {
   public:
     DistinctSet() : slots_(kSlots, kEmpty) { numbers_.reserve(LevelMap::kMaxLevels + 1); }
@@ -49,13 +49,13 @@ class DistinctSet {
     std::vector<std::uint64_t> slots_, numbers_;
 };
 
-/// A value of a sample, and the weight that it and the gap below it bring to its bin.
+/// A value of a sample, and the weight that the value and the gap below it add to its bin.
 struct WeightedValue {
     std::uint64_t ordinal;
-    double weight; ///< all together have at most 1
+    double weight; ///< all weights together are at most 1
 };
 
-/// Half of the weight is shared by the values, half by the range between the finite ones.
+/// Distributes half of the weight over the values, and half over the range of the finite ones.
 std::vector<WeightedValue> weighted(ValueType type, std::span<const std::uint64_t> sorted) {
     const auto value_of = [&](std::uint64_t number) {
         return visit_value_type(type, [&]<class T>(std::type_identity<T>) {
@@ -89,7 +89,7 @@ std::vector<WeightedValue> weighted(ValueType type, std::span<const std::uint64_
     return values;
 }
 
-/// Where bins of at most this weight begin; a value of more has a bin of its own.
+/// The first values of bins that weigh at most `most` each; a heavier value has its own bin.
 std::vector<std::uint64_t> bins_of(std::span<const WeightedValue> values, double most) {
     std::vector<std::uint64_t> thresholds;
     double bin = 0;
@@ -103,7 +103,7 @@ std::vector<std::uint64_t> bins_of(std::span<const WeightedValue> values, double
     return thresholds;
 }
 
-/// The lightest bins of which there are not too many.
+/// Thresholds with the smallest limit of weight that gives at most 256 bins.
 std::vector<std::uint64_t> even_thresholds(std::span<const WeightedValue> values) {
     double too_light = 0, light = 1;
     for (int halvings = 0; halvings < 40; ++halvings) {
@@ -153,7 +153,7 @@ void LevelChooser::add_values(std::size_t step, const Part& part, const T* value
                 few = distinct.add(ordinal(values[i]));
         take_distinct(distinct.take());
     }
-    // One value at random out of each of equal stretches.
+    // Takes one value at random from each of `count` equal ranges.
     const std::size_t count = std::min(part.all, samples_per_step_);
     for (std::size_t i = part.first * count / part.all; i < count; ++i) {
         const std::size_t first = i * part.all / count;

@@ -1,4 +1,4 @@
-// Threads that read steps ahead of who takes them.
+// Reads steps on several threads, ahead of the thread that takes them.
 #include "index/build/parallel_steps.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kMostHeld = 128 << 20; ///< [bytes] of steps
+constexpr std::size_t kMostHeld = 128 << 20; ///< [bytes] of steps in memory
 constexpr unsigned kMostReaders = 8;
 
 } // namespace
@@ -60,7 +60,7 @@ void ParallelSteps::run(const std::stop_token& stop, VolumeSeries& series) {
 
 std::span<const std::byte> ParallelSteps::next() {
     std::unique_lock lock(mutex_);
-    if (given_ > 0) // that one may be overwritten now
+    if (given_ > 0) // the step given before may be overwritten now
         steps_[(given_ - 1) % steps_.size()].there = false;
     Step& step = steps_[given_++ % steps_.size()];
     changed_.notify_all();

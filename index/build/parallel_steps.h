@@ -1,4 +1,4 @@
-// Steps of many files, read side by side.
+// Reads steps of many files in parallel.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -15,22 +15,22 @@
 
 namespace isochron::index {
 
-/// Reads steps whole, each by one of a few threads that have a series of their own, and gives them
-/// in order. Memory holds one step more than there are threads.
+/// Reads whole steps on a few threads, each with its own series, and gives them in order. Memory
+/// holds one step more than there are threads.
 class ParallelSteps {
   public:
-    /// So many threads are worth it for these steps: 0 where the series says that it is read by one
-    /// alone, where there is one step only, or where memory would hold too much.
+    /// Number of threads that pay for these steps; 0 if the series can be read by one thread only,
+    /// there is only one step, or the steps would take too much memory.
     static unsigned readers_for(const VolumeSeries& series, std::size_t steps, unsigned threads);
 
-    /// @param series outlives this @param readers from `readers_for`, not 0
+    /// @param series must outlive this @param readers from `readers_for`, not 0
     ParallelSteps(const VolumeSeries& series, std::size_t begin, std::size_t end, unsigned readers);
     ~ParallelSteps();
     ParallelSteps(const ParallelSteps&) = delete;
     ParallelSteps& operator=(const ParallelSteps&) = delete;
 
-    /// The values of the next step; they stay until the next call.
-    /// @throws what reading it threw
+    /// The values of the next step, valid until the next call. Waits until they have been read.
+    /// @throws the exception of reading the step
     std::span<const std::byte> next();
 
   private:
@@ -43,14 +43,14 @@ class ParallelSteps {
     void run(const std::stop_token& stop, VolumeSeries& series);
 
     const std::size_t begin_, end_;
-    std::mutex mutex_; ///< of those below
+    std::mutex mutex_; ///< for the members below
     std::condition_variable_any changed_;
     std::vector<Step>
-        steps_;             ///< step s lies in that of its number from `begin_`, modulo their count
-    std::size_t taken_ = 0; ///< by readers, from `begin_`
-    std::size_t given_ = 0; ///< by `next`, likewise
+        steps_;             ///< step s is at the index (s - `begin_`) modulo the number of elements
+    std::size_t taken_ = 0; ///< number of steps that readers have begun
+    std::size_t given_ = 0; ///< number of steps that `next` has given
     std::vector<std::unique_ptr<VolumeSeries>> series_; ///< by reader
-    std::vector<std::jthread> readers_;                 ///< last: they end before all that they use
+    std::vector<std::jthread> readers_;                 ///< last: they end before what they use
 };
 
 } // namespace isochron::index

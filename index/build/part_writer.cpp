@@ -1,4 +1,4 @@
-// Parts of a section, written side by side.
+// Writes the parts of all members of a team in parallel.
 #include "index/build/part_writer.h"
 
 #include "index/file/file_layout.h"
@@ -9,9 +9,9 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::uint64_t kFlushed = 32 << 20; ///< [bytes] after so many the disk may begin
+constexpr std::uint64_t kFlushed = 32 << 20; ///< [bytes] after which the disk is told to write
 
-/// Copies what a member has spilled to its place, a piece at a time.
+/// Copies the parts in a member's temporary file to their final place, a piece at a time.
 void copy_spilled(const ScratchFile& from, std::uint64_t bytes, ByteSink& to,
                   std::uint64_t offset) {
     constexpr std::uint64_t kPiece = 16 << 20;

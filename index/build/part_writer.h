@@ -1,4 +1,4 @@
-// Parts of a section, of which nobody knows the sizes before they are made.
+// Writes parts whose sizes are not known before they are made.
 #pragma once
 
 #include "index/system/byte_sink.h"
@@ -12,24 +12,24 @@
 
 namespace isochron::index {
 
-/// Every member of a team writes its parts one behind the other; in the file those of all members
-/// follow each other in order of rank. The first member's lie where they belong at once; those of
-/// the others wait in a file of their own until the sizes of those before them are known. Every
-/// function but the first two is called by all members, in the same order.
+/// Every member of a team writes its parts one after the other. In the file, the parts of rank 0
+/// come first, then those of rank 1, and so on. Rank 0 writes its parts to their final place at
+/// once; the other ranks write to temporary files until the sizes of all parts before theirs are
+/// known. All members call `place` together.
 class PartWriter {
   public:
-    /// @param offset where the section begins in the file
+    /// @param offset where the parts begin in the file @param spill name of the temporary file
     PartWriter(ByteSink& file, std::uint64_t offset, const std::filesystem::path& spill,
                const Team& team);
 
-    /// Puts bytes behind what there is. @return where, from the member's first byte
+    /// Appends bytes. @return their offset from this member's first byte
     std::uint64_t append(std::span<const std::byte> bytes);
-    /// Leaves zeros up to the next multiple. @return where what is appended next begins
+    /// Leaves zeros up to the next multiple. @return the offset of what is appended next
     std::uint64_t align(std::uint64_t alignment);
 
-    /// Where the parts of a member lie in the section.
+    /// Where the parts of a member lie.
     struct Placed {
-        std::uint64_t start = 0; ///< of this member's parts
+        std::uint64_t start = 0; ///< of this member's parts, from `offset`
         std::uint64_t bytes = 0; ///< of all members' parts
     };
     Placed place(Team& team);

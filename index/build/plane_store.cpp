@@ -1,4 +1,4 @@
-// Planes of a step that are needed once more.
+// Keeps planes of a step that are needed once more.
 #include "index/build/plane_store.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Planes of a step that are needed once more: in memory, or in a file where they are too many.
+// Keeps planes of a step that are needed once more: in memory, or in a file if there are too many.
 #pragma once
 
 #include "index/system/scratch_file.h"
@@ -15,12 +15,12 @@ namespace isochron::index {
 
 class PlaneStore {
   public:
-    /// @param bytes of all planes of a step @param most that may be in memory @param beside as of
-    ///        ScratchFile
+    /// @param bytes of all planes of a step @param most bytes that may be in memory @param beside
+    ///        see ScratchFile
     PlaneStore(std::uint64_t bytes, std::uint64_t most, const std::filesystem::path& beside);
 
     void append(std::span<const std::byte> planes);
-    /// Gives back what has been appended, piece by piece, and begins anew.
+    /// Gives back the appended planes, piece by piece, and empties the store.
     void drain(const std::function<void(std::span<const std::byte>)>& take);
 
   private:

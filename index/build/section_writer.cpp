@@ -1,4 +1,4 @@
-// The sections that end a state of an index.
+// Writes the sections of an index, the last parts of each of its states.
 #include "index/build/section_writer.h"
 
 namespace isochron::index {
@@ -6,7 +6,7 @@ namespace isochron::index {
 std::uint64_t
 write_sections(const std::vector<std::pair<SectionKind, std::span<const std::byte>>>& sections,
                const IndexFile* held, std::uint64_t end, FileHeader& header, ByteSink& file) {
-    std::vector<std::byte> block; // with the gaps, of which old bytes must not shine through
+    std::vector<std::byte> block; // includes the gaps, so that old bytes in them are overwritten
     for (const auto& [kind, bytes] : sections) {
         block.resize(align_up(block.size(), kPartAlignment));
         header.section(kind) = {block.size(), bytes.size(), checksum_of(bytes)};
@@ -19,7 +19,7 @@ write_sections(const std::vector<std::pair<SectionKind, std::span<const std::byt
         header.section(kind).offset += begin;
     if (held) {
         block.resize(needed);
-        // A last byte makes the file as long as it says.
+        // Writing the last byte makes the file as long as its header says.
         end += begin == end ? align_up(needed + needed / 2, kPartAlignment) : kPartAlignment;
         file.write_at(end - 1, std::vector<std::byte>(1));
     } else {

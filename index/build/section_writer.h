@@ -1,4 +1,4 @@
-// The sections that end a state of an index.
+// Writes the sections of an index, the last parts of each of its states.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -12,12 +12,12 @@
 
 namespace isochron::index {
 
-/// Writes them one behind the other, and their places and checksums to the header: behind the end of
-/// the file; of an index that grows in place of those of the state before the one that counts, where
-/// there is room. So two places are enough for ever: each is left with half as much room again as it
-/// needs, and grows with the index.
-/// @param held what grows, if anything @param end of the file, a multiple of 64
-/// @return where the file ends then
+/// Writes the sections one after the other, and sets their offsets and checksums in the header.
+/// They go after the end of the file, or, in an index that grows, over the sections of the state
+/// before the present one if these leave enough room. After the end of an index that grows, half as
+/// much room again is left free, so that two places, used in turn, last for long.
+/// @param held the index that grows; null for a new one @param end of the file, a multiple of 64
+/// @return the new end of the file
 std::uint64_t
 write_sections(const std::vector<std::pair<SectionKind, std::span<const std::byte>>>& sections,
                const IndexFile* held, std::uint64_t end, FileHeader& header, ByteSink& file);

@@ -1,4 +1,4 @@
-// Packing of a step and of its levels of detail.
+// Packs a step and its levels of detail.
 #include "index/build/step_writer.h"
 
 #include "index/file/step_levels.h"
@@ -10,7 +10,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kWorthThreads = 1 << 20; ///< [bytes] of a layer
+constexpr std::size_t kWorthThreads = 1 << 20; ///< [bytes] of a layer for which threads pay
 
 } // namespace
 
@@ -31,7 +31,8 @@ StepWriter::StepWriter(const SeriesInfo& info, const ChunkContents& contents,
         levels_.emplace_back(grid, type_, contents.codec, means);
 }
 
-/// The finest level is packed as it comes, unless all its values must be known before.
+/// Whether planes of a level wait until the step is complete. Those of the finest level do only if
+/// its bricks' levels depend on all its values.
 bool StepWriter::waits(std::size_t level) const {
     return level > 0 || own_levels_;
 }
@@ -81,7 +82,7 @@ void StepWriter::pack_waiting(std::size_t level, PartWriter& parts) {
 
 void StepWriter::pack(std::size_t level, const LayerView& layer, PartWriter& parts) {
     Level& it = levels_[level];
-    // Bricks of the cells from this layer to the plane behind it, brick layer by brick layer.
+    // Builds the bricks of the cells up to the plane after this layer, brick layer by brick layer.
     constexpr std::uint32_t kPlanes = BrickGrid::kCells[2];
     Grid slab = it.grid;
     slab.vertices[2] = kPlanes + 1;
@@ -103,7 +104,7 @@ void StepWriter::pack(std::size_t level, const LayerView& layer, PartWriter& par
                       .stride = stored.size()},
                      *it.map, 0, std::span(bricks_).subspan(i * brick_bytes, brick_bytes));
     };
-    // Planes of the next level, in a run for each thread.
+    // Makes planes of the next level, a contiguous range on each thread.
     const unsigned threads = layer.own().size() >= kWorthThreads ? threads_ : 1;
     const bool coarser = level + 1 < levels_.size();
     const Coarsener& any = it.coarseners.front();

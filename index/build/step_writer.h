@@ -1,4 +1,4 @@
-// A step and its levels of detail as they go into the file.
+// Writes a step and its levels of detail to the file.
 #pragma once
 
 #include "index/build/layer_stream.h"
@@ -18,29 +18,30 @@
 
 namespace isochron::index {
 
-/// What goes into the chunks of an array.
+/// The contents of an array's chunks.
 struct ChunkContents {
     bool bricks = true;
-    bool values = true; ///< of the steps themselves; those of their levels of detail always
+    bool values = true; ///< of the steps themselves; their levels of detail always have values
     Codec codec = Codec::fitting;
 };
 
-/// What writing may take.
+/// The resources that writing may use.
 struct WriterMeans {
     unsigned threads = 1;
-    std::uint64_t waiting_bytes = 64 << 20; ///< of planes of a level that wait in memory
-    std::filesystem::path beside;           ///< where files may be that nobody sees
+    std::uint64_t waiting_bytes = 64 << 20; ///< most bytes of a level's planes that wait in memory
+    std::filesystem::path beside;           ///< for temporary files without a name: see ScratchFile
 };
 
-/// Writes steps of one array layer by layer, each with all threads: memory holds a few layers of
-/// the finest level, and planes that wait for their level to be packed. Keeps its work space.
+/// Writes steps of one array layer by layer, each layer with all threads. Memory holds a few layers
+/// of the finest level, and planes that wait for their level to be packed. Keeps its work space.
 class StepWriter {
   public:
     StepWriter(const SeriesInfo& info, const ChunkContents& contents, const WriterMeans& means);
 
-    /// Takes the next layer of the step; with its last one the step is written, then its levels of
-    /// detail, each from a multiple of 64.
-    /// @param entries gets one for each level then, offsets from the first of `parts`
+    /// Takes the next layer of the step. The last layer completes the step and its levels of
+    /// detail, each at a multiple of 64.
+    /// @param entries then gets one entry for each level; offsets are from the first byte of
+    /// `parts`
     void take(const LayerView& layer, PartWriter& parts, std::vector<StepEntry>& entries);
 
   private:
@@ -51,7 +52,7 @@ class StepWriter {
         Grid grid;
         LayerPacker packer;
         std::vector<Coarsener> coarseners; ///< by thread
-        /// Levels for its bricks, where they depend on the values.
+        /// Chooses the levels for its bricks, if they depend on the values.
         LevelChooser chooser;
         std::optional<LevelMap> map;
         PlaneStore waiting; ///< planes that cannot be packed yet
@@ -66,14 +67,14 @@ class StepWriter {
     ValueType type_;
     ChunkContents contents_;
     unsigned threads_;
-    bool own_levels_;          ///< each step's bricks have levels of their own
-    std::deque<Level> levels_; ///< they do not move
-    std::uint64_t begin_ = 0;  ///< of the step in `parts`
+    bool own_levels_;          ///< each step's bricks have their own levels
+    std::deque<Level> levels_; ///< a deque, since a Level cannot move
+    std::uint64_t begin_ = 0;  ///< offset of the step in `parts`
     std::vector<std::uint8_t> bricks_;
     std::vector<std::uint64_t> coarse_; ///< planes of the next level
 };
 
-/// Entries step by step become entries array by array.
+/// Reorders entries from step by step to level by level.
 std::vector<StepEntry> by_level(std::span<const StepEntry> by_step, std::size_t levels);
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// The choice of tiers for a series.
+// Chooses the tiers for a series.
 #include "index/build/tier_plan.h"
 
 #include "index/cells/chunk_ranks.h"
@@ -15,22 +15,23 @@ namespace isochron::index {
 namespace {
 
 constexpr std::uint32_t kSampledChunks = 4, kSampledSteps = 17;
-/// Up to so many bytes of values cells are small beside a machine's memory, and always pay.
+/// Up to this many bytes of values, cells are small compared with a machine's memory and always
+/// pay.
 constexpr std::uint64_t kSmallSeries = 32 << 20;
-/// As long as a step is read as a whole anyway: of larger ones bricks read less.
+/// Steps up to this size are read as a whole anyway; in larger ones bricks read less.
 constexpr std::uint64_t kSmallStep = 4 << 20;
-/// Of larger ones they pay where merging in time leaves at most this share of the entries: those
-/// of a search are read in place of the values around them.
+/// In larger series cells pay if merging in time leaves at most this fraction of the entries: a
+/// search reads its entries instead of the values around them.
 constexpr double kPayingCoherence = 0.8;
-/// Of both where they take at most so many bytes for each byte of values: tables take most of those
-/// of tiny steps, which are searched as fast without.
+/// In any series cells pay only if they take at most this many bytes for each byte of values. In
+/// tiny steps, tables take most of the bytes, and a search is as fast without cells.
 constexpr double kPayingBytes = 2;
-constexpr std::uint32_t kMergedSteps = 64; ///< looked at to find out
-/// Of steps of more bytes they never pay: at 512^3, as coherent in time as can be, they took three
+constexpr std::uint32_t kMergedSteps = 64; ///< steps that are looked at to estimate that
+/// In larger steps cells never pay: at 512^3, with the greatest coherence in time, they took three
 /// times the bytes, and a search from disk took 5 to 16 times as long as with bricks.
 constexpr std::uint64_t kLargestStep = 64 << 20;
 
-/// Values between which both or only one of the half-open intervals lie.
+/// Number of levels that are in exactly one of two half-open intervals.
 std::uint32_t difference(std::uint8_t a_low, std::uint8_t a_high, std::uint8_t b_low,
                          std::uint8_t b_high) {
     const auto length = [](int low, int high) {
@@ -47,7 +48,7 @@ double churn(const StepValues& values, const LevelMap& levels) {
     const std::uint32_t chunks = std::min(kSampledChunks, chunking.count());
     const auto steps =
         static_cast<std::uint32_t>(std::min<std::size_t>(kSampledSteps, values.steps));
-    // From the middle of the series: beginnings are often at rest.
+    // From the middle of the series, since often little moves at the beginning.
     const auto first = static_cast<std::uint32_t>((values.steps - steps) / 2);
     ChunkRanks ranks(values, levels);
     std::uint64_t changed = 0, active = 0;

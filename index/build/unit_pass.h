@@ -14,18 +14,18 @@
 
 namespace isochron::index {
 
-/// The units as they were written.
+/// The offsets, sizes and checksums of the units that were written.
 struct UnitFindings {
     std::vector<UnitEntry> directory;     ///< epochs, chunks faster
     std::vector<std::uint64_t> checksums; ///< of cells and deltas of every unit
 };
 
-/// Builds each member's share of the units, as many at a time as there are threads, and writes them
-/// to the file one behind the other, in their order.
-/// @param values the steps of the epochs from `first_epoch` on and, for deltas, the one before
-/// @param volume where the values lie; what has been read of it is let go
-/// @param end of the file so far; moves behind what was written
-/// @param spill name for a member's own temporary file
+/// Builds each member's share of the units, one unit on each thread at a time, and writes them to
+/// the file one after the other, in order.
+/// @param values the steps of the epochs from `first_epoch` on and, for deltas, the step before
+/// @param volume the file that holds the values; parts that have been read are let go
+/// @param end of the file so far; moves to the end of the units
+/// @param spill name of a member's own temporary file
 UnitFindings write_units(const StepValues& values, std::uint32_t first_epoch,
                          const MappedFile& volume, const LevelMap& levels, bool deltas,
                          ByteSink& file, std::uint64_t& end, const std::filesystem::path& spill,

@@ -1,4 +1,4 @@
-// Range and counts of values that a team has seen.
+// Range and counts of the values that all members of a team have seen.
 #include "index/build/value_stats.h"
 
 #include <algorithm>

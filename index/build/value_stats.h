@@ -1,4 +1,4 @@
-// Range and counts of values that a team has seen.
+// Range and counts of the values that all members of a team have seen.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -8,16 +8,16 @@
 
 namespace isochron::index {
 
-/// Of the finite scaled values seen so far; `low` is above `high` while there are none.
+/// Range of the finite scaled values seen so far; `low` is above `high` while there are none.
 struct ValueRange {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     std::uint64_t nan_values = 0;
 };
 
-/// What all members of a team have seen together; 0 to 0 where none saw a finite value.
+/// The range that all members of a team have seen together; 0 to 0 if nobody saw a finite value.
 ValueRange agreed_range(const ValueRange& mine, Team& team);
 
-/// What all members of a team have counted together.
+/// The counts of all members of a team together.
 ValueCounts agreed_counts(const ValueCounts& mine, ValueType type, Team& team);
 
 /// Extends the range by one step's finite scaled values and counts its NaN. Call with `low` =

@@ -1,4 +1,4 @@
-// The pass of a build over the series: every step is read once, looked at, and packed.
+// The pass of a build over the series: reads every step once, analyzes and packs it.
 #include "index/build/volume_pass.h"
 
 #include "index/build/layer_stream.h"
@@ -14,7 +14,7 @@
 namespace isochron::index {
 namespace {
 
-/// What one member has seen of its steps.
+/// Statistics of the steps of one member.
 class Observer {
   public:
     explicit Observer(const SeriesInfo& info) : info_(info), chooser_(info.type) {}
@@ -87,7 +87,7 @@ VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t 
                     progress("reading", done);
             });
         };
-        // Every step that is held is seen by one member alone, and so is every new one.
+        // Held steps are divided among the members, and so are new steps.
         if (const auto [begin, end] = team.share(fresh - first); begin < end)
             stream(first + begin, first + end, keep);
         const auto [begin, end] = team.share(info.steps() - fresh);

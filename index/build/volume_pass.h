@@ -1,4 +1,4 @@
-// The pass of a build over the series: every step is read once, looked at, and packed.
+// The pass of a build over the series: reads every step once, analyzes and packs it.
 #pragma once
 
 #include "index/build/step_writer.h"
@@ -14,39 +14,41 @@
 
 namespace isochron::index {
 
-/// Where what is read goes to.
+/// The output of a pass.
 struct PassTarget {
     ByteSink& file;
-    std::uint64_t& end; ///< of the file so far; moves behind what was written
+    std::uint64_t& end; ///< of the file so far; moves to the end of what was written
     ChunkContents contents;
-    WriterMeans means; ///< files of members that have to wait for others are there, too
+    WriterMeans means; ///< `beside` is also for parts of members that wait for others
 };
 
-/// Where values are kept that cells or the tree are built of.
+/// Keeps the values from which cells or the tree are built.
 struct KeptValues {
-    ByteSink* file = nullptr; ///< nothing is kept where there is none
-    /// Also where levels turn out not to be lossless.
+    ByteSink* file = nullptr; ///< null: nothing is kept
+    /// Keep values even if levels turn out not to be lossless.
     bool always = true;
 };
 
-/// What is known once all steps have been read, the same for every member of the team.
+/// The results of the pass, the same for every member of the team.
 struct VolumeFindings {
     ValueCounts counts;
     std::vector<std::uint64_t> checksums; ///< of every step
-    std::vector<std::uint64_t> states;    ///< of every step's source, VolumeSeries::state
+    std::vector<std::uint64_t> states;    ///< of every step's source: VolumeSeries::state
     LevelMap levels;
     std::vector<StepEntry> steps; ///< level after level
 };
 
-/// Reads each member's share of the steps from `first` on, a layer of chunks ahead of what is
-/// worked on. Keeps them all, step after step, each padded to `step_stride`; looks at those from
-/// `fresh` on alone, and packs these.
+/// Reads each member's share of the steps from `first` on, a layer of chunks ahead of the work.
+/// Keeps the values of all of them, step after step, each padded to `step_stride`; analyzes and
+/// packs only the steps from `fresh` on.
 VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t fresh,
                            const KeptValues& kept, const PassTarget& target, Team& team,
                            const Progress& progress);
 
-/// The steps of all members, once they are where they belong, level after level.
-/// @param mine step after step @param end of the file so far; moves behind them
+/// Moves the steps of all members to their final place.
+/// @return the entries of all members, level after level
+/// @param mine this member's entries, step after step @param end of the file so far; moves to the
+///        end of the steps
 std::vector<StepEntry> placed_steps(PartWriter& parts, std::vector<StepEntry> mine,
                                     std::size_t levels, std::uint64_t& end, Team& team);
 

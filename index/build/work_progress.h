@@ -1,4 +1,4 @@
-// How far a build is as a whole.
+// Progress of a build as a whole.
 #pragma once
 
 #include "index/progress.h"
@@ -11,17 +11,18 @@
 
 namespace isochron::index {
 
-/// Turns the fraction of a phase that is done into that of all phases, of each of which it is known
-/// about how long it takes.
+/// Turns the fraction done of a phase into the fraction done of all phases, from estimates of how
+/// long each phase takes.
 class WorkProgress {
   public:
     /// @param out may be empty
     explicit WorkProgress(Progress out) : out_(std::move(out)) {}
 
-    /// What is to come, in its order, in any unit; what has been done before stays in its place.
+    /// Sets the phases in order, each with its estimated work, in any unit. May be called again
+    /// with better estimates; the reported fraction never goes back.
     void plan(std::vector<std::pair<std::string, double>> phases) { phases_ = std::move(phases); }
 
-    /// @param fraction of the phase; one that was not planned for takes no time
+    /// @param fraction of the phase; a phase that was not planned does not change the whole
     void report(std::string_view phase, double fraction) {
         double before = 0, all = 0, now = -1;
         for (const auto& [name, work] : phases_) {

@@ -1,4 +1,5 @@
-// Which cells become entries of a table, a vector at a time; compiled once for each SIMD target.
+// Selects the cells that become entries of a table, a SIMD vector at a time; compiled once for each
+// SIMD target.
 #include "index/cells/cell_entries.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -23,7 +24,7 @@ using Bytes = hn::CappedTag<std::uint8_t, kWordBits>;
 using Shorts = hn::CappedTag<std::uint16_t, kWordBits / 2>;
 using HalfBytes = hn::Rebind<std::uint8_t, Shorts>;
 
-/// The bits of the 64 cells from `i` on whose extremes are the same.
+/// A bit for each of the 64 cells from `i` on: whether its extremes are the same.
 HWY_INLINE std::uint64_t same(const Extremes& a, const Extremes& b, std::size_t i) {
     const Bytes d;
     std::uint64_t word = 0;
@@ -39,7 +40,7 @@ HWY_INLINE std::uint64_t same(const Extremes& a, const Extremes& b, std::size_t 
     return word;
 }
 
-/// The bits of the 64 cells from `i` on that are active at some isovalue.
+/// A bit for each of the 64 cells from `i` on: whether it is active at some isovalue.
 HWY_INLINE std::uint64_t active(const Extremes& extremes, std::size_t i) {
     const Bytes d;
     std::uint64_t word = 0;
@@ -73,7 +74,7 @@ void find_changes(const Extremes& a, const Extremes& b, std::uint64_t* changed, 
         changed[word] = ~same(a, b, word * kWordBits);
 }
 
-/// Writes entries to a list, and keeps their bounds.
+/// Writes entries to a list, and updates their bounds.
 class Writer {
   public:
     using V = hn::Vec<Shorts>;
@@ -116,7 +117,7 @@ class Writer {
       span_ = hn::Zero(kD);
 };
 
-/// Calls `f(i, mask)` for every vector of cells of which some are chosen.
+/// Calls `f(i, mask)` for every vector of cells with at least one chosen cell.
 template <class F>
 HWY_INLINE void for_each_chosen(const std::uint64_t* chosen, std::size_t first_word,
                                 std::size_t end_word, F&& f) {
@@ -162,7 +163,7 @@ void select_differences(const Extremes& from, const Extremes& to, const std::uin
     for_each_chosen(chosen, 0, words, [&](std::size_t i, hn::Mask<Shorts> mask) HWY_ATTR {
         const auto low = load(to.low, i), high = load(to.high, i);
         const auto other_low = load(from.low, i), other_high = load(from.high, i);
-        // Nothing to subtract is an interval that begins where the other one ends.
+        // An empty interval to subtract becomes one that begins at the end of the other interval.
         const auto empty = hn::Not(hn::Lt(other_low, other_high));
         const auto from_low = hn::IfThenElse(empty, high, other_low);
         const auto from_high = hn::IfThenElse(empty, high, other_high);
@@ -191,7 +192,7 @@ HWY_EXPORT(select_differences);
 static_assert(ChunkRanks::kSlack >= 63);
 
 CellEntries::CellEntries() {
-    constexpr std::size_t kVector = 32; // entries that may be written behind the last
+    constexpr std::size_t kVector = 32; // entries that may be written after the last
     for (List& list : lists) {
         list.keys.resize(Chunking::kMaxCells + kVector);
         list.ids.resize(Chunking::kMaxCells + kVector);

@@ -1,4 +1,5 @@
-// Which cells become entries of a table, a vector at a time; compiled once for each SIMD target.
+// Selects the cells that become entries of a table, a SIMD vector at a time; compiled once for each
+// SIMD target.
 #pragma once
 
 #include "index/cells/chunk_ranks.h"
@@ -11,18 +12,18 @@
 
 namespace isochron::index {
 
-/// The entries of one table before they are sorted: two lists, so that counting them makes two
-/// chains of work for a processor to overlap. Within an element those of the first come first.
+/// The entries of one table before they are sorted. There are two lists, so that a processor can
+/// overlap the counting of both. Within an element, entries of the first list come first.
 struct CellEntries {
     struct List {
         std::vector<std::uint16_t> keys; ///< row * 256 + column
         std::vector<std::uint16_t> ids;  ///< ascending
         std::uint32_t count = 0;
     };
-    /// What part of span space they take up.
+    /// The part of span space that the entries take up.
     struct Bounds {
         std::uint8_t first_column = 0xff, first_row = 0xff, last_row = 0;
-        std::uint8_t span = 0; ///< most that a row exceeds its column
+        std::uint8_t span = 0; ///< largest difference of an entry's row and column
     };
 
     CellEntries();
@@ -32,26 +33,28 @@ struct CellEntries {
     Bounds bounds;
 };
 
-/// Cells as bits, 64 to a word from the lowest bit on; those past the last cell are 0.
+/// A set of cells as bits, 64 in a word from the lowest bit on; bits after the last cell are 0.
 using CellBits = std::vector<std::uint64_t>;
 
-/// Finds the cells of which two neighboring spans of time, each constant in the chosen cells, make
-/// one constant span, and takes them out of both.
-/// @param a, b extremes at any step of the two spans @return how many of the
-///   cells are active at any isovalue at all
+/// Two neighboring time spans have sets of cells that are constant over them. Finds the cells that
+/// are in both sets and constant over both spans together, and moves them from both sets to
+/// `joined`.
+/// @param a, b extremes at any step of the two spans @return number of joined cells that are active
+///        at any isovalue
 std::size_t join_spans(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& left,
                        CellBits& right, CellBits& joined);
 
 /// Sets the bits of the cells whose extremes differ.
 void find_changes(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& changed);
 
-/// Makes entries of the chosen cells that are active at any isovalue at all: their levels are
-/// those of CellUnit (cell_unit.h).
+/// Makes entries of the chosen cells that are active at any isovalue, with levels as in CellUnit
+/// (cell_unit.h).
 void select_cells(const ChunkRanks::Extremes& extremes, const CellBits& chosen, bool lossless,
                   CellEntries& out);
 
-/// Makes entries of what the intervals of the chosen cells have more in `to` than in `from`: one
-/// list of the parts below, one of those above. The ranks are those of a lossless map.
+/// Makes entries of the levels that the intervals of the chosen cells have in `to` but not in
+/// `from`: one list for the parts below the interval in `from`, one for the parts above it. The
+/// ranks are of a lossless map.
 void select_differences(const ChunkRanks::Extremes& from, const ChunkRanks::Extremes& to,
                         const CellBits& chosen, CellEntries& out);
 

@@ -1,4 +1,4 @@
-// Search in the table of one chunk's cells, and its check.
+// Searches and checks the table of one chunk's cells.
 #include "index/cells/cell_table.h"
 
 #include "index/cells/cell_table_directory.h"
@@ -31,7 +31,7 @@ bool CellTable::check(std::span<const std::byte> bytes) {
 
 bool CellTable::has_ids_below(std::uint32_t cells) const {
     const std::uint16_t* ids = part_at<std::uint16_t>(bytes_, head().ids);
-    std::uint16_t highest = 0; // without a branch for each
+    std::uint16_t highest = 0; // no branch for each id
     for (std::uint32_t i = 0; i < head().entries; ++i)
         highest = std::max(highest, ids[i]);
     return highest < cells;

@@ -1,4 +1,4 @@
-// Cells of one chunk sorted in span space: any isovalue's are found as a few contiguous runs.
+// Cells of one chunk sorted in span space, so that those of any isovalue are a few contiguous runs.
 #pragma once
 
 #include "index/cells/cell_table_head.h"
@@ -12,38 +12,38 @@
 namespace isochron::index {
 
 /// Every entry is a cell with a column and a row of span space, column <= row < 256: it counts at
-/// the levels from its column to its row. Entries are sorted by row, within it by column, within
-/// an element by id. The columns of even rows descend and those of odd rows ascend, so that what
-/// counts at a level is at the end of the one and at the beginning of the next: one run for each
-/// *pair* of rows. Its *anchor* is where the odd row begins.
+/// the levels from its column to its row. Entries are sorted by row, within a row by column, within
+/// an element by id. Columns descend in even rows and ascend in odd rows. So the entries that count
+/// at a level are at the end of an even row and at the beginning of the next odd row: one run for
+/// each *pair* of rows. The *anchor* of a pair is where its odd row begins.
 ///
-/// The directory of a large table has a *line* for each column c: for each pair of rows from c on,
-/// how many entries of either row have a column <= c, up to the last row that has any. A query
-/// reads one line. Lengths take a byte each: a line counts from the last multiple of 2^form columns
-/// on, and a *base line* has what lies before that, in 16 bits. Where a byte is too little even so,
-/// the line is *wide*: 16 bits for each length, without a base.
-/// A small table lists its elements instead.
+/// The directory of a large table has a *line* for each column c. For each pair of rows from c on,
+/// up to the last row with such entries, the line has two lengths: the numbers of entries with a
+/// column <= c in the even and in the odd row. A query reads one line. A length takes one byte, as
+/// it counts only the columns from the last multiple of 2^form on; a *base line* counts the columns
+/// before that, with 16 bits. If a byte is not enough, the line is *wide*: 16 bits for each length,
+/// and no base line. A small table lists its elements instead.
 ///
-/// Only `check` trusts nothing: all else is for tables that passed it.
+/// Only `check` accepts damaged tables; call the other functions for tables that passed it.
 class CellTable {
   public:
-    /// @param head of a table, with kSlack ids behind the table's last
+    /// @param head of a table; IdRun::kSlack more ids must be readable after its last
     explicit CellTable(const std::byte* head) : bytes_(head) {}
 
-    /// Whether the table lies within so many bytes, and whether a search stays inside; does not
-    /// read the ids.
+    /// Whether the table lies within these bytes and a search in it stays inside; does not read the
+    /// ids.
     static bool check(std::span<const std::byte> bytes);
-    /// Whether all ids are those of a chunk's cells; reads them all.
+    /// Whether all ids are below `cells`, the number of a chunk's cells; reads all ids.
     bool has_ids_below(std::uint32_t cells) const;
 
     /// Bytes of the whole table.
     std::size_t size() const;
     const CellTableHead& head() const { return *reinterpret_cast<const CellTableHead*>(bytes_); }
 
-    /// Appends the entries of columns up to `column`. @param rows not below the column
+    /// Appends the entries of the columns up to `column`. @param rows not below `column`
     void up_to(std::uint32_t column, SpanRows rows, CellId first, RunBuffer& out) const;
     /// Appends the entries of the columns above `below`, which may be -1, up to `column`.
-    /// @param rows not below the column
+    /// @param rows not below `column`
     void between(std::int32_t below, std::uint32_t column, SpanRows rows, CellId first,
                  RunBuffer& out) const;
 

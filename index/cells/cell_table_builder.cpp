@@ -1,4 +1,4 @@
-// Counting sort of a cell table's entries, and its directory.
+// Sorts a cell table's entries by counting, and writes its directory.
 #include "index/cells/cell_table_builder.h"
 
 #include "index/cells/cell_table_layout.h"
@@ -19,7 +19,7 @@ std::uint32_t key(std::uint32_t row, std::uint32_t column) {
     return row << 8 | column;
 }
 
-/// Calls `f(list, i)` for all entries of two lists, in turns.
+/// Calls `f(list, i)` for all entries of two lists, alternating between the lists.
 template <class F>
 void in_turns(const std::array<CellEntries::List, 2>& lists, F&& f) {
     const std::uint32_t both = std::min(lists[0].count, lists[1].count);
@@ -34,28 +34,29 @@ void in_turns(const std::array<CellEntries::List, 2>& lists, F&& f) {
 
 } // namespace
 
-/// What part of span space the entries take up.
+/// The part of span space that the entries take up.
 struct CellTableBuilder::Band {
     CellTableHead head{};
-    std::uint32_t span = 0; ///< most that a row exceeds its column
+    std::uint32_t span = 0; ///< largest difference of an entry's row and column
     std::array<std::uint32_t, CellTableHead::kRows> row_count{}, row_begin{}; ///< entries
-    /// One behind the last row that has an entry of this column or one below.
+    /// For each column: 1 + the last row that has an entry in this column or a lower one.
     std::array<std::uint32_t, CellTableHead::kRows> rows_end{};
 
     std::uint32_t first_column(std::uint32_t row) const { return row - std::min(row, span); }
     std::bitset<CellTableHead::kRows> wide; ///< columns of wide lines
 
-    /// Pairs of rows, from that of a column on, which have entries of columns up to `last`.
+    /// Number of pairs of rows, from the column's first pair to the last pair with entries in
+    /// columns up to `last`.
     std::uint32_t line_pairs(std::uint32_t column, std::uint32_t last) const {
         const std::uint32_t first = CellTableLayout::first_pair(head, column);
         return std::max(first, (rows_end[last] + 1) / 2) - first;
     }
-    /// Size of a line in u16.
+    /// Size of a line in units of u16.
     std::uint32_t line_size(std::uint32_t column) const {
         return line_pairs(column, column) << int{wide[column]};
     }
-    /// Calls `f` with the number and the pairs of every base line; one that only wide lines could
-    /// have as theirs is empty.
+    /// Calls `f` with the number and the pairs of every base line; a base line that only wide lines
+    /// would use is empty.
     template <class F>
     void for_each_base(F&& f) const {
         const std::uint32_t first = CellTableLayout::first_base(head);
@@ -109,8 +110,8 @@ CellTableBuilder::Band CellTableBuilder::count() {
     sparse.form = CellTableHead::kSparse;
     sparse.size = static_cast<std::uint16_t>(elements);
     sparse.base_size = 0;
-    // Lines are searched faster than more than a few elements: where they take but little more
-    // room, they are better.
+    // A search in lines is faster than in more than a few elements, so lines are chosen even if
+    // they take a little more room.
     const std::size_t lines_size = CellTableLayout(band.head).end;
     const std::size_t most =
         elements <= CellTableHead::kMaxElements / 4 ? lines_size : lines_size * 3 / 4;
@@ -121,7 +122,7 @@ CellTableBuilder::Band CellTableBuilder::count() {
     return band;
 }
 
-/// Chooses the distance of base lines, and the lines to be wide, that make for the fewest bytes.
+/// Chooses the distance of base lines and the wide lines so that the table takes the fewest bytes.
 void CellTableBuilder::choose_lines(Band& band) const {
     constexpr std::array<std::uint8_t, 4> kForms{8, 4, 3, 2};
     std::array<std::bitset<CellTableHead::kRows>, kForms.size()> wide;
@@ -163,7 +164,7 @@ void CellTableBuilder::choose_lines(Band& band) const {
     band = best;
 }
 
-/// Writes everything, to bytes that are 0.
+/// Writes the whole table. @param table bytes that are 0
 void CellTableBuilder::write(const Band& band, std::byte* table) {
     std::memcpy(table, &band.head, sizeof band.head);
     const CellTableLayout layout(band.head);
@@ -184,7 +185,7 @@ void CellTableBuilder::write(const Band& band, std::byte* table) {
             std::fill(&counts[key(row, band.first_column(row))], &counts[key(row, row)] + 1, 0);
 }
 
-/// Turns the counts of a row into the places of its elements' first entries within the row.
+/// Turns the counts of a row's elements into the places of their first entries in the row.
 template <class F>
 void CellTableBuilder::place_row(const Band& band, std::uint32_t row, F&& placed) {
     if (band.row_count[row] == 0)

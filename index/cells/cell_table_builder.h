@@ -21,8 +21,8 @@ class CellTableBuilder {
     /// The entries of the next table, to be filled.
     CellEntries& entries() { return entries_; }
 
-    /// Appends the table and forgets its entries, of which there are some. The bytes' size stays a
-    /// multiple of CellTableHead::kAlignment.
+    /// Appends the table and forgets its entries, of which there must be at least one. The size of
+    /// `bytes` stays a multiple of CellTableHead::kAlignment.
     /// @return the table's head
     CellTableHead append_to(std::vector<std::byte>& bytes);
 
@@ -37,8 +37,8 @@ class CellTableBuilder {
     void place_row(const Band& band, std::uint32_t row, F&& placed);
 
     CellEntries entries_;
-    /// By key: how many entries of either list an element has, then where in its row the next one
-    /// goes. 0 between tables. A row has at most one entry of each cell.
+    /// By key: the number of an element's entries in either list, later the place in its row for
+    /// the next one. All 0 between tables. A row has at most one entry of each cell.
     std::array<std::vector<std::uint16_t>, 2> counts_;
 };
 

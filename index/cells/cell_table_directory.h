@@ -1,4 +1,4 @@
-// The two kinds of directory of a cell table: how they are searched and checked.
+// The two kinds of directory of a cell table, with their search and checks.
 #pragma once
 
 #include "index/cells/cell_table_layout.h"
@@ -17,7 +17,7 @@ const T* part_at(const std::byte* table, std::size_t offset) {
     return reinterpret_cast<const T*>(table + offset);
 }
 
-/// Takes the runs of one table.
+/// Collects the runs of one table.
 class TableRuns {
   public:
     TableRuns(const std::uint16_t* ids, CellId first, RunBuffer& out)
@@ -66,7 +66,7 @@ class ElementList {
             hit[e] = (columns_[e] >= lowest_column) & (columns_[e] <= highest_column) &
                      (rows_[e] >= lowest_row) & (rows_[e] <= highest_row);
         std::memset(hit.data() + head_.size, 0, 8);
-        // Neighboring elements make one run, also from one pair of rows to the next.
+        // Neighboring elements make one run, even across pairs of rows.
         std::uint32_t begin = 0, end = 0;
         for (std::uint32_t e = 0; e < head_.size; e += 8) {
             std::uint64_t eight;
@@ -119,7 +119,7 @@ class LengthLines {
         const std::uint32_t begin = std::max(now.first, rows.begin / 2);
         if (begin >= std::min(now.end, (rows.end + 1) / 2))
             return;
-        // Only of the first and the last pair may a row be unwanted.
+        // Only the first and the last pair may have an unwanted row.
         add_wanted(now, begin, rows, out);
         const std::uint32_t end = std::min(now.end, rows.end / 2);
         const std::uint32_t base_end = std::min(end, now.base_end);
@@ -141,7 +141,7 @@ class LengthLines {
         const Line before = below < 0 ? Line{} : line(static_cast<std::uint32_t>(below));
         const std::uint32_t end = std::min(now.end, (rows.end + 1) / 2);
         for (std::uint32_t pair = std::max(now.first, rows.begin / 2); pair < end; ++pair) {
-            // Damage may have made the line before longer.
+            // In a damaged table the line before may be longer.
             const std::uint32_t even = now.length(pair, 0), odd = now.length(pair, 1);
             const std::uint32_t skipped_even = std::min(before.length(pair, 0), even),
                                 skipped_odd = std::min(before.length(pair, 1), odd);
@@ -193,7 +193,7 @@ class LengthLines {
             base_starts_ + (base - CellTableLayout::first_base(head_));
         const std::uint32_t first = CellTableLayout::first_pair(head_, base << head_.form);
         line.base_end = first + base_start[1] - base_start[0];
-        // The base line is that of an earlier column, and begins with earlier rows.
+        // The base line is of an earlier column, so it begins at an earlier pair of rows.
         line.bases = bases_ + (2 * (std::size_t{base_start[0]} + line.first - first));
         return line;
     }
@@ -218,8 +218,8 @@ class LengthLines {
         return starts[0] == 0 && starts[count] == last &&
                std::is_sorted(starts, starts + count + 1);
     }
-    /// Whether the line and its base cover no rows that are not there, and lead to no entries that
-    /// are not there.
+    /// Whether the line and its base line cover only existing rows and lead only to existing
+    /// entries.
     template <class Length>
     bool check(const Line& line) const {
         const std::uint32_t pairs_end = first_pair_ + CellTableLayout::pairs(head_);

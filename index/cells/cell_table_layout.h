@@ -1,4 +1,4 @@
-// Where the parts of a cell table lie: shared by its search and its builder.
+// The byte offsets of the parts of a cell table, for its search and its builder.
 #pragma once
 
 #include "index/cells/cell_table_head.h"
@@ -13,14 +13,14 @@ namespace isochron::index {
 struct CellTableLayout {
     // sparse: for every element, in the order of the ids
     std::size_t columns = 0, rows = 0; ///< u8
-    std::size_t begins = 0;            ///< u16: of its first entry; one more than elements
+    std::size_t begins = 0;            ///< u16 for each element and one more: its first entry
     // with lines
     std::size_t anchors = 0;     ///< u16 or u32, of every pair of rows from `first_pair` on
-    std::size_t starts = 0;      ///< u16: where a line begins, in u16; one more than lines
+    std::size_t starts = 0;      ///< u16 for each line and one more: its offset, in units of u16
     std::size_t wide = 0;        ///< a bit for each line
-    std::size_t base_starts = 0; ///< u16: where a base line begins, in pairs; with one more
+    std::size_t base_starts = 0; ///< u16 for each base line and one more: its offset, in pairs
     std::size_t bases = 0;       ///< u16, even row before odd row
-    std::size_t lengths = 0;     ///< u8, of wide lines u16, even row before odd row
+    std::size_t lengths = 0;     ///< u8, u16 in wide lines; even row before odd row
     // all
     std::size_t ids = 0; ///< u16
     std::size_t end = 0;
@@ -29,13 +29,13 @@ struct CellTableLayout {
     static std::uint32_t pairs(const CellTableHead& head) {
         return head.last_row / 2u + 1 - first_pair(head);
     }
-    /// Whether the entries are so few that an anchor takes 16 bits.
+    /// Whether entries are few enough for an anchor to fit 16 bits.
     static bool short_anchors(const CellTableHead& head) { return head.entries <= 0xffff; }
-    /// There is a line for each column from the first that is in use to that of the last row.
+    /// One line for each column from `first_column` to `last_row`.
     static std::uint32_t lines(const CellTableHead& head) {
         return head.last_row + 1u - head.first_column;
     }
-    /// Base lines are numbered by their column's multiple of 2^form.
+    /// The base line of a column has the number column >> form.
     static std::uint32_t first_base(const CellTableHead& head) {
         return head.first_column >> head.form;
     }

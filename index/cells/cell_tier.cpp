@@ -1,4 +1,4 @@
-// Search over the chunks of an epoch, with a check of every table at its first use.
+// Searches the chunks of an epoch, and checks every table at its first use.
 #include "index/cells/cell_tier.h"
 
 #include "index/error.h"
@@ -69,7 +69,7 @@ TimePath CellTier::path_to(std::uint32_t step) const {
     return {TimeNode::root(epoch_steps(step / kEpoch)), step % kEpoch};
 }
 
-/// Checks what a search at a step needs of a unit and no other step has needed before.
+/// Checks what a search at a step needs of a unit, if it has not been checked for other steps.
 void CellTier::check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
     const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
     const CellUnit& unit = cells_[i];
@@ -101,7 +101,7 @@ void CellTier::check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint3
     sound_transitions_.set(i * kEpoch + step % kEpoch);
 }
 
-/// Says which heads a first search at a step will need, so that the disk works on all of them.
+/// Announces the heads that a first search at a step needs, so that the disk works on all of them.
 void CellTier::expect_cells(std::uint32_t step) const {
     const std::size_t begin = std::size_t{step / kEpoch} * chunking_.count();
     for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk)
@@ -110,8 +110,8 @@ void CellTier::expect_cells(std::uint32_t step) const {
                 cells_[begin + chunk].head_bytes(epoch_steps(step / kEpoch)));
 }
 
-/// Calls `f` with the cells of every chunk, sound as far as the step needs them, while the next
-/// chunk's first bytes are on their way.
+/// Calls `f` with the cells of every chunk, checked as far as the step needs them, while the next
+/// chunk's first bytes are prefetched.
 template <class F>
 void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
     assert(step < steps_);

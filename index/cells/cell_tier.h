@@ -1,4 +1,4 @@
-// The cells and deltas of a whole series: one search over the chunks of an epoch.
+// The cells and deltas of a whole series, and the search in them.
 #pragma once
 
 #include "index/cells/cell_unit.h"
@@ -15,9 +15,9 @@
 
 namespace isochron::index {
 
-/// The units stay where they are. A table is read and checked when it is first needed, which throws
-/// Error where its bytes are damaged or cannot be read; none is looked at before. Any number of
-/// threads may search at once; a search allocates nothing but what the results need.
+/// Refers to the bytes of the units. A table is read and checked when it is first needed, not
+/// before; that throws Error if its bytes are damaged or cannot be read. Any number of threads may
+/// search at once; a search allocates memory for its results only.
 ///
 ///     index::CellTier cells(Chunking(grid), steps, cell_bytes, delta_bytes);
 ///     const auto held = cells.hold();
@@ -25,23 +25,23 @@ namespace isochron::index {
 ///     index::append_ids(certain, ids);
 class CellTier {
   public:
-    /// One for each chunk of each epoch: [epoch][chunk], epochs of TimePath::kMaxSteps steps.
+    /// One unit for each chunk of each epoch: [epoch][chunk], epochs of TimePath::kMaxSteps steps.
     using Units = std::vector<std::span<const std::byte>>;
 
-    /// What the units of each epoch lie in, where they are read when they are needed.
+    /// The memory of each epoch's units, if they are read from a file when they are needed.
     using Pages = std::vector<std::unique_ptr<LazyPart>>;
 
     /// @param deltas may be empty
     /// @param pages one for each epoch, or none at all; outlives this
-    /// @param budget bytes of them to keep
+    /// @param budget bytes of the pages to keep
     CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells, const Units& deltas,
              const Pages* pages = nullptr, std::uint64_t budget = 0);
 
-    /// First steps of the series that it holds.
+    /// Number of the series' first steps that it holds.
     std::uint32_t steps() const { return steps_; }
 
-    /// While somebody holds the tier, what searches find stays where it is. Who takes hold when
-    /// more has been read than the budget allows, and nobody else holds it, makes it begin anew.
+    /// While a lock is held, the results of searches stay valid. If more has been read than the
+    /// budget allows and nobody else holds the tier, this first drops everything that was read.
     std::shared_lock<std::shared_mutex> hold() const;
 
     /// Bytes of its pages that are in memory.
@@ -49,29 +49,33 @@ class CellTier {
 
     bool has_deltas() const { return !deltas_.empty(); }
 
-    /// Appends the active cells, and apart from them those that only the volume decides.
+    /// Appends the active cells to `certain`, and the cells that only the volume decides to
+    /// `ambiguous`.
     void search(std::uint32_t step, LevelMap::Cut cut, std::vector<IdRun>& certain,
                 std::vector<IdRun>& ambiguous) const;
-    /// Appends what changes between neighboring steps, either way. Needs deltas and an exact cut.
+    /// Appends the cells that become active, and that cease to be active, between two neighboring
+    /// steps, in either direction. Needs deltas and an exact cut.
     void change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut, std::vector<IdRun>& added,
                 std::vector<IdRun>& removed) const;
-    /// Appends what may be active at one of two steps only: the entries of the time nodes that do
-    /// not span both. A cell whose extremes have changed may be in both sets. The cut is exact.
+    /// Appends the cells that may be active at only one of two steps: the active entries of time
+    /// nodes that do not span both. A cell whose extremes changed may be in both sets. The cut must
+    /// be exact.
     void difference(std::uint32_t step_a, std::uint32_t step_b, LevelMap::Cut cut,
                     std::vector<IdRun>& only_a, std::vector<IdRun>& only_b) const;
-    /// Appends what is active at one of two isovalues only. Both cuts are exact.
+    /// Appends the cells that are active at only one of two isovalues. Both cuts must be exact.
     void level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
                           std::vector<IdRun>& added, std::vector<IdRun>& removed) const;
 
     /// Entries of every time node of every epoch, over all chunks, in depth-first order.
     std::vector<TimeNodeCells> nodes() const;
-    /// Checks everything, also what no search has needed yet; throws Error.
+    /// Checks everything, even what no search has needed yet. @throws Error when damaged
     void verify() const;
-    /// Likewise one unit, of which all has been read. @param unit by epoch and chunk, chunks faster
+    /// Checks one unit, all of which must have been read. @param unit by epoch and chunk, chunks
+    ///        faster @throws Error when damaged
     void verify_unit(std::size_t unit) const;
 
   private:
-    /// A bit for each of many things, set by any thread.
+    /// An array of bits that any thread may set.
     class Marks {
       public:
         explicit Marks(std::size_t count)
@@ -110,7 +114,8 @@ class CellTier {
     std::uint32_t steps_;
     std::vector<CellUnit> cells_;
     std::vector<DeltaUnit> deltas_;
-    /// Found sound: all that is needed at a step of a unit; a unit's head and its tables.
+    /// What has been checked: everything that a search needs at a step of a unit; a unit's head and
+    /// tables; transitions of deltas.
     mutable Marks sound_steps_, sound_tables_, sound_transitions_;
     const Pages* pages_;
     std::uint64_t budget_;

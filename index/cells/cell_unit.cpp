@@ -1,4 +1,4 @@
-// Search in the cells and the deltas of one chunk in one epoch.
+// Searches the cells and the deltas of one chunk in one epoch.
 #include "index/cells/cell_unit.h"
 
 #include <xxhash.h>
@@ -104,7 +104,7 @@ void CellUnit::level_difference(const TimePath& path, LevelMap::Cut from, LevelM
         return level_difference(path, to, from, removed, added);
     if (from.level == to.level)
         return;
-    // An entry's column is its low rank; its row is the high rank of a lossy map, else one less.
+    // An entry's column is its low rank. Its row is its high rank if the map is lossy, else 1 less.
     const std::uint32_t lossy = !tables_.head().lossless;
     const std::uint32_t low = from.level - 1u, high = to.level - 1u;
     for (const std::uint32_t node : path)

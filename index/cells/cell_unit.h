@@ -1,4 +1,4 @@
-// The cells, and the deltas, of one chunk in one epoch: tables by time node, and by transition.
+// The cells of one chunk in one epoch, as tables by time node; its deltas, as tables by transition.
 #pragma once
 
 #include "index/cells/cell_table.h"
@@ -16,7 +16,8 @@
 
 namespace isochron::index {
 
-/// Begins a unit; a TableRef for each table follows, then the tables, then IdRun::kSlack ids.
+/// The first bytes of a unit. A TableRef for each table follows, then the tables, then
+/// IdRun::kSlack ids.
 struct CellUnitHead {
     std::uint32_t magic;
     std::uint32_t tables;
@@ -28,62 +29,62 @@ struct CellUnitHead {
 };
 static_assert(sizeof(CellUnitHead) == 32);
 
-/// Where a table lies and at which levels it has entries, so that most tables without need not be
-/// looked at.
+/// The offset and size of a table, and the levels at which it has entries, so that a search can
+/// skip most tables that have none.
 struct TableRef {
     std::uint32_t offset = 0, size = 0; ///< in CellTableHead::kAlignment; offset 0: no entries
-    std::uint32_t checksum = 0; ///< of the table up to its ids, which a search does not go by
+    std::uint32_t checksum = 0; ///< of the table without its ids, which do not guide a search
     std::uint8_t first_column = 0, last_row = 0;
     std::uint16_t reserved = 0;
 };
 static_assert(sizeof(TableRef) == 16);
 
-/// Of a table's bytes, and of a head and references with the head's own as 0.
+/// The checksum of a table's bytes, or of a head and references with the head's checksum as 0.
 std::uint32_t cell_checksum(std::span<const std::byte> bytes);
 
-/// Tables in one block of bytes. A view; cheap to copy, and made without a look at the bytes.
+/// Tables in one block of bytes. A view: cheap to copy; the constructor does not read the bytes.
 class CellTables {
   public:
     /// @param bytes aligned to 8
     explicit CellTables(std::span<const std::byte> bytes)
         : bytes_(bytes.data()), size_(bytes.size()) {}
 
-    /// What the head must say.
+    /// The numbers that the head must have.
     struct Expected {
         std::uint32_t magic, tables, steps, cells;
     };
-    /// Whether the head and the references are sound. Nothing else may be asked before.
+    /// Whether the head and the references are intact. Call it before all other functions.
     bool check_head(const Expected& expected) const;
-    /// Whether a table is, so that a search in it stays inside; its ids are not read, and may be
-    /// those of no cell.
+    /// Whether a table is intact, so that a search in it stays inside. Does not read its ids, which
+    /// may be invalid.
     bool check_table(std::uint32_t table) const;
-    /// Whether all are, with their ids.
+    /// Whether all tables are intact, with their ids.
     bool check_tables() const;
 
-    /// Where the head lies with that many references, as far as there are bytes.
+    /// The bytes of the head with that many references, as far as there are bytes.
     std::span<const std::byte> head_bytes(std::uint32_t tables) const {
         return {bytes_, std::min(size_, sizeof(CellUnitHead) + tables * sizeof(TableRef))};
     }
-    /// Where a table lies, when the head is sound; empty where it has none, or lies outside.
+    /// The bytes of a table, if the head is intact; empty if it has no entries or lies outside.
     std::span<const std::byte> table_bytes(std::uint32_t table) const;
 
-    /// Asks for the bytes that say where a table lies, ahead of need.
+    /// Prefetches the reference of a table.
     void prefetch(std::uint32_t table) const { __builtin_prefetch(refs() + table); }
 
     const CellUnitHead& head() const { return *reinterpret_cast<const CellUnitHead*>(bytes_); }
-    /// The table, where it has entries that count at the level.
+    /// The table; none if it surely has no entries that count at the level.
     std::optional<CellTable> at_level(std::uint32_t table, std::uint32_t level) const {
         const TableRef& ref = refs()[table];
         if (ref.offset == 0 || level < ref.first_column || level > ref.last_row)
             return std::nullopt;
         return this->table(ref);
     }
-    /// The table, where it has entries.
+    /// The table; none if it has no entries.
     std::optional<CellTable> at_any_level(std::uint32_t table) const {
         const TableRef& ref = refs()[table];
         return ref.offset ? std::optional(this->table(ref)) : std::nullopt;
     }
-    /// Entries of every table, for reports.
+    /// Number of entries of every table, for reports.
     std::vector<std::uint32_t> entries() const;
 
   private:
@@ -99,10 +100,10 @@ class CellTables {
     std::size_t size_;
 };
 
-/// The time nodes that span a step, from the root, or from another node on the way, to the leaf.
+/// The time nodes that span a step, from the root or another such node down to the leaf.
 class TimePath {
   public:
-    /// Steps of an epoch, at most.
+    /// Most steps of an epoch.
     static constexpr std::uint32_t kMaxSteps = 256;
 
     TimePath(TimeNode from, std::uint32_t step) {
@@ -126,35 +127,35 @@ class TimePath {
     std::size_t count_ = 0;
 };
 
-/// Epochs of a series: all but the last have TimePath::kMaxSteps steps.
+/// Number of epochs of a series: all but the last have TimePath::kMaxSteps steps.
 constexpr std::uint32_t epoch_count(std::size_t steps) {
     return static_cast<std::uint32_t>((steps + TimePath::kMaxSteps - 1) / TimePath::kMaxSteps);
 }
 
-/// The cells of one chunk at the steps of one epoch, which count from 0 here. A cell is an entry of
-/// the highest time nodes over whose span its extremes are constant, but for spans over which those
-/// of only a few cells are: these are entries of the nodes below.
+/// The cells of one chunk at the steps of one epoch, which are counted from 0 here. A cell is an
+/// entry of the highest time nodes over whose span its extremes are constant. Nodes with only a few
+/// of these cells have no entries; the cells are entries of the nodes below instead.
 ///
-/// Of a lossless map an entry's levels are the ranks from `low` to `high - 1`: level k lies between
-/// rank k and rank k + 1. Of a lossy map they are `low` to `high`: level k is rank k, at which a
-/// cut may leave open what a vertex is.
+/// If the map is lossless, an entry's levels are the ranks from `low` to `high - 1`: level k is
+/// between rank k and rank k + 1. If it is lossy, they are `low` to `high`: level k is rank k, at
+/// which a cut may not tell the side of a vertex.
 class CellUnit {
   public:
     static constexpr std::uint32_t kMagic = 0x4c4c4543; // "CELL"
 
-    /// @param bytes aligned to 8, not looked at @param first the chunk's first cell
+    /// @param bytes aligned to 8, not read here @param first the chunk's first cell
     CellUnit(std::span<const std::byte> bytes, CellId first) : tables_(bytes), first_(first) {}
 
-    /// Whether the head is sound and says so many steps and cells.
+    /// Whether the head is intact and has these numbers of steps and cells.
     bool check_head(std::uint32_t steps, std::uint32_t cells) const;
-    /// What must have been read for `check_head`, and then for a time node's table.
+    /// The bytes that `check_head` needs, and then the bytes of a time node's table.
     std::span<const std::byte> head_bytes(std::uint32_t steps) const {
         return tables_.head_bytes(TimeNode::count(steps));
     }
     std::span<const std::byte> table_bytes(std::uint32_t node) const {
         return tables_.table_bytes(node);
     }
-    /// Whether a time node's table is sound, when the head is: only then may it be searched.
+    /// Whether a time node's table is intact, if the head is. Call it before a search in the table.
     bool check_table(std::uint32_t node) const { return tables_.check_table(node); }
     /// Whether everything is sound.
     bool check(std::uint32_t steps, std::uint32_t cells) const {
@@ -165,11 +166,11 @@ class CellUnit {
         for (const std::uint32_t node : path)
             tables_.prefetch(node);
     }
-    /// Appends the active cells of the time nodes on a path (of all cells, when it begins at the
-    /// root), and apart from them those that only the volume decides.
+    /// Appends the active cells in the time nodes on a path (in all nodes of a step if it begins at
+    /// the root) to `certain`, and the cells that only the volume decides to `ambiguous`.
     void search(const TimePath& path, LevelMap::Cut cut, RunBuffer& certain,
                 RunBuffer& ambiguous) const;
-    /// Appends what is active at one of two isovalues only. Both cuts are exact.
+    /// Appends the cells that are active at only one of two isovalues. Both cuts must be exact.
     void level_difference(const TimePath& path, LevelMap::Cut from, LevelMap::Cut to,
                           RunBuffer& added, RunBuffer& removed) const;
 
@@ -181,27 +182,27 @@ class CellUnit {
     CellId first_;
 };
 
-/// What changes in one chunk from each step to the next, as intervals of levels; of a lossless map.
-/// The first transition is that into the epoch's first step from the one before, and empty where
-/// there is none.
+/// The changes in one chunk from each step to the next, as intervals of levels of a lossless map.
+/// The first transition is from the step before the epoch into its first step; it is empty in the
+/// first epoch.
 class DeltaUnit {
   public:
     static constexpr std::uint32_t kMagic = 0x544c4544; // "DELT"
 
-    /// @param bytes aligned to 8, not looked at @param first the chunk's first cell
+    /// @param bytes aligned to 8, not read here @param first the chunk's first cell
     DeltaUnit(std::span<const std::byte> bytes, CellId first) : tables_(bytes), first_(first) {}
 
-    /// Whether the head is sound and says so many steps and cells.
+    /// Whether the head is intact and has these numbers of steps and cells.
     bool check_head(std::uint32_t steps, std::uint32_t cells) const;
-    /// What must have been read for `check_head`, and then for a table: 2 * step for what is added
-    /// into a step, the next one for what is removed.
+    /// The bytes that `check_head` needs, and then the bytes of a table: 2 * step for the cells
+    /// that are added at a step, 2 * step + 1 for those that are removed.
     std::span<const std::byte> head_bytes(std::uint32_t steps) const {
         return tables_.head_bytes(2 * steps);
     }
     std::span<const std::byte> table_bytes(std::uint32_t table) const {
         return tables_.table_bytes(table);
     }
-    /// Whether a transition's tables are sound, when the head is: only then may it be searched.
+    /// Whether a transition's tables are intact, if the head is. Call it before a search in them.
     bool check_transition(std::uint32_t into_step) const {
         return tables_.check_table(2 * into_step) && tables_.check_table(2 * into_step + 1);
     }
@@ -211,8 +212,8 @@ class DeltaUnit {
     }
 
     void prefetch(std::uint32_t into_step) const { tables_.prefetch(2 * into_step); }
-    /// Appends the cells that become active from the step before to this one, and those that cease
-    /// to be; for the way back swap them. The cut is exact.
+    /// Appends the cells that become active from the step before to this one, and the cells that
+    /// cease to be active. For the opposite direction swap them. The cut must be exact.
     void change(std::uint32_t into_step, LevelMap::Cut cut, RunBuffer& added,
                 RunBuffer& removed) const;
 

@@ -1,4 +1,4 @@
-// Building of cells and deltas: where in the time tree a cell is constant, and what changes.
+// Builds cells, by the time nodes over which a cell is constant, and deltas, by what changes.
 #include "index/cells/cell_unit_build.h"
 
 #include "index/cells/cell_unit.h"
@@ -14,8 +14,8 @@ namespace {
 
 using Extremes = ChunkRanks::Extremes;
 
-/// Cells that are worth a table of their own: the directory of one with fewer takes about as many
-/// bytes as to store them twice, and every search at every step of its span has to go through it.
+/// Fewest cells that get their own table. The directory of a smaller table takes about as many
+/// bytes as storing its cells twice, and every search in its span must go through it.
 constexpr std::size_t kFewest = 512;
 
 } // namespace
@@ -66,8 +66,8 @@ struct CellUnitBuilder::Cells {
     UnitUnderWay& unit;
     std::vector<std::array<CellBits, 2>>& bits; ///< of the children, by depth
 
-    /// Sets the bits of the cells that are constant over the node's span, after building the nodes
-    /// below.
+    /// Builds the nodes below, then sets the bits of the cells that are constant over the node's
+    /// span.
     void visit(const TimeNode& node, CellBits& constant) {
         if (node.is_leaf()) {
             std::fill(constant.begin(), constant.end(), ~std::uint64_t{0});

@@ -11,16 +11,16 @@
 
 namespace isochron::index {
 
-/// The bytes of CellUnit and DeltaUnit (cell_unit.h). The same bytes for the same ranks. Keeps its
-/// work space: one for each thread.
+/// Builds the bytes of CellUnit and DeltaUnit (cell_unit.h): the same bytes for the same ranks.
+/// Keeps its work space: one for each thread.
 class CellUnitBuilder {
   public:
-    /// @param lossless of the level map @param first the epoch's first step among those of `ranks`,
-    ///   which end with the epoch
+    /// @param lossless whether the level map is @param first the epoch's first step among those of
+    ///   `ranks`, whose last step is the epoch's last
     void build_cells(const ChunkRanks& ranks, std::uint32_t first, bool lossless,
                      std::vector<std::byte>& out);
-    /// Of a lossless map. @param first the epoch's first step among those of `ranks`: 1 when the
-    ///   step before is among them, else 0
+    /// The level map must be lossless.
+    /// @param first the epoch's first step in `ranks`: 1 if they begin with the step before, else 0
     void build_deltas(const ChunkRanks& ranks, std::uint32_t first, std::vector<std::byte>& out);
 
   private:

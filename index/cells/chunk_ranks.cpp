@@ -15,8 +15,8 @@ struct ChunkRanks::Stretch {
         first = vertex(first_row);
         count = vertex(first_row + row_count - 1) + plane + row + row - first;
     }
-    /// Calls `f(cell, vertex)` for every row of cells: the first cell's place in the chunk, and
-    /// that of its lowest vertex in the stretch.
+    /// Calls `f(cell, vertex)` for every row of cells, with the first cell's place in the chunk and
+    /// the place of its lowest vertex in this part.
     template <class F>
     void for_each_row(F&& f) const {
         for (std::uint32_t r = 0; r < row_count; ++r)
@@ -77,8 +77,8 @@ const std::uint8_t* ChunkRanks::ranks_of(std::span<const std::byte> stored) {
     return ranks_.data();
 }
 
-/// Extremes of the four vertices (x, y) to (x+1, y+1), wherever all of them are in the stretch; of
-/// no meaning at the end of a row and in the last row of a plane.
+/// Computes the extremes of the four vertices (x, y) to (x+1, y+1) if all are in the stretch. At
+/// the end of a row and in the last row of a plane they have no meaning.
 void ChunkRanks::reduce_columns(const std::uint8_t* ranks, std::size_t count) {
     const std::size_t row = values_.grid.vertices[0];
     const std::uint8_t *a = ranks, *b = ranks + 1, *c = ranks + row, *d = c + 1;
@@ -89,7 +89,7 @@ void ChunkRanks::reduce_columns(const std::uint8_t* ranks, std::size_t count) {
     }
 }
 
-/// Whether a value is NaN; if so, `ranks_` becomes 1 where it is and 0 elsewhere.
+/// Whether any value is NaN; if so, sets `ranks_` to 1 for each NaN and 0 for other values.
 bool ChunkRanks::find_nan(std::span<const std::byte> stored) {
     return visit_value_type(values_.type, [&]<class T>(std::type_identity<T>) {
         if constexpr (std::is_floating_point_v<T>) {

@@ -1,5 +1,5 @@
-// The extremes of a chunk's cells at consecutive steps, as ranks: what cells and deltas are built
-// of.
+// The extremes of a chunk's cells at consecutive steps, as ranks, from which cells and deltas are
+// built.
 #pragma once
 
 #include "index/volume/chunking.h"
@@ -13,15 +13,16 @@
 
 namespace isochron::index {
 
-/// Reads each step's stretch of a chunk once. Keeps its work space: one for each thread.
+/// Reads the vertices of a chunk once for each step. Keeps its work space: one for each thread.
 class ChunkRanks {
   public:
     ChunkRanks(const StepValues& values, const LevelMap& levels);
 
-    /// That many ranks behind the last may be read too, and are of no meaning.
+    /// This many ranks after the last can be read too; they have no meaning.
     static constexpr std::size_t kSlack = 63;
 
-    /// Of each cell of a chunk at one step, in id order; low 1 and high 0 where a vertex is NaN.
+    /// Extremes of each cell of a chunk at one step, in id order; low 1 and high 0 if a vertex is
+    /// NaN.
     struct Extremes {
         std::span<const std::uint8_t> low, high;
     };

@@ -1,4 +1,4 @@
-// Ids of runs, in whole vectors; compiled once for each SIMD target and chosen at run time.
+// Copies ids of runs in whole vectors; compiled once for each SIMD target and chosen at run time.
 #include "index/cells/id_runs.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -14,8 +14,8 @@ namespace isochron::index::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Most runs are shorter than a block: it is written whole and without a branch, and the next run
-/// overwrites what was too much.
+/// Copies a whole block without a branch, as most runs are shorter; the next run overwrites what is
+/// too much.
 HWY_INLINE void copy_block(const std::uint16_t* ids, CellId first, CellId* out) {
     const hn::CappedTag<CellId, IdRun::kSlack> d;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;

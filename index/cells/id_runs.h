@@ -1,4 +1,4 @@
-// Search results as runs: references to the ids where they lie in the index.
+// Search results as runs: references to ids in the memory of the index.
 #pragma once
 
 #include "index/volume/grid.h"
@@ -11,8 +11,8 @@
 
 namespace isochron::index {
 
-/// The cells `first + ids[0]` to `first + ids[count - 1]` of one chunk. Up to kSlack ids behind the
-/// run may be read too (and are of no meaning), so that it can be copied in whole vectors.
+/// The cells `first + ids[0]`, ..., `first + ids[count - 1]` of one chunk. Up to kSlack ids after
+/// the run can be read too (they have no meaning), so that it can be copied in whole vectors.
 struct IdRun {
     static constexpr std::size_t kSlack = 32;
     const std::uint16_t* ids;
@@ -20,7 +20,7 @@ struct IdRun {
     CellId first;
 };
 
-/// Gathers runs for a vector, which takes more time to grow by one than it takes to find one.
+/// Appends runs to a vector in bulk, since appending one takes more time than finding one.
 class RunBuffer {
   public:
     explicit RunBuffer(std::vector<IdRun>& out) : out_(out) {}
@@ -28,7 +28,7 @@ class RunBuffer {
     RunBuffer(const RunBuffer&) = delete;
     RunBuffer& operator=(const RunBuffer&) = delete;
 
-    /// Room for `count` runs, of which `took` says where those that were written end.
+    /// Room for `count` runs; then call `took` with the end of those that were written.
     IdRun* room(std::size_t count) {
         if (runs_.size() - size_ < count)
             flush();
@@ -47,14 +47,14 @@ class RunBuffer {
     std::array<IdRun, 512> runs_;
 };
 
-/// Number of cells of the runs.
+/// Number of cells in the runs.
 std::size_t count_ids(std::span<const IdRun> runs);
 
-/// Writes the cells of the runs, in their order; what lies up to kSlack ids behind them may be
-/// overwritten too. @param out holds kSlack ids more than the runs @return number of ids written
+/// Writes the cells of the runs, in order; up to kSlack ids after them may be overwritten too.
+/// @param out must have room for kSlack ids more than the runs have @return number of ids written
 std::size_t copy_ids(std::span<const IdRun> runs, std::span<CellId> out);
 
-/// Appends the cells of the runs, in their order.
+/// Appends the cells of the runs, in order.
 void append_ids(std::span<const IdRun> runs, std::vector<CellId>& out);
 
 } // namespace isochron::index

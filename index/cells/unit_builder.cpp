@@ -1,4 +1,4 @@
-// Builds the units of cells and deltas of a series, one after the other.
+// Builds the units of a series: cells and deltas of one chunk in one epoch.
 #include "index/cells/unit_builder.h"
 
 #include "index/cells/cell_unit.h"
@@ -15,7 +15,7 @@ UnitBuilder::UnitBuilder(const StepValues& values, const LevelMap& levels)
 void UnitBuilder::build(std::uint32_t chunk, std::uint32_t epoch, bool deltas, UnitBytes& out) {
     const std::uint32_t first = epoch * TimePath::kMaxSteps;
     const std::uint32_t count = std::min(TimePath::kMaxSteps, steps_ - first);
-    const std::uint32_t before = deltas && epoch > 0 ? 1 : 0; // the step into the epoch
+    const std::uint32_t before = deltas && epoch > 0 ? 1 : 0; // the step before the epoch
     ranks_.compute(chunk, first - before, count + before);
     builder_.build_cells(ranks_, before, lossless_, out.cells);
     const auto entries = CellUnit(out.cells, 0).entries();

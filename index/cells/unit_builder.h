@@ -1,4 +1,4 @@
-// Builds the units of cells and deltas of a series, one after the other.
+// Builds the units of a series: cells and deltas of one chunk in one epoch.
 #pragma once
 
 #include "index/cells/cell_unit_build.h"
@@ -20,7 +20,7 @@ class UnitBuilder {
   public:
     UnitBuilder(const StepValues& values, const LevelMap& levels);
 
-    /// Builds one chunk in one epoch. @param out its memory is used again
+    /// Builds one chunk in one epoch. @param out replaced; its memory is used again
     void build(std::uint32_t chunk, std::uint32_t epoch, bool deltas, UnitBytes& out);
 
   private:

@@ -1,4 +1,4 @@
-// One file that is open in a reader: what each format implements that a library decodes.
+// One file that is open in a reader: the interface of each format that a library decodes.
 #pragma once
 
 #include "index/reader/reader_messages.h"
@@ -15,22 +15,24 @@ class DecodedFile {
   public:
     virtual ~DecodedFile() = default;
 
-    /// As `VolumeFile` has them.
+    /// The same as in `VolumeFile`.
     virtual const SeriesInfo& info() const = 0;
     virtual std::size_t steps() const = 0;
 
-    /// Slices that the library decodes together anyway, or that are many enough to be worth asking
-    /// for; at most all.
+    /// Number of slices for one request: those that the library decodes together, or enough to be
+    /// worth a request; at most all.
     virtual std::uint32_t slices_at_once() const = 0;
-    /// [bytes] of a step as the library holds it.
+    /// [bytes] of a step in the library's memory.
     virtual std::uint64_t decoded_bytes() const = 0;
 
-    /// Writes slices of one step, as `VolumeSeries::read` has them. `slices` begin at a multiple of
-    /// `slices_at_once` and are as many, or all that are left. @throws Error naming the file
+    /// Writes slices of one step in the format of `VolumeSeries::read`. `slices` begin at a
+    /// multiple of `slices_at_once`; they are that many, or all that are left.
+    /// @throws Error naming the file
     virtual void read(std::size_t step, Slices slices, std::span<std::byte> out) = 0;
 };
 
-/// So many slices that a request is small beside their copying, and they stay in the cache.
+/// A number of slices that makes a request cheap compared with copying them, while they fit the
+/// cache.
 std::uint32_t slices_worth_asking(const SeriesInfo& info);
 
 /// Opens one file, reading no more than it must to describe it. @throws Error naming the file

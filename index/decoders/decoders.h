@@ -1,4 +1,4 @@
-// The formats that libraries decode: one function each, in a file of its own.
+// The formats that libraries decode: one function for each, in a separate file.
 #pragma once
 
 #include "index/decoders/decoded_file.h"
@@ -8,7 +8,7 @@
 
 namespace isochron::index {
 
-/// VTK XML image data (.vti), all its encodings and compressors.
+/// VTK XML image data (.vti) in all encodings and with all compressors.
 std::unique_ptr<DecodedFile> decode_vti(const std::filesystem::path& path,
                                         const ReadOptions& options);
 
@@ -24,8 +24,8 @@ std::unique_ptr<DecodedFile> decode_netcdf(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
                                          const ReadOptions& options);
 
-/// The files and times of a ParaView collection (.pvd), in the order of their times, paths made
-/// relative to where the program runs. @throws Error naming the file
+/// The files and times of a ParaView collection (.pvd), ordered by time. Paths are made relative to
+/// the working directory. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> decode_pvd(const std::filesystem::path& path);
 
 } // namespace isochron::index

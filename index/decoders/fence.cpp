@@ -1,4 +1,4 @@
-// A list of calls that may be made, by seccomp(2).
+// The fence: a list of allowed system calls, enforced by seccomp(2).
 #include "index/decoders/fence.h"
 
 #ifdef ISOCHRON_WITH_SECCOMP
@@ -18,9 +18,9 @@ namespace {
 
 #ifdef ISOCHRON_WITH_SECCOMP
 
-/// What reading, computing and answering need.
+/// The calls that reading, computing and answering need.
 constexpr int kAllowed[]{
-    // files that are open, and what is known of those that are not
+    // reading open files, and the state of other files
     SCMP_SYS(read), SCMP_SYS(pread64), SCMP_SYS(readv), SCMP_SYS(preadv), SCMP_SYS(lseek),
     SCMP_SYS(write), SCMP_SYS(writev), SCMP_SYS(close), SCMP_SYS(stat), SCMP_SYS(fstat),
     SCMP_SYS(lstat), SCMP_SYS(newfstatat), SCMP_SYS(statx), SCMP_SYS(statfs), SCMP_SYS(fstatfs),
@@ -39,7 +39,7 @@ constexpr int kAllowed[]{
     SCMP_SYS(restart_syscall), SCMP_SYS(clock_gettime), SCMP_SYS(clock_getres),
     SCMP_SYS(clock_nanosleep), SCMP_SYS(nanosleep), SCMP_SYS(gettimeofday), SCMP_SYS(time),
     SCMP_SYS(exit), SCMP_SYS(exit_group),
-    // what it is told of itself and the machine
+    // information on the process and the machine
     SCMP_SYS(getrlimit), SCMP_SYS(setrlimit), SCMP_SYS(prlimit64), SCMP_SYS(getrusage),
     SCMP_SYS(times), SCMP_SYS(uname), SCMP_SYS(sysinfo), SCMP_SYS(getrandom), SCMP_SYS(getuid),
     SCMP_SYS(geteuid), SCMP_SYS(getgid), SCMP_SYS(getegid), SCMP_SYS(arch_prctl)};
@@ -56,10 +56,10 @@ bool refuse_all_other_calls() {
                                SCMP_A1(SCMP_CMP_MASKED_EQ, kToWrite, 0)) == 0;
     good &= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(openat), 1,
                                SCMP_A2(SCMP_CMP_MASKED_EQ, kToWrite, 0)) == 0;
-    // To itself alone, as abort() does.
+    // Signals only to this process, as abort() sends.
     good &= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
                                SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()))) == 0;
-    // Threads, by the older call, whose flags can be seen: the newer one is said not to exist.
+    // Threads only by the older call, whose flags a filter can check; clone3 fails as unknown.
     constexpr scmp_datum_t kThread = 0x00010000; // CLONE_THREAD
     good &= ::seccomp_rule_add(filter, SCMP_ACT_ALLOW, SCMP_SYS(clone), 1,
                                SCMP_A0(SCMP_CMP_MASKED_EQ, kThread, kThread)) == 0;

@@ -1,4 +1,4 @@
-// HDF5 datasets by their path.
+// Opens HDF5 datasets by their path.
 #include "index/decoders/decoders.h"
 #include "index/decoders/hdf5_grid.h"
 #include "index/decoders/hdf5_volume.h"

@@ -1,4 +1,4 @@
-// Datasets put together to arrays, and the choice among them.
+// Groups datasets into arrays, and chooses one.
 #include "index/decoders/hdf5_arrays.h"
 
 #include "index/error.h"
@@ -14,14 +14,14 @@
 namespace isochron::index {
 namespace {
 
-/// A vector or tensor has no more components than this.
+/// Most components of a vector or tensor, and most that an axis without a name may be.
 constexpr std::uint64_t kMostComponents = 9, kMaybeComponents = 4;
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// The path with the number of its last numbered group replaced by `*`, and where that ends.
+/// The path with its last numbered group replaced by `*`, and the end of that group in the path.
 std::optional<std::pair<std::string, std::size_t>> pattern_of(const std::string& path) {
     std::size_t slash = path.rfind('/');
     while (slash != std::string::npos && slash > 0) {
@@ -39,7 +39,7 @@ bool in_natural_order(const Hdf5Dataset& a, const Hdf5Dataset& b) {
     return natural_less(a.path, b.path);
 }
 
-/// Of a path that matches the pattern, the part up to the end of what its first `*` stands for.
+/// The part of a path that matches the pattern, up to the end of the group at the first `*`.
 std::string group_in(const std::string& path, const std::string& pattern) {
     const std::size_t star = pattern.find('*');
     const auto behind = std::count(pattern.begin() + static_cast<std::ptrdiff_t>(star),
@@ -80,7 +80,7 @@ std::vector<Hdf5Array> put_together(const std::vector<Hdf5Dataset>& datasets) {
     return arrays;
 }
 
-/// Whether it may be a volume, however its dimensions are told apart.
+/// Whether it may be a volume, by the number of its dimensions.
 bool may_be_volume(const Hdf5Dataset& dataset) {
     const auto dimensions =
         std::ranges::count_if(dataset.dimensions, [](std::uint64_t length) { return length != 1; });
@@ -99,7 +99,7 @@ bool may_be_volume(const Hdf5Dataset& dataset) {
                             file.name(), list));
 }
 
-/// Those whose path is `name`, or matches it, or ends in it.
+/// The arrays whose path is `name`, or else those whose path ends in it.
 std::vector<Hdf5Array> called(const std::vector<Hdf5Array>& arrays, const std::string& name) {
     std::vector<Hdf5Array> found;
     const std::string end = name.starts_with('/') ? name : "/" + name;
@@ -113,7 +113,7 @@ std::vector<Hdf5Array> called(const std::vector<Hdf5Array>& arrays, const std::s
     return found;
 }
 
-/// @throws Error when they are not alike
+/// The datasets that match a pattern, as one array. @throws Error when types or shapes differ
 Hdf5Array matching(const Hdf5File& file, const std::vector<Hdf5Dataset>& datasets,
                    const std::string& pattern) {
     std::vector<Hdf5Dataset> steps;
@@ -146,7 +146,7 @@ std::optional<Hdf5Layout> layout_of(const Hdf5Dataset& dataset, const ReadOption
     };
     Hdf5Layout layout;
     if (options.component && left.size() > 3) {
-        // Components lie together, or are the first axis, or the second one behind time.
+        // Components are the last axis, or the first one, or the second one after time.
         const std::size_t first = left.size() - 4;
         std::size_t at = left.size() - 1;
         if (length(left[at]) > kMostComponents ||
@@ -175,7 +175,7 @@ std::optional<Hdf5Layout> layout_of(const Hdf5Dataset& dataset, const ReadOption
 
 Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
     if (options.array && options.array->find('*') == std::string::npos) {
-        // It may lie behind a link, or be one step of several.
+        // The path may go through a link, or name a single step of several.
         const std::string path =
             options.array->starts_with('/') ? *options.array : "/" + *options.array;
         if (auto dataset = file.dataset(path))
@@ -195,7 +195,7 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
         if (const std::vector<Hdf5Array> found = called(offered, *options.array); !found.empty()) {
             if (found.size() == 1)
                 return found.front();
-            offered = found; // several paths end so
+            offered = found; // several paths have this end
             asked.array.reset();
         }
     std::vector<StoredArray> listed;
@@ -206,7 +206,7 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
         listed.push_back(
             {.name = array.name, .type = array.steps.front().type, .shape = std::move(shape)});
     }
-    asked.component.reset(); // an axis of the dataset
+    asked.component.reset(); // components are an axis of the dataset here
     const ChosenScalar chosen = choose_scalar(listed, asked, file.name());
     return *std::ranges::find(offered, chosen.array.name, &Hdf5Array::name);
 }

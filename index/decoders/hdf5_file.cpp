@@ -1,4 +1,4 @@
-// The HDF5 library's view of a file.
+// Reads an HDF5 file through its library.
 #include "index/decoders/hdf5_file.h"
 
 #include "index/decoders/hdf5_filters.h"
@@ -51,7 +51,7 @@ std::optional<StoredType> stored_type_of_hdf5(hid_t type) {
     }
 }
 
-/// What the library says went wrong, at the place where it began.
+/// The library's message on an error, from the place where the error began.
 std::string words_of_hdf5() {
     std::string words;
     H5Ewalk2(
@@ -83,7 +83,7 @@ std::optional<Hdf5Dataset> described(hid_t dataset, std::string path) {
     return Hdf5Dataset{std::move(path), stored_type_of_hdf5(type.id()), dimensions_of(space.id())};
 }
 
-/// An attribute that is there, and how many values it has.
+/// An open attribute, its type and its number of values.
 struct Attribute {
     Hdf5Handle open, type;
     hssize_t count = 0;
@@ -152,7 +152,7 @@ std::string shape_text(const std::vector<std::uint64_t>& dimensions) {
 }
 
 Hdf5File::Hdf5File(const fs::path& path) : name_(path.string()) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // what is looked for in vain would be printed
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // or it prints an error for what is missing
     file_bytes(path);
     register_hdf5_filters();
     const htri_t is = H5Fis_hdf5(name_.c_str());

@@ -1,4 +1,4 @@
-// An HDF5 file as its library gives it: datasets, attributes and values, its errors as ours.
+// An HDF5 file through its library: datasets, attributes and values; errors are thrown as Error.
 #pragma once
 
 #include "index/formats/stored_scalar.h"
@@ -14,7 +14,7 @@
 
 namespace isochron::index {
 
-/// Something of the library that is open: its number, and what closes it.
+/// An open object of the library: its identifier, and the function that closes it.
 class Hdf5Handle {
   public:
     using Close = int (*)(std::int64_t);
@@ -59,24 +59,24 @@ class Hdf5File {
     const std::string& name() const { return name_; }
     std::int64_t id() const { return file_.id(); }
 
-    /// All that hard links lead to, in the order of their names.
+    /// All datasets that hard links lead to, ordered by name.
     /// @throws Error: damaged, or more than 200,000 objects
     std::vector<Hdf5Dataset> datasets() const;
-    /// Also behind soft and external links; none where there is no dataset of that path.
+    /// The dataset at a path, also behind soft and external links; none if there is none.
     std::optional<Hdf5Dataset> dataset(const std::string& path) const;
     bool holds(const std::string& path) const;
 
-    /// Attributes of the object at a path, empty where there is none of that name and kind.
+    /// Attributes of the object at a path; empty if it has none of that name and kind.
     std::vector<double> numbers(const std::string& object, const std::string& attribute) const;
     std::string text(const std::string& object, const std::string& attribute) const;
     std::vector<std::string> texts(const std::string& object, const std::string& attribute) const;
 
-    /// All values of a short dataset. @throws Error: of more than 2^24 values, or damaged
+    /// All values of a short dataset. @throws Error: more than 2^24 values, or damaged
     std::vector<double> values(const Hdf5Dataset& dataset) const;
-    /// The paths of the first dimension scale along each dimension; empty where there is none.
+    /// The path of the first dimension scale along each dimension; empty if there is none.
     std::vector<std::string> scales(const Hdf5Dataset& dataset) const;
 
-    /// @throws Error naming file and object with what the library says, when `good` is false
+    /// @throws Error with file, object and the library's message, when `good` is false
     void expect(bool good, const std::string& what) const;
 
   private:

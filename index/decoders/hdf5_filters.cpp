@@ -1,4 +1,4 @@
-// Decompression behind HDF5's pipeline.
+// Decompression filters for HDF5's pipeline.
 //
 // Numbers: "Registered Filter Plugins", The HDF Group. LZF after its format in lzf_d.c's comment,
 // M. Lehmann, LibLZF; Blosc by its library.
@@ -21,12 +21,12 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// @return how many bytes came out; none: damaged, or more than `out` holds
+/// @return number of decompressed bytes; none: damaged, or more than fit `out`
 std::optional<std::size_t> decompress_lzf(Bytes in, std::span<std::uint8_t> out) {
     std::size_t i = 0, o = 0;
     while (i < in.size()) {
         const unsigned control = in[i++];
-        if (control < 32) { // so many bytes and one as they are
+        if (control < 32) { // `control` + 1 uncompressed bytes
             const std::size_t count = control + 1;
             if (count > in.size() - i || count > out.size() - o)
                 return std::nullopt;
@@ -44,7 +44,7 @@ std::optional<std::size_t> decompress_lzf(Bytes in, std::span<std::uint8_t> out)
         count += 2;
         if (back > o || count > out.size() - o)
             return std::nullopt;
-        for (; count > 0; --count, ++o) // it may reach into what it writes
+        for (; count > 0; --count, ++o) // source and destination may overlap
             out[o] = out[o - back];
     }
     return o;
@@ -57,7 +57,7 @@ std::optional<std::size_t> decompress_zstd(Bytes in, std::span<std::uint8_t> out
 
 using Decompress = std::optional<std::size_t> (*)(Bytes in, std::span<std::uint8_t> out);
 
-/// HDF5 gives and takes memory of its own. @return 0: failed
+/// Runs a decompressor on memory that HDF5 allocates and frees. @return 0: failed
 std::size_t decompress(Decompress with, std::size_t size, std::size_t bytes, std::size_t* buffer,
                        void** data) {
     if (size == 0)
@@ -79,7 +79,7 @@ std::size_t decompress(Decompress with, std::size_t size, std::size_t bytes, std
 
 std::size_t lzf_filter(unsigned flags, std::size_t count, const unsigned* values, std::size_t bytes,
                        std::size_t* buffer, void** data) {
-    constexpr std::size_t kChunkBytes = 2; // of its values
+    constexpr std::size_t kChunkBytes = 2; // index in the filter's values
     if ((flags & H5Z_FLAG_REVERSE) == 0 || count <= kChunkBytes)
         return 0;
     return decompress(decompress_lzf, values[kChunkBytes], bytes, buffer, data);
@@ -111,7 +111,7 @@ std::size_t blosc_filter(unsigned flags, std::size_t, const unsigned*, std::size
 
 void register_filter(H5Z_filter_t id, const char* name, H5Z_func_t filter) {
     if (H5Zfilter_avail(id) > 0)
-        return; // a plugin
+        return; // a plugin provides it
     H5Z_class2_t description{};
     description.version = H5Z_CLASS_T_VERS;
     description.id = id;

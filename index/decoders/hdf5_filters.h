@@ -1,10 +1,10 @@
-// Filters that HDF5 has to be taught: those that h5py and others write without asking.
+// Registers HDF5 filters that the library does not have, but that h5py and others write.
 #pragma once
 
 namespace isochron::index {
 
-/// LZF, Zstandard and, where it was built with the library, Blosc; to decompress. Others are found
-/// as plugins.
+/// Registers decompression of LZF, Zstandard and, if the build has its library, Blosc. HDF5 finds
+/// other filters as plugins.
 void register_hdf5_filters();
 
 } // namespace isochron::index

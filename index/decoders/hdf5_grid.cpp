@@ -1,4 +1,4 @@
-// Scales and attributes of HDF5 arrays.
+// Places HDF5 arrays by scales and attributes.
 //
 // Huebl et al., "openPMD: a meta data standard for particle and mesh based data", version 1.1.0,
 // section "Mesh Based Records", https://github.com/openPMD/openPMD-standard.
@@ -19,7 +19,7 @@
 namespace isochron::index {
 namespace {
 
-/// Of an index axis.
+/// Positions along an index axis.
 struct Hdf5Axis {
     std::string label; ///< empty: none
     AxisSpread spread;
@@ -27,7 +27,7 @@ struct Hdf5Axis {
     bool placed = false;
 };
 
-/// The object, the group that it is in, and so on, up to the root.
+/// The paths of an object, its group, and the groups around that, up to the root.
 std::vector<std::string> with_groups_around(std::string path) {
     std::vector<std::string> objects{path};
     while (path != "/" && !path.empty()) {
@@ -47,7 +47,7 @@ std::string last_name(const std::string& path) {
     return path.substr(path.rfind('/') + 1);
 }
 
-/// The first attribute of these objects that holds so many numbers.
+/// The first attribute of these objects that has `count` numbers.
 std::vector<double> numbers_at(const Hdf5File& file, const std::vector<std::string>& objects,
                                std::initializer_list<const char*> names, std::size_t count) {
     for (const std::string& object : objects)
@@ -119,8 +119,8 @@ class Placing {
                 take_from(path, axes_[a], length_of(a));
     }
 
-    /// Attributes of the dataset or of its group: of all axes of the mesh, in the order of the
-    /// dimensions, or the other way round.
+    /// Reads openPMD's attributes of the dataset or its group. They are of all axes of the mesh, in
+    /// the order of the dimensions or in reverse.
     void take_grid_attributes() {
         const std::vector<std::string> here(
             around_.begin(), around_.begin() + std::min<std::ptrdiff_t>(2, std::ssize(around_)));
@@ -152,7 +152,7 @@ class Placing {
         }
     }
 
-    /// One-dimensional datasets of the axes' names and lengths.
+    /// Reads one-dimensional datasets with the names and lengths of the axes.
     void take_coordinates() {
         for (std::size_t i = 1; i < around_.size(); ++i) {
             std::array<std::string, 3> paths;
@@ -185,7 +185,7 @@ class Placing {
     }
 
     void take_spacings() {
-        // As ilastik and Fiji write it, in the order of the dimensions.
+        // ilastik and Fiji write it in the order of the dimensions.
         if (const auto um = numbers_at(file_, around_, {"element_size_um"}, 3); !um.empty())
             return set_spacings({um[2], um[1], um[0]}, "um", "element_size_um");
         const auto x = numbers_at(file_, around_, {"dx", "DX"}, 1),
@@ -202,7 +202,7 @@ class Placing {
                 other[0], other[1], other[2]));
     }
 
-    /// The axis of physical space that each index axis runs along, if labels are x, y and z.
+    /// The physical axis of each index axis, if the labels are x, y and z.
     std::array<int, 3> physical_axes() const {
         std::array<int, 3> physical{0, 1, 2};
         std::array<int, 3> told{};
@@ -246,7 +246,7 @@ class Placing {
     std::array<Hdf5Axis, 3> axes_; ///< fastest first
 };
 
-/// Values of a one-dimensional dataset of this length.
+/// The values of a one-dimensional dataset with `steps` values; empty if there is none.
 std::vector<double> times_from(const Hdf5File& file, const std::string& path, std::size_t steps,
                                SeriesInfo& info) {
     const auto found = file.dataset(path);
@@ -287,7 +287,7 @@ void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const Hdf5Layout& l
         if (!unit.empty())
             info.time_unit = "s";
     }
-    // One number above all steps is none of theirs.
+    // The same number for all steps is a number of the group around them, not their time.
     if (times.size() == 1 || times.front() != times.back())
         info.times = std::move(times);
 }

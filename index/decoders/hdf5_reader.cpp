@@ -1,4 +1,4 @@
-// `isochron-reader-hdf5`: what HDF5 itself holds.
+// `isochron-reader-hdf5`: the reader for HDF5 files.
 #include "index/decoders/decoders.h"
 #include "index/decoders/reader_program.h"
 

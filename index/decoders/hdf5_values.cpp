@@ -1,4 +1,4 @@
-// Boxes of values out of a dataset.
+// Reads boxes of values from a dataset.
 #include "index/decoders/hdf5_values.h"
 
 #include "index/error.h"
@@ -88,12 +88,12 @@ void Hdf5Values::expect_filters(std::int64_t properties) const {
 
 void Hdf5Values::expect_room_for(std::int64_t properties, const std::filesystem::path& path) const {
     if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0)
-        return; // in other files
+        return; // the values are in other files
     const Hdf5Handle type(H5Dget_type(open_.id()), H5Tclose);
     double bytes = static_cast<double>(H5Tget_size(type.id())), chunk_bytes = bytes;
     for (const std::uint64_t length : dataset_.dimensions)
         bytes *= static_cast<double>(length);
-    // What was never written takes no room: as if it were deflated.
+    // Values that were never written take no room; they are treated as deflated.
     Compression compression = Compression::none;
     if (H5Pget_layout(properties) == H5D_CHUNKED || H5Dget_storage_size(open_.id()) == 0) {
         compression = Compression::deflate;
@@ -102,7 +102,7 @@ void Hdf5Values::expect_room_for(std::int64_t properties, const std::filesystem:
             const H5Z_filter_t id = H5Pget_filter2(properties, static_cast<unsigned>(i), nullptr,
                                                    &values, nullptr, 0, nullptr, nullptr);
             if (id != H5Z_FILTER_DEFLATE && id != H5Z_FILTER_SHUFFLE && id != H5Z_FILTER_FLETCHER32)
-                compression = Compression::bzip2; // what others can do is unknown
+                compression = Compression::bzip2; // the ratio of other filters is unknown
         }
         for (const std::uint64_t length : chunk_)
             chunk_bytes *= static_cast<double>(length);

@@ -1,4 +1,4 @@
-// The values of a dataset of an HDF5 file.
+// Reads the values of a dataset of an HDF5 file.
 #pragma once
 
 #include "index/decoders/hdf5_file.h"
@@ -14,16 +14,16 @@ namespace isochron::index {
 /// The values of one dataset, which stays open.
 class Hdf5Values {
   public:
-    /// @param shared the dimension along which reads go one by one, none: all are read at once.
-    ///        Chunks that several of them share are kept, where 512 MiB do
+    /// @param shared the dimension along which values are read one by one; none: all at once.
+    ///        Chunks that several of these reads share are kept, if 512 MiB are enough
     /// @throws Error when the file is too small to hold it, or a filter is missing
     Hdf5Values(const Hdf5File& file, const Hdf5Dataset& dataset, std::optional<std::size_t> shared);
 
-    /// Values along each dimension of a chunk; empty where there are no chunks.
+    /// Number of values of a chunk along each dimension; empty if there are no chunks.
     const std::vector<std::uint64_t>& chunk() const { return chunk_; }
 
-    /// The box of values from `start`, `count` along each dimension, in the dataset's type and the
-    /// machine's byte order. @throws Error naming file and dataset
+    /// Reads the box of values at `start` with `count` values along each dimension, in the
+    /// dataset's type and the machine's byte order. @throws Error naming file and dataset
     void read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
               std::span<std::byte> out) const;
 

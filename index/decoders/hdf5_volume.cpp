@@ -1,4 +1,4 @@
-// Steps of HDF5 datasets, slab by slab.
+// Reads steps of HDF5 datasets, slab by slab.
 #include "index/decoders/hdf5_volume.h"
 
 #include "index/error.h"
@@ -38,7 +38,7 @@ std::vector<double> missing_in(const Hdf5File& file, const std::string& path) {
     return missing;
 }
 
-/// 1e35 in f64 is another number than in f32.
+/// Rounds to f32: 1e35 in f64 differs from 1e35 in f32.
 double as_float(double value) {
     return static_cast<double>(static_cast<float>(value));
 }
@@ -56,7 +56,7 @@ class Hdf5Decoder final : public DecodedFile {
                                 .gaps = !missing_.empty() && first().type != StoredType::f32 &&
                                         first().type != StoredType::f64};
         ReadOptions asked = options;
-        asked.array.reset(); // it is chosen
+        asked.array.reset(); // already chosen
         chosen_ = choose_scalar(std::span(&array, 1), asked, file_->name());
         SeriesInfo& info = volume_.info;
         info.array = chosen_.label();
@@ -81,7 +81,7 @@ class Hdf5Decoder final : public DecodedFile {
         return volume_.layout.time ? first().dimensions[*volume_.layout.time] : 1;
     }
 
-    /// Whole chunks, since HDF5 decompresses a chunk for each of its parts that is asked for.
+    /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it.
     std::uint32_t slices_at_once() const override {
         const std::uint32_t all = info().grid.vertices[2], worth = slices_worth_asking(info());
         if (volume_.on_cells)
@@ -108,7 +108,7 @@ class Hdf5Decoder final : public DecodedFile {
         open(volume_.datasets.size() > 1 ? step : 0);
         Grid slab = info().grid;
         slab.vertices[2] = slices.count;
-        const bool whole = volume_.on_cells; // then the slab is all there is
+        const bool whole = volume_.on_cells; // then the slab is the whole volume
         const std::uint32_t layers = whole ? slab.vertices[2] - 1 : slices.count;
         if (chosen_.component != ChosenScalar::kMagnitude) {
             ChosenScalar alone = chosen_;
@@ -116,7 +116,7 @@ class Hdf5Decoder final : public DecodedFile {
             alone.component = 0;
             return take(step, slices.first, layers, chosen_.component, alone, slab, out);
         }
-        // Components may lie in planes: they are put together to tuples.
+        // Components may be separate planes: joins them to tuples.
         const std::size_t size = size_of(*first().type), count = chosen_.array.components;
         std::vector<std::byte> tuples(values_in(layers) * count * size),
             plane(values_in(layers) * size);
@@ -191,7 +191,7 @@ class Hdf5Decoder final : public DecodedFile {
                     if constexpr (std::is_floating_point_v<T>)
                         values[i] = std::numeric_limits<T>::quiet_NaN();
                     else
-                        values[i] = 0; // a gap may be a number that has no exact f64
+                        values[i] = 0; // since the number in a gap may have no exact f64
                 }
             });
         if (converts)

@@ -1,4 +1,4 @@
-// NetCDF: classic, 64-bit offset, CDF-5 and NetCDF-4, through Unidata's library.
+// Reads NetCDF (classic, 64-bit offset, CDF-5 and NetCDF-4) through Unidata's library.
 #include "index/decoders/decoders.h"
 #include "index/decoders/netcdf_values.h"
 #include "index/error.h"
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Variables that hold the borders of coordinates' cells: no field to look at.
+/// Names of variables that hold cell bounds of coordinates, which are not fields to show.
 std::vector<std::string> bounds_in(const NetcdfFile& file) {
     std::vector<std::string> names;
     for (const NetcdfVariable& variable : file.variables())
@@ -36,8 +36,8 @@ std::vector<std::string> bounds_in(const NetcdfFile& file) {
                             file.name(), found.empty() ? "" : ": ", fmt::join(found, ", ")));
 }
 
-/// Picks the variable that `options` ask for among those with three dimensions.
-/// @throws Error naming the file, as `choose_scalar` does, or when it has others
+/// Picks the variable that `options` name among those with three dimensions of space.
+/// @throws Error naming the file: as `choose_scalar`, or when the variable has other dimensions
 const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions& options) {
     const auto& variables = file.variables();
     if (options.array) {
@@ -95,7 +95,7 @@ class NetcdfVolume final : public DecodedFile {
     const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return steps_; }
 
-    /// Whole chunks, since HDF5 decompresses a chunk for each of its parts that is asked for.
+    /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it.
     std::uint32_t slices_at_once() const override {
         const std::uint32_t all = info_.grid.vertices[2], worth = slices_worth_asking(info_);
         const std::vector<std::size_t> chunk = file_.chunk_of(variable_);
@@ -107,7 +107,7 @@ class NetcdfVolume final : public DecodedFile {
     }
 
     std::uint64_t decoded_bytes() const override {
-        double chunk = 1; // of several steps, maybe
+        double chunk = 1; // values of a chunk, which may span several steps
         for (const std::size_t length : file_.chunk_of(variable_))
             chunk *= static_cast<double>(length);
         const double values = std::max(chunk, static_cast<double>(info_.grid.vertex_count()));

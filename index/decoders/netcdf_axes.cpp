@@ -1,4 +1,4 @@
-// Dimensions, coordinates and times of a NetCDF variable.
+// Finds dimensions, coordinates and times of a NetCDF variable.
 #include "index/decoders/netcdf_axes.h"
 
 #include "index/decoders/netcdf_roles.h"
@@ -16,7 +16,7 @@
 namespace isochron::index {
 namespace {
 
-/// Where the vertices along a dimension lie, in its own unit.
+/// The positions of the vertices along a dimension, in its own unit.
 struct Positions {
     std::string label;          ///< `z (lev)`
     double first = 0, step = 1; ///< the step may be negative
@@ -26,7 +26,7 @@ struct Positions {
 
 struct Role {
     std::optional<AxisRole> role;
-    bool told = false; ///< by more than the letter of its name
+    bool told = false; ///< by more than a name of one letter
 };
 
 Role role_of(const NetcdfFile& file, const NetcdfVariable& variable,
@@ -37,7 +37,8 @@ Role role_of(const NetcdfFile& file, const NetcdfVariable& variable,
     return {role_by_name(dimension.name), dimension.name.size() > 1};
 }
 
-// Each physical axis once: what is told first, the others in their order, x fastest.
+// Assigns each physical axis once: first to dimensions with a known role, then to the others in
+// order, x fastest.
 void assign_axes(const std::array<Role, 3>& roles, NetcdfLayout& layout) {
     std::array<bool, 3> known{}, taken{};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -58,7 +59,7 @@ void assign_axes(const std::array<Role, 3>& roles, NetcdfLayout& layout) {
         }
 }
 
-// Longitudes that pass 360 degrees go on.
+// Makes longitudes continue beyond 360 degrees instead of jumping back.
 void unwrap(std::vector<double>& degrees) {
     for (std::size_t i = 1; i < degrees.size(); ++i)
         if (std::abs(degrees[i] - degrees[i - 1]) > 180)
@@ -69,7 +70,7 @@ std::string with_blank(const std::string& unit) {
     return unit.empty() ? "" : " " + unit;
 }
 
-/// Of the variable, or of the group that it is a component of.
+/// An attribute of the variable, or else of its group, of which it is a component.
 std::vector<double> of_the_grid(const NetcdfFile& file, const NetcdfVariable& variable,
                                 const char* attribute) {
     std::vector<double> numbers = file.numbers(variable, attribute);
@@ -78,8 +79,9 @@ std::vector<double> of_the_grid(const NetcdfFile& file, const NetcdfVariable& va
     return numbers;
 }
 
-/// `gridSpacing` and its like, as openPMD has them (https://github.com/openPMD/openPMD-standard,
-/// 1.1.0, "Mesh Based Records"), for axes without coordinates.
+/// Reads `gridSpacing` and other attributes of openPMD
+/// (https://github.com/openPMD/openPMD-standard, 1.1.0, "Mesh Based Records") for axes without
+/// coordinates.
 /// @param a the index axis, fastest first
 void take_grid_attributes(const NetcdfFile& file, const NetcdfVariable& variable, std::size_t a,
                           Positions& positions) {
@@ -128,7 +130,7 @@ Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable
     return positions;
 }
 
-/// What to multiply coordinates with so that they go with those along x.
+/// The factor that brings coordinates into the unit, or at least the proportion, of those along x.
 double to_go_with(const Positions& x, const Positions& other) {
     if (x.unit == other.unit)
         return 1;
@@ -175,7 +177,7 @@ std::optional<NetcdfLayout> layout_of(const NetcdfFile& file, const NetcdfVariab
         else if (variable.dimensions[i].length != 1)
             long_ones.push_back(i);
     }
-    // Nothing says what the slowest of four is, so it is time.
+    // If nothing tells the role of the slowest of four dimensions, it is time.
     if (!layout.time && long_ones.size() == 4 && !roles[long_ones.front()].role) {
         layout.time = long_ones.front();
         long_ones.erase(long_ones.begin());

@@ -1,5 +1,5 @@
-// Lengths of classic NetCDF files, after "NetCDF Classic Format Specification" and the one of
-// CDF-5, https://docs.unidata.ucar.edu/nug/current/file_format_specifications.html.
+// Lengths of classic NetCDF files, after "NetCDF Classic Format Specification" and "CDF-5 Format",
+// https://docs.unidata.ucar.edu/nug/current/file_format_specifications.html.
 #include "index/decoders/netcdf_classic.h"
 
 #include "index/error.h"
@@ -21,10 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the values of one variable are.
+/// The place of one variable's values in the file.
 struct Extent {
     double begin = 0,
-           bytes = 0; ///< of one record, where there are records; beyond 64 bits if false
+           bytes = 0; ///< of one record, if there are records; a false one may exceed 64 bits
     bool in_records = false;
 };
 
@@ -62,7 +62,7 @@ class ClassicHeader {
         at_ += padded;
     }
 
-    /// Items of a list, which may be more than there is room for: each is read to be skipped.
+    /// The number of items of a list. It may be false, so callers read the items one by one.
     std::uint64_t list(std::uint64_t tag) {
         const std::uint64_t found = number(4), items = size();
         if (found != tag && (found != 0 || items != 0))
@@ -114,7 +114,7 @@ class ClassicHeader {
             }
             read_attributes();
             extent.bytes *= static_cast<double>(bytes_of_type());
-            size(); // as follows from the dimensions, which is what counts
+            size(); // ignored: it follows from the dimensions
             extent.begin = static_cast<double>(number(version_ == 1 ? 4 : 8));
             extents_.push_back(extent);
         }
@@ -133,7 +133,7 @@ class ClassicHeader {
         for (const Extent& extent : extents_) {
             if (extent.in_records && records_ == 0)
                 continue;
-            // A single variable's records follow each other without padding.
+            // If only one variable has records, they have no padding.
             const double stride = recorded == 1 ? extent.bytes : record;
             const double before =
                 extent.in_records ? stride * static_cast<double>(records_ - 1) : 0.0;

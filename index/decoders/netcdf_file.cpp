@@ -1,4 +1,4 @@
-// The NetCDF library's view of a file.
+// Reads a NetCDF file through its library.
 #include "index/decoders/netcdf_file.h"
 
 #include "index/decoders/netcdf_classic.h"
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostAttribute = 1 << 20; ///< values of an attribute that is looked at
+constexpr std::size_t kMostAttribute = 1 << 20; ///< most values of an attribute that is read
 
 std::optional<StoredType> stored_type_of_netcdf(nc_type type, bool without_sign) {
     switch (type) {
@@ -40,7 +40,7 @@ std::optional<StoredType> stored_type_of_netcdf(nc_type type, bool without_sign)
     }
 }
 
-/// Type and number of values; no attribute has none.
+/// Type and number of values of an attribute; 0 values if there is none.
 std::pair<nc_type, std::size_t> attribute_shape(const NetcdfVariable& variable, const char* name) {
     nc_type type = NC_NAT;
     std::size_t count = 0;
@@ -64,7 +64,7 @@ std::string text(const NetcdfVariable& variable) {
 }
 
 NetcdfFile::NetcdfFile(const fs::path& path) : path_(path), name_(path.string()) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // what NetCDF looks for in vain would be printed
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // or HDF5 prints what NetCDF does not find
     if (is_classic_netcdf(path))
         expect_whole_classic_netcdf(path);
     else if (head_of(path, 8) != "\x89HDF\r\n\x1a\n")
@@ -146,7 +146,7 @@ std::string NetcdfFile::text(const NetcdfVariable& variable, const char* attribu
     } else {
         return {};
     }
-    found.resize(std::min(found.find('\0'), found.size())); // writers in C count it
+    found.resize(std::min(found.find('\0'), found.size())); // writers in C include the zero byte
     std::ranges::replace(found, '\n', ' ');
     return std::string(trimmed(found));
 }
@@ -230,7 +230,7 @@ void NetcdfFile::keep_chunks(const NetcdfVariable& variable, std::size_t time) c
     if (bytes * chunks > kMostBytes || chunks > kMostChunks)
         return;
     constexpr std::size_t kSlotsPerChunk = 10; // as HDF5 advises
-    constexpr float kPreferRead = 1.0f;        // to give up what has been read in whole
+    constexpr float kPreferRead = 1.0f;        // evict chunks that have been read completely first
     expect(nc_set_var_chunk_cache(
                variable.group, variable.id, static_cast<std::size_t>(bytes * chunks),
                static_cast<std::size_t>(chunks) * kSlotsPerChunk + 1, kPreferRead),
@@ -239,14 +239,14 @@ void NetcdfFile::keep_chunks(const NetcdfVariable& variable, std::size_t time) c
 
 void NetcdfFile::expect_room(const NetcdfVariable& variable) const {
     if (is_classic_netcdf(path_))
-        return; // known to be whole
+        return; // its length has been checked
     const std::vector<std::size_t> chunk = chunk_of(variable);
     Compression compression = Compression::none;
     double bytes = static_cast<double>(size_of(*variable.type)), chunk_bytes = bytes;
     for (const NetcdfDimension& dimension : variable.dimensions)
         bytes *= static_cast<double>(dimension.length);
     if (!chunk.empty()) {
-        // Chunks that were never written take no room: as if they were deflated.
+        // Chunks that were never written take no room; they are treated as deflated.
         compression = Compression::deflate;
         std::size_t filters = 0;
         expect(nc_inq_var_filter_ids(variable.group, variable.id, &filters, nullptr),
@@ -254,7 +254,7 @@ void NetcdfFile::expect_room(const NetcdfVariable& variable) const {
         std::vector<unsigned> ids(filters);
         expect(nc_inq_var_filter_ids(variable.group, variable.id, &filters, ids.data()),
                fmt::format("{}: damaged storage", variable.name));
-        constexpr unsigned kDeflateShuffleFletcher = 3; // 1, 2 and 3; what others can do is unknown
+        constexpr unsigned kDeflateShuffleFletcher = 3; // 1, 2 and 3; others have unknown ratios
         if (std::ranges::any_of(ids, [](unsigned id) { return id > kDeflateShuffleFletcher; }))
             compression = Compression::bzip2;
         for (const std::size_t length : chunk)

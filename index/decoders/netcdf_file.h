@@ -1,4 +1,4 @@
-// A NetCDF file as its library gives it: variables, attributes and values, its errors as ours.
+// A NetCDF file through its library: variables, attributes and values; errors are thrown as Error.
 #pragma once
 
 #include "index/formats/stored_scalar.h"
@@ -20,12 +20,12 @@ struct NetcdfDimension {
 
 struct NetcdfVariable {
     int group = 0, id = 0;
-    std::string name = {};               ///< with the groups it is in: `forecast/temperature`
-    std::optional<StoredType> type = {}; ///< none: text, or a type of the file's own
+    std::string name = {};                        ///< with its groups: `forecast/temperature`
+    std::optional<StoredType> type = {};          ///< none: text, or a type that the file defines
     std::vector<NetcdfDimension> dimensions = {}; ///< slowest first
 };
 
-/// Stands for the group that a variable is in, whose attributes are asked for as those of variables.
+/// A stand-in for the group of a variable, through which the group's attributes are read.
 NetcdfVariable group_of(const NetcdfVariable& variable);
 
 /// `T(time 2, lev 18, lat 64, lon 128)`
@@ -40,40 +40,42 @@ class NetcdfFile {
     NetcdfFile& operator=(const NetcdfFile&) = delete;
 
     const std::string& name() const { return name_; }
-    /// Of all groups, in the file's order.
+    /// The variables of all groups, in the file's order.
     const std::vector<NetcdfVariable>& variables() const { return variables_; }
 
-    /// The one-dimensional variable called as the dimension is, in the group of `of` or around it.
+    /// The coordinate variable: the one-dimensional variable with the name of the dimension, in the
+    /// group of `of` or a group around it; null if there is none.
     const NetcdfVariable* coordinate(const NetcdfVariable& of,
                                      const NetcdfDimension& dimension) const;
 
-    /// Attributes; empty where there is none of that name and kind.
+    /// Attributes; empty if there is none of that name and kind.
     std::string text(const NetcdfVariable& variable, const char* attribute) const;
     std::vector<double> numbers(const NetcdfVariable& variable, const char* attribute) const;
-    /// Whether the values of an attribute are f32 or f64.
+    /// Whether an attribute is f32 or f64.
     bool is_real(const NetcdfVariable& variable, const char* attribute) const;
-    /// scale_factor and add_offset. @throws Error when they are no scaling
+    /// The scaling by scale_factor and add_offset. @throws Error when they are invalid
     Scaling scaling(const NetcdfVariable& variable) const;
-    /// What stands where nothing was written; integers have no such value unless the file says so.
+    /// The value at places that were never written; for integers none unless the file names it.
     std::optional<double> fill(const NetcdfVariable& variable) const;
 
     /// All values, scaled. Meant for coordinates.
     std::vector<double> values(const NetcdfVariable& variable) const;
 
-    /// The box of values from `start`, `count` along each dimension, as stored, in the machine's
-    /// byte order. @throws Error naming file and variable
+    /// Reads the box of values at `start` with `count` values along each dimension, as stored, in
+    /// the machine's byte order. @throws Error naming file and variable
     void read(const NetcdfVariable& variable, std::span<const std::size_t> start,
               std::span<const std::size_t> count, std::span<std::byte> out) const;
 
-    /// Keeps the chunks that steps share decompressed from one step to the next, where 512 MiB do.
+    /// Keeps chunks that several steps share decompressed from one step to the next, if 512 MiB are
+    /// enough.
     /// @param time the dimension of the steps
     void keep_chunks(const NetcdfVariable& variable, std::size_t time) const;
 
-    /// Values along each dimension of a chunk; empty where there are no chunks.
+    /// Number of values of a chunk along each dimension; empty if there are no chunks.
     std::vector<std::size_t> chunk_of(const NetcdfVariable& variable) const;
 
-    /// @throws Error when the file is too small to hold the variable, whatever its compression: a
-    ///         header that lies must not cost memory
+    /// Checks that the file can hold the variable, so that a false header does not cost memory.
+    /// @throws Error when the file is too small even with the best compression
     void expect_room(const NetcdfVariable& variable) const;
 
   private:

@@ -1,4 +1,4 @@
-// `isochron-reader-netcdf`: what NetCDF decodes, with HDF5 behind it.
+// `isochron-reader-netcdf`: the reader for NetCDF files.
 #include "index/decoders/decoders.h"
 #include "index/decoders/reader_program.h"
 

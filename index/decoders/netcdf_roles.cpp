@@ -1,4 +1,4 @@
-// The words of the CF conventions that tell axes apart.
+// The words of the CF conventions by which axes are recognized.
 #include "index/decoders/netcdf_roles.h"
 
 #include "index/formats/text_header.h"
@@ -28,7 +28,7 @@ struct RoleName {
     AxisRole role;
 };
 
-/// Standard names; of those that end with _ only the beginning.
+/// Standard names; a name that ends with _ is a prefix.
 constexpr std::array<RoleName, 15> kStandardNames{{
     {"longitude", AxisRole::x},
     {"grid_longitude", AxisRole::x},

@@ -1,4 +1,4 @@
-// What a coordinate stands for, by the CF conventions and by its name.
+// Finds the role and unit of a coordinate by the CF conventions and by its name.
 #pragma once
 
 #include "index/decoders/netcdf_file.h"
@@ -10,20 +10,22 @@ namespace isochron::index {
 
 enum class AxisRole : std::uint8_t { x, y, z, time };
 
-/// What the attributes of a variable say, after "NetCDF Climate and Forecast (CF) Metadata
+/// The role by the attributes of a variable, after "NetCDF Climate and Forecast (CF) Metadata
 /// Conventions", chapter 4, https://cfconventions.org.
 std::optional<AxisRole> role_by_attributes(const NetcdfFile& file, const NetcdfVariable& variable);
 
-/// What the name of a dimension says, in any case.
+/// The role by the name of a dimension, in upper or lower case.
 std::optional<AxisRole> role_by_name(std::string_view dimension);
 
-/// Whether a vertical coordinate grows downwards: `positive` says so, or it is a pressure.
+/// Whether a vertical coordinate increases downwards: by its attribute `positive`, or if it is a
+/// pressure.
 bool counts_downwards(const NetcdfFile& file, const NetcdfVariable& variable);
 
-/// `degrees` for those of longitude and latitude, `m` for `meters`, nothing for `1`, ...
+/// A short name for a unit: `degrees` for units of longitude and latitude, `m` for `meters`,
+/// nothing for `1`, ...
 std::string tidy_unit(std::string_view unit);
 
-/// Meters of a unit of length, none for what is no length. @param unit tidy
+/// The length of a unit in meters; none if it is not a length. @param unit from `tidy_unit`
 std::optional<double> meters(std::string_view unit);
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// Missing values, and the hyperslab of a step.
+// Finds missing values, and reads the hyperslab of a step.
 #include "index/decoders/netcdf_values.h"
 
 #include <cmath>
@@ -8,8 +8,8 @@
 namespace isochron::index {
 namespace {
 
-// As it is found among the values: unsigned ones may be written with a sign, and 1e35 in f64 is
-// another number than in f32.
+// An attribute's value as it appears among the stored values: unsigned numbers may be written with
+// a sign, and 1e35 in f64 differs from 1e35 in f32.
 double as_stored(double value, StoredType type) {
     switch (type) {
     case StoredType::u8:
@@ -52,13 +52,13 @@ MissingValues::MissingValues(const NetcdfFile& file, const NetcdfVariable& varia
         high_ = as_stored(high_, type);
         return;
     }
-    // Limits that are real numbers, of integers, are those of the scaled values.
+    // If integers have limits that are real numbers, the limits are of the scaled values.
     const Scaling scaling = file.scaling(variable);
     low_ = (low_ - scaling.intercept) / scaling.slope;
     high_ = (high_ - scaling.intercept) / scaling.slope;
     if (scaling.slope < 0)
         std::swap(low_, high_);
-    constexpr double kSlack = 1e-3; // rounding must not cost the integer at the limit
+    constexpr double kSlack = 1e-3; // so that rounding does not exclude the integer at the limit
     low_ -= kSlack;
     high_ += kSlack;
 }
@@ -84,7 +84,7 @@ void read_netcdf_slab(const NetcdfFile& file, const NetcdfVariable& variable,
     const std::span<std::byte> read = converts ? std::span(stored) : out;
     file.read(variable, start, count, read);
 
-    std::vector<bool> gaps; // of integers, which have no NaN
+    std::vector<bool> gaps; // for integers, which have no NaN
     if (missing.possible())
         visit_stored_type(*variable.type, [&]<class T>(std::type_identity<T>) {
             if constexpr (std::is_integral_v<T>)
@@ -95,7 +95,7 @@ void read_netcdf_slab(const NetcdfFile& file, const NetcdfVariable& variable,
                     continue;
                 if constexpr (std::is_integral_v<T>) {
                     gaps[i] = true;
-                    value[i] = 0; // a gap may be a number that has no exact f64
+                    value[i] = 0; // since the number in a gap may have no exact f64
                 } else {
                     value[i] = std::numeric_limits<T>::quiet_NaN();
                 }

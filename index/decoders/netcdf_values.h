@@ -1,4 +1,4 @@
-// The values of a NetCDF variable: steps of it, with what is missing as NaN.
+// Reads steps of a NetCDF variable, with missing values as NaN.
 #pragma once
 
 #include "index/decoders/netcdf_axes.h"
@@ -8,15 +8,15 @@
 
 namespace isochron::index {
 
-/// What stands for a missing value, as `_FillValue`, `missing_value`, `valid_min`, `valid_max` and
-/// `valid_range` say, in stored values.
+/// The stored values that are missing by the attributes `_FillValue`, `missing_value`, `valid_min`,
+/// `valid_max` and `valid_range`.
 class MissingValues {
   public:
-    /// @throws Error when the scaling that limits need is none
+    /// @throws Error when limits need the scaling and it is invalid
     MissingValues(const NetcdfFile& file, const NetcdfVariable& variable);
 
     bool possible() const { return !values_.empty() || low_ > -kInfinity || high_ < kInfinity; }
-    /// @param stored NaN is not missing: it is NaN already
+    /// @param stored for NaN the result is false: it is NaN already
     bool contain(double stored) const {
         for (const double value : values_)
             if (stored == value)
@@ -31,7 +31,7 @@ class MissingValues {
     double low_ = -kInfinity, high_ = kInfinity;
 };
 
-/// Reads slices of one step as `chosen` has it.
+/// Reads slices of one step, converted as `chosen` says.
 /// @param grid of the whole step
 /// @param out values of `chosen.value_type()`, [slowest]...[fastest]
 void read_netcdf_slab(const NetcdfFile& file, const NetcdfVariable& variable,

@@ -1,4 +1,4 @@
-// ParaView collections (.pvd): which file holds which time.
+// Reads ParaView collections (.pvd): files and their times.
 #include "index/decoders/decoders.h"
 #include "index/decoders/vtk_session.h"
 #include "index/decoders/xml_markup.h"
@@ -59,7 +59,7 @@ void read_collection(const fs::path& path, std::vector<std::pair<fs::path, doubl
     }
     if (files.empty())
         throw Error(fmt::format("{}: an empty collection", name));
-    // Programs that write in parallel, or that were started again, list them in any order.
+    // Programs that write in parallel, or were restarted, may list files in any order.
     std::stable_sort(files.begin(), files.end(),
                      [](const auto& a, const auto& b) { return a.second < b.second; });
 }

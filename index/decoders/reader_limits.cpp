@@ -23,7 +23,7 @@ void limit(decltype(RLIMIT_DATA) resource, std::uint64_t most) {
     ::setrlimit(resource, &limits);
 }
 
-/// [bytes] of this process's own that can be written to, which is what RLIMIT_DATA counts.
+/// [bytes] of private writable memory of this process, which RLIMIT_DATA counts.
 std::uint64_t taken_memory() {
     std::ifstream statm("/proc/self/statm"); // size, resident, shared, text, 0, data: in pages
     std::uint64_t pages = 0;
@@ -32,7 +32,8 @@ std::uint64_t taken_memory() {
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// When it is asked first: reading it takes as long as opening a small file.
+/// Free memory [bytes] at the first call; read only once, as that takes as long as opening a small
+/// file.
 std::uint64_t free_memory() {
     static std::uint64_t found = 0;
     if (found > 0)
@@ -46,7 +47,7 @@ std::uint64_t free_memory() {
     return found;
 }
 
-/// Slower than any library is: a second for each megabyte, and a minute for whatever it does.
+/// More time than any library needs: a minute, and a second for each megabyte.
 std::uint64_t seconds_for(std::uint64_t bytes) {
     return 60 + bytes / 1'000'000;
 }
@@ -63,7 +64,7 @@ ReaderBudget::ReaderBudget(const std::filesystem::path& file, std::uint64_t most
 }
 
 void ReaderBudget::expect(std::uint64_t decoded_bytes) {
-    // What libraries take for themselves; text that becomes numbers of eight bytes; a copy or two.
+    // Memory of the libraries themselves; text that becomes numbers of eight bytes; some copies.
     constexpr std::uint64_t kAny = std::uint64_t{1} << 30, kOfFile = 8, kOfValues = 4;
     constexpr std::uint64_t kMost = std::uint64_t{1} << 56;
     memory_ = std::min(most_, kAny + kOfFile * std::min(file_bytes_, kMost) +

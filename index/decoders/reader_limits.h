@@ -1,4 +1,4 @@
-// How much memory and time a reader may take for a file.
+// Limits the memory and time of a reader.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,16 @@
 
 namespace isochron::index {
 
-/// The memory and time that this process may take from now on, by the size of the file that it
-/// works on. Beyond its memory allocations fail; beyond its time it is ended with SIGXCPU.
+/// Limits the memory and time of this process by the size of the file on which it works. Beyond the
+/// limit of memory allocations fail; beyond the limit of time the process is ended with SIGXCPU.
 class ReaderBudget {
   public:
     /// @param most [bytes] of memory; 0: what was free at the first file
     ReaderBudget(const std::filesystem::path& file, std::uint64_t most);
 
-    /// Makes room for values that take so much in the library, too.
+    /// Raises the limit of memory for values that take this much in the library.
     void expect(std::uint64_t decoded_bytes);
-    /// Another request, another share of time.
+    /// Starts a new share of time, for another request.
     void renew_time() const;
 
     /// `at most 1.5 GB for it`
@@ -24,7 +24,7 @@ class ReaderBudget {
 
   private:
     std::uint64_t file_bytes_ = 0, before_ = 0, most_ = 0;
-    std::uint64_t memory_ = 0; ///< [bytes] beside what was taken before
+    std::uint64_t memory_ = 0; ///< [bytes] limit, on top of what was in use before
 };
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// A reader as a process: what it needs, what it gives up, and how it ends.
+// The main function of a reader process: sets up its limits, serves, and ends.
 #include "index/decoders/reader_program.h"
 
 #include "index/decoders/fence.h"
@@ -24,7 +24,7 @@ bool nobody_is_there() {
     return ::poll(&end, 1, 0) > 0 && (end.revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0;
 }
 
-/// However long a library works on a file, nobody may want it any more.
+/// Ends this process as soon as the program closes the socket, even while a library is at work.
 void end_with_the_program() {
     struct sigaction action {};
     action.sa_handler = [](int) {
@@ -37,7 +37,7 @@ void end_with_the_program() {
     ::fcntl(kReaderSocket, F_SETFL, ::fcntl(kReaderSocket, F_GETFL) | O_ASYNC);
 }
 
-/// When memory runs out, the system ends this process rather than the program.
+/// Makes the system kill this process rather than the program when memory runs out.
 void go_first() {
     const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
     if (file < 0)
@@ -65,9 +65,9 @@ int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection)
         MessageSocket socket{Descriptor(kReaderSocket)};
         serve(socket, decoders, collection);
     } catch (const Error&) {
-        ::_exit(1); // the program knows what it said
+        ::_exit(1); // the program knows which message it sent
     }
-    ::_exit(0); // what libraries clean up at their end is gone anyway
+    ::_exit(0); // without the cleanup of libraries, which is not needed
 }
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// A reader as a process.
+// The main function of a reader process.
 #pragma once
 
 #include "index/decoders/reader_service.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::index {
 
-/// What `main` of a reader does: serves the program that started it, behind the fence, as long as
-/// that lives. @return exit status
+/// What `main` of a reader calls: serves, behind the fence, the program that started it until that
+/// ends. @return exit status
 int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection = nullptr);
 
 } // namespace isochron::index

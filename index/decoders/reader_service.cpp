@@ -1,4 +1,4 @@
-// Opens, describes and decodes files as it is asked to.
+// Opens, describes and decodes files on request.
 #include "index/decoders/reader_service.h"
 
 #include "index/decoders/reader_limits.h"
@@ -19,7 +19,7 @@ class Service {
     Service(std::span<const Decoder> decoders, ReadCollectionFile collection)
         : decoders_(decoders), collection_(collection) {}
 
-    /// The reply, where the request has one.
+    /// The reply to a request, if it has one.
     std::optional<ReaderReply> answer(const ReaderRequest& request, Descriptor attached) {
         attached_ = std::move(attached);
         return std::visit([this](const auto& asked) { return answer_to(asked); }, request);
@@ -95,7 +95,7 @@ class Service {
 
     std::span<const Decoder> decoders_;
     ReadCollectionFile collection_;
-    std::filesystem::path path_; ///< of the last file that was asked for
+    std::filesystem::path path_; ///< of the last file that was requested
     std::unique_ptr<DecodedFile> file_;
     std::optional<ReaderBudget> limits_; ///< of that file
     std::unique_ptr<SharedMemory> memory_;

@@ -1,4 +1,4 @@
-// The work of a reader: requests of the program that started it, answered one after another.
+// The service of a reader: answers the requests of the program that started it, one by one.
 #pragma once
 
 #include "index/decoders/decoded_file.h"
@@ -10,7 +10,7 @@
 
 namespace isochron::index {
 
-/// One of the formats of a reader.
+/// A format that a reader decodes.
 struct Decoder {
     ForeignFormat format;
     OpenDecodedFile open;
@@ -19,9 +19,9 @@ struct Decoder {
 using ReadCollectionFile =
     std::vector<std::pair<std::filesystem::path, double>> (*)(const std::filesystem::path&);
 
-/// Returns when nobody is at the other end any more.
-/// @param collection what reads .pvd, if anything here does
-/// @throws Error when somebody there says what the program never does
+/// Answers requests until the other end is closed.
+/// @param collection reads .pvd; null if this reader does not
+/// @throws Error when a message is invalid
 void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection);
 
 } // namespace isochron::index

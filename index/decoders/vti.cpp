@@ -1,4 +1,4 @@
-// VTK XML image data (.vti), through vtkXMLImageDataReader: all its encodings and compressors.
+// Reads VTK XML image data (.vti) with vtkXMLImageDataReader, in all encodings and compressors.
 #include "index/decoders/decoders.h"
 #include "index/decoders/vtk_ghosts.h"
 #include "index/decoders/vtk_session.h"
@@ -33,17 +33,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The text of a file up to its appended data, which the mapping gives without reading the rest.
+/// The text of a file up to its appended data; mapping the file avoids reading the rest.
 std::string_view markup_of(const MappedFile& file) {
     const std::string_view all(reinterpret_cast<const char*>(file.bytes().data()),
                                file.bytes().size());
     return all.substr(0, std::min(all.find("<AppendedData"), all.size()));
 }
 
-// Of appended values that end too early VTK leaves the rest as they were in memory. Whatever was
-// cut off, the end of the markup is gone as well.
+// If appended values end too early, VTK leaves the rest uninitialized. A file that is cut off
+// anywhere lacks the end of its markup, so that is checked.
 void expect_end(const MappedFile& file, const std::string& name) {
-    constexpr std::size_t kTail = 4096; // some writers leave blanks or a comment after it
+    constexpr std::size_t kTail = 4096; // some writers add blanks or a comment after the end
     const std::span<const std::byte> bytes = file.bytes();
     const std::span<const std::byte> tail = bytes.last(std::min(bytes.size(), kTail));
     if (std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size())
@@ -51,8 +51,8 @@ void expect_end(const MappedFile& file, const std::string& name) {
         throw Error(fmt::format("{}: truncated: it does not end with </VTKFile>", name));
 }
 
-// Every piece gives its part of the vertices; where one is missing VTK would leave zeros. Pieces
-// may overlap.
+// Checks that the pieces cover the grid: VTK would leave zeros where one is missing. Pieces may
+// overlap.
 void expect_whole(std::string_view markup, const Grid& grid, const std::string& file) {
     std::uint64_t cells = 0;
     for (std::size_t at = markup.find("<Piece"); at != std::string_view::npos;
@@ -77,8 +77,9 @@ void expect_whole(std::string_view markup, const Grid& grid, const std::string& 
                                 cells, grid.cell_count()));
 }
 
-// A value takes a digit and a blank as text, 4/3 of its size in base64; the best that a compressor
-// of VTK reaches is below 1:10,000 (LZMA), 1:1,032 (zlib), 1:255 (LZ4).
+// Checks that the file is large enough. A value takes at least a digit and a blank as text, and 4/3
+// of its size in base64. The best ratios of VTK's compressors are below 1:10,000 (LZMA), 1:1,032
+// (zlib) and 1:255 (LZ4).
 void expect_bytes(std::string_view markup, const ChosenScalar& chosen, const Grid& grid,
                   std::uint64_t size, const std::string& file) {
     std::uint64_t best = 1;
@@ -86,7 +87,7 @@ void expect_bytes(std::string_view markup, const ChosenScalar& chosen, const Gri
         best = markup.find("LZMA") != markup.npos ? 10'000 : 1'032;
     const std::uint64_t tuples = chosen.array.on_cells ? grid.cell_count() : grid.vertex_count();
     const std::uint64_t stored = tuples * chosen.array.components;
-    // The time may be text beside compressed values.
+    // The time may be ascii although values are compressed.
     const bool text = best == 1 && markup.find("ascii") != markup.npos;
     const std::uint64_t least = text ? stored : stored * size_of(*chosen.array.type) / best;
     if (least > size)
@@ -116,7 +117,7 @@ class VtiFile final : public DecodedFile {
             reader_->SetFileName(path_.c_str());
             reader_->UpdateInformation();
         });
-        // Only where VTK found nothing wrong has it told all that is asked for here.
+        // Separately, since VTK's information is complete only if it has reported no error.
         with_vtk(path_, [&] { describe(options); });
         if (markup.find("vtkLZ4DataCompressor") != markup.npos)
             info_.notes.push_back(
@@ -124,7 +125,7 @@ class VtiFile final : public DecodedFile {
         expect_whole(markup, info_.grid, name);
         expect_bytes(markup, chosen_, info_.grid, file.bytes().size(), name);
         with_vtk(path_, [&] {
-            // Without arrays only the time is read, and with those of flags little more.
+            // Without arrays VTK reads only the time; arrays of flags add little.
             select({});
             if (chosen_.array.gaps)
                 for (const char* flags : kGhostFlags) {
@@ -147,7 +148,7 @@ class VtiFile final : public DecodedFile {
 
     void read(std::size_t, Slices slices, std::span<std::byte> out) override {
         with_vtk(path_, [&] {
-            if (!std::exchange(decoded_, true)) { // choosing again would have VTK read again
+            if (!std::exchange(decoded_, true)) { // selecting again would make VTK read again
                 select(chosen_.array);
                 reader_->Update();
             }
@@ -164,7 +165,7 @@ class VtiFile final : public DecodedFile {
     }
 
   private:
-    // Only numbers as text have them.
+    // Replaces infinities that VTK reads wrongly; only numbers as text can have them.
     void take_infinities(std::string_view markup, const MappedFile& file) {
         if (markup.find("ascii") == markup.npos || !holds_hard_infinities(markup))
             return;
@@ -221,8 +222,8 @@ class VtiFile final : public DecodedFile {
     SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
-    bool replaced_ = false; ///< -inf by kLowest
-    bool decoded_ = false;  ///< all of it, or as far as it went
+    bool replaced_ = false; ///< -inf has been replaced by kLowest
+    bool decoded_ = false;  ///< VTK has read the values, or has tried to
     vtkNew<vtkXMLImageDataReader> reader_;
 };
 

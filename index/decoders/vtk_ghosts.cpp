@@ -1,4 +1,4 @@
-// Reading VTK's ghost flags (vtkDataSetAttributes.h: PointGhostTypes, CellGhostTypes).
+// Reads VTK's ghost flags (vtkDataSetAttributes.h: PointGhostTypes, CellGhostTypes).
 #include "index/decoders/vtk_ghosts.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace isochron::index {
 namespace {
 
-/// Not 0 where a flag of `hiding` is set; empty where there are no flags.
+/// A number for each tuple, not 0 if a flag of `hiding` is set; empty if there are no flags.
 std::vector<std::uint8_t> flagged(vtkFieldData* fields, int hiding, std::size_t tuples) {
     std::vector<std::uint8_t> hidden;
     for (const char* name : kGhostFlags) {
@@ -24,7 +24,8 @@ std::vector<std::uint8_t> flagged(vtkFieldData* fields, int hiding, std::size_t 
             static_cast<std::size_t>(flags->GetNumberOfTuples()) != tuples)
             continue;
         hidden.resize(tuples);
-        // Levels count how far a ghost is from what is no ghost.
+        // vtkGhostLevels has the distance from the nearest value that is no ghost: not 0 is a
+        // ghost.
         const int mask = std::string_view(name) == kGhostFlags[0] ? hiding : 0xff;
         for (std::size_t i = 0; i < tuples; ++i)
             hidden[i] |=
@@ -33,7 +34,7 @@ std::vector<std::uint8_t> flagged(vtkFieldData* fields, int hiding, std::size_t 
     return hidden;
 }
 
-/// Calls `visit` with the corners of a cell in turn.
+/// Calls `visit` with each corner of a cell.
 template <class Visit>
 void at_corners(const Grid& grid, std::uint32_t x, std::uint32_t y, std::uint32_t z, Visit visit) {
     const auto [nx, ny, nz] = grid.vertices;
@@ -52,7 +53,7 @@ void for_each_cell(const Grid& grid, Visit visit) {
                 visit(cell++, x, y, z);
 }
 
-/// Adds the vertices that make every one of these cells inactive, as few as a simple rule finds.
+/// Hides vertices so that each of these cells is inactive. A simple rule keeps their number small.
 void hide_cells(const std::vector<std::uint8_t>& cells, const Grid& grid,
                 std::vector<std::uint8_t>& vertices) {
     std::vector<std::uint8_t> in_sight(grid.vertex_count());

@@ -1,4 +1,4 @@
-// Legacy VTK structured points (.vtk), ascii and binary, through vtkStructuredPointsReader.
+// Reads legacy VTK structured points (.vtk), ascii and binary, with vtkStructuredPointsReader.
 #include "index/decoders/decoders.h"
 #include "index/decoders/vtk_ghosts.h"
 #include "index/decoders/vtk_session.h"
@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// VTK allocates what DIMENSIONS and the first array's components ask for before it looks for the
-// values; one takes a byte at least.
+// Checks that the file is large enough: VTK allocates memory by DIMENSIONS and the first array's
+// components before it looks for values. A value takes at least a byte.
 void expect_believable(const fs::path& path) {
     const std::string name = path.string();
     constexpr std::size_t kHead = 4096;

@@ -1,4 +1,4 @@
-// `isochron-reader-vtk`: what VTK decodes.
+// `isochron-reader-vtk`: the reader for VTK's formats.
 #include "index/decoders/decoders.h"
 #include "index/decoders/reader_program.h"
 

@@ -1,4 +1,4 @@
-// VTK's messages as errors, its arrays as ours.
+// Turns VTK's messages into errors, and its arrays into ours.
 #include "index/decoders/vtk_session.h"
 
 #include "index/error.h"
@@ -42,7 +42,7 @@ class MessageCollector : public vtkOutputWindow {
     const std::string& first_error() const { return first_error_; }
 
   private:
-    // Legacy files that end too early are but a warning to VTK.
+    // VTK only warns of legacy files that end too early.
     void keep_read_error(std::string_view text) {
         if (first_error_.empty() && text.find("Error reading") != text.npos)
             first_error_ = text;
@@ -52,7 +52,7 @@ class MessageCollector : public vtkOutputWindow {
 };
 vtkStandardNewMacro(MessageCollector)
 
-    /// Puts the former output window back whatever happens.
+    /// Sets VTK's output window, and restores the former one at the end of the scope.
     class OutputWindowScope {
   public:
     explicit OutputWindowScope(vtkOutputWindow* window)
@@ -110,11 +110,11 @@ void with_vtk(const std::filesystem::path& file, const std::function<void()>& wo
         const OutputWindowScope scope(messages);
         work();
     } catch (const Error&) {
-        // What VTK said first is the cause of what was missed afterwards.
+        // VTK's first message is the cause of a later error.
         fail_on_message();
         throw;
     } catch (const std::bad_alloc&) {
-        throw; // the reader knows how much there was
+        throw; // the reader's service adds how much memory there was
     } catch (const std::length_error&) {
         throw Error(fmt::format("{}: cannot be read: VTK took a number of it for a size that no "
                                 "memory has",
@@ -225,7 +225,7 @@ std::vector<StoredArray> arrays_of_vtk(vtkImageData& image) {
 
 void take_time_of_vtk(vtkFieldData* fields, SeriesInfo& info) {
     info.times.clear();
-    // Of ParaView, of VisIt, and what others call it.
+    // The names that ParaView, VisIt and other programs use.
     for (const char* name : {"TimeValue", "TIME", "TimeStep"}) {
         vtkDataArray* time = fields ? fields->GetArray(name) : nullptr;
         if (!time || time->GetNumberOfTuples() != 1 || time->GetNumberOfComponents() != 1)

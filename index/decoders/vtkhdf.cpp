@@ -1,4 +1,4 @@
-// The group /VTKHDF, after "VTKHDF File Format", https://docs.vtk.org (VTK 9.3).
+// Reads the group /VTKHDF, after "VTKHDF File Format", https://docs.vtk.org (VTK 9.3).
 #include "index/decoders/vtkhdf.h"
 
 #include "index/decoders/hdf5_volume.h"
@@ -15,7 +15,7 @@ namespace {
 const std::string kRoot = "/VTKHDF", kPoints = "/VTKHDF/PointData/", kCells = "/VTKHDF/CellData/",
                   kSteps = "/VTKHDF/Steps";
 
-/// @throws Error when there are not so many
+/// Numbers of an attribute; `otherwise` if it is missing. @throws Error when there are not `count`
 std::vector<double> expect_numbers(const Hdf5File& file, const char* attribute, std::size_t count,
                                    std::vector<double> otherwise) {
     std::vector<double> found = file.numbers(kRoot, attribute);
@@ -27,7 +27,7 @@ std::vector<double> expect_numbers(const Hdf5File& file, const char* attribute, 
     return found;
 }
 
-/// Vertices along each axis. @throws Error
+/// Sets the grid. @return vertices along each axis @throws Error
 std::array<std::uint64_t, 3> place_vtkhdf(const Hdf5File& file, SeriesInfo& info) {
     const auto extent = expect_numbers(file, "WholeExtent", 6, {});
     const auto origin = expect_numbers(file, "Origin", 3, {0, 0, 0});
@@ -51,7 +51,8 @@ std::array<std::uint64_t, 3> place_vtkhdf(const Hdf5File& file, SeriesInfo& info
     return {info.grid.vertices[0], info.grid.vertices[1], info.grid.vertices[2]};
 }
 
-/// Dimensions of the vertices, or of the cells, from the last but components on; none: no such.
+/// The layout of a dataset whose last dimensions, before components, are those of the vertices or
+/// cells; none if they are not.
 std::optional<Hdf5Layout> vtkhdf_layout(const Hdf5Dataset& dataset,
                                         std::array<std::uint64_t, 3> sizes, bool on_cells,
                                         bool in_steps) {

@@ -1,4 +1,4 @@
-// VTKHDF: image data as VTK 9.2 and later write it into HDF5.
+// VTKHDF: image data in HDF5, as VTK 9.2 and later write it.
 #pragma once
 
 #include "index/decoders/decoded_file.h"
@@ -10,8 +10,8 @@ namespace isochron::index {
 
 bool is_vtkhdf(const Hdf5File& file);
 
-/// Image data, of one step or of several (`Steps`). Point and cell data.
-/// @throws Error naming the file: of another type, damaged, several arrays and none chosen
+/// Image data of one step or several (`Steps`); point and cell data.
+/// @throws Error naming the file: another type of data, damaged, several arrays and none chosen
 std::unique_ptr<DecodedFile> decode_vtkhdf(std::unique_ptr<Hdf5File> file,
                                            const ReadOptions& options);
 

@@ -1,4 +1,4 @@
-// The depth of elements, by their tags alone; numbers as text.
+// Checks the depth of elements by their tags only, and changes numbers as text.
 #include "index/decoders/xml_markup.h"
 
 #include "index/error.h"
@@ -12,15 +12,15 @@
 namespace isochron::index {
 namespace {
 
-constexpr int kDeepest = 64; ///< in image data and collections it is below ten
+constexpr int kDeepest = 64; ///< image data and collections have fewer than ten levels
 
-/// Behind the next `end` from `at` on.
+/// The position after the next `end` from `at` on.
 std::size_t behind(std::string_view markup, std::string_view end, std::size_t at) {
     const std::size_t found = markup.find(end, at);
     return found == markup.npos ? markup.size() : found + end.size();
 }
 
-/// Behind the tag that starts before `at`. Quoted values may hold its end.
+/// The position after the tag that starts before `at`. Quoted values may contain `>`.
 std::size_t behind_tag(std::string_view markup, std::size_t at) {
     while ((at = markup.find_first_of("\"'>", at)) != markup.npos) {
         if (markup[at] == '>')
@@ -30,7 +30,7 @@ std::size_t behind_tag(std::string_view markup, std::size_t at) {
     return markup.size();
 }
 
-/// Words of numbers between tags, in their order.
+/// Calls `visit` for each word of the text between tags, in order.
 template <class Visit>
 void for_each_word(std::string_view text, Visit visit) {
     constexpr std::string_view kBlank = " \t\r\n";
@@ -46,7 +46,7 @@ void for_each_word(std::string_view text, Visit visit) {
     }
 }
 
-/// -1 and 1 for the infinities that VTK does not read right, else 0.
+/// -1 and 1 for infinities that VTK reads wrongly, else 0.
 int hard_infinity(std::string_view word) {
     const bool negative = word.starts_with('-');
     if (negative || word.starts_with('+'))
@@ -86,7 +86,7 @@ std::optional<std::string> with_easy_infinities(std::string_view text) {
     std::size_t copied = 0;
     bool ambiguous = false;
     for_each_word(text, [&](std::size_t at, std::string_view word) {
-        // However it is written: nothing else begins like it.
+        // kLowest in any spelling: no other f32 begins like this.
         ambiguous = ambiguous || word.starts_with("-3.4028");
         const int sign = hard_infinity(word);
         if (sign == 0)

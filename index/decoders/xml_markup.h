@@ -1,4 +1,4 @@
-// What is looked at in XML before VTK gets it.
+// Checks and changes XML before VTK reads it.
 #pragma once
 
 #include <limits>
@@ -8,23 +8,25 @@
 
 namespace isochron::index {
 
-/// VTK's parsers descend into elements by recursion, and take quadratic time before.
-/// @throws Error naming the file when elements are nested deeper than in any file of VTK's
+/// Checks the depth of elements, since VTK's parsers recurse into them, after taking quadratic
+/// time.
+/// @throws Error naming the file when elements are nested deeper than in any VTK file
 void expect_shallow(std::string_view markup, const std::string& file);
 
-/// VTK takes no array without a name, and says so in its own words.
+/// Checks that all arrays have names: VTK refuses others with a message that users cannot
+/// understand.
 /// @throws Error naming the file
 void expect_names(std::string_view markup, const std::string& file);
 
-/// Numbers as text that VTK 9.1 takes for others or not at all: it reads `-inf` as `inf`, and knows
-/// no `Infinity`.
+/// Whether a text has numbers that VTK 9.1 reads wrongly: it reads `-inf` as `inf`, and does not
+/// know `Infinity`.
 bool holds_hard_infinities(std::string_view text);
 
-/// The lowest f32, by which -inf goes through VTK.
+/// The lowest f32, which replaces -inf while VTK reads the values.
 inline constexpr float kLowest = std::numeric_limits<float>::lowest();
 
-/// The same text with such numbers as `inf` and `kLowest`.
-/// @return none when it holds `kLowest` itself, so that what came out of VTK could not be told apart
+/// The same text with these numbers replaced by `inf` and `kLowest`.
+/// @return none when it has `kLowest` itself, which could not be told from -inf after VTK
 std::optional<std::string> with_easy_infinities(std::string_view text);
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// Rounding of values and isovalues to what bricks hold.
+// Rounds values and isovalues to the values that volume bricks hold.
 #include "index/extraction/brick_values.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// 2^-e such that `largest` times it is between 1/2 and 1, or a little more at the end of the
-/// type's range: neither the power nor half of it is a denormal number.
+/// The power 2^-e for which `largest` * 2^-e is between 1/2 and 1, or a little more near the end of
+/// the type's range, so that neither the power nor half of it is denormal.
 template <class Real>
 double power_to_one(double largest) {
     constexpr int kMost = std::numeric_limits<Real>::max_exponent - 3;
@@ -21,13 +21,13 @@ double power_to_one(double largest) {
     return std::ldexp(0.5, std::clamp(-std::ilogb(largest), -kMost, kMost));
 }
 
-/// To the nearest f32, never to an infinity.
+/// The nearest f32, but never an infinity.
 float nearest(double value) {
     constexpr double kMost = std::numeric_limits<float>::max();
     return static_cast<float>(std::clamp(value, -kMost, kMost));
 }
 
-/// The rounded value, moved to its own side of all levels.
+/// The value rounded to f32, but kept on its own side of all levels.
 float on_its_side(double relative, double scaled, const BrickLevels& levels) {
     if (std::isnan(scaled))
         return std::numeric_limits<float>::quiet_NaN();
@@ -73,17 +73,17 @@ float BrickValues::stored_level(double isovalue) const {
                 (keys_.reversed() ? highest_ordinal<T>() : lowest_ordinal<T>()) ^ flip);
             const std::uint64_t highest = static_cast<OrderKey>(
                 (keys_.reversed() ? lowest_ordinal<T>() : highest_ordinal<T>()) ^ flip);
-            if (threshold <= lowest) // all values are above, or all below: any such level will do
+            if (threshold <= lowest) // all values are on one side: any level beyond them will do
                 return keys_.reversed() ? kInfinity : -kInfinity;
             if (threshold > highest)
                 return keys_.reversed() ? -kInfinity : kInfinity;
-            // The last stored value that is not below the isovalue.
+            // The stored value nearest to the isovalue that is not below it.
             const auto first =
                 static_cast<float>(from_ordinal<T>(static_cast<OrderKey>(threshold) ^ flip));
             if constexpr (std::is_floating_point_v<T>)
                 return first;
             else {
-                // Between it and the next one, where the isovalue is.
+                // The isovalue is between that value and the next one.
                 const float next = keys_.reversed() ? first + 1 : first - 1;
                 const float inside = std::nextafter(next, first);
                 const auto level =

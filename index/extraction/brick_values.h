@@ -1,4 +1,5 @@
-// How a volume's bricks hold its values, so that a GPU sees every value on its side of an isovalue.
+// Converts values for volume bricks so that a GPU sees every value on the right side of an
+// isovalue.
 #pragma once
 
 #include "index/volume/order_key.h"
@@ -10,23 +11,23 @@
 
 namespace isochron::index {
 
-/// Where the isovalues of a query lie among held values.
+/// The isovalues of a query in brick units.
 struct BrickLevels {
     /// In the order of the query's isovalues, in brick units: a vertex is below isovalue i, as
     /// `Query` defines it, if and only if `held * factor < units[i]`.
     std::vector<float> units;
-    /// The same and the isovalues themselves, both ascending and without repetition.
+    /// `units`, and the isovalues themselves; both ascending, without repetition.
     std::vector<float> rounded;
     std::vector<double> exact;
 };
 
 /// Values of 8 and 16 bits and f32 are held as they are stored. i32 and f64 become f32: the scaled
 /// value relative to the middle of the data's range, in units of a power of two, rounded to the
-/// nearest; where that would cross an isovalue, to the last f32 on its own side instead. Isovalues
-/// that f32 cannot tell apart get neighboring levels, so that this can always be done.
+/// nearest f32, or, if that would cross an isovalue, to the last f32 on the value's own side.
+/// Isovalues that f32 cannot tell apart get neighboring levels, so that this is always possible.
 ///
-/// *Brick units* are `held * factor`: in the order of the scaled values, at most about 1 (4 at the
-/// end of floating point's range) in size over the whole data set.
+/// *Brick units* are `held * factor`. They have the order of the scaled values, and their size is
+/// at most about 1 over the whole data set (4 near the end of the range of floating point).
 class BrickValues {
   public:
     /// @param low, high range of the finite scaled values of the data set
@@ -35,16 +36,16 @@ class BrickValues {
     ValueType stored() const { return type_; }
     /// i8, u8, i16, u16 or f32.
     ValueType held() const { return held_; }
-    /// A power of two, negative where larger stored values are smaller scaled ones.
+    /// A power of two, or its negative if larger stored values are smaller scaled ones.
     float factor() const { return factor_; }
     /// `high - low` in brick units, at least the smallest normal f32.
     float range() const { return range_; }
 
     BrickLevels levels(std::span<const double> isovalues) const;
 
-    /// Stored values of one row as they are held.
-    /// @param stored aligned values of the stored type
-    /// @param out as many held values
+    /// Converts stored values of one row to held ones.
+    /// @param stored `count` aligned values of the stored type
+    /// @param out `count` values of the held type
     void convert(const std::byte* stored, std::size_t count, const BrickLevels& levels,
                  std::byte* out) const;
 

@@ -1,4 +1,4 @@
-// Incremental search: what changes in the set of active cells from one query to another.
+// Incremental search: finds the changes in the set of active cells from one query to another.
 #include "index/extraction/cell_change.h"
 
 #include "index/error.h"
@@ -13,9 +13,9 @@
 namespace isochron::index {
 namespace {
 
-/// Fewer ids than this are moved in less time than it takes to find out how many all are.
+/// Moving fewer ids than this takes less time than counting the ids of a full search.
 constexpr std::size_t kFew = 4096;
-/// A longer chain of deltas touches more memory than the search for all.
+/// A longer chain of deltas touches more memory than a full search.
 constexpr std::uint32_t kMaxChain = 8;
 
 using Cut = LevelMap::Cut;
@@ -28,7 +28,7 @@ struct ChangeSearch::WorkSpace {
           levels(cells ? &file->levels() : nullptr),
           steps(static_cast<std::uint32_t>(file->info().steps())), search(search_in(file)) {}
 
-    /// Playback asks for the same isovalue again and again.
+    /// The cut at an isovalue; keeps the last one, since playback repeats the same isovalue.
     const std::optional<Cut>& cut_at(double isovalue) {
         if (!(isovalue == last_isovalue)) {
             last_cut = levels->cut(scaling, isovalue);
@@ -62,7 +62,7 @@ ChangeSearch::~ChangeSearch() = default;
 
 namespace {
 
-/// The ids of the runs, in memory that only grows.
+/// Copies the ids of the runs into memory that only grows.
 std::span<CellId> ids_of(const std::vector<IdRun>& runs, std::vector<CellId>& memory) {
     const std::size_t wanted = count_ids(runs) + IdRun::kSlack;
     if (memory.size() < wanted)
@@ -70,8 +70,8 @@ std::span<CellId> ids_of(const std::vector<IdRun>& runs, std::vector<CellId>& me
     return {memory.data(), copy_ids(runs, memory)};
 }
 
-/// Keeps of either what is not in the other; a cell that came and went is in both, or in one more
-/// often than in the other.
+/// Removes ids that are in both sets. A cell that came and went is in both; one that changed
+/// several times is in one of them once more than in the other.
 void drop_common(std::span<CellId> added, std::span<CellId> removed, std::vector<CellId>& come,
                  std::vector<CellId>& gone) {
     std::sort(added.begin(), added.end());
@@ -91,7 +91,7 @@ CellChange ChangeSearch::searched(const Query& to) {
     return {true, work_->set->ids, {}};
 }
 
-/// Bricks at least say when two isovalues lie between the same values of a step.
+/// Without cells, bricks can tell only whether two isovalues lie between the same values of a step.
 CellChange ChangeSearch::without_cells(const Query& from, const Query& to) {
     if (from.step == to.step && can_search(*file_, SearchMethod::bricks)) {
         const LevelMapPtr levels = file_->chunks().levels(to.step);
@@ -123,7 +123,7 @@ CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
         return searched(to);
     const auto held = cells->hold();
     work.clear();
-    bool disjoint = true; // a cell is in one of the runs at most
+    bool disjoint = true; // each cell is in at most one of the runs
     bool found = true;
     const std::uint32_t steps = from.step < to.step ? to.step - from.step : from.step - to.step;
     if (steps == 0) {

@@ -1,4 +1,4 @@
-// Incremental search: what changes in the set of active cells from one query to another.
+// Incremental search: finds the changes in the set of active cells from one query to another.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -9,18 +9,18 @@
 
 namespace isochron::index {
 
-/// Applied to the active cells of the first query they give those of the second.
+/// The changes that turn the active cells of the first query into those of the second.
 struct CellChange {
-    /// True where little stays: `added` is all of the second query's cells, and every cell of the
-    /// first goes.
+    /// True if few cells stay: then `added` holds all cells of the second query, and all cells of
+    /// the first are dropped.
     bool whole = false;
-    std::span<const CellId> added, removed; ///< in no order, each cell once
+    std::span<const CellId> added, removed; ///< unordered, each cell once
 };
 
-/// Finds changes with the cheapest of what the index has: the deltas of a transition, the levels
-/// between two isovalues, the time nodes that two steps do not share, or the search for the
-/// second query alone. Which one is decided by the number of ids that each would move, so that a
-/// change never costs more than that search. Not thread-safe: keeps its work space.
+/// Finds changes in the cheapest way that the index allows: by the deltas of a transition, the
+/// levels between two isovalues, the time nodes that two steps do not share, or a full search for
+/// the second query. It chooses the way that moves the fewest ids, so that a change never costs
+/// more than a full search. Not thread-safe: keeps its work space.
 class ChangeSearch {
   public:
     explicit ChangeSearch(std::shared_ptr<const IndexFile> file);

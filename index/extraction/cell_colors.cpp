@@ -1,4 +1,4 @@
-// Values of a second array on the isosurface.
+// Computes values of a second array on the isosurface.
 #include "index/extraction/cell_colors.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kCellsPerLook = 1 << 14; ///< cells between two looks at the stop token
 
-/// Ends of a cell's twelve edges among its vertices, x in bit 0, y in bit 1, z in bit 2.
+/// The ends of a cell's twelve edges, as vertex numbers with x in bit 0, y in bit 1, z in bit 2.
 constexpr std::array<std::array<int, 2>, 12> kEdges{{{0, 1},
                                                      {2, 3},
                                                      {4, 5},
@@ -38,7 +38,7 @@ double mean_on_surface(const CornerValues& values, const CornerValues& colors, d
         sum += (1 - along) * colors[a] + along * colors[b];
         ++cuts;
     }
-    return sum / cuts; // NaN where there is no cut
+    return sum / cuts; // NaN without a cut
 }
 
 /// Scaled values of the step at a cell's vertices.

@@ -1,4 +1,4 @@
-// Values to color cells by, as coordinates in a color map.
+// Color coordinates of cells: the places of values in a color map.
 #pragma once
 
 #include "index/volume/query.h"
@@ -10,17 +10,17 @@
 
 namespace isochron::index {
 
-/// A color coordinate is a value's place in the range of all values, 0 to kColorSteps, or
-/// kNoColor where there is none: 13 bits.
+/// A color coordinate is a value's place in the range of all values, 0 to kColorSteps, or kNoColor
+/// if there is no value: 13 bits.
 constexpr std::uint16_t kColorSteps = 8190, kNoColor = 8191;
 
-/// Rounded to the nearest step and cut to the range; kNoColor for NaN. A range of no width has
-/// only the coordinate 0.
+/// The coordinate of a value, rounded to the nearest step and clamped to the range; kNoColor for
+/// NaN. If `low` and `high` are equal, it is 0.
 std::uint16_t color_coordinate(double value, double low, double high);
 
-/// Coordinates of the second array's values on the isosurface: for each cell the mean over the
-/// points where the surface cuts the cell's edges, at which values are interpolated linearly. A NaN
-/// or infinite value at the end of an edge that is cut makes that kNoColor.
+/// Coordinates of the second array's values on the isosurface: for each cell the mean of the values
+/// at the points where the surface cuts the cell's edges, interpolated linearly. A NaN or infinite
+/// value at an end of a cut edge gives kNoColor.
 /// @param volume, colors of the same grid, both holding the query's step
 /// @param cells active in the query
 /// @param low, high range of `colors` over all steps

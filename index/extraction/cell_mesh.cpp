@@ -1,4 +1,4 @@
-// What the vertices of a mesh stand for.
+// Positions and normals of a mesh's vertices.
 #include "index/extraction/cell_mesh.h"
 
 #include "index/extraction/cell_plane.h"

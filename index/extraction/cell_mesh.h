@@ -1,4 +1,4 @@
-// Triangles of an isosurface, made from its active cells alone.
+// The triangle mesh of an isosurface, made from its active cells only.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,46 +10,47 @@
 
 namespace isochron::index {
 
-/// Where the surface cuts an edge of the grid, as the GPU takes it: 16 bytes, no padding.
+/// The point where the surface cuts an edge of the grid, in the GPU's format: 16 bytes, no padding.
 struct MeshVertex {
     std::uint16_t x, y, z; ///< the lower end of the edge, vertex index coordinates
-    std::uint16_t axis;    ///< that the edge runs along, 0 to 2
-    std::uint32_t share;   ///< of the way to the edge's upper end, 0 to kWhole
-    /// Coordinates on the octahedron (see cell_plane.h), signed 16 bits each from -32767 to 32767,
-    /// x in the lower half: towards lower values, in physical space. kNoNormal where the gradient
-    /// vanishes or is not finite.
+    std::uint16_t axis;    ///< of the edge, 0 to 2
+    std::uint32_t share;   ///< fraction of the way to the edge's upper end, 0 to kWhole
+    /// Normal towards lower values, in physical space, as coordinates on the octahedron (see
+    /// cell_plane.h): signed 16 bits each from -32767 to 32767, x in the lower half. kNoNormal if
+    /// the gradient is zero or not finite.
     std::uint32_t normal;
 
     static constexpr std::uint32_t kWhole = 1u << 31, kNoNormal = 0x80008000u;
-    static constexpr int kOne = 32767; ///< stands for 1 among the normal's coordinates
+    static constexpr int kOne = 32767; ///< the number for 1 in the normal's coordinates
     bool operator==(const MeshVertex&) const = default;
 };
 static_assert(sizeof(MeshVertex) == 16);
 
-/// In vertex index coordinates.
+/// The vertex's position in vertex index coordinates.
 glm::dvec3 position_of(const MeshVertex& vertex);
-/// Of length 1, or zero where there is none.
+/// The unit normal, or zero if the vertex has none.
 glm::dvec3 normal_of(const MeshVertex& vertex);
 
 /// The surface of a cell set, cell after cell in the order of its ids. Every cut edge has one
-/// vertex, which all triangles share. An edge is cut where one end is below the isovalue and the
-/// other is not; both ends of the way count, so that vertices may meet in a vertex of the grid.
-/// Cells with a NaN have no part in it: the surface has a border there.
-/// Linear between the ends of an edge; normals likewise, of central differences (one-sided at the
-/// border of the grid). Where an end is infinite, the cut is at the other one.
+/// vertex, which all triangles share. An edge is cut if one end is below the isovalue and the other
+/// is not. The cut may be at an end of the edge, so that several vertices may lie in one vertex of
+/// the grid. Cells with a NaN vertex have no triangles: the surface has a border there. Positions
+/// are interpolated linearly between the ends of an edge, and so are normals, from central
+/// differences (one-sided at the border of the grid). If one end is infinite, the cut is at the
+/// other one.
 struct CellMesh {
     std::vector<MeshVertex> vertices;
-    /// Three vertices each, counter-clockwise for who looks from the side of lower values.
+    /// Three vertices each, counter-clockwise as seen from the side of lower values.
     std::vector<std::uint32_t> triangles;
-    std::vector<std::uint8_t> cases; ///< by cell, see mesh_cases.h: how many triangles it has
+    std::vector<std::uint8_t> cases; ///< of each cell, see mesh_cases.h: gives its triangle count
 
     bool operator==(const CellMesh&) const = default;
 };
 
 using CellMeshPtr = std::shared_ptr<const CellMesh>;
 
-/// Sets of more cells come without a mesh: it would take a hundred megabytes and more, twice where
-/// the processor draws, which takes seconds for so many triangles.
+/// Sets of more cells get no mesh. It would take a hundred megabytes or more, twice that with
+/// software rendering, which takes seconds for that many triangles.
 constexpr std::size_t kMostMeshedCells = std::size_t{1} << 21;
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// The plane that stands for the surface in a cell, in 32 bits.
+// The plane that approximates the surface in a cell, packed in 32 bits.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,25 +9,26 @@
 
 namespace isochron::index {
 
-/// A plane near the middle of a cell. Its normal is that of the light; it lies where the values of
-/// the cell's eight vertices, as their mean and their mean slope, reach the isovalue on the way from
-/// the cell's middle along that normal.
+/// A plane near the middle of a cell. Its normal is the normal used for shading. It lies where the
+/// linear function with the mean and the mean slope of the cell's eight values reaches the isovalue
+/// on the way from the cell's middle along that normal.
 struct CellPlane {
-    glm::dvec3 normal{0.0}; ///< unit vector in physical space towards lower values; zero where none
-    /// From the cell's middle along the plane's normal in index space, which points towards lower
-    /// values, too; -kFarthest to kFarthest [voxels].
+    glm::dvec3 normal{0.0}; ///< unit vector in physical space towards lower values; zero if none
+    /// Distance from the cell's middle along the plane's normal in index space, which also points
+    /// towards lower values; -kFarthest to kFarthest [voxels].
     double offset = 0.0;
 
-    /// A little beyond the cell's farthest corner.
+    /// A little more than the distance of the cell's corners.
     static constexpr double kFarthest = 0.87;
-    /// Square cosine of the cell's own slope to the normal from which on the offset is known.
+    /// Least squared cosine between the cell's own slope and the normal for which there is an
+    /// offset.
     static constexpr double kLeastCosine2 = 1e-6;
 };
 
-/// Bits 0 to 11 and 12 to 23: the normal's x and y on the octahedron |x| + |y| + |z| = 1, of which
-/// the lower half is folded outwards (Meyer and others 2010, doi:10.1111/j.1467-8659.2010.01737.x),
-/// from -1 at 1 over 0 at 2048 to 1 at 4095; 0 stands for no normal. Bits 24 to 31: the offset, a
-/// signed byte, 127 at kFarthest.
+/// Bits 0 to 11 and 12 to 23: the normal's x and y on the octahedron |x| + |y| + |z| = 1 with its
+/// lower half folded outwards (Meyer and others 2010, doi:10.1111/j.1467-8659.2010.01737.x). -1 is
+/// stored as 1, 0 as 2048 and 1 as 4095; all bits 0 is no normal. Bits 24 to 31: the offset as a
+/// signed byte, 127 for kFarthest.
 namespace packed_plane {
 constexpr int kZero = 2048, kOne = 2047; ///< of a coordinate on the octahedron
 constexpr int kFarthest = 127;           ///< of the offset

@@ -1,4 +1,5 @@
-// Planes of many cells at a time, from what is around them; compiled once for each SIMD target.
+// Makes the planes of many cells at a time from the values around them; compiled once for each SIMD
+// target.
 #include "index/extraction/cell_plane.h"
 #include "index/volume/cell_difference.h"
 
@@ -25,7 +26,7 @@ namespace isochron::index::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kBatch = 64; ///< cells whose planes are found together
+constexpr std::size_t kBatch = 64; ///< cells whose planes are made together
 
 /// Makes packed planes (cell_plane.h) of differences.
 template <class Real>
@@ -38,22 +39,22 @@ class PlaneMaker {
     };
 
     /// @param normal_from_difference with entries of at most 1
-    /// @param reversed larger stored values are smaller scaled ones
+    /// @param reversed whether larger stored values are smaller scaled ones
     PlaneMaker(const glm::dmat3& normal_from_difference, bool reversed) : reversed_(reversed) {
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 3; ++column)
                 matrix_[row][column] = static_cast<Real>(normal_from_difference[column][row]);
     }
 
-    /// @param around differences around the cells; of any scale
-    /// @param own, rise see CellSlope; of one scale
+    /// @param around differences around the cells, at any scale
+    /// @param own, rise see CellSlope; both at the same scale
     HWY_INLINE void write(V3 around, V3 own, V rise, std::uint32_t* out) const {
         const D d;
         const V largest = largest_of(around);
         const V sum = sum_of(around); // keeps every NaN
         const auto usable = hn::And(
             hn::And(hn::Gt(largest, hn::Zero(d)), hn::Lt(largest, infinity())), hn::Eq(sum, sum));
-        if constexpr (sizeof(Real) == 8) { // of any type: no square must overflow or vanish
+        if constexpr (sizeof(Real) == 8) { // for any type: no square may overflow or underflow
             around = over(around, largest);
             const V own_size = largest_of(own);
             const V largest_own =
@@ -114,7 +115,7 @@ class PlaneMaker {
             {hn::Set(d, matrix_[i][0]), hn::Set(d, matrix_[i][1]), hn::Set(d, matrix_[i][2])}, v);
     }
 
-    /// Halves away from zero, as `lround` does it.
+    /// Rounds halves away from zero, as `lround` does.
     static HWY_INLINE auto rounded(V v) {
         const hn::Rebind<std::int32_t, D> ints;
         v = hn::Add(v, hn::CopySign(hn::Set(D(), Real{0.5}), v));
@@ -128,7 +129,7 @@ class PlaneMaker {
     std::array<std::array<Real, 3>, 3> matrix_;
 };
 
-/// Cells of which the differences are known, in double: of every type, at the border or not.
+/// A batch of cells given by their differences, in double: for every type, also at the border.
 class DifferenceBatch {
   public:
     using Maker = PlaneMaker<double>;
@@ -156,8 +157,8 @@ class DifferenceBatch {
     std::array<double, kBatch> rise_{};
 };
 
-/// Inner cells of 8- and 16-bit types: the values around them, as words of four bytes. All sums of
-/// differences are exact in `float`.
+/// A batch of inner cells of 8- and 16-bit types, given by the values around them as words of four
+/// bytes. All sums of differences are exact in `float`.
 template <class T>
 class ValueBatch {
   public:
@@ -167,7 +168,7 @@ class ValueBatch {
     ValueBatch(const Grid& grid, double level)
         : row_(grid.vertices[0]), slice_(row_ * std::ptrdiff_t{grid.vertices[1]}) {
         constexpr double kFar = 1 << 20; // beyond all values
-        // Of a sum of whole numbers and a part of one, `float` keeps all digits that count.
+        // The level is split into a whole number, which integers keep exactly, and a rest below 1.
         const double from_lowest =
             std::isfinite(level) ? std::clamp(level + kOffset, -kFar, kFar) : 0.0;
         whole_level_ = static_cast<std::int32_t>(8 * std::floor(from_lowest));
@@ -218,17 +219,17 @@ class ValueBatch {
     static constexpr std::size_t kWords = sizeof(T) == 1 ? kRows : kRows + kInner;
     using Ints = hn::Rebind<std::int32_t, typename Maker::D>;
     using V = hn::Vec<Ints>;
-    /// What `word` adds to values.
+    /// The number that `word` adds to values.
     static constexpr double kOffset =
         std::is_signed_v<T> ? -double{std::numeric_limits<T>::min()} : 0.0;
 
-    /// Two vertices with their neighbors along x.
+    /// Takes two vertices with their neighbors along x.
     HWY_INLINE void take_inner(std::size_t row, std::size_t slot, const T* v) {
         take(row, slot, v - 1);
         if constexpr (sizeof(T) == 2)
             take(kRows + row, slot, v + 1);
     }
-    /// Two vertices, where bytes make words as above.
+    /// Takes two vertices; for types of one byte with their neighbors, as above.
     HWY_INLINE void take_outer(std::size_t row, std::size_t slot, const T* v) {
         take(row, slot, sizeof(T) == 1 ? v - 1 : v);
     }
@@ -236,7 +237,7 @@ class ValueBatch {
         std::memcpy(&words_[word][slot], from, sizeof(std::int32_t));
     }
 
-    /// Difference of a row's values at both vertices of the cell.
+    /// Difference of a row's values at the two vertices of the cell.
     HWY_INLINE V within(std::size_t row, std::size_t slot) const {
         const V first = word(row, slot);
         if constexpr (sizeof(T) == 1) {
@@ -247,7 +248,7 @@ class ValueBatch {
             return hn::Sub(low(word(kRows + row, slot)), high(first));
     }
 
-    /// As if unsigned: an offset that no difference sees.
+    /// Values as unsigned numbers: signed types get an offset, which cancels in differences.
     HWY_INLINE V word(std::size_t word, std::size_t slot) const {
         const Ints d;
         const V values = hn::LoadU(d, words_[word].data() + slot);
@@ -262,7 +263,7 @@ class ValueBatch {
         return hn::BitCast(Ints(), hn::ShiftRight<16>(hn::BitCast(bits, words)));
     }
 
-    /// Twice the sum of a row's differences along x, at both vertices of the cell.
+    /// Twice the sum of a row's central differences along x at the two vertices of the cell.
     HWY_INLINE V along(std::size_t row, std::size_t slot) const {
         const V first = word(row, slot);
         if constexpr (sizeof(T) == 1) {
@@ -274,7 +275,7 @@ class ValueBatch {
             return hn::Sub(hn::Add(low(second), high(second)), hn::Add(low(first), high(first)));
         }
     }
-    /// Sum of a row's values at both vertices of the cell.
+    /// Sum of a row's values at the two vertices of the cell.
     HWY_INLINE V across(std::size_t row, std::size_t slot) const {
         const V first = word(row, slot);
         if constexpr (sizeof(T) == 1) {
@@ -293,8 +294,8 @@ class ValueBatch {
     }
 
     std::ptrdiff_t row_, slice_;
-    std::int32_t whole_level_; ///< eight times the level from kOffset on, all that is whole of it,
-    float rest_of_level_;      ///< and the rest
+    std::int32_t whole_level_; ///< 8 * floor(level + kOffset)
+    float rest_of_level_;      ///< 8 * (level + kOffset) - whole_level_
     std::array<std::array<std::int32_t, kBatch>, kWords> words_{};
 };
 

@@ -1,4 +1,5 @@
-// A walk from cell to cell, and the roots of the cubic that a trilinear value is along a ray.
+// Walks along a ray from cell to cell, and finds the roots of the trilinear value, which is a cubic
+// along the ray.
 #include "index/extraction/cell_ray.h"
 
 #include <glm/matrix.hpp>
@@ -13,8 +14,8 @@
 namespace isochron::index {
 namespace {
 
-/// How far a root may lie beside the stretch of its cell, as a share of it: one on a face is in
-/// both cells, whatever rounding does.
+/// How far a root may be outside its cell's part of the ray, as a fraction of that part, so that a
+/// root on a face is never lost by rounding.
 constexpr double kSlack = 1e-9;
 
 using CellCorners = std::array<float, 8>; ///< brick units, x fastest
@@ -24,7 +25,7 @@ class BrickVertices {
   public:
     BrickVertices(const VolumeBricks& bricks, const Grid& grid) : bricks_(bricks), tiling_(grid) {}
 
-    /// @return nothing where a brick is missing: then the cell is not active
+    /// @return nothing if a brick is missing: then the cell is not active
     std::optional<CellCorners> of_cell(const glm::ivec3& cell) {
         CellCorners corners;
         for (int corner = 0; corner < 8; ++corner) {
@@ -61,7 +62,7 @@ class BrickVertices {
 
     const VolumeBricks& bricks_;
     BrickTiling tiling_;
-    std::optional<BrickId> id_; ///< looked up last
+    std::optional<BrickId> id_; ///< of the last brick that was looked up
     const std::byte* bytes_ = nullptr;
 };
 
@@ -75,18 +76,18 @@ bool is_active(const CellCorners& corners, float level) {
     return below && above;
 }
 
-/// Value less level along a stretch of the ray, a cubic in s from 0 to 1: coefficients of 1, s, s^2
-/// and s^3.
+/// Value minus level along a part of the ray, as a cubic in s from 0 to 1: coefficients of 1, s,
+/// s^2 and s^3.
 using Cubic = std::array<double, 4>;
 
 double value_at(const Cubic& k, double s) {
     return ((k[3] * s + k[2]) * s + k[1]) * s + k[0];
 }
 
-/// @param from, step start and length of the stretch, from the cell's lowest vertex
+/// @param from, step start of the part and vector to its end, relative to the cell's lowest vertex
 Cubic cubic_along(const CellCorners& corners, double level, const glm::dvec3& from,
                   const glm::dvec3& step) {
-    // One axis after the other, each raising the degree by one.
+    // Interpolates along one axis after the other; each raises the degree by one.
     std::array<Cubic, 8> values{};
     for (int i = 0; i < 8; ++i)
         values[i][0] = static_cast<double>(corners[i]) - level;
@@ -103,7 +104,7 @@ Cubic cubic_along(const CellCorners& corners, double level, const glm::dvec3& fr
     return values[0];
 }
 
-/// Where the slope is 0, ascending, within the stretch.
+/// The values of s from 0 to 1 at which the slope is 0, ascending.
 std::vector<double> turning_points(const Cubic& k) {
     const double a = 3 * k[3], b = k[2], c = k[1]; // a s^2 + 2 b s + c
     const double d = b * b - a * c;
@@ -118,8 +119,9 @@ std::vector<double> turning_points(const Cubic& k) {
     return points;
 }
 
-/// The first place at which the cubic changes its sign. Between its turning points it is monotonic,
-/// so that the signs there tell where; halving goes on until the numbers end.
+/// The first root at which the cubic changes its sign. It is monotonic between its turning points,
+/// so the signs at these tell which interval has a root; bisection goes on to the limit of
+/// precision.
 std::optional<double> first_root(const Cubic& k) {
     std::vector<double> ends = turning_points(k);
     ends.push_back(1 + kSlack);
@@ -140,7 +142,7 @@ std::optional<double> first_root(const Cubic& k) {
     return std::nullopt;
 }
 
-/// The cells that a ray goes through, one after the other, and where along it.
+/// Visits the cells that a ray passes through, in order, with the part of the ray in each.
 class CellRay {
   public:
     /// In vertex index coordinates.
@@ -200,7 +202,7 @@ bool is_finite(const glm::dvec3& v) {
 struct IndexRay {
     glm::dvec3 origin, direction; ///< vertex index coordinates
 };
-/// Nothing where it is not finite or of no length.
+/// The ray in vertex index coordinates; nothing if it is not finite or has length 0.
 std::optional<IndexRay> in_index(const Grid& grid, const Ray& ray) {
     const glm::dmat4 index_from_physical = glm::inverse(grid.physical_from_index());
     const IndexRay result{glm::dvec3(index_from_physical * glm::dvec4(ray.origin, 1.0)),

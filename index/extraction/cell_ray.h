@@ -1,4 +1,4 @@
-// Where a ray first meets the surfaces that are shown, from what is in memory already.
+// Finds where a ray first hits the surfaces that are shown, from data in memory only.
 //
 //     if (const auto hit = index::first_hit(*shown, grid, {wand, ahead}))
 //         mark(hit->at);
@@ -13,7 +13,7 @@
 
 namespace isochron::index {
 
-/// In physical space; of any length, which is the unit of `RayHit::along`.
+/// In physical space. The direction may have any length, which is the unit of `RayHit::along`.
 struct Ray {
     glm::dvec3 origin{0.0}, direction{0.0, 0.0, -1.0};
 };
@@ -24,18 +24,19 @@ struct RayHit {
     glm::dvec3 at{0.0};      ///< physical space
 };
 
-/// The nearest place at which the ray passes through one of the surfaces, which are trilinear in
+/// The nearest point at which the ray passes through one of the surfaces, which are trilinear in
 /// each active cell. Walks along the ray from cell to cell (J. Amanatides and A. Woo, "A Fast Voxel
-/// Traversal Algorithm for Ray Tracing", Eurographics 1987), through at most as many as the grid
-/// has along its three axes together: microseconds, so that it may be asked by the thread that
-/// draws. It reads the extraction alone, no file.
+/// Traversal Algorithm for Ray Tracing", Eurographics 1987), through at most nx + ny + nz cells.
+/// That takes microseconds, so the render thread may call it. It reads the extraction only, no
+/// file.
 /// @param grid of the extraction's series
 /// @param surfaces bit i: surface i counts
-/// @return nothing where there is none, or the ray is not finite or of no length
+/// @return nothing if the ray hits none, is not finite or has length 0
 std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const Ray& ray,
                                 std::uint32_t surfaces = ~std::uint32_t{0});
 
-/// Where the ray enters the grid, or starts in it; physical space. Nothing where it passes by.
+/// The point, in physical space, where the ray enters the grid, or its origin if that is inside.
+/// Nothing if the ray misses the grid.
 std::optional<glm::dvec3> entry_into(const Grid& grid, const Ray& ray);
 
 } // namespace isochron::index

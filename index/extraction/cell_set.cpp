@@ -1,4 +1,4 @@
-// The normal of a single cell, step by step as it is defined.
+// Normal and plane of a single cell, computed directly by their definition.
 #include "index/extraction/cell_set.h"
 
 #include "index/volume/cell_difference.h"
@@ -12,7 +12,7 @@
 namespace isochron::index {
 namespace {
 
-/// Without overflow or underflow of the squares.
+/// The unit vector, computed without overflow or underflow of squares.
 glm::dvec3 unit(const glm::dvec3& v) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     const double sum = v.x + v.y + v.z; // NaN where max() may have dropped one
@@ -40,7 +40,8 @@ CellPlane cell_plane(const StepValues& values, const Query& query, CellId cell) 
         const glm::dvec3 around = unit(differences(at[0]));
         const CellSlope slope = differences.slope(at[0], level);
         const double along = glm::dot(slope.own, around);
-        // Towards larger stored values, which are larger ones where the slope is positive.
+        // `rise` is towards larger stored values; these are larger scaled ones if the slope is
+        // positive.
         const double least = CellPlane::kLeastCosine2 * glm::dot(slope.own, slope.own);
         const double rise = along * std::abs(along) > least ? slope.rise / (2.0 * along) : 0.0;
         const double offset = values.scaling.slope < 0 ? rise : -rise;

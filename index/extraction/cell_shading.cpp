@@ -1,4 +1,4 @@
-// Positions and planes of active cells: differences cell by cell, planes many cells at a time.
+// Positions and planes of active cells: takes differences cell by cell, makes planes in batches.
 #include "index/extraction/cell_set.h"
 #include "index/volume/cell_difference.h"
 #include "index/volume/cell_walk.h"
@@ -22,7 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 namespace {
 
-/// Collects cells, and gives them their planes when there are enough.
+/// Collects cells, and makes their planes when a batch is full.
 template <class Batch>
 class Shader {
   public:
@@ -53,7 +53,7 @@ class Shader {
     std::size_t size_ = 0;
 };
 
-/// With less than this between the spacings `float` has no digits to spare.
+/// Least ratio of the spacings for which `float` is precise enough.
 constexpr double kFloatIsEnough = 1e-4;
 
 template <class T>
@@ -73,7 +73,7 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     const bool float_is_enough = kSmall && smallest >= kFloatIsEnough;
     CellWalk walk(values.grid);
     // The current row:
-    std::uint32_t y = 0, z = 0, inner_width = 0; // cells from the second on that `fast` takes
+    std::uint32_t y = 0, z = 0, inner_width = 0; // number of cells, from the second on, for `fast`
     const T* of_row = volume;
     std::optional<CellDifferences<T>> differences;
 
@@ -97,7 +97,7 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
         points[i] = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
                      static_cast<std::uint16_t>(z), 0, 0};
         if constexpr (kSmall)
-            if (x - 1u < inner_width) { // not so for x = 0 either: the numbers are unsigned
+            if (x - 1u < inner_width) { // false for x = 0, too, as numbers are unsigned
                 fast.add(points[i], of_row + x);
                 continue;
             }

@@ -1,4 +1,4 @@
-// A cut edge of the grid as one number.
+// A key for each edge of the grid, as one number.
 #pragma once
 
 #include "index/extraction/cell_mesh.h"
@@ -9,10 +9,10 @@
 
 namespace isochron::index {
 
-/// The lower end of an edge and its axis: the first eight bytes of its vertex.
+/// The lower end of an edge and its axis: the first eight bytes of its MeshVertex.
 using EdgeKey = std::uint64_t;
 
-/// Of an edge along x. The key of an edge along axis a is larger by a << 48.
+/// The key of an edge along x. The key of an edge along axis a is larger by a << 48.
 constexpr EdgeKey key_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     return EdgeKey{x} | EdgeKey{y} << 16 | EdgeKey{z} << 32;
 }

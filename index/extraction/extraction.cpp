@@ -1,4 +1,4 @@
-// Searches for every surface, copies the bricks that their cells need and colors the cells.
+// Searches for every surface, copies the bricks that the cells need, and colors the cells.
 #include "index/extraction/extraction.h"
 
 #include "index/error.h"
@@ -48,7 +48,7 @@ class Extracting {
         const BrickLevels levels = values_.levels(result.query.isovalues);
         result.levels = levels.units;
         result.bricks = gatherer_.none();
-        if (result.cells() == 0) // no need to load, which may decode a file
+        if (result.cells() == 0) // avoids loading the step, which may decode a file
             return true;
         for (const CellSet& surface : result.surfaces)
             gatherer_.need(surface.ids);
@@ -71,7 +71,7 @@ class Extracting {
     std::optional<SearchMethod> method_;
     Shading shading_;
     std::vector<SearchInto> searches_; ///< by surface
-    bool by_chunks_ = false;           ///< the query's step is not loaded as a whole
+    bool by_chunks_ = false;           ///< works on chunks instead of the whole step
     BrickValues values_;
     BrickGatherer gatherer_;
     SurfaceColors colors_;
@@ -104,7 +104,7 @@ std::chrono::nanoseconds Extraction::search_time() const {
 
 Extract extract_from(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
                      Shading shading) {
-    // `std::function` wants something that can be copied; the state of a search must not be.
+    // `std::function` must be copyable, but the state of a search must not be copied.
     auto extracting = std::make_shared<Extracting>(std::move(file), method, shading);
     return [extracting = std::move(extracting)](const SurfacesQuery& query,
                                                 const std::stop_token& stop) {

@@ -1,4 +1,4 @@
-// The result of one request: the active cells of its surfaces and the bricks behind them.
+// The result of one request: the active cells of its surfaces and the volume bricks around them.
 #pragma once
 
 #include "index/extraction/index_search.h"
@@ -15,18 +15,18 @@
 
 namespace isochron::index {
 
-/// Immutable once published; whoever shows it reads nothing of the file.
+/// Constant once published. Showing it needs nothing more of the file.
 struct Extraction {
     SurfacesQuery query;
-    std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows where asked for
-    std::vector<float> levels;     ///< of the isovalues, in brick units: see BrickLevels
-    /// Coordinates of the cells, surface after surface in the order of ids; empty where none were
-    /// asked for, and where the index has no second array to color by.
+    std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows if asked for
+    std::vector<float> levels;     ///< the isovalues in brick units: see BrickLevels
+    /// Color coordinates of the cells, surface after surface in the order of ids; empty if none
+    /// were asked for, or the index has no second array to color by.
     std::vector<std::uint16_t> colors;
     VolumeBricks bricks; ///< of the step, for all surfaces
     std::chrono::nanoseconds gather_time{0};
 
-    std::size_t cells() const; ///< of all surfaces: one that is active in two counts twice
+    std::size_t cells() const; ///< of all surfaces: a cell that is active in two counts twice
     bool shaded() const;       ///< whether every cell has its point, with its normal
     std::uint64_t candidates() const;
     std::uint64_t reused() const;
@@ -35,8 +35,8 @@ struct Extraction {
 
 using ExtractionPtr = std::shared_ptr<const Extraction>;
 
-/// Computes one extraction; runs on the worker only, keeps the state of incremental search.
-/// Returns null when stopped. Throws to report a failure.
+/// Computes one extraction. Call it on the worker only: it keeps the state of incremental search.
+/// Returns null when stopped. @throws Error when it fails
 using Extract = std::function<ExtractionPtr(const SurfacesQuery&, std::stop_token)>;
 
 /// Holds the newest state of an index that grows, for an extraction on another thread.
@@ -57,13 +57,13 @@ class NewestIndex {
     std::shared_ptr<const IndexFile> file_;
 };
 
-/// As below, from whatever `newest` holds when it is called.
+/// The same as `extract_from`, from the index that `newest` holds at each call.
 Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading shading);
 
-/// The extraction from an open index: each surface has an incremental search of its own. Copies
-/// share their state. What it makes throws Error for a step that the series does not have and for
-/// other than 1 to kMostSurfaces isovalues.
-/// @param method instead of the cheapest; the file must have that tier
+/// Makes an extraction from an open index. Each surface has its own incremental search. Copies
+/// share their state. The extraction throws Error for a step that the series does not have, and
+/// unless there are 1 to kMostSurfaces isovalues.
+/// @param method to use instead of the cheapest; the file must have that tier
 /// @param shading whether the sets get points, for renderers that do not make normals themselves
 Extract extract_from(std::shared_ptr<const IndexFile> file,
                      std::optional<SearchMethod> method = std::nullopt,

@@ -1,4 +1,4 @@
-// The one background worker.
+// The background worker.
 #include "index/extraction/extractor.h"
 
 #include <condition_variable>
@@ -29,7 +29,7 @@ struct Extractor::State {
 
     State(Extract e, std::uint64_t room) : extract(std::move(e)), recent(room) {}
 
-    /// What is to be prefetched, if anything.
+    /// The next query to prefetch, if any.
     std::optional<SurfacesQuery> prefetch_wanted() const {
         if (!wanted || !wanted->ahead || in_flux || prefetch_done)
             return {};
@@ -47,13 +47,13 @@ struct Extractor::State {
     void finish(const Job& job, const Outcome& outcome);
 
     const Extract extract;
-    mutable std::mutex mutex; ///< of all below; held for a few assignments only
+    mutable std::mutex mutex; ///< for the members below; held for a few assignments only
     mutable std::condition_variable_any changed;
     std::optional<Request> wanted;
     bool answered = false;      ///< the wanted query has been shown or has failed
     bool in_flux = false;       ///< the newest request is for other surfaces than the one before
     bool prefetch_done = false; ///< the wanted prefetch need not be tried again
-    bool abandoned = false;     ///< the last search was given up: the next one is finished
+    bool abandoned = false;     ///< the last search was abandoned, so the next one is finished
     std::uint64_t times_forgotten = 0;
     std::optional<Job> running;
     RecentExtractions recent;
@@ -70,7 +70,7 @@ void Extractor::State::work(const std::stop_token& stop) {
         const bool prefetch = answered;
         const SurfacesQuery query = prefetch ? *prefetch_wanted() : wanted->query;
         if (ExtractionPtr known =
-                recent.find(query)) { // only an answer: known prefetches are no work
+                recent.find(query)) { // only for a request: kept steps are never prefetched
             answered = true;
             failure.reset();
             shown.swap(known);
@@ -109,10 +109,10 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
         running.reset();
         const bool stopped = job.stop.stop_requested();
         const bool is_answer = same(job.query, wanted->query) && !answered;
-        // What was asked for before something that was at hand comes too late.
+        // An older query is not shown if the newest request has been answered from kept ones.
         const bool shows = is_answer || (!job.prefetch && !answered);
         if (job.times_forgotten != times_forgotten) {
-            // Begun before `forget`: whatever came of it is not wanted.
+            // Started before `forget`: its result is not wanted.
         } else if (outcome.extraction) {
             dropped = recent.add(outcome.extraction, wanted->ahead);
             if (is_answer)
@@ -122,13 +122,13 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
                 shown.swap(replaced);
             }
         } else if (!outcome.failure.empty() && !stopped) {
-            // A failed prefetch is not reported: nobody has asked to see that step yet.
+            // A failed prefetch is not reported, since that step has not been requested yet.
             if (shows)
                 failure = outcome.failure;
             if (is_answer)
                 answered = true;
         }
-        // Once is enough: of a step that fails, and of a single one.
+        // No second try for a step that failed, and none after a single step is there.
         if (job.prefetch && !stopped && wanted->ahead)
             prefetch_done = outcome.extraction
                                 ? wanted->ahead->steps == 0 && wanted->ahead->next == job.query.step
@@ -160,7 +160,7 @@ Extractor::~Extractor() {
 void Extractor::request(const Request& request) {
     std::optional<std::stop_source>
         stop;            // used after the lock: it may run callbacks of the extraction
-    ExtractionPtr known; // and what was shown is freed there
+    ExtractionPtr known; // and what was shown is freed after it, too
     {
         const std::scoped_lock lock(state_->mutex);
         State& s = *state_;
@@ -178,7 +178,7 @@ void Extractor::request(const Request& request) {
                 s.failure.reset();
                 s.shown.swap(known);
             }
-            // What is prefetched for the same surfaces is still wanted where this is at hand.
+            // If this request is answered at once, a running prefetch for its surfaces goes on.
             const bool going_on = s.answered && s.running && s.running->prefetch &&
                                   same_but_for_step(s.running->query, request.query);
             const bool obsolete = s.running && !going_on && !same(s.running->query, request.query);

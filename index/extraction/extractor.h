@@ -1,4 +1,5 @@
-// The one background worker: newest request in, newest finished extraction out, never a wait.
+// The background worker: takes the newest request, gives the newest finished extraction, without
+// making the caller wait.
 //
 //     index::Extractor extractor(index::extract_from(file));
 //     extractor.request({.query = {step, {isovalue}}, .ahead = index::StepsAhead{step + 1}});
@@ -19,42 +20,38 @@ namespace isochron::index {
 
 struct Request {
     SurfacesQuery query;
-    /// Prefetched once the query is answered (playback), as many as there is room for. Not while
-    /// the isovalues are dragged: the next query will be for others.
+    /// Steps to prefetch once the query is answered (during playback), as many as there is room
+    /// for. Leave it empty while isovalues are dragged: the next query will have others.
     std::optional<StepsAhead> ahead;
 };
 
-/// Requests may come faster than a search takes. After one abandoned search the next is therefore
-/// finished and shown although something newer has been asked for; so the picture follows a slider
-/// or a fast playback instead of standing still until they stop.
+/// Requests may come faster than searches finish. So after one abandoned search the next one is
+/// finished and shown even if there is a newer request. The picture then follows a slider or a fast
+/// playback instead of standing still until they stop.
 class Extractor {
   public:
-    /// @param room bytes of extractions that are kept, the newest three in any case
+    /// @param room [bytes] for extractions that are kept; the newest three are always kept
     explicit Extractor(Extract extract, std::uint64_t room = 0);
     ~Extractor(); ///< stops and joins the worker
     Extractor(const Extractor&) = delete;
     Extractor& operator=(const Extractor&) = delete;
 
-    /// Replaces whatever was asked before; work for an older query is abandoned at its next check.
-    /// Asking again for what is already asked does nothing. What is at hand is shown at once. Never
-    /// waits for the worker.
+    /// Replaces the request before; work on an older query is abandoned at its next check. Does
+    /// nothing if the request is the same. A kept extraction is the newest at once. Never waits for
+    /// the worker.
     void request(const Request& request);
-
-    /// Answers what is asked for anew, as if nothing had been answered yet; what is shown stays
-    /// until then.
+    /// Drops all kept extractions and answers the request again; `newest` stays until then.
     void forget();
 
-    /// The newest finished extraction, null before the first; stays the same until a newer one is
-    /// finished.
+    /// The newest finished extraction; null before the first.
     ExtractionPtr newest() const;
 
-    /// Steps whose extractions for the newest request's surfaces are at hand, ascending.
+    /// Steps of which extractions for the newest request's surfaces are kept, ascending.
     std::vector<std::uint32_t> at_hand() const;
 
-    /// Message of the last failure, until a later query succeeds.
+    /// The message of the last failure; none once a later query has succeeded.
     std::optional<std::string> failure() const;
-
-    /// True while the newest request has neither been answered nor failed.
+    /// True until the newest request has been answered or has failed.
     bool busy() const;
 
     /// Blocks until not busy: for fixed-step replay, captures and tests only, never in the live

@@ -1,4 +1,4 @@
-// When each cell first became active.
+// Finds when each cell is first active.
 #include "index/extraction/first_crossing.h"
 
 #include "index/error.h"
@@ -16,7 +16,7 @@ FirstCrossingsPtr first_crossings(const SeriesInfo& info, const Search& search, 
     auto found = std::make_shared<FirstCrossings>();
     found->isovalue = isovalue;
     found->steps.assign(info.grid.cell_count(), FirstCrossings::kNever);
-    // Backwards, so that the earliest is written last and nothing needs to be compared.
+    // Backwards, so that the earliest step is written last and no comparison is needed.
     for (auto step = static_cast<std::uint32_t>(info.steps()); step-- > 0;) {
         const CellSetPtr set = search({step, isovalue}, stop);
         if (!set)

@@ -1,4 +1,4 @@
-// Ascending order for sets of cell ids.
+// Sorts sets of cell ids.
 #include "index/extraction/id_sort.h"
 
 #include <algorithm>
@@ -8,19 +8,19 @@ namespace isochron::index {
 namespace {
 
 struct Marks {
-    std::vector<std::uint64_t> of_ids, of_words; ///< bits: of each id; of words that are not zero
+    std::vector<std::uint64_t> of_ids, of_words; ///< bits: of each id; of each word that is not 0
 };
 
 } // namespace
 
 void sort_ids(std::vector<CellId>& ids, std::uint64_t cells) {
-    if (ids.size() < cells / 4096) { // going through the words would take longer than comparing
+    if (ids.size() < cells / 4096) { // comparing is faster than going through all words
         std::sort(ids.begin(), ids.end());
         ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
         ids.erase(std::lower_bound(ids.begin(), ids.end(), cells), ids.end());
         return;
     }
-    // All zero between calls where they are kept: fresh memory costs more than the marks.
+    // Marks of moderate size are kept, all 0 between calls: fresh memory takes longer than marking.
     constexpr std::size_t kKeptWords = 1 << 20;
     thread_local Marks kept;
     Marks fresh;

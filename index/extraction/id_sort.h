@@ -1,4 +1,4 @@
-// Ascending order for sets of cell ids.
+// Sorts sets of cell ids.
 #pragma once
 
 #include "index/volume/grid.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::index {
 
-/// Sorts ids, by marking bits where that is cheaper than comparing. Drops what a damaged index may
-/// give: repeated ids and ids that are not below `cells`.
+/// Sorts ids, by marking bits if that is cheaper than comparing. Drops repeated ids and ids that
+/// are not below `cells`, which a damaged index may give.
 void sort_ids(std::vector<CellId>& ids, std::uint64_t cells);
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// The search over an open index, as the worker runs it.
+// The search in an open index, as the worker runs it.
 #include "index/extraction/index_search.h"
 
 #include "index/error.h"
@@ -41,7 +41,7 @@ class IndexSearch {
         try {
             if (std::isfinite(query.isovalue) && !search(set, stop))
                 return false;
-            // A search layer by layer shades, too, and says how long each took.
+            // A search by layers has also shaded, and has set both times.
             if (set.ids.empty() || set.points.empty()) {
                 const auto found = Clock::now();
                 if (shading_ != Shading::none && !set.ids.empty() && !shade(set, stop))
@@ -61,7 +61,7 @@ class IndexSearch {
   private:
     using Clock = std::chrono::steady_clock;
 
-    /// Steps that were appended may not have cells yet.
+    /// The method for a step: appended steps may not have cells yet.
     SearchMethod method_at(std::uint32_t step) const {
         if (method_ != SearchMethod::cells || file_->has_cells(step))
             return method_;
@@ -78,7 +78,7 @@ class IndexSearch {
         return search_all(set, stop);
     }
 
-    /// Where one is asked for and can be had. @return false when stopped
+    /// Adds a mesh if one is asked for and possible. @return false when stopped
     bool add_mesh(CellSet& set, const std::stop_token& stop) {
         if (shading_ != Shading::cells_and_mesh || set.ids.empty() ||
             set.ids.size() > kMostMeshedCells || has_wide_ids(file_->info().grid))
@@ -99,7 +99,8 @@ class IndexSearch {
                           : shade_cells(whole(set.query.step, stop).values, set, stop);
     }
 
-    /// Loaded when it is needed: that may decode a file, and a step without cells does without.
+    /// The whole step, loaded when first needed: loading may decode a file, and a step without
+    /// active cells does not need it.
     const LoadedStep& whole(std::uint32_t step, const std::stop_token& stop) {
         if (!step_)
             step_ = file_->load(step, stop);
@@ -138,7 +139,7 @@ class IndexSearch {
     }
 
     bool search_tree(CellSet& set, const std::stop_token& stop) {
-        // First asked for here, on the worker: the tree is checked then.
+        // The first call of `tree` checks the tree, which happens here on the worker.
         set.reused = file_->tree()->search_incremental(cursor_, set.query.step,
                                                        keys_.threshold(set.query.isovalue));
         candidates_ = cursor_.cells;
@@ -146,9 +147,9 @@ class IndexSearch {
         return test_candidates(set, stop);
     }
 
-    /// Appends those of `candidates_` that are active, ascending.
+    /// Appends the active ones of `candidates_`, ascending.
     bool test_candidates(CellSet& set, const std::stop_token& stop) {
-        // Ascending first: the test then walks through the volume instead of jumping about in it.
+        // Sorts first, so that the test reads the volume in order.
         sort_ids(candidates_, file_->info().grid.cell_count());
         if (by_chunks_) {
             if (!layers_.keep_active(set.query, candidates_, stop))
@@ -170,7 +171,7 @@ class IndexSearch {
         return !stop.stop_requested();
     }
 
-    /// Slab by slab of whole z layers, so that a stop is noticed within one.
+    /// Scans some z layers at a time, so that a stop is noticed between them.
     bool search_all(CellSet& set, const std::stop_token& stop) {
         if (by_chunks_)
             return layers_.search(set, false, shading_ != Shading::none, stop);
@@ -203,8 +204,8 @@ class IndexSearch {
     ThiTree::Cursor cursor_;
     LayerSearch layers_;
     std::vector<MeshMaker> makers_{thread_count(0)};
-    bool by_chunks_ = false;         ///< the query's step is worked on by its chunks
-    std::optional<LoadedStep> step_; ///< else as a whole, when it is needed
+    bool by_chunks_ = false;         ///< works on the chunks of the query's step
+    std::optional<LoadedStep> step_; ///< else the whole step, once it is needed
     // Kept for their memory:
     std::vector<CellId> candidates_, chunk_;
     std::vector<IdRun> certain_, ambiguous_;

@@ -1,4 +1,4 @@
-// The search for active cells over an open index, by whatever the file has.
+// The search for active cells in an open index, by any tier that the file has.
 #pragma once
 
 #include "index/extraction/cell_set.h"
@@ -11,24 +11,25 @@
 
 namespace isochron::index {
 
-/// Computes one cell set; runs on the worker only, keeps the state of incremental search.
-/// Returns null when stopped. Throws to report a failure.
+/// Computes one cell set. Call it on the worker only: it keeps the state of incremental search.
+/// Returns null when stopped. @throws Error when it fails
 using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
 
-/// The same into an empty set of the caller, who may go on changing it. False when stopped.
+/// The same, but fills an empty set of the caller, which may change it later. False when stopped.
 using SearchInto = std::function<bool(const Query&, std::stop_token, CellSet&)>;
 
-/// What the file's tiers answer fastest: cells, else bricks, else the paper's tree, else the scan.
+/// The fastest method that the file's tiers allow: cells, else bricks, else the paper's tree, else
+/// the scan.
 SearchMethod cheapest_method(const IndexFile& file);
-/// Whether the file has what a method works on.
+/// Whether the file has the tier that a method needs.
 bool can_search(const IndexFile& file, SearchMethod method);
 
-/// Whether a set gets its points and rows, and a mesh with them, or stays a list of ids.
+/// Whether a set stays a list of ids, gets points and rows, or gets points, rows and a mesh.
 enum class Shading : std::uint8_t { none, cells, cells_and_mesh };
 
-/// The search over an open index. Copies share their state.
-/// @param method instead of the cheapest; the file must have that tier
-/// @param shading what completes the sets: `shade_cells`, and `make_mesh` up to kMostMeshedCells
+/// Makes a search in an open index. Copies share their state.
+/// @param method to use instead of the cheapest; the file must have that tier
+/// @param shading completes sets by `shade_cells`, and by `make_mesh` up to kMostMeshedCells
 Search search_in(std::shared_ptr<const IndexFile> file,
                  std::optional<SearchMethod> method = std::nullopt,
                  Shading shading = Shading::cells);

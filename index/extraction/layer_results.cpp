@@ -1,4 +1,4 @@
-// Appending with room for what is still to come.
+// Appends results of layers, with room for those still to come.
 #include "index/extraction/layer_results.h"
 
 #include "index/system/huge_pages.h"
@@ -10,8 +10,8 @@
 namespace isochron::index {
 namespace {
 
-/// Makes room for `more` values, and for as many as are likely to follow.
-/// @param done share of all that will have come with them
+/// Makes room for `more` values, and for those that are likely to follow.
+/// @param done fraction of all layers that will have been appended with these
 template <class T>
 void make_room(std::vector<T>& values, std::size_t more, double done) {
     const std::size_t size = values.size() + more;
@@ -23,7 +23,7 @@ void make_room(std::vector<T>& values, std::size_t more, double done) {
                        (values.capacity() - values.size()) * sizeof(T));
 }
 
-/// @return where they are now
+/// @return the appended values in `to`
 template <class T>
 std::span<T> appended(std::vector<T>& to, const std::vector<T>& more) {
     to.insert(to.end(), more.begin(), more.end());

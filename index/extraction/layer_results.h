@@ -1,4 +1,4 @@
-// What was found in the layers of a step, put one behind the other as it comes.
+// Joins the results of a step's layers, in the order of the layers.
 #pragma once
 
 #include "index/extraction/cell_set.h"
@@ -10,27 +10,27 @@
 
 namespace isochron::index {
 
-/// What was found in one layer.
+/// The results of one layer.
 struct LayerResult {
-    /// Ids, and z of points and rows, counted from the planes below.
+    /// Its ids are counted from `first`, the z of its points and rows from `first_plane`.
     CellSet cells;
-    CellId first = 0;              ///< id of the first cell that ids are counted from
-    std::uint32_t first_plane = 0; ///< likewise
+    CellId first = 0;              ///< id in the grid of the cell with id 0 here
+    std::uint32_t first_plane = 0; ///< z in the grid of plane 0 here
     std::chrono::nanoseconds searching{0}, shading{0};
 };
 
-/// Layers come in any order; what came too early waits. Memory is used again, since fresh memory
-/// costs more than what is put there. Thread-safe.
+/// Layers may arrive in any order; a result that arrives early waits. Memory is used again, since
+/// fresh memory costs more time than filling it. Thread-safe.
 class LayerResults {
   public:
     /// @param set gets the cells; outlives this
     LayerResults(CellSet& set, std::uint32_t layers);
 
-    /// An empty one, for a layer.
+    /// An empty result, to be filled for a layer.
     LayerResult begin();
     void add(std::uint32_t layer, LayerResult result);
 
-    /// Of all layers together; complete when all have come.
+    /// Times of all layers together; complete once all have been added.
     std::chrono::nanoseconds searching{0}, shading{0};
 
   private:

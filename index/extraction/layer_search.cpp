@@ -1,4 +1,4 @@
-// Work on the layers of a step, side by side.
+// Works on the layers of a step in parallel.
 #include "index/extraction/layer_search.h"
 
 #include "index/error.h"
@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ids of a layer from those of the step.
+/// Ids relative to a layer's first cell, from ids of the step.
 std::vector<CellId> counted_from(CellId first, std::span<const CellId> ids) {
     std::vector<CellId> local(ids.size());
     std::ranges::transform(ids, local.begin(), [first](CellId id) { return id - first; });
@@ -33,7 +33,7 @@ std::vector<CellId> counted_from(CellId first, std::span<const CellId> ids) {
 
 } // namespace
 
-/// Gives what was found its points and rows. @throws Stopped
+/// Adds points and rows to the result of a layer. @throws Stopped
 void LayerSearch::shade(StepSlab& slab, const Query& query, LayerResult& result,
                         const std::stop_token& stop) {
     const auto started = Clock::now();
@@ -46,12 +46,12 @@ void LayerSearch::shade(StepSlab& slab, const Query& query, LayerResult& result,
 
 LayerSearch::LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t level)
     : file_(std::move(file)), store_(file_->chunks(level)) {
-    // Slabs of all threads together take no more than a part of what chunks may take.
+    // The slabs of all threads together take at most a quarter of the cache's budget.
     const std::uint64_t room = file_->cache().budget / 4 / StepSlab::bytes(store_.info()) + 1;
     slabs_.resize(std::min<std::uint64_t>(thread_count(0), room));
 }
 
-/// @param places of a layer, whose chunks are going to be needed
+/// @param places gives the places of a layer whose chunks will be needed
 bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, const Work& work,
                                  const std::stop_token& stop) {
     const std::uint32_t layers = StepSlab::layers(store_.info().grid);
@@ -79,7 +79,7 @@ bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, con
     return !stop.stop_requested();
 }
 
-/// @param cells ascending, whose chunks are going to be needed
+/// @param cells ascending; their chunks will be needed
 bool LayerSearch::for_each_layer_of(std::uint32_t step, std::span<const CellId> cells,
                                     const Work& work, const std::stop_token& stop) {
     std::vector<std::uint8_t> needed(store_.grid().chunks_of_layer());
@@ -146,7 +146,7 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
     };
     if (!for_each_layer(query.step, places, work, stop))
         return false;
-    // Both went on side by side: each gets its share of the time that passed.
+    // Search and shading ran in parallel: the elapsed time is divided by their shares.
     const auto passed = std::chrono::duration<double>(Clock::now() - started);
     const auto both =
         std::max<double>(1, static_cast<double>((results.searching + results.shading).count()));

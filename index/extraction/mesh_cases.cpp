@@ -1,4 +1,5 @@
-// Derives the polygons from their sides on the faces of a cell, and the triangles from the polygons.
+// Derives the polygons from their sides on the faces of a cell, and the triangles from the
+// polygons.
 #include "index/extraction/mesh_cases.h"
 
 #include <algorithm>
@@ -21,13 +22,13 @@ int edge_between(const Corner& a, const Corner& b) {
     return 4 * axis + a[u] + 2 * a[v];
 }
 
-/// Faces, as bits 2 axis + side, that an edge lies in.
+/// The faces that contain an edge, as bits 2 * axis + side.
 int faces_of(int edge) {
     const int axis = edge / 4, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
     return 1 << (2 * u + edge % 2) | 1 << (2 * v + edge / 2 % 2);
 }
 
-/// Corners of a face, counter-clockwise for who looks from outside.
+/// Corners of a face, counter-clockwise as seen from outside.
 std::array<Corner, 4> around(int axis, int side) {
     constexpr std::array<std::array<int, 2>, 4> kRound{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     std::array<Corner, 4> corners;
@@ -41,7 +42,7 @@ std::array<Corner, 4> around(int axis, int side) {
     return corners;
 }
 
-/// For each cut edge the next one of its polygon; -1 for the others.
+/// For each cut edge, the next edge of its polygon; -1 for other edges.
 std::array<int, kCellEdges> polygon_sides(int upper) {
     std::array<int, kCellEdges> next;
     next.fill(-1);
@@ -49,7 +50,8 @@ std::array<int, kCellEdges> polygon_sides(int upper) {
     for (int face = 0; face < 6; ++face) {
         const auto corners = around(face / 2, face % 2);
         for (int i = 0; i < 4; ++i) {
-            // From where a walk around the face comes up to where it goes down again.
+            // A side leads from where a walk around the face enters the upper side to where it
+            // leaves it.
             if (is_upper(corners[i]) || !is_upper(corners[(i + 1) % 4]))
                 continue;
             int j = i + 1;
@@ -62,18 +64,18 @@ std::array<int, kCellEdges> polygon_sides(int upper) {
     return next;
 }
 
-/// The triangles of a polygon with the fewest sides in faces of the cell.
+/// Divides a polygon into triangles with the fewest inner sides in faces of the cell.
 class Triangulation {
   public:
     explicit Triangulation(const std::vector<int>& polygon) : polygon_(polygon) {}
 
-    /// Appends three edges for each.
+    /// Appends the triangles, three edges for each.
     void append(std::vector<int>& triangles) const {
         split(0, static_cast<int>(polygon_.size()) - 1, &triangles);
     }
 
   private:
-    /// Sides in faces between corners of the polygon, from `first` to `last`.
+    /// The least number of sides in faces for the part of the polygon from `first` to `last`.
     int split(int first, int last, std::vector<int>* triangles) const {
         if (last - first < 2)
             return 0;

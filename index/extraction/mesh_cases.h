@@ -1,4 +1,4 @@
-// The polygons of an isosurface in one cell, for each of the 256 ways to lie among its vertices.
+// The triangles of an isosurface in one cell, for each of the 256 cases of its vertices' sides.
 #pragma once
 
 #include <array>
@@ -10,19 +10,20 @@ namespace isochron::index {
 /// other two axes, in their order.
 constexpr int kCellEdges = 12;
 
-/// What a surface does in a cell whose vertices 4 z + 2 y + x, as bits, are on its upper side.
+/// The surface in a cell, for one set of vertices on its upper side.
 struct MeshCase {
     static constexpr int kMostTriangles = 5;
-    std::uint16_t cut = 0;      ///< a bit for each edge with ends on both sides
+    std::uint16_t cut = 0;      ///< a bit for each edge whose ends are on different sides
     std::uint8_t triangles = 0; ///< 0 to kMostTriangles
-    /// Three edges each; counter-clockwise for who looks from the side of lower values.
+    /// Three edges for each triangle, counter-clockwise as seen from the side of lower values.
     std::array<std::uint8_t, 3 * kMostTriangles> edges{};
 };
 
-/// By the bits of the vertices on the upper side. The polygons are those of marching cubes
-/// (Lorensen and Cline, 1987, doi:10.1145/37402.37422) as VTK has them: on a face with four cut
-/// edges each of the two upper vertices is cut off on its own. No side of a triangle lies in a face
-/// of the cell but those of the polygons, so neighbors fit.
+/// All cases, by the bits of the vertices on the upper side: bit 4 z + 2 y + x. The polygons are
+/// those of marching cubes (Lorensen and Cline, 1987, doi:10.1145/37402.37422) as in VTK: on a face
+/// with four cut edges, each of the two upper vertices is cut off separately. Sides of triangles
+/// lie in a face of the cell only if they are sides of the polygon, so neighboring cells fit
+/// together.
 const std::array<MeshCase, 256>& mesh_cases();
 
 } // namespace isochron::index

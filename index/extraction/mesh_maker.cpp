@@ -1,4 +1,4 @@
-// Triangles cell by cell, vertices where edges are met first, and then their places and normals.
+// Makes triangles cell by cell and a vertex when an edge is first met, then positions and normals.
 #include "index/extraction/mesh_maker.h"
 
 #include "index/extraction/edge_key.h"
@@ -17,7 +17,7 @@
 namespace isochron::index {
 namespace {
 
-/// From a cell to its edges.
+/// The place of an edge relative to its cell.
 struct EdgePlace {
     EdgeKey key;
     std::uint32_t axis, x, y, z; ///< offsets of the lower end
@@ -32,11 +32,11 @@ constexpr std::array<EdgePlace, kCellEdges> kEdgePlaces = [] {
     }
     return edges;
 }();
-/// No cell before has these: their lower ends have the largest offsets.
+/// The edges that no earlier cell has, since their lower ends have the largest offsets.
 constexpr std::array<std::size_t, 3> kNewEdges{3, 7, 11};
 constexpr unsigned kOldEdges = 0xfff & ~(1u << 3 | 1u << 7 | 1u << 11);
 
-/// Says which vertices of cells are on the upper side.
+/// Finds the vertices of cells that are on the upper side.
 template <class T>
 void find_cases(const StepValues& values, const Query& query, std::uint64_t cut,
                 std::span<const CellId> ids, std::uint8_t* cases) {
@@ -63,9 +63,9 @@ void find_cases(const StepValues& values, const Query& query, std::uint64_t cut,
 
 /// Makes the triangles of cells in one pass over them.
 ///
-/// Where an edge's vertex is known, a table says: two planes of edges along x and y each, which
-/// take turns, and one of edges along z. Tables are never cleared. Numbers in them grow from mesh
-/// to mesh, so that those that are not of the right plane are known by being too small.
+/// A table holds the numbers of edges' vertices: two planes each of edges along x and along y, used
+/// alternately, and one plane of edges along z. Tables are never cleared. Numbers grow from mesh to
+/// mesh, so that a number that is too small is known to be of an older plane.
 class MeshMaker::Pass {
   public:
     Pass(Tables& tables, const Grid& grid, std::uint32_t first_plane, MeshPart& part)
@@ -105,7 +105,7 @@ class MeshMaker::Pass {
         }
         for (unsigned missing = unknown & of_cell.cut & kOldEdges; missing; missing &= missing - 1)
             name(static_cast<std::size_t>(std::countr_zero(missing)), key, places, table, numbers);
-        // Without a branch: an edge that is not cut is no vertex, and the next one takes its place.
+        // Without a branch: the entry of an edge that is not cut is overwritten by the next one.
         for (const std::size_t e : kNewEdges) {
             const std::uint32_t cut = of_cell.cut >> e & 1;
             put(key + kEdgePlaces[e].key);
@@ -113,7 +113,7 @@ class MeshMaker::Pass {
             table[places[e]] = numbers[e] & (0 - cut);
             count_ += cut;
         }
-        constexpr std::size_t kMostOften = 9; // corners
+        constexpr std::size_t kMostOften = 9; // corners that most cells have at most
         std::uint32_t* const out = part_.triangles.data() + corners_;
         for (std::size_t k = 0; k < kMostOften; ++k)
             out[k] = numbers[of_cell.edges[k]] - base_;
@@ -142,7 +142,7 @@ class MeshMaker::Pass {
     std::uint32_t first_plane_;
     MeshPart& part_;
     std::array<std::array<std::size_t, kCellEdges>, 2> places_;
-    std::array<std::uint32_t, kCellEdges> least_{}; ///< that numbers of known vertices have
+    std::array<std::uint32_t, kCellEdges> least_{}; ///< least number of a valid entry
 };
 
 void MeshMaker::Tables::fit(const Grid& grid, std::size_t cells) {
@@ -152,7 +152,7 @@ void MeshMaker::Tables::fit(const Grid& grid, std::size_t cells) {
         return;
     size = std::max(size, wanted);
     numbers = std::make_unique<std::uint32_t[]>(size);
-    base = 1; // larger than what is in the table
+    base = 1; // larger than every entry of the new table
 }
 
 bool MeshMaker::make(const StepValues& values, const Query& query, std::span<const CellId> ids,
@@ -161,7 +161,7 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
     const auto cut = stored_cut(values.type, values.scaling, query.isovalue);
     if (ids.empty() || !cut)
         return true;
-    // Most surfaces have a little less.
+    // Most surfaces need a little less.
     part.vertices.resize(ids.size() + ids.size() / 16);
     part.triangles.resize(3 * (2 * ids.size() + ids.size() / 8));
     part.cases.resize(ids.size());
@@ -170,7 +170,7 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
     const std::array<MeshCase, 256>& cases = mesh_cases();
     const CellId plane_cells = values.grid.cells()[0] * values.grid.cells()[1];
     CellWalk walk(values.grid);
-    // Plane by plane, so that values are still at hand when the vertices are placed.
+    // Plane by plane, so that values are still in the cache when vertices are placed.
     bool stopped = false;
     for (std::size_t i = 0; i < ids.size() && !stopped;) {
         const std::uint32_t z = ids[i] / plane_cells;

@@ -1,4 +1,4 @@
-// What two parts share, and where a mesh is cut into parts.
+// Joins parts at the vertices that they share, and divides a mesh into parts.
 #include "index/extraction/mesh_parts.h"
 
 #include "index/extraction/edge_key.h"
@@ -9,7 +9,7 @@
 namespace isochron::index {
 namespace {
 
-/// A vertex that the next part may have, too.
+/// A vertex that the next part may also have.
 struct SharedVertex {
     EdgeKey key;
     std::uint32_t number;
@@ -50,7 +50,8 @@ class PartsJoiner {
     CellMesh take() { return std::move(all_); }
 
   private:
-    /// Those of the part's first plane of cells come first. Only they can be the last part's.
+    /// Finds the vertices that the part before also has: only vertices of the part's first plane of
+    /// cells can be shared, and these come first.
     void find_known(const MeshPart& part) {
         const std::uint32_t end = part.vertices.front().z + 1u;
         numbers_.clear();
@@ -79,11 +80,11 @@ class PartsJoiner {
     }
 
     CellMesh all_;
-    std::vector<SharedVertex> shared_;   ///< in the plane that the last part ended with
-    std::vector<std::uint32_t> numbers_; ///< of the part's first vertices, in the whole
+    std::vector<SharedVertex> shared_;   ///< in the last plane of the part before
+    std::vector<std::uint32_t> numbers_; ///< of the part's first vertices, in the whole mesh
 };
 
-/// Where the cells of a plane begin that lie at about `i` of `n` parts.
+/// The index in `ids` of the first cell of a plane at about `i` of `n` equal parts.
 std::size_t cut_at(const Grid& grid, std::span<const CellId> ids, std::size_t i, std::size_t n) {
     if (i == n)
         return ids.size();
@@ -106,7 +107,7 @@ CellMesh join_parts(std::vector<MeshPart> parts) {
 
 bool make_mesh(std::span<MeshMaker> makers, const StepValues& values, const Query& query,
                std::span<const CellId> ids, CellMesh& mesh, const std::stop_token& stop) {
-    constexpr std::size_t kCellsPerPart = 1 << 13; ///< fewer are soon made by one
+    constexpr std::size_t kCellsPerPart = 1 << 13; ///< fewer cells are one part
     const std::size_t count = std::clamp<std::size_t>(ids.size() / kCellsPerPart, 1, makers.size());
     std::vector<MeshPart> parts(count);
     parallel_for(

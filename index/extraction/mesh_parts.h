@@ -1,4 +1,4 @@
-// Parts of a mesh, made side by side, become one.
+// Joins parts of a mesh that were made in parallel.
 #pragma once
 
 #include "index/extraction/mesh_maker.h"
@@ -9,8 +9,8 @@
 
 namespace isochron::index {
 
-/// Parts of planes one above the other, which together are a step's. Vertices between two parts are
-/// shared.
+/// Joins the parts of consecutive planes, which together are all planes of a step. Vertices on the
+/// border between two parts are shared.
 CellMesh join_parts(std::vector<MeshPart> parts);
 
 /// The mesh of a step's active cells, with as many threads as there are makers.

@@ -1,4 +1,4 @@
-// Cuts of edges, and central differences at both their ends.
+// Computes cuts of edges, and central differences at both ends of edges.
 #include "index/extraction/mesh_vertices.h"
 
 #include "index/volume/cell_difference.h"
@@ -16,7 +16,7 @@ std::uint32_t octahedral(std::int32_t u, std::int32_t v) {
     return static_cast<std::uint16_t>(u) | std::uint32_t{static_cast<std::uint16_t>(v)} << 16;
 }
 
-/// Halves away from zero; the argument is at most MeshVertex::kOne in size.
+/// Rounds halves away from zero; the argument's size is at most MeshVertex::kOne.
 template <class Real>
 std::int32_t rounded(Real value) {
     return static_cast<std::int32_t>(value + std::copysign(Real{0.5}, value));
@@ -25,7 +25,7 @@ std::int32_t rounded(Real value) {
 template <class Real>
 using Vector = std::array<Real, 3>;
 
-/// @param n of any length that is finite
+/// @param n a vector of any finite length
 template <class Real>
 std::uint32_t pack_normal(const Vector<Real>& n) {
     const Real sum = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
@@ -39,7 +39,8 @@ std::uint32_t pack_normal(const Vector<Real>& n) {
     return octahedral(rounded(below ? folded_u : u), rounded(below ? folded_v : v));
 }
 
-/// Differences of small types are exact in `float`, and those of `float` as precise as it.
+/// Differences of small types are exact in `float`; for `float` values it is as precise as they
+/// are.
 template <class T>
 using RealFor = std::conditional_t<sizeof(T) <= 2 || std::is_same_v<T, float>, float, double>;
 
@@ -93,7 +94,7 @@ class VertexPlacer {
                 share = far_share(low, high);
         return std::clamp(share, 0.0, 1.0);
     }
-    /// Where an end is infinite, or the way between both is.
+    /// The share if an end, or the difference of both, is infinite.
     double far_share(double low, double high) const {
         if (std::isfinite(low) && std::isfinite(high))
             return (level_ / 2 - low / 2) / (high / 2 - low / 2);
@@ -102,7 +103,7 @@ class VertexPlacer {
 
     /// Whether both ends of any edge from here have neighbors on all sides.
     bool is_inner(const std::array<std::uint32_t, 3>& at) const {
-        // The numbers are unsigned: 0 lies outside, too.
+        // Numbers are unsigned, so 0 is not inner either.
         return at[0] - 1 < inner_[0] && at[1] - 1 < inner_[1] && at[2] - 1 < inner_[2];
     }
 
@@ -113,7 +114,7 @@ class VertexPlacer {
             result[axis] = static_cast<Real>(v[steps_[axis]]) - static_cast<Real>(v[-steps_[axis]]);
         return result;
     }
-    /// Likewise; one-sided at the border.
+    /// The same, but one-sided at the border.
     Vector<Real> difference(const T* v, const std::array<std::uint32_t, 3>& at) const {
         Vector<Real> result;
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Where the vertices of a mesh lie on their edges, and their normals.
+// Computes the positions of a mesh's vertices on their edges, and their normals.
 #pragma once
 
 #include "index/extraction/cell_mesh.h"
@@ -10,7 +10,7 @@
 namespace isochron::index {
 
 /// Fills `share` and `normal` of vertices on cut edges.
-/// @param first_plane of `values`, from which the vertices' z counts
+/// @param first_plane z in the grid of the first plane of `values`; the vertices' z is in the grid
 void place_vertices(const StepValues& values, const Query& query, std::uint32_t first_plane,
                     std::span<MeshVertex> vertices);
 

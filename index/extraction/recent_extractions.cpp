@@ -1,4 +1,4 @@
-// Which extractions go when there is no more room.
+// Chooses the extractions to drop when there is no more room.
 #include "index/extraction/recent_extractions.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ ExtractionPtr RecentExtractions::find(const SurfacesQuery& query) const {
         const auto known = by_step_.find(query.step);
         return known == by_step_.end() ? nullptr : known->second->extraction;
     }
-    // Of other surfaces there are a few at most.
+    // At most a few kept extractions are for other surfaces.
     std::size_t looked_at = 0;
     for (auto it = kept_.rbegin(); it != kept_.rend() && looked_at < kFewest; ++it, ++looked_at)
         if (it->extraction->query.step == query.step &&
@@ -85,12 +85,13 @@ void RecentExtractions::drop(Place place, Dropped& dropped) {
     kept_.erase(place);
 }
 
-/// The oldest that is not ahead, but for the newest; where all are, the one that is needed last.
+/// The oldest extraction that is not ahead, except the newest; if all are ahead, the one that is
+/// needed last.
 RecentExtractions::Place RecentExtractions::victim(const std::optional<StepsAhead>& ahead) {
     const Place oldest = std::prev(kept_.end());
     if (!ahead || ahead->steps == 0)
         return oldest;
-    // Those ahead that are at hand one after the other.
+    // The steps ahead that are kept, up to the first that is not.
     std::vector<const Kept*> needed;
     Place last = oldest;
     for (std::uint32_t i = 0; i < ahead->count(); ++i) {
@@ -112,7 +113,7 @@ RecentExtractions::Dropped RecentExtractions::add(ExtractionPtr extraction,
     Dropped dropped;
     const std::uint64_t bytes = bytes_of(*extraction);
     if (!kept_.empty() && !same_but_for_step(kept_.front().extraction->query, extraction->query)) {
-        by_step_.clear(); // the others are of no use soon: a few stay
+        by_step_.clear(); // others are hardly needed any more: only a few stay
         largest_ = 0;
         while (kept_.size() >= kFewest)
             drop(std::prev(kept_.end()), dropped);

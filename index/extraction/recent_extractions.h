@@ -1,4 +1,4 @@
-// Finished extractions that are kept: for stepping back, and steps that a playback comes to.
+// Keeps finished extractions, for stepping back and for the next steps of a playback.
 #pragma once
 
 #include "index/extraction/extraction.h"
@@ -12,14 +12,14 @@
 
 namespace isochron::index {
 
-/// Whether two queries ask for the same but for the step. Isovalues are compared bitwise, so that a
-/// NaN equals itself: otherwise asking for one again would be something new.
+/// Whether two queries are the same except for the step. Isovalues are compared bitwise, so that a
+/// NaN equals itself; otherwise a repeated query with a NaN would count as a new one.
 bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b);
 
-/// The steps that a playback comes to, in their order.
+/// The next steps of a playback, in order.
 struct StepsAhead {
     std::uint32_t next = 0;  ///< the first of them
-    std::uint32_t steps = 0; ///< of the series, which goes round; 0: `next` alone
+    std::uint32_t steps = 0; ///< of the series, in which playback loops; 0: `next` only
     bool reverse = false;
     bool operator==(const StepsAhead&) const = default;
 
@@ -30,22 +30,22 @@ struct StepsAhead {
     }
 };
 
-/// The newest few, and as many as a number of bytes allows of those that ask for the same surfaces
-/// as the newest one.
+/// Keeps the newest few extractions, and of those for the same surfaces as the newest one as many
+/// as fit the budget.
 class RecentExtractions {
   public:
     explicit RecentExtractions(std::uint64_t budget) : budget_(budget) {}
 
     ExtractionPtr find(const SurfacesQuery& query) const;
-    /// The first step ahead that is not at hand and for which there is room.
-    /// @param query for any step
+    /// The first step ahead that is not kept and for which there is room.
+    /// @param query its surfaces count, its step does not
     std::optional<std::uint32_t> missing(const SurfacesQuery& query, const StepsAhead& ahead) const;
-    /// Steps that are at hand for these surfaces, ascending.
+    /// The kept steps for these surfaces, ascending.
     std::vector<std::uint32_t> steps(const SurfacesQuery& query) const;
 
     using Dropped = std::vector<ExtractionPtr>;
-    /// @param ahead these steps go last
-    /// @return what had to go, for the caller to free where that does not hold anybody up
+    /// Adds an extraction and drops others to fit the budget. @param ahead steps to drop last
+    /// @return the dropped extractions, which the caller should free where nobody waits
     Dropped add(ExtractionPtr extraction, const std::optional<StepsAhead>& ahead);
     Dropped take_all();
 
@@ -60,9 +60,9 @@ class RecentExtractions {
     void drop(Place place, Dropped& dropped);
 
     std::uint64_t budget_, bytes_ = 0;
-    std::uint64_t largest_ = 0; ///< of those for the same surfaces as the newest one
+    std::uint64_t largest_ = 0; ///< [bytes] of extractions for the newest one's surfaces
     std::list<Kept> kept_;      ///< newest first
-    /// Of those for the same surfaces as the newest one.
+    /// The extractions for the newest one's surfaces.
     std::unordered_map<std::uint32_t, Place> by_step_;
 };
 

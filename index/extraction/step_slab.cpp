@@ -1,4 +1,4 @@
-// Filling of slabs with chunks.
+// Fills slabs with chunks.
 #include "index/extraction/step_slab.h"
 
 #include "index/scan/bricks.h"
@@ -13,10 +13,11 @@
 namespace isochron::index {
 namespace {
 
-/// Planes of a slab: a chunk's, one below, and what cells and normals reach above.
+/// Planes of a slab: those of a chunk, one below, and two above, which cells and normals need.
 constexpr std::uint32_t kMostPlanes = kChunkEdge + 3;
 
-/// Which neighbors hold vertices of a chunk's brick: bit d is that with d's bits along x, y and z.
+/// The chunks that hold vertices of each brick of a chunk: bit d is the chunk at the offset whose
+/// x, y and z are the bits of d.
 constexpr std::array<std::uint8_t, kBricksOfChunk> kReach = [] {
     std::array<std::uint8_t, kBricksOfChunk> reach{};
     for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
@@ -33,12 +34,12 @@ constexpr std::array<std::uint8_t, kBricksOfChunk> kReach = [] {
     return reach;
 }();
 
-/// Whether there may be active cells between these ranks.
+/// Whether cells with ranks from `low` to `high` may be active.
 bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
     return low + (cut.exact ? 1 : 0) <= cut.level && high >= cut.level;
 }
 
-/// Bits of a chunk's bricks.
+/// A bit for each brick of a chunk: whether it is a candidate.
 std::uint32_t candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
     std::uint32_t bits = 0;
     for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
@@ -46,9 +47,9 @@ std::uint32_t candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut)
     return bits;
 }
 
-/// Of chunks side by side: where their values begin, and how many.
+/// Chunks next to each other along x: the addresses of their values, and their number.
 struct Neighbors {
-    static constexpr std::size_t kMost = 8; ///< streams that a processor follows with ease
+    static constexpr std::size_t kMost = 8; ///< streams that a processor can prefetch
     std::array<const std::byte*, kMost> from;
     std::size_t count = 0;
 };
@@ -61,9 +62,9 @@ void copy_rows_of(const Neighbors& chunks, std::size_t offset, std::uint32_t row
             std::memcpy(to + i * kWidth, chunks.from[i] + offset, kWidth);
 }
 
-/// From rows back to back, `offset` bytes within the chunks, to rows `stride` bytes apart: all of
-/// a row at once, since the next one lies in another part of the memory. The usual widths are known
-/// to the compiler.
+/// Copies contiguous rows, at `offset` bytes in the chunks, to rows `stride` bytes apart. Copies a
+/// row of all chunks before the next, since the next row is in another part of the memory. The
+/// usual widths are compile-time constants.
 void copy_rows(const Neighbors& chunks, std::size_t offset, std::size_t width, std::uint32_t rows,
                std::byte* to, std::size_t stride) {
     switch (width) {
@@ -78,11 +79,12 @@ void copy_rows(const Neighbors& chunks, std::size_t offset, std::size_t width, s
             std::memcpy(to + i * width, chunks.from[i] + offset, width);
 }
 
-/// Where a cell lies in its chunk along an axis: what it and its neighbors need beyond.
+/// The position of a cell in its chunk along an axis, by what it needs of the chunks next to it:
+/// nothing; one vertex below, for normals; a vertex two on, for normals; its own upper vertex.
 enum Side : unsigned { nothing, vertex_below, two_vertices_on, next_vertex };
 constexpr unsigned kSides = 4;
 
-/// By the cell's place.
+/// The side of each cell by its place in the chunk.
 constexpr std::array<std::uint8_t, kChunkEdge> kSide = [] {
     std::array<std::uint8_t, kChunkEdge> side{};
     side[0] = vertex_below;
@@ -91,11 +93,11 @@ constexpr std::array<std::uint8_t, kChunkEdge> kSide = [] {
     return side;
 }();
 
-/// A chunk and those around it: bit (dz + 1) * 9 + (dy + 1) * 3 + dx + 1.
+/// Sets of the chunks at offsets dx, dy, dz: bit (dz + 1) * 9 + (dy + 1) * 3 + dx + 1.
 using Around = std::array<std::uint32_t, kSides * kSides * kSides>;
 
-/// Which chunks hold the vertices of a cell at these sides, x fastest, and with normals those of
-/// its neighbors along each axis.
+/// For a cell at each combination of sides (x fastest): the chunks that hold its vertices, and, for
+/// normals, their neighbors along each axis.
 constexpr Around around_of(bool normals) {
     Around around{};
     for (unsigned i = 0; i < around.size(); ++i) {
@@ -177,7 +179,7 @@ void StepSlab::set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y,
         const std::uint32_t by = y * kChunkBricks[1] + i / kChunkBricks[0] % kChunkBricks[1];
         const std::uint32_t bz = i / kChunkBricks[0] / kChunkBricks[1];
         if (bx >= n[0] || by >= n[1] || bz >= n[2])
-            continue; // only damage says that there are cells
+            continue; // only a damaged file says that there are cells
         const std::size_t brick = (std::size_t{bz} * n[1] + by) * n[0] + bx;
         bricks_[brick] = chunk.bricks[i];
         bricks_[grid.count() + brick] = chunk.bricks[kBricksOfChunk + i];
@@ -219,7 +221,7 @@ bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
             if (reach >> d & 1 && at[0] < n[0] && at[1] < n[1] && at[2] < n[2])
                 need(at[0], at[1], at[2]);
         }
-        own_places.push_back(places[i]); // at hand already: looked up no more
+        own_places.push_back(places[i]); // already read: copied without another look-up
         own.push_back(chunks[i]);
     }
     copy(layer_, own_places, own);
@@ -227,7 +229,7 @@ bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
     return !own.empty();
 }
 
-/// Marks for each chunk at which of its sides there are cells, and then what these need.
+/// Marks for each chunk the sides at which it has cells, then the chunks that these need.
 void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
     const auto& n = chunks_.counts();
     sides_.assign(std::size_t{n[0]} * n[1], 0);
@@ -251,7 +253,7 @@ void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
             around |= around_side[static_cast<std::size_t>(std::countr_zero(sides))];
         for (; around; around &= around - 1) {
             const auto bit = static_cast<std::uint32_t>(std::countr_zero(around));
-            // One more than they are; what lies outside of the grid is not there.
+            // Coordinates plus 1; chunks outside the grid do not exist.
             const std::array<std::uint32_t, 3> at{i % n[0] + bit % 3, i / n[0] + bit / 3 % 3,
                                                   layer_ + bit / 9};
             if (at[0] > 0 && at[0] <= n[0] && at[1] > 0 && at[1] <= n[1] && at[2] > 0 &&
@@ -271,14 +273,14 @@ void StepSlab::fill_all() {
     fill();
 }
 
-/// Copies the chunks that are needed to their places.
+/// Reads the needed chunks and copies them to their places.
 void StepSlab::fill() {
     std::array<std::vector<std::uint32_t>, 3> places;
     for (std::uint32_t i = 0; i < state_.size(); ++i) {
         for (std::uint32_t place = 0; place < state_[i].size(); ++place)
             if (state_[i][place] == needed)
                 places[i].push_back(place);
-        if (!places[i].empty()) // all of them before waiting for any
+        if (!places[i].empty()) // announces all of them before waiting for any
             expect(layer_ + i - 1, places[i]);
     }
     for (std::uint32_t i = 0; i < state_.size(); ++i) {
@@ -289,7 +291,7 @@ void StepSlab::fill() {
     }
 }
 
-/// Asks for those that nobody has asked for.
+/// Announces the chunks that have not been announced as candidates.
 void StepSlab::expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
     if (!asked_)
         return void(store_.expect(step_, layer, places));
@@ -301,7 +303,7 @@ void StepSlab::expect(std::uint32_t layer, std::span<const std::uint32_t> places
     store_.expect(step_, layer, others);
 }
 
-/// As far as the slab reaches, unless they are there already.
+/// Copies chunks into the slab, as far as it reaches, unless they are filled already.
 void StepSlab::copy(std::uint32_t layer, std::span<const std::uint32_t> places,
                     std::span<const ChunkPtr> chunks) {
     std::vector<std::uint8_t>& state = state_[layer + 1 - layer_];

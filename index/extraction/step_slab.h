@@ -1,4 +1,5 @@
-// A layer of chunks of one step and what lies around it: dense, but filled where it is needed.
+// A slab: one layer of chunks of a step and the planes around it, as dense arrays that are filled
+// only where they are needed.
 #pragma once
 
 #include "index/file/chunk_store.h"
@@ -17,42 +18,44 @@
 
 namespace isochron::index {
 
-/// The cells whose lowest vertex lies in one layer of chunks, and the vertices that they and their
-/// normals need. What was not filled has values of no meaning; what was filled stays until the next
-/// `begin`. Keeps its memory: one for each thread. Every function that fills throws as ChunkStore
-/// does.
+/// Holds the cells whose lowest vertex lies in one layer of chunks, and the vertices that they and
+/// their normals need. Values that were not filled have no meaning; filled ones stay until the next
+/// `begin`. Keeps its memory: one for each thread. Functions that fill throw as ChunkStore does.
 class StepSlab {
   public:
     /// @param store outlives this
     explicit StepSlab(const ChunkStore& store);
 
-    /// Layers that hold cells.
+    /// Number of layers that hold cells.
     static std::uint32_t layers(const Grid& grid) {
         return (grid.cells()[2] + kChunkEdge - 1) / kChunkEdge;
     }
-    /// Memory that a slab of this grid takes.
+    /// Memory [bytes] of a slab of this grid.
     static std::uint64_t bytes(const SeriesInfo& info);
 
-    /// @param stop fills throw Stopped when it is set
+    /// Moves to a layer of a step. @param stop when it is set, functions that fill throw Stopped
     void begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop = {});
 
-    /// The chunks of a layer whose ranks say that there may be active cells, ascending.
+    /// The chunks of a layer that may hold active cells according to their ranks, ascending.
     static std::vector<std::uint32_t> candidate_chunks(const ChunkLayer& table,
                                                        const LevelMap::Cut& cut);
-    /// Fills what a search in bricks needs; somebody has asked for the candidates of this layer and
-    /// those around it. @return whether any brick may hold active cells
+    /// Fills what a search with bricks needs. The caller should have announced the candidates of
+    /// this layer and of the next ones (ChunkStore::expect).
+    /// @return whether any brick may hold active cells
     bool fill_candidates(const LevelMap::Cut& cut);
-    /// Of `cells()`, as from `build_bricks`; none but those that may hold active cells.
+    /// The bricks of `cells()`, as from `build_bricks`; only those that may hold active cells are
+    /// set.
     std::span<const std::uint8_t> bricks() const { return bricks_; }
-    /// Fills the vertices of cells, and with normals their neighbors along each axis.
-    /// @param cells of this layer, ids within `around()`, ascending
+    /// Fills the vertices of cells, and, for normals, their neighbors along each axis.
+    /// @param cells of this layer, as ids of `around()`, ascending
     void fill_around(std::span<const CellId> cells, bool normals);
     void fill_all();
 
-    /// The layer's cells and their vertices; ids count from `first_cell()`.
+    /// The layer's cells and their vertices; ids are counted from `first_cell()`.
     StepValues cells() const;
     CellId first_cell() const { return plane_cells_ * layer_ * kChunkEdge; }
-    /// One more plane below and above, where the grid has them; ids count from `first_around()`.
+    /// The same with one more plane below and above, if the grid has them; ids are counted from
+    /// `first_around()`.
     StepValues around() const;
     CellId first_around() const { return plane_cells_ * first_plane_; }
     std::uint32_t first_plane() const { return first_plane_; }
@@ -77,13 +80,13 @@ class StepSlab {
     Grid grid_;
     CellId plane_cells_;
     std::uint32_t step_ = 0, layer_ = 0, first_plane_ = 0, end_plane_ = 0;
-    LargeMemory values_; ///< not set before they are filled
+    LargeMemory values_; ///< undefined until they are filled
     std::vector<std::uint8_t> bricks_;
     std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
     std::vector<std::uint64_t> sides_;               ///< of each column: where its cells lie
-    std::vector<const Chunk*> by_column_;            ///< what is copied
+    std::vector<const Chunk*> by_column_;            ///< chunks to copy
     std::stop_token stop_;
-    std::optional<LevelMap::Cut> asked_; ///< whose candidate chunks the disk has been asked for
+    std::optional<LevelMap::Cut> asked_; ///< the cut whose candidate chunks have been announced
 };
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// The color coordinates of an extraction's cells.
+// Computes the color coordinates of an extraction's cells.
 #include "index/extraction/surface_colors.h"
 
 #include "index/extraction/cell_colors.h"

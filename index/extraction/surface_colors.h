@@ -1,4 +1,4 @@
-// The color coordinates of an extraction's cells.
+// Computes the color coordinates of an extraction's cells.
 #pragma once
 
 #include "index/extraction/first_crossing.h"
@@ -12,15 +12,15 @@
 
 namespace isochron::index {
 
-/// Colors the cells of one set of surfaces after the other. For the first crossings of an isovalue
-/// the whole series is searched once, and again only after a query has done without them: they take
-/// two bytes for each cell of the grid. Not thread-safe.
+/// Colors the cells of one query after the other. For the first crossings of an isovalue it
+/// searches the whole series once and keeps the result, two bytes for each cell of the grid, until
+/// a query does not need it. Not thread-safe.
 class SurfaceColors {
   public:
-    /// @param method of the searches; the file must have that tier
+    /// @param method of the searches, none: the cheapest; the file must have that tier
     SurfaceColors(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method);
 
-    /// The coordinates as `Extraction::colors` has them.
+    /// Fills `out` with the coordinates in the order of `Extraction::colors`.
     /// @param step the volume's values at the query's step; null to work on its chunks
     /// @return false when it was stopped and `out` is incomplete
     /// @throws Error as loading a step and the search for first crossings do
@@ -36,7 +36,7 @@ class SurfaceColors {
     std::shared_ptr<const IndexFile> file_;
     std::optional<SearchMethod> method_;
     LayerSearch layers_;
-    std::vector<FirstCrossingsPtr> crossings_; ///< of isovalues that the last query had
+    std::vector<FirstCrossingsPtr> crossings_; ///< of the last query's isovalues
 };
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// The value at a place of an open index.
+// The value at a place in an open index.
 #include "index/extraction/value_in_index.h"
 
 #include "index/volume/sample.h"

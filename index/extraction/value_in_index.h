@@ -1,4 +1,4 @@
-// The value at a place of an open index.
+// The value at a place in an open index.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -9,7 +9,7 @@
 
 namespace isochron::index {
 
-/// As `value_at`. Of a large step it reads the chunks around the place alone.
+/// The same as `value_at`. In a large step it reads only the chunks around the place.
 /// @throws Error when they cannot be read or are damaged
 std::optional<double> value_in(const IndexFile& file, std::uint32_t step, const glm::dvec3& at);
 

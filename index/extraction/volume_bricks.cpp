@@ -1,4 +1,4 @@
-// Marking and copying of bricks.
+// Marks and copies volume bricks.
 #include "index/extraction/volume_bricks.h"
 
 #include "index/system/parallel.h"
@@ -13,16 +13,16 @@
 namespace isochron::index {
 namespace {
 
-/// Bricks of a cell's two vertices along one axis, first and last.
+/// First and last brick of a cell's two vertices along one axis.
 std::array<std::uint32_t, 2> inner(std::uint32_t cell) {
     return {cell / kBrickEdge, (cell + 1) / kBrickEdge};
 }
-/// Of these and their outer neighbors.
+/// The same for the vertices and their outer neighbors.
 std::array<std::uint32_t, 2> outer(std::uint32_t cell, std::uint32_t vertices) {
     return {(cell == 0 ? 0 : cell - 1) / kBrickEdge, std::min(cell + 2, vertices - 1) / kBrickEdge};
 }
 
-/// Rows of a brick that lies within the grid, as they are stored: a row at a time, of known size.
+/// Copies the rows of a brick inside the grid, as stored; the size of a row is a constant.
 template <std::size_t kRow>
 void copy_rows(const std::byte* from, std::size_t row, std::size_t slice, std::byte* out) {
     for (std::uint32_t z = 0; z < kBrickEdge; ++z)
@@ -58,7 +58,7 @@ void BrickGatherer::need(std::span<const CellId> cells) {
         mark_row(y, z);
 }
 
-/// Marks what the cells of a row need, of which the bricks along x are known, and forgets them.
+/// Marks the bricks that the cells of a row need, from its bricks along x, and clears these.
 void BrickGatherer::mark_row(std::uint32_t y, std::uint32_t z) {
     const auto mark = [&](const std::vector<std::uint8_t>& row, const auto& ys, const auto& zs) {
         for (std::uint32_t at_z = zs[0]; at_z <= zs[1]; ++at_z)
@@ -77,14 +77,14 @@ void BrickGatherer::mark_row(std::uint32_t y, std::uint32_t z) {
     std::ranges::fill(row_outer_, std::uint8_t{0});
 }
 
-/// Stored values from a brick's first vertex on, and how many of them along each axis.
+/// The stored values of a brick: the first one, strides, and the number along each axis.
 struct BrickGatherer::Box {
     const std::byte* first;
     std::size_t row, plane; ///< bytes from one to the next
     std::array<std::uint32_t, 3> size;
 };
 
-/// In bricks.
+/// Coordinates of a brick, in bricks.
 std::array<std::uint32_t, 3> BrickGatherer::at(BrickId brick) const {
     const auto& tiles = tiling_.bricks;
     return {brick % tiles[0], brick / tiles[0] % tiles[1], brick / tiles[0] / tiles[1]};

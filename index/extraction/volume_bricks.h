@@ -1,4 +1,4 @@
-// The parts of a step's volume that its active cells need, packed for a GPU.
+// Volume bricks: the parts of a step's volume that its active cells need, packed for a GPU.
 #pragma once
 
 #include "index/extraction/brick_values.h"
@@ -13,20 +13,21 @@
 
 namespace isochron::index {
 
-/// Vertices along each side of a brick.
+/// Vertices along each side of a volume brick. In this file, "brick" always means a volume brick;
+/// the bricks of scan/bricks.h are blocks of 8 x 4 x 4 cells.
 constexpr std::uint32_t kBrickEdge = 8;
 constexpr std::uint32_t kBrickVertices = kBrickEdge * kBrickEdge * kBrickEdge;
 
 using BrickId = std::uint32_t; ///< x fastest, then y, then z
 
-/// How bricks tile the vertices of a grid; the last ones of an axis may reach beyond it.
+/// The bricks that tile the vertices of a grid; the last ones of an axis may reach beyond the grid.
 struct BrickTiling {
     explicit BrickTiling(const Grid& grid);
     std::size_t count() const { return std::size_t{bricks[0]} * bricks[1] * bricks[2]; }
     std::array<std::uint32_t, 3> bricks;
 };
 
-/// 128 bits of what a brick holds: equal digests mean equal bytes.
+/// A hash of 128 bits of a brick's bytes: equal digests mean equal bytes.
 struct BrickDigest {
     std::uint64_t low = 0, high = 0;
     bool operator==(const BrickDigest&) const = default;
@@ -36,10 +37,10 @@ struct BrickDigest {
 struct VolumeBricks {
     ValueType held = ValueType::f32;  ///< of the values in `bytes`
     float factor = 1;                 ///< see BrickValues
-    float range = 1;                  ///< of the whole data set, in brick units
+    float range = 1;                  ///< width of the data set's range, in brick units
     std::vector<BrickId> ids;         ///< ascending
-    std::vector<BrickDigest> digests; ///< same order: whoever holds a brick of the same id and
-                                      ///< digest needs no other
+    std::vector<BrickDigest> digests; ///< in the same order: a brick with the same id and digest
+                                      ///< need not be uploaded again
     std::vector<std::byte> bytes;     ///< same order; [z][y][x], x fastest; 0 beyond the grid
 
     std::size_t brick_bytes() const { return kBrickVertices * size_of(held); }
@@ -48,22 +49,22 @@ struct VolumeBricks {
     }
 };
 
-/// Collects the bricks that hold the vertices of cells and what central differences there reach:
-/// the cells' vertices and their neighbors along each axis.
+/// Collects the bricks that hold the vertices of cells and the neighbors of these along each axis,
+/// which central differences need.
 class BrickGatherer {
   public:
     BrickGatherer(const Grid& grid, const BrickValues& values);
 
-    /// What `gather` gives where nothing is marked.
+    /// The result of `gather` if nothing is marked.
     VolumeBricks none() const;
-    /// Marks what these cells (ascending) need.
+    /// Marks the bricks that these cells need. @param cells ascending
     void need(std::span<const CellId> cells);
-    /// Copies what has been marked since the last call, which is then forgotten.
+    /// Copies the bricks that have been marked since the last call, then clears the marks.
     /// @return false when it was stopped and the bricks are incomplete
     bool gather(const StepValues& step, std::uint32_t number, const BrickLevels& levels,
                 VolumeBricks& bricks, const std::stop_token& stop = {});
 
-    /// The same from the chunks of a step, with all cores. @throws as ChunkStore does
+    /// The same from the chunks of a step, with all cores. @throws Error as ChunkStore does
     bool gather(const ChunkStore& chunks, std::uint32_t number, const BrickLevels& levels,
                 VolumeBricks& bricks, const std::stop_token& stop = {});
 

@@ -1,4 +1,4 @@
-// Eviction of what was not used for longest.
+// Evicts entries that have not been used for longest.
 #include "index/file/byte_cache.h"
 
 namespace isochron::index {
@@ -16,7 +16,7 @@ void ByteCache::add_all(std::vector<Entry> entries) {
     std::vector<std::shared_ptr<const void>> dropped; // freed after the lock
     const std::scoped_lock lock(mutex_);
     for (Entry& entry : entries) {
-        if (by_key_.contains(entry.key)) // somebody else was faster
+        if (by_key_.contains(entry.key)) // another thread was faster
             continue;
         use_.held += entry.bytes;
         entries_.push_front(std::move(entry));

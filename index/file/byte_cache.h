@@ -1,4 +1,4 @@
-// What has been read and decoded, as long as it fits a number of bytes.
+// A cache of things that have been read and decoded, limited to a number of bytes.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@
 
 namespace isochron::index {
 
-/// What was used last stays; what somebody still holds lives on outside. Thread-safe.
+/// Drops what has not been used for longest. A dropped thing lives on while somebody holds it.
+/// Thread-safe.
 class ByteCache {
   public:
     struct Key {
@@ -27,7 +28,7 @@ class ByteCache {
 
     explicit ByteCache(std::uint64_t budget) : use_{.budget = budget} {}
 
-    /// Null where it is not held. What is under a key is always of the same type.
+    /// Null if it is not held. `T` must be the type that was added under the key.
     template <class T>
     std::shared_ptr<const T> find(const Key& key) {
         return std::static_pointer_cast<const T>(find_any(key));
@@ -51,10 +52,10 @@ class ByteCache {
         std::uint64_t bytes;
     };
     void add_all(std::vector<Entry> entries);
-    /// Which of them are held; counts as no use of them.
+    /// Which of the keys are held. Does not count as use.
     std::vector<bool> held(std::span<const Key> keys) const;
     Use use() const;
-    /// Changes the budget; what is held is dropped when something is added.
+    /// Changes the budget. Entries beyond a smaller one are dropped when the next one is added.
     void limit(std::uint64_t budget) {
         const std::scoped_lock lock(mutex_);
         use_.budget = budget;

@@ -1,4 +1,5 @@
-// Packing of chunks: differences of neighbors, bytes of equal weight together, then a library.
+// Packs chunks: takes differences of neighbors, puts bytes of equal weight together, then
+// compresses.
 #include "index/file/chunk_codec.h"
 
 #include "index/file/chunk_differences.h"
@@ -19,10 +20,10 @@ enum class Form : unsigned { constant, stored, lz4, zstd };
 constexpr unsigned kFormMask = 3, kShuffled = 32, kRows = 64, kKnownBits = 127;
 /// Bits for differences along x, y and z.
 constexpr std::array<unsigned, 3> kAlong{4, 8, 16};
-/// Differences that `fitting` tries: along x; x and y; all.
+/// The bits for differences along x; x and y; x, y and z.
 constexpr std::array<unsigned, 3> kTried{4, 4 | 8, 4 | 8 | 16};
 constexpr int kZstdLevel = 1;
-/// A chunk that shrinks by less than this share is stored as it is: it is read faster.
+/// A chunk that would shrink by less than 1 / kLeastGain is stored as it is, which reads faster.
 constexpr std::size_t kLeastGain = 16;
 
 using Size = std::array<std::uint32_t, 3>;
@@ -31,7 +32,7 @@ bool all_equal(std::span<const std::byte> values, std::size_t size) {
     return std::memcmp(values.data(), values.data() + size, values.size() - size) == 0;
 }
 
-/// The most that packed bytes may take.
+/// Most bytes that the packed form may take.
 std::size_t limit_of(std::size_t bytes) {
     return bytes - bytes / kLeastGain;
 }
@@ -59,7 +60,7 @@ struct ChunkPacker::State {
     ChunkDifferences differences;
     std::vector<std::byte> packed; // kept for its memory
 
-    /// @return its length; 0 where it does not get shorter
+    /// Compresses into `packed`. @return its length; 0 if it would exceed the limit
     std::size_t press(Form form, std::span<const std::byte> bytes) {
         const std::size_t limit = limit_of(bytes.size());
         packed.resize(limit);

@@ -1,4 +1,4 @@
-// The values of one chunk as bytes of the file, and back.
+// Packs the values of one chunk into bytes of the file, and unpacks them.
 #pragma once
 
 #include "index/volume/value_type.h"
@@ -14,18 +14,19 @@
 
 namespace isochron::index {
 
-/// How values are packed. `fitting` takes for each chunk what the data suggest.
+/// How values are packed. `fitting` packs types of one byte in packed rows and others with
+/// Zstandard. `none` stores values as they are; so does every codec if a chunk would hardly shrink.
 enum class Codec : std::uint8_t { fitting, none, lz4, zstd };
 constexpr std::array<std::string_view, 4> kCodecNames{"fitting", "none", "lz4", "zstd"};
 std::optional<Codec> codec_from_name(std::string_view name);
 
-/// Packs chunks. What it writes depends on the values and the codec alone. One for each thread.
+/// Packs chunks. The bytes depend on the values and the codec only. One for each thread.
 ///
-/// A packed chunk begins with a byte: its low two bits say 0 one value for all, 1 values as they
-/// are, 2 LZ4, 3 Zstandard; bits 2, 3 and 4 that bit patterns are differences along x, y and z (of
-/// unsigned numbers of the type's size, modulo 2^bits); bit 5 that the first bytes of all values
-/// come first, then their second bytes, and so on; bit 6, with 1, that they are in packed rows
-/// (packed_rows.h), of types of one byte.
+/// A packed chunk begins with a byte. Its low two bits are the form: 0 one value for all, 1 values
+/// as they are, 2 LZ4, 3 Zstandard. Bits 2, 3 and 4: bit patterns are differences along x, y and z
+/// (of unsigned numbers of the type's size, modulo 2^bits). Bit 5: the first bytes of all values
+/// come first, then all second bytes, and so on. Bit 6, with form 1 and types of one byte only: the
+/// differences are in packed rows (packed_rows.h).
 class ChunkPacker {
   public:
     explicit ChunkPacker(Codec codec);
@@ -44,7 +45,7 @@ class ChunkPacker {
 
 /// The inverse.
 /// @param out as long as the chunk's values
-/// @return false where the bytes are no packed chunk of this size
+/// @return false if the bytes are not a packed chunk of this size
 bool unpack_chunk(ValueType type, const std::array<std::uint32_t, 3>& size,
                   std::span<const std::byte> packed, std::span<std::byte> out);
 

@@ -1,4 +1,4 @@
-// Differences of neighbors in a chunk, in plain loops over all values at once.
+// Takes differences of neighbors in a chunk, in plain loops over all values.
 #include "index/file/chunk_differences.h"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Differences to the value `step` before, but for the first `step` values of each block.
+/// Replaces values by differences to the value `step` before; the first `step` values of each block
+/// stay.
 template <class T>
 void take_differences(const T* HWY_RESTRICT values, std::size_t count, std::size_t block,
                       std::size_t step, T* HWY_RESTRICT out) {
@@ -26,8 +27,8 @@ void take_differences(const T* HWY_RESTRICT values, std::size_t count, std::size
             out[i] = values[i];
 }
 
-/// About the bits that the differences take. Of bytes, which are small numbers, their sum tells as
-/// much, and takes less time.
+/// Estimates the bits that the differences take. For bytes it uses their sum, which tells as much
+/// and takes less time.
 template <class T>
 std::uint64_t cost(const T* differences, std::size_t count) {
     std::uint64_t sum = 0;

@@ -1,5 +1,5 @@
-// Differences of neighbors in a chunk: which of them are least, and their bytes in the order of
-// their weight. What packing does before a library takes over.
+// Prepares a chunk for packing: takes differences of neighboring values along as many axes as make
+// them smallest, and orders their bytes by weight.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@ namespace isochron::index {
 /// Keeps its work space: one for each thread.
 class ChunkDifferences {
   public:
-    /// Takes the differences of bit patterns as unsigned numbers along x, of these along y, and of
-    /// these along z, and finds out which of the three are likely to take the fewest bits.
+    /// Takes differences of the bit patterns, as unsigned numbers, along x, then of these along y,
+    /// then of these along z, and finds which of the three is likely to take the fewest bits.
     /// @param size values along x, y and z @param word bytes of a value: 1, 2, 4 or 8
-    /// @return along how many axes the best ones have been taken: 1, 2 or 3
+    /// @return the number of axes of the best one: 1 (x), 2 (x, y) or 3 (x, y, z)
     unsigned find(const std::array<std::uint32_t, 3>& size, std::size_t word,
                   std::span<const std::byte> values);
 
-    /// The best ones: the first bytes of all, then all second bytes, and so on.
+    /// The best differences: the first bytes of all, then all second bytes, and so on.
     std::span<const std::byte> shuffled() const { return best_; }
 
   private:

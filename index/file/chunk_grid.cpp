@@ -6,7 +6,7 @@
 namespace isochron::index {
 namespace {
 
-/// The bits of a 16-bit number, with a gap behind each.
+/// The bits of a 16-bit number, spread to every second bit.
 std::uint32_t spread(std::uint32_t n) {
     n = (n | n << 8) & 0x00ff00ff;
     n = (n | n << 4) & 0x0f0f0f0f;

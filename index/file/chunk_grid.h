@@ -1,4 +1,4 @@
-// How the vertices of a step are cut into the chunks of the file.
+// The grid of chunks into which the vertices of a step are cut in the file.
 #pragma once
 
 #include "index/scan/bricks.h"
@@ -13,18 +13,19 @@
 
 namespace isochron::index {
 
-/// Vertices along each side of a chunk; those at the upper borders are clipped.
+/// Vertices along each side of a chunk; chunks at the upper borders are clipped.
 constexpr std::uint32_t kChunkEdge = 16;
 
-/// Bricks of the cells whose lowest vertex a chunk holds, along x, y and z: x fastest.
+/// Number of bricks of a chunk along x, y and z (stored x fastest): those of the cells whose lowest
+/// vertex the chunk holds.
 constexpr std::array<std::uint32_t, 3> kChunkBricks{kChunkEdge / BrickGrid::kCells[0],
                                                     kChunkEdge / BrickGrid::kCells[1],
                                                     kChunkEdge / BrickGrid::kCells[2]};
 constexpr std::size_t kBricksOfChunk =
     std::size_t{kChunkBricks[0]} * kChunkBricks[1] * kChunkBricks[2];
 
-/// Where brick i of a chunk stands among all of a grid, as `build_bricks` orders them; nothing where
-/// the grid has no such brick. @param at of the chunk, in chunks of the grid
+/// Index of brick i of a chunk among all bricks of the grid, in the order of `build_bricks`;
+/// nothing if the grid has no such brick. @param at chunk coordinates x, y and z
 inline std::optional<std::size_t>
 brick_of_chunk(const BrickGrid& grid, const std::array<std::uint32_t, 3>& at, std::uint32_t i) {
     const auto& n = grid.bricks();
@@ -36,12 +37,13 @@ brick_of_chunk(const BrickGrid& grid, const std::array<std::uint32_t, 3>& at, st
     return (std::size_t{z} * n[1] + y) * n[0] + x;
 }
 
-/// Lowest ranks of a chunk's bricks, then the highest; 255 and 0 where the grid has no brick.
+/// The lowest rank of each of a chunk's bricks, then the highest of each; 255 and 0 where the grid
+/// has no brick.
 using ChunkBricks = std::array<std::uint8_t, 2 * kBricksOfChunk>;
 
-/// Chunks lie layer after layer along z, within a layer in Morton order of x and y, so that chunks
-/// that are near in space are mostly near in the file. A chunk is known by its layer and its place
-/// in it.
+/// Chunks are stored layer after layer along z, and in Morton order of x and y within a layer, so
+/// that chunks that are near in space are mostly near in the file. A chunk is identified by its
+/// layer and its place in that order.
 class ChunkGrid {
   public:
     explicit ChunkGrid(const Grid& grid);
@@ -71,7 +73,7 @@ class ChunkGrid {
     }
 
     std::array<std::uint32_t, 3> vertices_, counts_;
-    std::vector<std::uint32_t> place_, at_; ///< by y and x; by place
+    std::vector<std::uint32_t> place_, at_; ///< place by y and x; y * counts_[0] + x by place
 };
 
 } // namespace isochron::index

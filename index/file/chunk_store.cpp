@@ -1,4 +1,4 @@
-// Reading and decoding of chunks.
+// Reads and decodes chunks.
 #include "index/file/chunk_store.h"
 
 #include "index/error.h"
@@ -20,16 +20,18 @@ namespace {
 
 enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept };
 
-/// Records with less than this between them are read together: a disk gives so much in the time
-/// that one more request takes.
+/// Records with fewer bytes than this between them are read together: a disk reads these in the
+/// time of one more request.
 constexpr std::uint64_t kNear = 16 << 10;
-/// And no more than this at a time, so that what was read is still near when it is decoded.
+/// Most bytes that are read at a time, so that they are still in the processor's cache when
+/// decoded.
 constexpr std::uint64_t kTogether = 256 << 10;
-/// Tables that are read at a time.
+/// Bytes of tables that are read at a time.
 constexpr std::uint64_t kTables = 1 << 20;
-/// A step up to this size is decoded as a whole: less time than it takes to choose.
+/// A step up to this size is always decoded as a whole, which takes less time than choosing chunks.
 constexpr std::uint64_t kSmallStep = 4 << 20;
-/// And up to this one when it is visited again: searching it is then faster than by chunks.
+/// A step up to this size is decoded as a whole when it is worked on again: a search is faster
+/// then.
 constexpr std::uint64_t kModerateStep = 64 << 20;
 
 struct WholeStep {
@@ -37,7 +39,7 @@ struct WholeStep {
     std::vector<std::uint8_t> bricks;
 };
 
-/// Memory for a step, which is searched here and there.
+/// Large memory for a step, in which access is in any order; its padding is 0.
 LargeMemory step_memory(std::size_t bytes) {
     LargeMemory memory = large_memory(bytes);
     const std::size_t padding = std::min(bytes, kPartAlignment);
@@ -67,7 +69,7 @@ std::vector<Run> runs_of(const ChunkLayer& table, std::span<const std::uint32_t>
     return runs;
 }
 
-/// Puts a chunk's bricks where they are in the order of `build_bricks`.
+/// Copies a chunk's bricks to their places in the order of `build_bricks`.
 void place_bricks(const Chunk& chunk, const BrickGrid& grid, const std::array<std::uint32_t, 3>& at,
                   std::span<std::uint8_t> bricks) {
     for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
@@ -86,7 +88,7 @@ ChunkStore::ChunkStore(const ByteSource& source, ByteCache& cache, ChunkArray ar
         of_type_ = std::make_shared<LevelMap>(LevelMap::of_type(array_.info.type));
 }
 
-/// What a chunk takes with its values, which lie behind it.
+/// Bytes of a Chunk and its values, which follow it in memory.
 std::size_t ChunkStore::chunk_bytes() const {
     constexpr std::size_t kVertices = std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge;
     return sizeof(Chunk) + (array_.has_values ? kVertices * size_of(array_.info.type) : 0);
@@ -175,7 +177,7 @@ LevelMapPtr ChunkStore::levels(std::uint32_t step) const {
     if (!levels)
         damaged(step, "the levels of its bricks");
     auto kept = std::make_shared<LevelMap>(*levels);
-    // Of types of two bytes a table beside.
+    // For types of two bytes the map has a table, too.
     cache_.add(at, kept, bytes.size() + (size_of(array_.info.type) == 2 ? 1 << 16 : 0));
     return kept;
 }
@@ -290,7 +292,7 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
         std::vector<std::uint32_t> places(grid_.chunks_of_layer());
         for (std::uint32_t place = 0; place < places.size(); ++place)
             places[place] = place;
-        // Threads take time to start: not for the smallest steps.
+        // Starting threads takes longer than reading a small step.
         const bool small = stride <= kSmallStep;
         std::optional<ReadAhead> ahead;
         if (small)

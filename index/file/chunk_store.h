@@ -1,4 +1,4 @@
-// The chunks of one array of an open index: read when they are needed, kept while there is room.
+// The chunks of one array of an open index: read when needed, kept in the cache.
 #pragma once
 
 #include "index/file/byte_cache.h"
@@ -21,33 +21,32 @@ namespace isochron::index {
 /// One chunk of a step.
 struct Chunk {
     std::array<std::uint32_t, 3> size{}; ///< vertices along x, y and z
-    ChunkBricks bricks{};                ///< of no meaning in an index without bricks
-    std::span<const std::byte> values;   ///< [z][y][x], x fastest; empty where the file has none
+    ChunkBricks bricks{};                ///< undefined in an index without bricks
+    std::span<const std::byte> values;   ///< [z][y][x], x fastest; empty if the file has none
 };
 using ChunkPtr = std::shared_ptr<const Chunk>;
 
-/// Where the chunks of a layer lie, and between which ranks their cells are.
+/// The byte offsets of a layer's chunks, and the range of ranks in each.
 struct ChunkLayer {
-    std::vector<std::uint64_t> offsets;  ///< in the file, by place; one more than there are chunks
+    std::vector<std::uint64_t> offsets;  ///< in the file, by place, then the end of the last chunk
     std::vector<std::uint8_t> low, high; ///< by place
 };
 using LevelMapPtr = std::shared_ptr<const LevelMap>;
 using ChunkLayerPtr = std::shared_ptr<const ChunkLayer>;
 
-/// Thrown by reading that was given up because it was asked to stop.
+/// Thrown by a read that was asked to stop.
 struct Stopped {};
 
-/// What is to be known of an array before its chunks can be read.
+/// What must be known of an array before its chunks can be read.
 struct ChunkArray {
-    std::string called;       ///< for messages: `volume`
-    std::uint32_t number = 0; ///< tells arrays of one cache apart
+    std::string called;       ///< its name in messages: `volume`
+    std::uint32_t number = 0; ///< different for each array that shares a cache
     SeriesInfo info;
     std::vector<StepEntry> steps;
     bool has_bricks = false, has_values = true;
 };
 
-/// Thread-safe. Every function but the first few throws Error where the file is damaged or cannot
-/// be read.
+/// Thread-safe. Functions that read the file throw Error if it is damaged or cannot be read.
 class ChunkStore {
   public:
     /// @param source, cache outlive this
@@ -56,27 +55,27 @@ class ChunkStore {
     const SeriesInfo& info() const { return array_.info; }
     const ChunkGrid& grid() const { return grid_; }
 
-    /// Reads the tables of the layers around with it, where they are not known yet.
+    /// The table of a layer; if it is not in the cache, tables of neighboring layers are read too.
     ChunkLayerPtr layer(std::uint32_t step, std::uint32_t layer) const;
-    /// What the bricks of a step are ranks among; of an index that has bricks.
+    /// The levels whose ranks a step's bricks hold. The index must have bricks.
     LevelMapPtr levels(std::uint32_t step) const;
-    /// @param places ascending @return in the same order
+    /// @param places ascending @return the chunks in the same order
     /// @throws Stopped as well
     std::vector<ChunkPtr> chunks(std::uint32_t step, std::uint32_t layer,
                                  std::span<const std::uint32_t> places,
                                  const std::stop_token& stop = {}) const;
-    /// Says that chunks will be asked for soon, so that the disk works on many requests at once.
-    /// @param places ascending @return bytes that are to be read for them
+    /// Announces that chunks will be needed soon, so that the disk works on many requests at once.
+    /// @param places ascending @return bytes that must be read for them
     std::uint64_t expect(std::uint32_t step, std::uint32_t layer,
                          std::span<const std::uint32_t> places) const;
 
-    /// The values and bricks of one step as a whole, for work that needs all of it.
+    /// The values and bricks of one whole step, for work that needs all of it.
     /// @throws Stopped as well
     LoadedStep whole(std::uint32_t step, const std::stop_token& stop = {}) const;
-    /// Whether working on the whole step is better than on the chunks that are needed: where it is
-    /// small, is kept already, or is of moderate size and has been worked on before.
+    /// Whether work on the whole step is faster than on the needed chunks alone: if the step is
+    /// small, or of moderate size and `worked_on` before, and fits into a quarter of the cache.
     bool better_whole(std::uint32_t step) const;
-    /// Says that a step has been worked on.
+    /// Notes that a step has been worked on.
     void worked_on(std::uint32_t step) const;
 
   private:
@@ -98,8 +97,8 @@ class ChunkStore {
     ByteCache& cache_;
     ChunkArray array_;
     ChunkGrid grid_;
-    LevelMapPtr of_type_;            ///< of an 8-bit type
-    std::shared_ptr<SlotPool> pool_; ///< of chunks with their values
+    LevelMapPtr of_type_;            ///< levels of all steps, for an 8-bit type
+    std::shared_ptr<SlotPool> pool_; ///< memory of chunks with their values
     mutable std::mutex visits_mutex_;
     mutable std::vector<bool> visited_; ///< steps that have been worked on
 };

@@ -1,4 +1,4 @@
-// Sums along an axis, a row of a whole chunk at a time.
+// Running sums along an axis, with fast paths for rows of whole chunks.
 #include "index/file/chunk_sums.h"
 
 #include "index/file/chunk_grid.h"
@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Size = std::array<std::uint32_t, 3>;
 
 #if HWY_TARGET != HWY_SCALAR
-/// Sums within each 16 bytes.
+/// Running sums within each block of 16 bytes.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V sums_of_blocks(D d, V values) {
     constexpr std::size_t kLanes = 16 / sizeof(hn::TFromD<D>);
@@ -34,10 +34,10 @@ HWY_INLINE V sums_of_blocks(D d, V values) {
     return sum;
 }
 
-/// Sums along rows of `kChunkEdge` values.
+/// Running sums along rows of `kChunkEdge` values.
 template <class T>
 void sum_whole_rows(T* values, std::size_t count) {
-    if constexpr (sizeof(T) == 1) { // rows of 16 bytes, whose sums go on side by side
+    if constexpr (sizeof(T) == 1) { // rows of 16 bytes, several in parallel
         const hn::ScalableTag<T> wide;
         std::size_t at = 0;
         for (; at + hn::Lanes(wide) <= count; at += hn::Lanes(wide))
@@ -74,8 +74,8 @@ void sum_rows(T* values, std::size_t row, std::size_t count) {
     }
 }
 
-/// Adds to each of `count` values the one that lies `back` before it, `width` at a time: no two of
-/// them depend on each other.
+/// Adds to each of `count` values the value `back` before it, `width` values at a time, which do
+/// not depend on each other.
 template <class T>
 void sum_back(T* values, std::size_t count, std::size_t back, std::size_t width) {
     for (std::size_t at = back; at < count; at += width)
@@ -83,8 +83,8 @@ void sum_back(T* values, std::size_t count, std::size_t back, std::size_t width)
             values[at + i] = static_cast<T>(values[at + i] + values[at + i - back]);
 }
 
-/// The same along y and z of rows of `kChunkEdge` values, in one go: a sum stays in a register
-/// until the next row needs it.
+/// Running sums along y and z for rows of `kChunkEdge` values, in one pass: the sum along y stays
+/// in a register.
 template <class T>
 void sum_whole_planes(T* values, std::size_t plane, std::size_t count, bool along_y, bool along_z) {
     const hn::CappedTag<T, kChunkEdge> d;
@@ -115,7 +115,7 @@ void sum_along(T* values, const Size& size, const std::array<bool, 3>& axes) {
         sum_back(values, count, plane, plane);
 }
 
-/// The compiler turns this into moves of whole vectors.
+/// Joins the bytes of values. The compiler turns this into moves of whole vectors.
 template <class T>
 void join_bytes(const std::byte* bytes, std::size_t count, std::byte* out) {
     auto* const words = reinterpret_cast<T*>(out);

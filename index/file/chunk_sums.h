@@ -1,4 +1,4 @@
-// From the differences that a packed chunk holds back to its values.
+// Turns the differences in a packed chunk back into values.
 #pragma once
 
 #include "index/volume/value_type.h"
@@ -10,13 +10,13 @@
 
 namespace isochron::index {
 
-/// Replaces differences along some axes by values, the first ones staying: sums of unsigned numbers
-/// of the type's size, modulo 2^bits.
+/// Replaces differences along some axes by values: running sums along each axis, of unsigned
+/// numbers of the type's size, modulo 2^bits.
 /// @param values [z][y][x], x fastest, `size` of them along x, y and z
 void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size,
                       const std::array<bool, 3>& axes, std::span<std::byte> values);
 
-/// From the first bytes of all values, then all second bytes and so on, to the values.
+/// Joins the bytes of values, given as the first bytes of all values, then all second bytes, ...
 /// @param size bytes of a value @param out as long as `shuffled`
 void unshuffle(std::span<const std::byte> shuffled, std::size_t size, std::byte* out);
 

@@ -1,10 +1,11 @@
-// Where the chunks of a layer lie, and between which ranks their values are.
+// The tables of chunks in the file: the byte offsets of a layer's chunks, and their ranges of
+// ranks.
 //
 // The chunks of a step are records, back to back, layer after layer, in the order of ChunkGrid:
-// - XXH3 of the rest of the record, its low 32 bits
-// - where the index has bricks: ChunkBricks
-// - where it carries the values: a packed chunk (chunk_codec.h)
-// Behind them, a table for each layer: LayerHead, then a ChunkEntry for each chunk.
+// - the low 32 bits of XXH3 of the rest of the record
+// - if the index has bricks: ChunkBricks
+// - if it carries the values: a packed chunk (chunk_codec.h)
+// After the records comes a table for each layer: LayerHead, then a ChunkEntry for each chunk.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +18,13 @@ using RecordChecksum = std::uint32_t;
 
 struct LayerHead {
     std::uint64_t checksum = 0; ///< XXH3 of the rest of the table
-    std::uint64_t records = 0;  ///< where those of the layer begin, from the start of the step
+    std::uint64_t records = 0;  ///< byte offset of the layer's records from the start of the step
 };
 
 struct ChunkEntry {
     std::uint16_t bytes = 0; ///< of its record
-    /// Lowest and highest rank of its bricks; 255 and 0 where it has none, 0 and 255 in an index
-    /// without bricks.
+    /// Lowest and highest rank of its bricks; 255 and 0 if the chunk has no brick, 0 and 255 if the
+    /// index has none.
     std::uint8_t low = 255, high = 0;
 };
 static_assert(sizeof(ChunkEntry) == 4);

@@ -1,4 +1,4 @@
-// Making of coarser levels: along x, then y, then z, plane by plane.
+// Makes coarser levels plane by plane: sums along x, then y, then z.
 #include "index/file/detail_levels.h"
 
 #include "index/file/chunk_grid.h"
@@ -14,21 +14,21 @@
 #include <hwy/foreach_target.h> // must come before highway.h
 #include <hwy/highway.h>
 
-// Plain loops, which the compiler makes vectors of, for each processor anew.
+// Plain loops, which the compiler vectorizes for each SIMD target.
 HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 namespace {
 
 using Taps = Coarsener::Taps;
 
-/// Wide enough for 64 values.
+/// A type for sums with a weight of up to 64.
 template <class T>
 using Sum = std::conditional_t<
     std::is_floating_point_v<T>, double,
     std::conditional_t<sizeof(T) == 1, std::int16_t,
                        std::conditional_t<sizeof(T) == 2, std::int32_t, std::int64_t>>>;
 
-/// (a + 2 b) + c of rows, without those that are not there.
+/// (a + 2 b) + c of rows, without rows that do not exist.
 template <class From, class S>
 void add_rows(const Taps& taps, const From* middle, std::size_t stride, std::size_t count, S* out) {
     const From* below = taps.below ? middle - stride : middle;
@@ -69,7 +69,7 @@ S* room(std::vector<std::uint64_t>& words, std::size_t count) {
     return reinterpret_cast<S*>(words.data());
 }
 
-/// Along x, then y. @param from values of a row, one after the other
+/// Reduces a plane along x, then y. @param reduced_row writes a row that is reduced along x
 template <class S, class Rows>
 void reduce_plane(Coarsener::Work& work, const Rows& reduced_row, std::vector<std::uint64_t>& out) {
     const auto& from = work.from;
@@ -123,7 +123,7 @@ void reduce_plane_of(Coarsener::Work& work, const T* plane, Coarsener::Plane& ou
         out.values);
 }
 
-/// Weights of a plane without gaps.
+/// Sets the weights of a plane without gaps.
 void fill_weights(const Coarsener::Work& work, Coarsener::Plane& plane) {
     double* weights = room<double>(plane.weights, std::size_t{work.to[0]} * work.to[1]);
     for (std::uint32_t y = 0; y < work.to[1]; ++y)
@@ -136,8 +136,8 @@ std::int64_t rounded(std::int64_t sum, std::int64_t weight) {
     return a / b - (a % b < 0 ? 1 : 0);
 }
 
-/// One plane of the next level. @param planes those around it, reduced; of those that are not
-/// there nothing is read
+/// Makes one plane of the next level.
+/// @param planes the reduced planes around it; null for planes that do not exist
 template <class T>
 void finish_plane(Coarsener::Work& work, const Taps& taps,
                   const std::array<Coarsener::Plane*, 3>& planes, T* out) {
@@ -152,7 +152,7 @@ void finish_plane(Coarsener::Work& work, const Taps& taps,
         for (Coarsener::Plane* plane : planes)
             if (plane && !plane->gaps)
                 fill_weights(work, *plane);
-    // Rows of three planes, which do not lie behind each other.
+    // Sums rows of three planes, which are not contiguous in memory.
     const auto sum_of = [&](std::size_t at, auto member, S* to) {
         const auto row_of = [&](std::size_t i) {
             return reinterpret_cast<const S*>((planes[i]->*member).data()) + at;
@@ -186,7 +186,7 @@ void finish_plane(Coarsener::Work& work, const Taps& taps,
         } else {
             if (yz == 16)
                 for (std::uint32_t x = 0; x < width; ++x)
-                    out[x] = static_cast<T>((row[x] + 32) >> 6); // 64 is most of them's weight
+                    out[x] = static_cast<T>((row[x] + 32) >> 6); // most values have the weight 64
             else
                 for (std::uint32_t x = 1; x + 1 < width; ++x)
                     out[x] = static_cast<T>(rounded(row[x], 4 * yz));
@@ -201,7 +201,7 @@ void make_planes(Coarsener::Work& work, const T* held, std::uint32_t first, std:
                  std::uint32_t end, T* out) {
     const std::size_t size = std::size_t{work.from[0]} * work.from[1];
     for (Coarsener::Plane& plane : work.planes)
-        plane.number.reset(); // the level may be that of another step
+        plane.number.reset(); // it may be of another step
     for (std::uint32_t z = begin; z < end; ++z) {
         const Taps taps(z, work.from[2]);
         std::array<Coarsener::Plane*, 3> planes{};
@@ -263,7 +263,7 @@ Coarsener::Coarsener(ValueType type, const Grid& grid) : type_(type) {
 }
 
 std::uint32_t Coarsener::made_of(std::uint32_t planes) const {
-    // The last plane of a level is one of the next, too, whatever its number.
+    // The last plane of a level is also the last of the next, whether its number is even or odd.
     return planes < work_.from[2] ? (planes + 1) / 2 : work_.to[2];
 }
 

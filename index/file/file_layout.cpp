@@ -27,7 +27,7 @@ HeaderSlot header_bytes(FileHeader header) {
 
 namespace {
 
-/// What every header of a file says. @param there bytes of the slot that the file has
+/// Checks magic, byte order and version. @param there bytes of the slot that the file has
 void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t there) {
     const FileHeader expected;
     const std::size_t known = std::min(there, expected.magic.size());
@@ -51,7 +51,8 @@ void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t the
                                 header.version, kFileVersion));
 }
 
-/// Rebuilding the header also notices anything but zeros behind it.
+/// Whether the slot holds an intact header of this slot. Compares with the rebuilt slot, so that
+/// bytes other than zeros after the header are noticed, too.
 bool is_sound(const FileHeader& header, const HeaderSlot& slot, std::uint64_t at) {
     return header_bytes(header) == slot && slot_of(header) == at;
 }

@@ -1,23 +1,24 @@
-// Header and section table of the .isochron file: where everything lies, and whether it is intact.
+// Header and section table of the .isochron file: the offsets and checksums of all its parts.
 //
-// Version 3, little-endian, offsets from the start of the file. It begins with two slots for a
-// header, of 4096 bytes each: FileHeader, then zeros. The sound one with the higher sequence number
-// counts; a new index has only the first. What a header names follows from 8192 on:
-// - the chunks of a step, of one array each, with the tables that say where they lie and the levels
-//   of their bricks (chunk_table.h, step_levels.h), from a multiple of 64
-// - units: cells and deltas of a chunk of cells in an epoch (cell_unit.h), each from a multiple of
-//   64; those of an epoch lie one behind the other
-// - the sections, from multiples of 64. tree: the THI tree's block (thi_tree.h). steps: a StepEntry
-//   for each step, array after array: the volume and its levels of detail, then those to color by.
-//   directory: a UnitEntry for each epoch and chunk, chunks faster. checksums: XXH3, 64 bits, of
-//   the stored values of every step of the volume, of cells and deltas of every unit, of the stored
-//   values of every step of the array to color by; then for each step what tells whether its
-//   source has changed (VolumeSeries::state), 0 if unknown. metadata: JSON (metadata.h)
-// A section that the plan does without is empty. Gaps of fewer than 64 bytes are zero; others hold
-// what an earlier header named.
+// Version 3, little-endian, offsets from the start of the file. The file begins with two slots for
+// a header, of 4096 bytes each: FileHeader, then zeros. The header that counts is the intact one
+// with the higher sequence number; a new index has only the first. The parts begin at 8192:
+// - for each array and step: the step's chunks, their tables and the levels of their bricks
+//   (chunk_table.h, step_levels.h), at a multiple of 64
+// - units: cells and deltas of a chunk of cells in an epoch (cell_unit.h), each at a multiple of
+//   64; the units of an epoch lie one after the other
+// - the sections, at multiples of 64. tree: the THI tree's block (thi_tree.h). steps: a StepEntry
+//   for each step, array after array: the volume and its levels of detail, then the array to color
+//   by and its levels. directory: a UnitEntry for each epoch and chunk, chunks faster. checksums:
+//   XXH3, 64 bits, of the stored values of every step of the volume, of cells and deltas of every
+//   unit, and of the stored values of every step of the array to color by; then for each step the
+//   state of its source (VolumeSeries::state), which shows whether it has changed, 0 if unknown.
+//   metadata: JSON (metadata.h)
+// A section that the plan does not have is empty. Gaps of fewer than 64 bytes are zero; larger gaps
+// hold parts of earlier headers.
 //
-// Who appends writes behind the end of the file, flushes, writes the other slot, and flushes again:
-// what the header that counted named stays where it is.
+// To append, a writer writes new parts after the end of the file or into gaps, flushes, writes the
+// slot of the header that does not count, and flushes again. The parts of the other header stay.
 #pragma once
 
 #include "index/system/byte_source.h"
@@ -47,17 +48,17 @@ struct Section {
     std::uint64_t checksum = 0; ///< XXH3, 64 bits
 };
 
-/// Where the parts of a unit lie.
+/// Offsets and sizes of the parts of a unit.
 struct UnitEntry {
     std::uint64_t cells_offset, cells_bytes;
     std::uint64_t deltas_offset, deltas_bytes;
-    std::uint64_t entries; ///< of its cells
+    std::uint64_t entries; ///< number of entries of its cells
 };
 
-/// Where the chunks of a step lie, of one array.
+/// Offset and size of the chunks of a step of one array.
 struct StepEntry {
     std::uint64_t offset = 0, bytes = 0;
-    std::uint64_t tables = 0; ///< where the tables of the layers begin, from `offset`
+    std::uint64_t tables = 0; ///< byte offset of the tables of the layers from `offset`
 };
 
 /// As stored, without padding.
@@ -65,8 +66,8 @@ struct FileHeader {
     std::array<char, 8> magic{'I', 'S', 'O', 'C', 'H', 'R', 'O', 'N'};
     std::uint32_t version = kFileVersion;
     std::uint32_t byte_order = 0x01020304;
-    std::uint64_t sequence = 0;   ///< of a new index 0, one more for each time it has grown
-    std::uint64_t file_bytes = 0; ///< what lies behind them does not count
+    std::uint64_t sequence = 0;   ///< 0 for a new index, then 1 more each time it has grown
+    std::uint64_t file_bytes = 0; ///< size of the file; bytes after it are ignored
     std::uint64_t content_hash = 0;
     std::array<Section, kSectionNames.size()> sections{};
     std::uint64_t checksum = 0; ///< XXH3 of the 4096 header bytes with this field 0
@@ -82,22 +83,22 @@ constexpr std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-/// A slot, with the checksum filled in.
+/// The bytes of a header's slot, with the checksum filled in.
 using HeaderSlot = std::array<std::byte, kHeaderBytes>;
 HeaderSlot header_bytes(FileHeader header);
-/// Where the slot of a header is.
+/// Byte offset of a header's slot.
 constexpr std::uint64_t slot_of(const FileHeader& header) {
     return header.sequence % kHeaderSlots * kHeaderBytes;
 }
 
-/// Finds the header of a file that counts, and checks that every section lies within the file.
+/// Finds the header that counts, and checks that every section lies within the file.
 /// @throws Error: foreign, other byte order, other version, damaged header, truncated
 FileHeader checked_header(const ByteSource& file);
 
-/// The slot beside that of the header that counts.
+/// The other slot than that of the header that counts.
 struct OtherSlot {
-    bool sound = false; ///< it is an older header
-    bool blank = false; ///< never written to
+    bool sound = false; ///< it holds an older, intact header
+    bool blank = false; ///< all zeros: it was never written
     FileHeader header;
 };
 OtherSlot other_slot(const ByteSource& file, const FileHeader& counting);

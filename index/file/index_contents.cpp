@@ -1,4 +1,4 @@
-// What an .isochron file holds, as values.
+// The contents of an .isochron file besides the volume.
 #include "index/file/index_contents.h"
 
 namespace isochron::index {

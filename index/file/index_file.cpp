@@ -1,4 +1,4 @@
-// Opening of .isochron files.
+// Opens and reads .isochron files.
 #include "index/file/index_file.h"
 
 #include "index/file/detail_levels.h"
@@ -24,7 +24,7 @@ const char* section_name(SectionKind kind) {
     return kSectionNames[static_cast<std::size_t>(kind)];
 }
 
-/// A step of which values and bricks come from two places.
+/// A step whose values and bricks come from two places.
 struct JoinedStep {
     LoadedStep values, bricks;
 };
@@ -53,7 +53,7 @@ IndexFile::IndexFile(std::unique_ptr<ByteSource> bytes, std::uint64_t cache_byte
     stats.tree_bytes = header_.section(SectionKind::tree).bytes;
 }
 
-/// All of a section, compared with its checksum.
+/// Reads a section and checks its checksum.
 template <class T>
 std::vector<T> IndexFile::section(SectionKind kind) const {
     const Section& where = header_.section(kind);
@@ -78,7 +78,7 @@ bool IndexFile::lies_within(std::uint64_t offset, std::uint64_t bytes) const {
            bytes <= header_.file_bytes - offset;
 }
 
-/// @param number of the array in the section steps @param fine whether it is a level 0
+/// @param number index of the array in the section `steps` @param fine whether it is level 0
 ChunkArray IndexFile::level_of(const std::string& called, std::size_t number,
                                const SeriesInfo& info, bool fine) const {
     ChunkArray array{.called = called,
@@ -102,7 +102,7 @@ ChunkArray IndexFile::level_of(const std::string& called, std::size_t number,
     return array;
 }
 
-/// All levels of an array. @param first number of the finest in the section steps
+/// All levels of an array. @param first index of the finest in the section `steps`
 std::vector<std::unique_ptr<ChunkStore>> IndexFile::array_of(const char* called, std::size_t first,
                                                              const SeriesInfo& info) {
     std::vector<std::unique_ptr<ChunkStore>> levels;
@@ -204,7 +204,7 @@ void IndexFile::set_cells() {
         stats.deltas_bytes += unit.deltas_bytes;
         stats.cell_entries += unit.entries;
     }
-    // What may be kept is for both.
+    // Cells and values share the budget.
     cells_.emplace(Chunking(grid), held, cells, deltas, &units_, cache_bytes_ / 2);
     cache_.limit(cache_bytes_ - cache_bytes_ / 2);
 }
@@ -306,7 +306,7 @@ void IndexFile::verify(const Progress& progress) const {
     }
     const std::uint32_t chunks = cells_ ? Chunking(metadata_.info.grid).count() : 1;
     for (std::size_t i = 0; i < directory_.size(); ++i) {
-        const auto held = cells_->hold(); // gives memory back where there is too much of it
+        const auto held = cells_->hold(); // frees memory beyond the budget
         const UnitEntry& unit = directory_[i];
         for (const auto& bytes : {part(i, unit.cells_offset, unit.cells_bytes),
                                   part(i, unit.deltas_offset, unit.deltas_bytes)}) {
@@ -324,7 +324,7 @@ void IndexFile::verify(const Progress& progress) const {
     check_gaps();
 }
 
-/// Their chunks and tables have checksums of their own.
+/// Checks the levels of detail by reading them: their chunks and tables have their own checksums.
 void IndexFile::verify_details(const Progress& progress) const {
     for (const auto* array : {&volume_, &colors_})
         for (std::size_t level = 1; level < array->size(); ++level)
@@ -346,7 +346,8 @@ Error IndexFile::mismatch(SectionKind kind) const {
     return damaged(fmt::format("the checksum of section {} does not match", section_name(kind)));
 }
 
-/// Padding is zero and lies outside every checksum. Longer gaps hold what an earlier header named.
+/// Checks that padding, which no checksum covers, is zero. Longer gaps hold parts of earlier
+/// headers.
 void IndexFile::check_gaps() const {
     std::vector<std::pair<std::uint64_t, std::uint64_t>> used{{0, kDataBegin}};
     for (const StepEntry& step : step_entries_)

@@ -1,4 +1,4 @@
-// The .isochron file: the volume in chunks and its search structures, read as they are needed.
+// The .isochron file: the volume in chunks and its search structures, read when they are needed.
 #pragma once
 
 #include "index/cells/cell_tier.h"
@@ -30,21 +30,19 @@
 
 namespace isochron::index {
 
-/// An open index: immutable but for what it keeps of the file, thread-safe. Opening reads the
-/// header, the metadata and what says where everything lies; the rest is read when it is needed,
-/// and checked then. A file that is made shorter, or whose disk fails, is an Error of what needs
-/// it.
+/// An open index: immutable except for its cache, thread-safe. Opening reads the header, the
+/// metadata and the offsets of all parts; other parts are read, and checked, when they are needed.
+/// If the file becomes shorter or its disk fails, the function that needs a part throws Error.
 class IndexFile {
   public:
-    /// @param cache_bytes how much of what was read is kept; 0 for a quarter of what this process
-    ///        may have
+    /// @param cache_bytes size of the cache; 0 for a quarter of the memory this process may have
     /// @throws Error: missing, truncated, foreign, another version, damaged
     static std::shared_ptr<const IndexFile> open(const std::filesystem::path& path,
                                                  std::uint64_t cache_bytes = 0);
     static std::shared_ptr<const IndexFile> open(std::unique_ptr<ByteSource> bytes,
                                                  std::uint64_t cache_bytes = 0);
-    /// Opens the newest state; when the file grows meanwhile, so that what was read belongs to
-    /// different states, from the start again.
+    /// Opens the newest state. If the file grows meanwhile, so that the parts that were read belong
+    /// to different states, starts again.
     using OpenBytes = std::function<std::unique_ptr<ByteSource>()>;
     static std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open,
                                                         std::uint64_t cache_bytes = 0);
@@ -56,79 +54,82 @@ class IndexFile {
     Codec codec() const { return metadata_.codec; }
     const LevelMap& levels() const {
         return *metadata_.levels;
-    } ///< of the cells: there must be some
+    } ///< of the cells, which the index must have
     const ThiOptions& tree_options() const { return metadata_.tree; }
     const std::optional<Referral>& referral() const { return metadata_.referral; }
-    /// What is stored beside the values.
+    /// The whole metadata section.
     const Metadata& metadata() const { return metadata_; }
 
-    /// One step as a whole; decoded, from its source where the file refers to it: not for the
-    /// thread that draws. @throws Error when it cannot be read, is damaged or is not as it was;
-    /// Stopped
+    /// Reads and decodes one whole step, from its source if the file refers to that. Slow: do not
+    /// call it on the render thread. @throws Error when it cannot be read, is damaged or has
+    /// changed since the build; Stopped
     LoadedStep load(std::uint32_t step, const std::stop_token& stop) const;
     LoadedStep load(std::uint32_t step) const { return load(step, {}); }
-    /// Whether that is better than working on the chunks that are needed.
+    /// Whether that is faster than work on the needed chunks alone.
     bool better_whole(std::uint32_t step) const;
-    /// How many levels of detail there are, the volume itself included: 0 is the finest
+    /// Number of levels of detail, the volume itself (level 0, the finest) included
     /// (detail_levels.h).
     std::size_t detail_levels() const { return volume_.size(); }
-    /// The volume in chunks, at a level of detail; of an index that refers to its sources those of
-    /// level 0 have no values.
+    /// The chunks of the volume at a level of detail. In an index that refers to its sources,
+    /// chunks of level 0 have no values.
     const ChunkStore& chunks(std::size_t level = 0) const { return *volume_[level]; }
-    /// All steps at once, decoded into memory when it is first asked for: for measurements and
-    /// tests. @throws Error as `load`
+    /// All steps, decoded into memory at the first call: for measurements and tests. @throws Error
+    /// as `load`
     const StepValues& values() const;
 
-    /// Null when the index carries no array to color by.
+    /// The array to color by; null if the index has none.
     const ColorArray* color() const { return metadata_.color ? &*metadata_.color : nullptr; }
-    /// Likewise in chunks; null where the index refers to its sources.
+    /// Its chunks at a level of detail; null if there is no such array, and at level 0 if the index
+    /// refers to its sources.
     const ChunkStore* color_chunks(std::size_t level = 0) const {
         return colors_.empty() || (level == 0 && color_source_) ? nullptr : colors_[level].get();
     }
-    /// One step of it, as `load`. There must be one.
+    /// One step of the array to color by, which the index must have; see `load`.
     LoadedStep load_color(std::uint32_t step, const std::stop_token& stop) const;
     LoadedStep load_color(std::uint32_t step) const { return load_color(step, {}); }
 
-    /// Null where the plan does without them; with the deltas, if any. They may hold the first
-    /// steps only.
+    /// The cells, with the deltas if there are any; null if the plan has none. They may hold the
+    /// first steps only.
     const CellTier* cells() const { return cells_ ? &*cells_ : nullptr; }
     bool has_cells(std::uint32_t step) const { return cells_ && step < cells_->steps(); }
-    /// Null without one. Read and checked when first asked for: not for the thread that draws.
-    /// @throws Error when it is damaged
+    /// The THI tree; null if there is none. The first call reads and checks it: do not call it on
+    /// the render thread. @throws Error when it is damaged
     const ThiTree* tree() const;
 
-    /// Of the values and grid: the same data, the same hash.
+    /// Hash of values, grid and times: the same data give the same hash.
     std::uint64_t content_hash() const { return header_.content_hash; }
-    /// Whether that is the hash of the data, or was when the series had fewer steps: of every state
-    /// that the index has grown from, and of any number of first steps up to 16,384.
+    /// Whether this is the hash of the data, or was when the series had fewer steps. Knows every
+    /// state from which the index has grown, and any number of first steps up to 16,384.
     bool has_had(std::uint64_t content_hash) const;
-    /// Whether it is that of so many first steps.
+    /// Whether this is the hash of the first `steps` steps.
     bool has_had(std::uint64_t content_hash, std::size_t steps) const;
-    /// What is to be said of a newer state whose header is damaged, though what it names is whole.
+    /// A message if the other header is of a newer state and is damaged, though its sections are
+    /// whole.
     std::optional<std::string> lost_state() const;
-    /// Where the sections of the state before lie, which nothing names once the next is written.
+    /// The place of the previous state's sections, which the next state may overwrite.
     struct Room {
         std::uint64_t offset = 0, bytes = 0;
     };
     Room free_room() const;
-    /// Where everything lies.
+    /// The header that counts, with the offsets of all sections.
     const FileHeader& header() const { return header_; }
     std::span<const StepEntry> step_entries() const { return step_entries_; }
     std::span<const UnitEntry> directory() const { return directory_; }
-    /// As stored: of the values of each step, of each unit, of the colors, and each source's state.
+    /// The section `checksums` as stored: of the values of each step, of each unit, of the array to
+    /// color by, and the state of each step's source.
     std::span<const std::uint64_t> checksums() const { return checksums_; }
-    /// Of the values of the array to color by.
+    /// The part for the array to color by.
     std::span<const std::uint64_t> color_checksums() const;
-    /// What each step's source was when it was indexed; 0 where that is unknown.
+    /// The state of each step's source when it was indexed; 0 if unknown.
     std::span<const std::uint64_t> source_states() const;
-    /// What is kept of the values, and what it may take.
+    /// Use and budget of the cache of values.
     ByteCache::Use cache() const { return cache_.use(); }
-    /// What all that is kept of the file may take.
+    /// The budget [bytes] of everything that is kept of the file.
     std::uint64_t cache_bytes() const { return cache_bytes_; }
-    /// What has been read since it was opened, and what was at hand.
+    /// What has been read since the file was opened, and what the cache had.
     ReadUse reading() const;
 
-    /// Compares every checksum; reads the whole file, and the sources that it refers to.
+    /// Checks every checksum: reads the whole file, and the sources that it refers to.
     /// @throws Error naming the damaged section
     void verify(const Progress& progress = {}) const;
 
@@ -165,9 +166,9 @@ class IndexFile {
     std::vector<std::uint64_t> checksums_;
     std::vector<std::unique_ptr<ChunkStore>> volume_, colors_; ///< by level of detail
     std::optional<Referral> color_referral_;
-    std::unique_ptr<StepSource> source_, color_source_; ///< when it refers to its sources
+    std::unique_ptr<StepSource> source_, color_source_; ///< if it refers to its sources
     std::vector<UnitEntry> directory_;
-    std::vector<std::uint64_t> epoch_begins_; ///< where the units of each epoch begin
+    std::vector<std::uint64_t> epoch_begins_; ///< file offsets of the units of each epoch
     CellTier::Pages units_;                   ///< by epoch
     std::optional<CellTier> cells_;
     mutable std::once_flag tree_read_;

@@ -1,4 +1,4 @@
-// Reading of whole indices, of version 2 and of this one, step by step.
+// Reads indices of version 2 and of this version as series, step by step.
 #include "index/file/index_series.h"
 
 #include "index/error.h"
@@ -14,9 +14,9 @@
 namespace isochron::index {
 namespace {
 
-/// The header of version 2: sections in another order, and that of the colors behind the checksum.
-/// Steps lie one behind the other as they are, each padded to 64 bytes; those of the colors follow
-/// a table of their checksums.
+/// The header of version 2: sections are in another order, and the section of colors is after the
+/// checksum. Steps are stored one after the other, not packed, each padded to 64 bytes; the steps
+/// of the colors come after a table of their checksums.
 struct OldHeader {
     static constexpr std::uint32_t kVersion = 2;
     std::array<char, 8> magic;
@@ -35,7 +35,7 @@ OldHeader header_of(const ByteSource& bytes) {
     return header;
 }
 
-/// What may be said of any series.
+/// Applies the overrides that are possible for any series.
 SeriesInfo with_overrides(SeriesInfo info, const ReadOptions& options) {
     info.grid.spacing = options.spacing.value_or(info.grid.spacing);
     info.grid.origin = options.origin.value_or(info.grid.origin);
@@ -47,7 +47,7 @@ SeriesInfo with_overrides(SeriesInfo info, const ReadOptions& options) {
     return info;
 }
 
-/// What an index of either version knows, and where its stored values come from.
+/// The description and the stored values of an index of either version.
 class IndexSeries final : public VolumeSeries {
   public:
     explicit IndexSeries(const std::filesystem::path& path) : name_(path.string()) {
@@ -113,7 +113,7 @@ class IndexSeries final : public VolumeSeries {
     }
 
   private:
-    /// A layer of chunks at a time.
+    /// Streams a step, a layer of chunks at a time.
     void stream_chunks(std::uint32_t step, const TakePiece& take) {
         const ChunkStore& store = as_colors_ ? *file_->color_chunks() : file_->chunks();
         const ChunkGrid& grid = store.grid();
@@ -124,7 +124,7 @@ class IndexSeries final : public VolumeSeries {
         std::vector<std::byte> planes;
         for (std::uint32_t layer = 0; layer < grid.layers(); ++layer) {
             planes.resize(grid.size(layer, 0)[2] * plane);
-            // Some at a time: the cache may be small.
+            // Reads some chunks at a time, since the cache may be small.
             constexpr std::size_t kAtOnce = 1024;
             for (std::size_t first = 0; first < places.size(); first += kAtOnce) {
                 const auto some =
@@ -197,8 +197,8 @@ class IndexSeries final : public VolumeSeries {
     SeriesInfo info_;
     std::optional<ColorArray> color_;
     bool as_colors_ = false;
-    std::shared_ptr<const IndexFile> file_; ///< of this version
-    std::unique_ptr<ByteSource> bytes_;     ///< of version 2
+    std::shared_ptr<const IndexFile> file_; ///< if of this version
+    std::unique_ptr<ByteSource> bytes_;     ///< if of version 2
     std::uint64_t volume_ = 0, colors_ = 0; ///< where the steps begin
     std::vector<std::uint64_t> checksums_, color_checksums_;
 };

@@ -1,4 +1,4 @@
-// What an index says of the states that it has grown from, or through.
+// Earlier states of an index: hashes, a damaged newer header, and the room that a state leaves.
 #include "index/error.h"
 #include "index/file/file_layout.h"
 #include "index/file/index_file.h"
@@ -11,7 +11,7 @@
 namespace isochron::index {
 namespace {
 
-/// Hashing all numbers of first steps up to this takes some tenths of a second.
+/// Most numbers of first steps whose hashes are tried, which takes some tenths of a second.
 constexpr std::size_t kHashedSteps = 1 << 14;
 
 bool is_whole(const ByteSource& file, const Section& section) {
@@ -23,7 +23,7 @@ bool is_whole(const ByteSource& file, const Section& section) {
     return checksum_of(bytes) == section.checksum;
 }
 
-/// Changes with every state of a file that grows.
+/// A number that changes with every state of a file that grows.
 std::uint64_t newest_state(const ByteSource& bytes) {
     std::uint64_t state = 0;
     for (std::uint64_t slot = 0; slot < kHeaderSlots; ++slot) {
@@ -71,8 +71,9 @@ std::optional<std::string> IndexFile::lost_state() const {
     const OtherSlot other = other_slot(*bytes_, header_);
     if (other.sound || other.blank)
         return std::nullopt;
-    // A header that was being written when a machine lost its power fits in one sector of any disk:
-    // it is there, or it is not. Sections only grow, so that one which is larger is newer.
+    // A header fits in one sector of any disk, so a power failure leaves it either whole or
+    // unwritten; a broken one has been damaged later. Sections only grow, so a larger section is
+    // newer.
     for (std::size_t i = 0; i < kSectionNames.size(); ++i)
         if (const Section& section = other.header.sections[i];
             section.bytes > header_.sections[i].bytes && is_whole(*bytes_, section))

@@ -1,4 +1,4 @@
-// Whether an index that is open has grown meanwhile.
+// Watches whether an open index has grown.
 #include "index/file/index_watch.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Whether an index that is open has grown meanwhile.
+// Watches whether an open index has grown.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -12,11 +12,11 @@
 
 namespace isochron::index {
 
-/// The index under this name as it is now, where it holds more steps than `known`, those of `known`
-/// first; else null, also where it cannot be read at the moment.
+/// Opens the index again if it now has more steps than `known` and begins with the steps of
+/// `known`; else, or if it cannot be read at the moment, null.
 std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const IndexFile& known);
 
-/// Looks now and then, on a thread of its own.
+/// Checks every `kPeriod` on a thread of its own.
 class IndexWatch {
   public:
     static constexpr std::chrono::milliseconds kPeriod{250};
@@ -24,7 +24,7 @@ class IndexWatch {
     IndexWatch(std::filesystem::path path, std::shared_ptr<const IndexFile> known);
     ~IndexWatch();
 
-    /// What has grown, once; else null. Never waits.
+    /// The grown index, returned once; else null. Never waits.
     std::shared_ptr<const IndexFile> take();
 
   private:
@@ -34,7 +34,7 @@ class IndexWatch {
     std::mutex mutex_;
     std::condition_variable_any changed_;
     std::shared_ptr<const IndexFile> known_, newer_;
-    std::jthread worker_; ///< last: started when all else is ready, joined before it goes
+    std::jthread worker_; ///< the last member: starts after, and is joined before, the others
 };
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// Cutting a step into chunks and packing them.
+// Cuts a step into chunks and packs them.
 #include "index/file/layer_packer.h"
 
 #include "index/system/parallel.h"
@@ -13,10 +13,10 @@
 namespace isochron::index {
 namespace {
 
-/// Chunks that a thread packs in one go; where pieces end changes nothing in the file.
+/// Number of chunks that a thread packs at a time; it does not affect the file.
 constexpr std::uint32_t kPlacesOfPiece = 32;
 
-/// Of the cells whose lowest vertex the chunk holds. @param bricks of the chunk's layer
+/// The bricks of the cells whose lowest vertex the chunk holds. @param bricks of the chunk's layer
 ChunkBricks bricks_of_chunk(const BrickGrid& grid, std::uint32_t layers,
                             std::span<const std::uint8_t> bricks,
                             const std::array<std::uint32_t, 2>& chunk) {
@@ -35,7 +35,7 @@ ChunkBricks bricks_of_chunk(const BrickGrid& grid, std::uint32_t layers,
     return out;
 }
 
-/// Copies rows of a constant length, which is faster.
+/// Copies rows whose length is a compile-time constant, which is faster.
 template <std::size_t Bytes>
 void copy_rows(const std::byte* from, std::size_t row, std::size_t plane,
                const std::array<std::uint32_t, 3>& extent, std::byte* to) {

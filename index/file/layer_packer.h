@@ -1,4 +1,4 @@
-// The chunks of a step as they are written to the file.
+// Packs the chunks of a step for the file, layer by layer.
 #pragma once
 
 #include "index/file/chunk_codec.h"
@@ -12,15 +12,15 @@
 
 namespace isochron::index {
 
-/// Packs steps layer by layer, each with all threads: of a step it holds the tables alone.
+/// Packs steps layer by layer, each layer with all threads. Keeps only the tables of a step.
 class LayerPacker {
   public:
     LayerPacker(const Grid& grid, ValueType type, Codec codec, unsigned threads);
 
-    /// Takes the bytes in their order.
+    /// Receives the bytes in order.
     using Append = std::function<void(std::span<const std::byte>)>;
 
-    /// What a layer of chunks is made of.
+    /// The contents of a layer of chunks.
     struct Layer {
         std::span<const std::byte> stored;    ///< [z][y][x]; empty when the file refers to sources
         std::span<const std::uint8_t> bricks; ///< layer after layer, each as from `build_bricks`
@@ -31,8 +31,8 @@ class LayerPacker {
     /// Packs the next layer of the step.
     void pack(const Layer& layer, const Append& append);
 
-    /// Appends the tables of the step, all of whose layers have been packed; the next step begins.
-    /// @return where the tables are; `offset` is left 0
+    /// Appends the tables of the step once all its layers have been packed; then the next begins.
+    /// @return sizes of the step and offset of its tables; `offset` is left 0
     StepEntry finish(const Append& append);
 
   private:

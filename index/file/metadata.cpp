@@ -1,4 +1,4 @@
-// What an .isochron file knows about its volume, as JSON.
+// The metadata section of an .isochron file, as JSON.
 #include "index/file/metadata.h"
 
 #include "index/error.h"
@@ -27,7 +27,7 @@ glm::dvec3 vector_of(const json& value) {
     return {v[0], v[1], v[2]};
 }
 
-/// The library converts numbers of any kind and size without a word.
+/// Reads a whole number with a check, as the JSON library converts any number without an error.
 template <class T>
 T whole(const json& value) {
     if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<T>::max())
@@ -44,7 +44,7 @@ void get_whole(const json& values, Numbers& out) {
         out[i] = whole<typename Numbers::value_type>(values[i]);
 }
 
-/// The parser itself accepts any depth; ours is known.
+/// Limits the depth of JSON, since the parser accepts any depth.
 void check_depth(std::string_view text) {
     std::size_t depth = 0;
     bool quoted = false;
@@ -62,11 +62,12 @@ void check_depth(std::string_view text) {
     }
 }
 
-/// The bytes of a name of a file or an array: as text where they are UTF-8, as every JSON is, else one by one.
+/// The name of a file or an array: as text if it is UTF-8, which JSON requires, else as a list of
+/// bytes.
 json exact(const std::string& name) {
     try {
         json text = name;
-        text.dump(); // which checks them
+        text.dump(); // throws if it is not UTF-8
         return text;
     } catch (const json::type_error&) {
         return std::vector<std::uint8_t>(name.begin(), name.end());
@@ -238,7 +239,7 @@ json json_of(const Referral& referral) {
     return j;
 }
 
-/// What the files leave open only: grid, times and units are those of the index itself.
+/// Reads only the options that say how to read the files: grid, times and units are in the index.
 Referral referral_of(const json& j) {
     Referral referral;
     for (const json& file : j.at("files"))
@@ -344,7 +345,7 @@ std::string to_json(const Metadata& metadata) {
         j["referral"] = json_of(*metadata.referral);
     if (metadata.color)
         j["color"] = json_of(*metadata.color);
-    // What files say in words may be any bytes; JSON may not.
+    // Texts from files may have any bytes; JSON may not.
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

@@ -1,4 +1,4 @@
-// What an .isochron file knows about its volume, as JSON.
+// The metadata section of an .isochron file, as JSON.
 #pragma once
 
 #include "index/file/chunk_codec.h"
@@ -12,34 +12,34 @@
 
 namespace isochron::index {
 
-/// The metadata section. `stats` has no sizes here: those follow from the section table.
+/// The metadata section. It holds no sizes of `stats`: those follow from the header.
 struct Metadata {
     SeriesInfo info = {};
     IndexStats stats = {};
     TierPlan plan = {};
-    Codec codec = Codec::fitting;        ///< that values were packed with
-    std::optional<LevelMap> levels = {}; ///< of the cells, where there are any
-    std::uint32_t cell_steps = 0;        ///< first steps that the cells hold
-    /// Content hashes of the states that the index has grown from, the first one first.
+    Codec codec = Codec::fitting;        ///< with which values were packed
+    std::optional<LevelMap> levels = {}; ///< of the cells, if there are any
+    std::uint32_t cell_steps = 0;        ///< number of first steps that the cells hold
+    /// Content hashes of the states from which the index has grown, oldest first.
     std::vector<std::uint64_t> earlier = {};
     ThiOptions tree = {};
     std::optional<Referral> referral = {};
     std::optional<ColorArray> color = {};
-    /// What picks the array in the files: `ReadOptions::array` and `component`.
+    /// The options that select the array in the files: `ReadOptions::array` and `component`.
     std::optional<std::string> chosen_array = {}, chosen_component = {};
 };
 
-/// Sets what follows from the counts of a series' values.
+/// Sets the counts of a series' values, and range and histogram, which follow from them.
 void set_counts(Metadata& metadata, ValueCounts counts);
 
-/// Same metadata, same text: keys are sorted, numbers round-trip.
+/// The same metadata give the same text: keys are sorted, numbers round-trip.
 std::string to_json(const Metadata& metadata);
 
 /// @throws Error when it is not JSON, nests too deeply, lacks a key or holds an impossible value
 ///         (see `check_limits`)
 Metadata metadata_from_json(std::string_view text);
 
-/// Bytes from one step to the next where values lie as they are.
+/// Bytes from one step to the next where unpacked steps lie in a row.
 constexpr std::size_t step_stride(std::size_t step_bytes) {
     return (step_bytes + 63) / 64 * 64;
 }

@@ -1,4 +1,4 @@
-// Planes of bits and back, 16 numbers at a time; compiled once for each SIMD target.
+// Turns 16 numbers at a time into bit planes and back; compiled once for each SIMD target.
 #include "index/file/packed_rows.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kRow = 16; ///< numbers with a width of their own
+constexpr std::size_t kRow = 16; ///< numbers in a row, which has its own number of bits
 constexpr unsigned kMostBits = 8;
 
 std::uint8_t folded(std::uint8_t number) {
@@ -30,7 +30,7 @@ std::uint8_t unfolded(std::uint8_t number) {
 }
 
 #if HWY_TARGET == HWY_SCALAR
-/// @return the bits that the largest takes @param planes the first so many are set
+/// @param planes set to the bit planes @return number of bits, and planes, of the largest number
 unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostBits>& planes) {
     planes = {};
     unsigned all = 0;
@@ -73,11 +73,11 @@ unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostB
     return bits;
 }
 
-/// @param planes as many bytes as eight of them take can be read
+/// @param planes must have 16 readable bytes, the size of eight planes
 HWY_INLINE void whole_numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
     const hn::CappedTag<std::uint8_t, kRow> d;
     auto fold = hn::Zero(d);
-    // All eight, those of the next numbers too: to find out at each costs more.
+    // Reads eight planes, even those of the next row: testing at each costs more.
     for (unsigned bit = 0; bit < kMostBits; ++bit) {
         std::array<std::uint8_t, 8> stored; // LoadMaskBits reads eight bytes
         std::uint64_t plane = 0;
@@ -96,7 +96,7 @@ HWY_INLINE void whole_numbers_of(const std::byte* planes, unsigned bits, std::ui
     hn::StoreU(hn::Xor(half, sign), d, out);
 }
 
-/// The same at the end of the bytes.
+/// The same at the end of the bytes, where eight planes cannot be read.
 void numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
     std::array<std::byte, 2 * kMostBits> copy{};
     std::copy_n(planes, 2 * bits, copy.begin());

@@ -1,4 +1,4 @@
-// Small numbers of one byte in as few bits as the largest of each 16 takes.
+// Packs small numbers of one byte: each row of 16 takes as many bits as its largest number needs.
 #pragma once
 
 #include <cstddef>
@@ -7,19 +7,19 @@
 
 namespace isochron::index {
 
-// What they take is read as fast as memory, which what a library packs is not, and packed in a
-// fraction of the time; of differences of neighbors it takes some tenths more bytes.
+// Rows unpack as fast as memory is read, and pack in a fraction of a compression library's time.
+// Differences of neighbors take some tenths more bytes than with a library.
 //
-// Signed numbers d, as bytes, are folded to 2 d or -2 d - 1. Of each 16 in a row, the last ones
-// filled up with zeros, first come the bits that the largest takes: 4 bits each, the first one's
-// lower, and where their number is odd a zero behind. Then come, one after the other, the planes of
-// bits of each 16, the lowest first: 2 bytes each, bit i of the i-th number.
+// Signed numbers d, as bytes, are folded to 2 d or -2 d - 1, and cut into rows of 16, the last one
+// filled up with zeros. First comes the number of bits of each row: 4 bits each, the earlier row in
+// the lower half of a byte; if the number of rows is odd, the last half is zero. Then come the bit
+// planes of each row, the lowest bit first: 2 bytes each, bit i from the i-th number.
 
 /// Appends the packed numbers.
 void pack_rows(std::span<const std::byte> numbers, std::vector<std::byte>& out);
 
 /// The inverse. @param out as long as the numbers
-/// @return false where the bytes are not what so many numbers give
+/// @return false if the bytes are not the packed form of that many numbers
 bool unpack_rows(std::span<const std::byte> packed, std::span<std::byte> out);
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// What every series keeps to, and the hash that tells its data from others.
+// The limits of every series, and the hash that identifies its data.
 #include "index/file/series_content.h"
 
 #include "index/error.h"
@@ -28,7 +28,7 @@ void check_limits(const SeriesInfo& info) {
         if (n < 2 || n > 65537)
             throw Error(fmt::format("{}x{}x{} vertices, expected 2 to 65537 along each axis",
                                     grid.vertices[0], grid.vertices[1], grid.vertices[2]));
-    // What is searched at a time: a layer of chunks with what normals reach below and above.
+    // The unit of a search: a layer of chunks and the planes below and above that normals need.
     Grid layer = grid;
     layer.vertices[2] = std::min(grid.vertices[2], 20u);
     if (has_wide_ids(layer))

@@ -1,4 +1,4 @@
-// What every series keeps to, and the hash that tells its data from others.
+// The limits of every series, and the hash that identifies its data.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -8,13 +8,13 @@
 
 namespace isochron::index {
 
-/// What every series must keep to: 2 to 65,537 vertices along each axis, fewer than 2^32 cells in 19 layers and
-/// steps, a finite geometry with positive spacing and a regular direction, finite increasing times,
-/// a slope that is not 0. @throws Error
+/// Checks the limits: 2 to 65,537 vertices along each axis, fewer than 2^32 cells in 19 layers of
+/// cells, 1 to 2^32 - 2 steps, a finite geometry with positive spacing and a regular direction,
+/// finite increasing times, a finite scaling with a slope that is not 0. @throws Error
 void check_limits(const SeriesInfo& info);
 
-/// The hash of the first steps of a series, of everything that decides what a query answers.
-/// @param checksums of the stored values of these steps
+/// The hash of the first steps of a series: of everything that determines the answers to queries.
+/// @param checksums of the stored values of these steps, one for each
 std::uint64_t content_hash_of(const SeriesInfo& info, std::span<const std::uint64_t> checksums);
 
 } // namespace isochron::index

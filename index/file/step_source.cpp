@@ -1,4 +1,4 @@
-// Steps of an index that refers to its sources instead of carrying a copy.
+// Reads the steps of an index that refers to its sources instead of carrying a copy.
 #include "index/file/step_source.h"
 
 #include "index/error.h"
@@ -14,7 +14,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kKept = 4; // the step on screen, the one asked for, and a neighbor of each
+constexpr std::size_t kKept = 4; // the step on screen, the requested one, and a neighbor of each
 
 std::size_t words_of(const SeriesInfo& info) {
     return step_stride(info.step_bytes()) / sizeof(std::uint64_t);
@@ -48,11 +48,11 @@ std::shared_ptr<std::uint64_t[]> StepSource::room_for_a_step() {
         words = std::move(kept_.front().words);
         kept_.erase(kept_.begin());
     }
-    // Its pages are there already, which saves as much time as a fast reader takes.
+    // Its pages are allocated already, which saves as much time as a fast reader takes.
     if (words && words.use_count() == 1)
         return words;
     words = std::make_shared_for_overwrite<std::uint64_t[]>(words_of(info_));
-    // Behind the values, to the end of the stride.
+    // Clears the padding after the values.
     std::ranges::fill(
         std::as_writable_bytes(std::span(words.get(), words_of(info_))).subspan(info_.step_bytes()),
         std::byte{0});
@@ -72,7 +72,8 @@ LoadedStep StepSource::load(std::uint32_t step) {
         try {
             series_->read(step, stored);
         } catch (const Error&) {
-            // Files may be copied or touched while somebody looks at them: what they hold counts.
+            // Files may have been copied or touched since they were opened; only their contents
+            // matter.
             open_sources();
             series_->read(step, stored);
         }

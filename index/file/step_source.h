@@ -1,4 +1,4 @@
-// Steps of an index that refers to its sources instead of carrying a copy.
+// Reads the steps of an index that refers to its sources instead of carrying a copy.
 #pragma once
 
 #include "index/file/index_contents.h"
@@ -10,11 +10,11 @@
 
 namespace isochron::index {
 
-/// Decodes steps when they are asked for and keeps the last few. Thread-safe: one decodes at a
+/// Decodes steps when they are needed and keeps the last few. Thread-safe: one thread decodes at a
 /// time.
 class StepSource {
   public:
-    /// @param index path of the index, whose folder the referral counts from
+    /// @param index path of the index; files of the referral are relative to its folder
     /// @param checksums of every step
     StepSource(std::filesystem::path index, const SeriesInfo& info, const Referral& referral,
                std::vector<std::uint64_t> checksums);
@@ -29,7 +29,7 @@ class StepSource {
     };
 
     void open_sources();
-    /// Memory for a step: of one that was read long ago and that nobody looks at any more, else new.
+    /// Memory for a step: that of the oldest kept step if nobody else holds it, else new.
     std::shared_ptr<std::uint64_t[]> room_for_a_step();
 
     std::filesystem::path index_;

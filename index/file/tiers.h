@@ -1,4 +1,4 @@
-// The search structures that an index can hold beside its volume.
+// The tiers: search structures that an index can hold beside its volume.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 namespace isochron::index {
 
 enum class Tier : std::uint8_t {
-    bricks, ///< extremes of bricks: small, exact with the volume, for every type
-    cells,  ///< ids by their extremes in a time tree: fast, exact alone where levels are lossless
-    deltas, ///< what each step adds and removes: incremental search
+    bricks, ///< extremes of bricks: small, exact together with the volume, for every type
+    cells,  ///< ids sorted by extremes in a time tree: fast, exact by itself if levels are lossless
+    deltas, ///< the cells that each step adds and removes: for incremental search
     tree,   ///< the paper's Temporal Hierarchical Index Tree
 };
 constexpr std::array<std::string_view, 4> kTierNames{"bricks", "cells", "deltas", "tree"};
@@ -45,9 +45,9 @@ class TierSet {
 /// Which tiers an index has, and why.
 struct TierPlan {
     TierSet tiers;
-    std::vector<std::string> reasons; ///< a sentence for each tier that could be, for `info`
-    bool asked = false;               ///< chosen by whoever built the index
-    std::uint32_t steps = 0;          ///< of the series when they were chosen
+    std::vector<std::string> reasons; ///< a sentence for each possible tier, for `info`
+    bool asked = false;               ///< chosen by the user, not by the planner
+    std::uint32_t steps = 0;          ///< of the series when the tiers were chosen
 };
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// Counting of values in bins that can be merged.
+// Counts values in bins that can be merged.
 #include "index/file/value_counts.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace isochron::index {
 namespace {
 
 constexpr int kLeastExponent = -1022; ///< so that 2^-e is finite
-/// Numbers of bins stay below 2^52, where doubles count exactly.
+/// Bin numbers stay below 2^52, so that doubles hold them exactly.
 constexpr int kMostBinBits = 51;
 
 bool is_integer(ValueType type) {
@@ -33,8 +33,8 @@ int exponent_for(ValueType type, double low, double high) {
     }
 }
 
-/// How often each byte occurs. Like bytes often follow each other, and counting one has to wait for
-/// the one before where both are counted in one place: so there are four.
+/// Counts each byte. Equal bytes often follow each other, and increments of one counter wait for
+/// each other, so there are four sets of counters.
 std::array<std::uint64_t, 256> numbers_of_bytes(std::span<const std::byte> bytes) {
     std::array<std::array<std::uint64_t, 256>, 4> parts{};
     const auto* const in = reinterpret_cast<const std::uint8_t*>(bytes.data());
@@ -50,7 +50,7 @@ std::array<std::uint64_t, 256> numbers_of_bytes(std::span<const std::byte> bytes
     return parts[0];
 }
 
-/// Places in a histogram. Halves keep the width finite for any two doubles.
+/// The place of a value in a histogram. Halves keep the width finite for any two doubles.
 struct Axis {
     Axis(double from, double to) : low(from) {
         const double half_width = to / 2 - from / 2;
@@ -95,7 +95,7 @@ void ValueCounts::add(ValueType type, Scaling scaling, std::span<const std::byte
         const std::span values(reinterpret_cast<const T*>(stored.data()),
                                stored.size() / sizeof(T));
         const auto counts = [&](double value) { return std::isfinite(scaling(value)); };
-        if constexpr (sizeof(T) == 1) { // each value's number first: they are few
+        if constexpr (sizeof(T) == 1) { // counts bytes first, since there are only 256
             const std::array<std::uint64_t, 256> numbers = numbers_of_bytes(stored);
             for (std::size_t i = 0; i < numbers.size(); ++i) {
                 const double value = static_cast<T>(i);
@@ -152,7 +152,7 @@ std::vector<std::uint64_t> ValueCounts::histogram(ValueType type, Scaling scalin
     const bool exact = is_integer(type) && exponent == 0;
     const double width = std::ldexp(1.0, exponent);
     const std::size_t count = bins.size();
-    std::uint64_t before = 0, placed = 0; // values below a bin, and in bins of `out` before `next`
+    std::uint64_t before = 0, placed = 0; // values below a bin; in bins of `out` before `next`
     std::size_t next = 0;
     const auto fill_to = [&](std::size_t edge, double below) {
         for (; next < edge; ++next) {
@@ -174,7 +174,7 @@ std::vector<std::uint64_t> ValueCounts::histogram(ValueType type, Scaling scalin
         double a = axis.at(scaling(begin)), b = axis.at(scaling(end));
         if (a > b)
             std::swap(a, b);
-        // Edges within the bin see a part of its values below them.
+        // For an edge within the bin, a part of the bin's values is below it.
         for (std::size_t edge = next + 1; edge < kHistogramBins && static_cast<double>(edge) <= b;
              ++edge) {
             const double part = b > a ? (static_cast<double>(edge) - a) / (b - a) : 0;
@@ -185,7 +185,7 @@ std::vector<std::uint64_t> ValueCounts::histogram(ValueType type, Scaling scalin
     }
     if (!exact)
         out[kHistogramBins - 1] = before - placed;
-    if (!exact && next + 1 < kHistogramBins) { // all values are one
+    if (!exact && next + 1 < kHistogramBins) { // all values are equal
         out.assign(kHistogramBins, 0);
         out[0] = before;
     }

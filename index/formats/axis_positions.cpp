@@ -1,4 +1,4 @@
-// Even and uneven axes.
+// Even and uneven axes: the mean step, and a note if the spacing is uneven.
 #include "index/formats/axis_positions.h"
 
 #include "index/error.h"
@@ -27,7 +27,7 @@ AxisSpread spread_of(const std::vector<double>& at, const std::string& label,
         off = std::max(off, std::abs(at[i] - first - static_cast<double>(i) * step));
     }
     AxisSpread spread{first, step};
-    constexpr double kEven = 0.02; // of the spacing: Gaussian latitudes, coordinates in f32
+    constexpr double kEven = 0.02; // of the spacing: admits Gaussian latitudes, coordinates in f32
     const std::string of_unit = unit.empty() ? "" : " " + unit;
     if (off > kEven * std::abs(step))
         spread.note = fmt::format("{} is not uniform: vertices {:.4g} to {:.4g}{} apart are "

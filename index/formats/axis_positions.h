@@ -1,4 +1,4 @@
-// Coordinates along an axis, as formats give them, turned into what a grid has.
+// Turns coordinates along an axis, as files give them, into origin and spacing of a grid.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,11 @@
 
 namespace isochron::index {
 
-/// Vertices along an axis, spread evenly.
+/// Evenly spread vertices along an axis.
 struct AxisSpread {
-    double first = 0; ///< where the first vertex lies
-    double step = 1;  ///< to the next, on the whole; negative where coordinates fall
-    /// `step` between them on the whole, where they are not even: what a note says
+    double first = 0; ///< coordinate of the first vertex
+    double step = 1;  ///< mean distance to the next; negative if coordinates decrease
+    /// A note for the user, if the coordinates are not evenly spread.
     std::optional<std::string> note = {};
 };
 

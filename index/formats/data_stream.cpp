@@ -45,7 +45,7 @@ class PlainData final : public DataStream {
     InputFile file_;
 };
 
-/// zlib's streaming interface; concatenated members are one stream, as gzip has it.
+/// zlib's streaming interface; concatenated gzip members are read as one stream.
 class Deflate {
   public:
     static constexpr const char* kName = "deflate";
@@ -58,9 +58,9 @@ class Deflate {
     Deflate(const Deflate&) = delete;
     Deflate& operator=(const Deflate&) = delete;
 
-    /// Whether a stream has ended and no other has begun.
+    /// Whether the last stream has ended and no other has begun.
     bool ended() const { return ended_; }
-    static bool begins_with(char first) { return first == '\x1f'; } ///< a gzip member
+    static bool begins_with(char first) { return first == '\x1f'; } ///< of a gzip member
 
     /// Consumes from `in`, fills from the front of `out`. @return false when the data are damaged
     bool step(std::span<char>& in, std::span<std::byte>& out) {
@@ -186,7 +186,7 @@ class CompressedData final : public DataStream {
         return !pending_.empty();
     }
 
-    /// Decodes what comes next to the front of `out`. @return false where the data have ended
+    /// Decodes the next bytes into the front of `out`. @return false at the end of the data
     bool advance(std::span<std::byte>& out) {
         const bool fed = has_input();
         if (!fed && decoder_->ended())
@@ -237,8 +237,8 @@ std::string head_of(const fs::path& path, std::size_t most) {
         head.resize(file.read(0, output));
         return head;
     }
-    // As much input as it takes: a name in the gzip header may be long, and what does not compress
-    // grows.
+    // Reads until the output is full: the name in a gzip header may be long, and data that do not
+    // compress are longer when packed.
     std::vector<char> chunk(4096);
     std::span<char> pending;
     std::uint64_t next = 0;
@@ -265,7 +265,8 @@ bool is_gzip(const fs::path& path) {
 
 void expect_room(const fs::path& path, std::uint64_t offset, Compression compression,
                  std::uint64_t bytes) {
-    // Best ratios: deflate codes 258 bytes in 2 bits; bzip2 packs a 900 kB block of runs of 259.
+    // Best ratios: deflate codes 258 bytes in 2 bits; bzip2 packs 900 kB blocks of runs of 259
+    // bytes.
     constexpr std::array<std::uint64_t, 3> kBestRatio{1, 1032, 2'000'000};
     const std::uint64_t size = file_bytes(path);
     const std::uint64_t rest = size > offset ? size - offset : 0;

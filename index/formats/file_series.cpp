@@ -1,4 +1,4 @@
-// Files held to the first of them, and their times.
+// A series of files: checks them against the first, and sets their times.
 #include "index/formats/file_series.h"
 
 #include "index/error.h"
@@ -39,7 +39,7 @@ std::string text(Anatomy anatomy) {
     return "not anatomical";
 }
 
-// Geometry written as decimal text or f32 differs in its last digits between files.
+// Compares with a tolerance: geometry as decimal text or f32 differs in its last digits.
 void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInfo& first,
                  const std::string& first_file) {
     const auto fail = [&](const std::string& what, const std::string& is, const std::string& was) {
@@ -69,9 +69,9 @@ void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInf
         fail("space", text(got.anatomy), text(first.anatomy));
 }
 
-/// What a file was when the series was opened.
+/// The state of a file when the series was opened.
 struct Found {
-    std::vector<std::filesystem::path> paths; ///< itself, and those that hold its values
+    std::vector<std::filesystem::path> paths; ///< the file, and other files with its values
     std::vector<FileState> states;
     std::size_t steps = 0;
 };
@@ -92,7 +92,7 @@ void expect_unchanged(const Found& found) {
     }
 }
 
-/// Runs `work`, whose errors all name the file.
+/// Runs `work`; exceptions other than Error become errors that name the file.
 template <class Work>
 auto named(const std::filesystem::path& file, Work&& work) {
     try {
@@ -119,7 +119,7 @@ class FileSeries final : public VolumeSeries {
 
     const SeriesInfo& info() const override { return info_; }
 
-    /// Of files with one step each.
+    /// For files with one step each.
     std::unique_ptr<VolumeSeries> another() const override {
         return places_.size() == files_.size()
                    ? std::unique_ptr<VolumeSeries>(new FileSeries(*this))
@@ -131,7 +131,7 @@ class FileSeries final : public VolumeSeries {
     }
 
     void stream(std::size_t step, const TakePiece& take) override {
-        // What the taker throws is not about the file.
+        // Exceptions of `take` are not about the file, so they are passed on unchanged.
         std::exception_ptr failure;
         struct Stop {};
         try {
@@ -162,12 +162,12 @@ class FileSeries final : public VolumeSeries {
         std::size_t file, step;
     };
 
-    /// Knows what the other one knows, and has no file open.
+    /// Copies what the other one knows, but has no file open.
     FileSeries(const FileSeries& other)
         : files_(other.files_), options_(other.options_), info_(other.info_), first_(other.first_),
           timed_(other.timed_), places_(other.places_), found_(other.found_) {}
 
-    /// Calls `work` with the number of the step in its file, which is open then.
+    /// Opens the file of a step and calls `work` with the number of the step in it.
     template <class Work>
     void with_file_of(std::size_t step, const Work& work) {
         const Place place = places_.at(step);
@@ -184,7 +184,7 @@ class FileSeries final : public VolumeSeries {
 
     void add(std::size_t index) {
         Found found{.paths = {files_[index].path}, .states = {state_of(files_[index].path)}};
-        // Kept open only while it is the last: a long series has more files than descriptors.
+        // Only the last file stays open: a long series has more files than there are descriptors.
         open_file(index);
         found.steps = open_->steps();
         for (std::filesystem::path& path : open_->beside()) {
@@ -212,7 +212,7 @@ class FileSeries final : public VolumeSeries {
             times = {*files_[index].time};
         } else if (!times.empty() && !options_.time_step && !info.time_unit.empty() &&
                    !first_.time_unit.empty()) {
-            // A file that gives no unit is taken to mean that of the first.
+            // A file without a unit is assumed to use the first file's.
             const auto same = times_in(first_.time_unit, info.time_unit, std::move(times));
             if (!same)
                 throw Error(fmt::format("{}: times in {}, {} has {}; --time-step sets them all",
@@ -233,7 +233,7 @@ class FileSeries final : public VolumeSeries {
     }
 
     void open_file(std::size_t index) {
-        open_.reset(); // so that the next is read where this one was
+        open_.reset(); // first, so that the next file can use the same reader
         open_ = files_[index].open(files_[index].path, options_);
         open_index_ = index;
     }
@@ -296,7 +296,7 @@ class FileSeries final : public VolumeSeries {
     std::vector<SeriesFile> files_;
     ReadOptions options_;
     SeriesInfo info_;
-    SeriesInfo first_; ///< what the first file said, before overrides
+    SeriesInfo first_; ///< from the first file, before overrides
     bool timed_ = false;
     std::vector<Place> places_; ///< of every step
     std::vector<Found> found_;  ///< of every file

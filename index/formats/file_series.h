@@ -1,4 +1,4 @@
-// A series made of files that each hold one step or several.
+// A series of files, each with one step or several.
 #pragma once
 
 #include "index/formats/volume_file.h"
@@ -11,12 +11,12 @@ namespace isochron::index {
 struct SeriesFile {
     std::filesystem::path path;
     OpenVolumeFile open = nullptr;
-    std::optional<double> time; ///< given by an index of the series (.pvd), before what files say
+    std::optional<double> time; ///< from an index of the series (.pvd); overrides the file's own
 };
 
-/// Opens every file once and holds them all to the first: vertices, spacing, origin, direction,
-/// array, type and scaling. Times are those of `files`, of the files' contents, in the unit
-/// of the first, or, when neither has any, step numbers; `options` override.
+/// Opens every file once and checks that all agree with the first in vertices, spacing, origin,
+/// direction, array, type and scaling. Times come from `files`, or else from the files' contents,
+/// in the unit of the first, or else are step numbers; `options` override them.
 /// @throws Error naming both files when two disagree, or when times do not increase
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
                                                const ReadOptions& options);

@@ -1,4 +1,4 @@
-// Files in readers, and what becomes of them when a reader ends.
+// Files that readers decode, and the handling of readers that end.
 #include "index/formats/foreign_file.h"
 
 #include "index/error.h"
@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One reader for the files of a task. Whatever happens in it is an Error that names the file.
+/// Takes a reader from the pool for one file. Any failure of the reader becomes an Error that names
+/// the file.
 class ReaderLease {
   public:
     ReaderLease(ReaderPool& pool, std::string program, fs::path path)
@@ -37,8 +38,8 @@ class ReaderLease {
 
     ReaderProcess& reader() { return *reader_; }
 
-    /// Does work with a reader, for which `prepare` readies a new one. An earlier file may have
-    /// damaged a reader: only one that has seen no other is to blame on this file.
+    /// Does work with a reader; `prepare` prepares a new one. An earlier file may have damaged a
+    /// reader, so its end is blamed on this file only if the reader has had no other.
     template <class Prepare, class Work>
     void work(const Prepare& prepare, const Work& work) {
         bool again = false;
@@ -59,7 +60,7 @@ class ReaderLease {
         }
     }
 
-    /// The next reply, which must be of this kind. @throws Error with what the reader says instead
+    /// The next reply, which must be of this kind. @throws Error with the reader's message if not
     template <class Kind>
     Kind expect() {
         ReaderReply reply = reader_->reply();
@@ -94,7 +95,7 @@ class ReaderLease {
     std::unique_ptr<ReaderProcess> reader_;
 };
 
-/// The reader's word counts for nothing that could do harm.
+/// Checks what a reader says of a file, as a hostile file may control the reader.
 void check(const Described& described, const std::string& name) {
     const SeriesInfo& info = described.info;
     check_grid(info.grid, name);
@@ -134,7 +135,7 @@ class ForeignFile final : public VolumeFile {
     }
 
     void stream(std::size_t step, const TakePiece& take) override {
-        std::size_t taken = 0; // goes on from there where a reader has to be started anew
+        std::size_t taken = 0; // a new reader goes on from there
         lease_.work([this] { open_again(); }, [&] { take_slabs(step, taken, take); });
     }
 
@@ -152,7 +153,7 @@ class ForeignFile final : public VolumeFile {
             throw Error(fmt::format("{}: has changed since it was opened", name_));
     }
 
-    // While this takes a slab, the reader makes the next one. `taken` of them have been before.
+    // The reader makes the next slab while this process takes one. The first `taken` are skipped.
     void take_slabs(std::size_t step, std::size_t& taken, const TakePiece& take) {
         const std::uint32_t all = described_.info.grid.vertices[2],
                             at_once = described_.slices_at_once;

@@ -1,4 +1,4 @@
-// A file of a format that a library decodes: in a reader, as if it were here.
+// Opens a file in a reader process, whose library decodes it, like any other file.
 #pragma once
 
 #include "index/formats/volume_file.h"
@@ -8,8 +8,8 @@
 
 namespace isochron::index {
 
-/// @param readers one of them has the file as long as it is open
-/// @throws Error in one line that names the file, also when the reader crashes or gets nowhere
+/// @param readers gives the reader that is used as long as the file is open
+/// @throws Error in one line that names the file, also when the reader crashes or makes no progress
 std::unique_ptr<VolumeFile> open_foreign(ReaderPool& readers, ForeignFormat format,
                                          const std::filesystem::path& path,
                                          const ReadOptions& options);

@@ -1,9 +1,9 @@
-// MetaImage (.mhd, .mha). Read by hand: VTK's reader drops TransformMatrix, and with it left and
-// right.
+// MetaImage (.mhd, .mha). Read without VTK, whose reader ignores TransformMatrix, so that left and
+// right get lost.
 //
-// Keys after "MetaIO documentation", https://itk.org/Wiki/MetaIO/Documentation; their geometry as
-// ITK's MetaImageIO takes it: TransformMatrix lists the directions of the axes one after another,
-// and space is LPS whatever AnatomicalOrientation says.
+// Keys after "MetaIO documentation", https://itk.org/Wiki/MetaIO/Documentation; geometry as in
+// ITK's MetaImageIO: TransformMatrix lists the directions of the axes one after another, and space
+// is LPS, whatever AnatomicalOrientation says.
 #include "index/error.h"
 #include "index/formats/readers.h"
 #include "index/formats/stored_file.h"
@@ -61,7 +61,7 @@ class MetaImageHeader {
             throw Error(fmt::format("{}: not MetaImage: no DimSize or no ElementDataFile", file_));
     }
 
-    /// First of the keys that is there.
+    /// The value of the first of these keys that the header has.
     std::optional<std::string> find(std::initializer_list<const char*> keys) const {
         for (const char* key : keys)
             if (const auto found = fields_.find(key); found != fields_.end())
@@ -85,7 +85,7 @@ class MetaImageHeader {
         return text.starts_with('t') || text.starts_with('1') || text.starts_with('y');
     }
 
-    std::uint64_t bytes() const { return bytes_; } ///< the header's, up to LOCAL data
+    std::uint64_t bytes() const { return bytes_; } ///< size of the header, up to LOCAL data
 
   private:
     std::string file_;
@@ -142,7 +142,7 @@ void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_
     if (bytes.size() != 1 || bytes[0] < -1)
         throw Error(fmt::format("{}: HeaderSize {}, expected -1 or more", name, excerpt(*skipped)));
     layout.offset = static_cast<std::uint64_t>(std::max<std::int64_t>(bytes[0], 0));
-    if (bytes[0] == -1) { // the values end the file, whatever comes before them
+    if (bytes[0] == -1) { // the values are at the end of the file
         const std::uint64_t size = file_bytes(layout.data);
         const std::uint64_t values =
             vertices * layout.array.components * layout.steps * size_of(*layout.array.type);

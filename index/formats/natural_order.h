@@ -1,4 +1,4 @@
-// Numbers in names: digits compare as numbers, so `t2` comes before `t10`.
+// Natural order of names: digits compare as numbers, so `t2` comes before `t10`.
 #pragma once
 
 #include <optional>
@@ -6,10 +6,10 @@
 
 namespace isochron::index {
 
-/// A strict weak order that tells any two different names apart.
+/// A strict weak order in which two different names are never equivalent.
 bool natural_less(std::string_view a, std::string_view b);
 
-/// `0030` of `run2_t_0030`, `0.25` of `t_0.25s`; none where there is no number.
+/// The last number in a name: 30 in `run2_t_0030`, 0.25 in `t_0.25s`; none if there is no number.
 std::optional<double> last_number_in(std::string_view text);
 
 } // namespace isochron::index

@@ -1,5 +1,5 @@
-// NIfTI-1 and -2, of either byte order. Read by hand: VTK's reader turns the slices around where
-// qfac is -1, and decompresses the whole file anew for every step.
+// NIfTI-1 and -2, in either byte order. Read without VTK, whose reader reverses the slices if qfac
+// is -1, and decompresses the whole file again for every step.
 //
 // Cox et al., "A (sort of) new image data format standard: NIfTI-1", NeuroImage 22, 2004;
 // field meanings after the comments of nifti1.h, https://nifti.nimh.nih.gov/nifti-1.
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What both versions of the header say.
+/// The fields that both versions of the header have.
 struct NiftiHeader {
     std::int64_t dim[8];
     double pixdim[8];
@@ -145,11 +145,11 @@ StoredType type_of(std::int32_t datatype, const std::string& name) {
     }
 }
 
-// The rotation of nifti1.h's METHOD 2, columns scaled by pixdim, the third turned by qfac.
+// The rotation of METHOD 2 in nifti1.h; columns are scaled by pixdim, the third also by qfac.
 glm::dmat3 quaternion_axes(const NiftiHeader& h) {
     double b = h.quatern[0], c = h.quatern[1], d = h.quatern[2];
     double a = 1.0 - (b * b + c * c + d * d);
-    if (a < 1e-7) { // a rotation by half a turn: only rounding keeps a from 0
+    if (a < 1e-7) { // a rotation by half a turn: `a` is not 0 only because of rounding
         const double scale = 1.0 / std::sqrt(b * b + c * c + d * d);
         b *= scale;
         c *= scale;
@@ -166,7 +166,7 @@ glm::dmat3 quaternion_axes(const NiftiHeader& h) {
             z * (std::abs(h.pixdim[3]) * qfac)};
 }
 
-// The sform wins over the qform, as most tools have it; it alone may be sheared, which is kept.
+// The sform wins over the qform, as in most tools. Only the sform can be sheared; shear is kept.
 void orient(const NiftiHeader& h, const std::string& name, SeriesInfo& info) {
     glm::dmat3 axes(0.0);
     if (h.sform_code > 0) {
@@ -244,7 +244,7 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& path, const ReadOptions& 
     info.grid.vertices = checked_vertices({h.dim[1], h.dim[2], h.dim[3]}, name);
     orient(h, name, info);
     info.length_unit = length_unit(h.xyzt_units);
-    // scl_slope 0 says that there is no scaling.
+    // scl_slope 0 means that there is no scaling.
     if (h.scl_slope != 0 && std::isfinite(h.scl_slope) && std::isfinite(h.scl_inter))
         info.scaling = {h.scl_slope, h.scl_inter};
 

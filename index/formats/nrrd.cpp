@@ -1,5 +1,5 @@
-// NRRD (.nrrd, .nhdr), read by hand: VTK's reader drops the space directions and takes the wrong
-// spacing where they permute the axes.
+// NRRD (.nrrd, .nhdr). Read without VTK, whose reader ignores the space directions, and gives the
+// wrong spacing if they permute the axes.
 //
 // Fields after "Definition of NRRD File Format", https://teem.sourceforge.net/nrrd/format.html.
 #include "index/error.h"
@@ -111,7 +111,7 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
         info.time_unit = axes.units[*axes.time];
 }
 
-/// Where the line begins that follows `lines` others.
+/// The file offset after `lines` lines from `offset` on.
 std::uint64_t after_lines(const fs::path& path, std::uint64_t offset, std::uint64_t lines) {
     if (lines == 0)
         return offset;
@@ -158,7 +158,8 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
         return static_cast<std::uint64_t>(number[0]);
     };
     layout.offset = after_lines(layout.data, layout.offset, skip("lineskip"));
-    // Compressed data skip bytes of what comes out; -1 says that the values end the file.
+    // For compressed data, byteskip counts decompressed bytes. -1: the values are at the file's
+    // end.
     if (header.find("byteskip") == "-1" && layout.compression == Compression::none) {
         const std::uint64_t size = file_bytes(layout.data);
         layout.offset = size > value_bytes ? size - value_bytes : 0;

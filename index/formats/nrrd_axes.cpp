@@ -1,4 +1,4 @@
-// Telling the axes of an NRRD file apart, after "Definition of NRRD File Format",
+// Finds the roles of the axes of an NRRD file, after "Definition of NRRD File Format",
 // https://teem.sourceforge.net/nrrd/format.html#kinds.
 #include "index/formats/nrrd_axes.h"
 
@@ -14,7 +14,7 @@
 namespace isochron::index {
 namespace {
 
-// Vectors may have blanks inside: each ends at its bracket.
+// Splits a list of vectors. They may have blanks inside, so each ends at its bracket.
 std::vector<std::string> vectors_in(std::string_view text) {
     std::vector<std::string> vectors;
     while (!(text = trimmed(text)).empty()) {
@@ -35,7 +35,7 @@ bool is_unknown(const std::string& kind) {
     return kind.empty() || kind == "???" || kind == "none";
 }
 
-/// The axes of space where no directions tell them.
+/// The axes of space in a file without directions.
 std::vector<bool> spatial_by_kind(const std::vector<std::string>& kinds) {
     const std::size_t count = kinds.size();
     std::vector<bool> spatial(count, count == 3);
@@ -52,7 +52,7 @@ std::vector<bool> spatial_by_kind(const std::vector<std::string>& kinds) {
 
 enum class Role : std::uint8_t { components, time };
 
-/// What an axis is that is none of space.
+/// The role of an axis that is not an axis of space.
 Role role_of(std::size_t axis, const std::string& kind, NrrdAxes& axes, const ReadOptions& options,
              const std::string& file) {
     if (kind == "time" || options.extra_axis_is_time)

@@ -1,4 +1,4 @@
-// Which axes of an NRRD file are space, time and components.
+// Finds the axes of an NRRD file that are space, time and components.
 #pragma once
 
 #include "index/formats/nrrd_header.h"
@@ -15,27 +15,27 @@
 
 namespace isochron::index {
 
-/// What each axis is, fastest first.
+/// The axes, fastest first, and their roles.
 struct NrrdAxes {
     std::vector<std::int64_t> sizes;
     std::vector<std::optional<glm::dvec3>> directions; ///< none: not an axis of space
-    std::vector<std::string> units;                    ///< of each axis, or empty
+    std::vector<std::string> units;                    ///< of each axis; may be empty
     std::array<std::size_t, 3> space{};
     /// The fastest or the slowest axis, if any.
     std::optional<std::size_t> components, time;
-    bool time_is_guessed = false; ///< from the order of the axes, where the file gives no kinds
+    bool time_is_guessed = false; ///< by the order of the axes, as the file gives no kinds
 };
 
-/// Kinds decide: `time` is time, `list`, `vector`, `3-color` and their like are components. An axis
-/// of no such kind is time where its unit or `options` say so. In a file without kinds the slowest
-/// axis of more than three is time and the fastest components.
-/// @throws Error when that leaves open what an axis is: it names the options that decide
+/// Finds the roles of axes by their kinds: `time` is time; `list`, `vector`, `3-color` and similar
+/// kinds are components. An axis of another kind is time if its unit or `options` say so. In a file
+/// without kinds and with more than three axes, the slowest is time and the fastest components.
+/// @throws Error when the role of an axis stays open: it names the options that decide
 NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options);
 
-/// The values of a field that has one for each axis; empty when there is none.
+/// The values of a field with one value for each axis; empty when the field is missing.
 std::vector<double> per_axis(const NrrdHeader& header, const std::string& key, std::size_t count);
 
-/// `(1,0,0)` as numbers; none for `none`.
+/// Reads a vector such as `(1,0,0)`; none for `none`.
 std::optional<glm::dvec3> nrrd_vector(std::string_view text, const std::string& key,
                                       const std::string& file);
 

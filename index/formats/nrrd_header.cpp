@@ -1,4 +1,4 @@
-// Reading the fields of an NRRD header.
+// Reads the fields of an NRRD header.
 #include "index/formats/nrrd_header.h"
 
 #include "index/error.h"
@@ -43,7 +43,7 @@ std::string NrrdHeader::need(const std::string& key) const {
     throw Error(fmt::format("{}: has no {}", file_, key));
 }
 
-// A header's line is short: one that is not is no header.
+// Reads a line of limited length: a file with a longer line is not NRRD.
 bool NrrdHeader::read_line(std::istream& in, std::string& line) {
     constexpr std::size_t kMost = 1 << 16;
     line.clear();

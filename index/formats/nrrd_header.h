@@ -12,12 +12,12 @@ namespace isochron::index {
 
 class NrrdHeader {
   public:
-    /// @throws Error naming the file when it does not begin as NRRD does, or has no end
+    /// @throws Error naming the file when it does not begin like NRRD, or the header has no end
     explicit NrrdHeader(const std::filesystem::path& path);
 
-    /// A field, its key in lower case without blanks, as its spelling varies.
+    /// A field. @param key in lower case, without blanks, since the spelling in files varies
     std::optional<std::string> find(const std::string& key) const;
-    /// @throws Error when there is none
+    /// A field that must be there. @throws Error when it is missing
     std::string need(const std::string& key) const;
     const std::string& file() const { return file_; }
     std::uint64_t bytes() const { return bytes_; }

@@ -1,4 +1,4 @@
-// Dispatch of files to the formats that read them.
+// Finds the format of each file and opens them as a series.
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/file_series.h"
@@ -22,7 +22,7 @@ struct Format {
     OpenVolumeFile open;
 };
 
-/// One line per extension; the first that fits the end of the name counts.
+/// One entry for each extension; the first that matches the end of a name is used.
 constexpr std::array kFormats{
     Format{".vti", open_vti},       Format{".vtk", open_vtk},      Format{".mhd", open_metaimage},
     Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},    Format{".nhdr", open_nrrd},
@@ -39,7 +39,7 @@ SeriesFile series_file(const fs::path& path, const ReadOptions& options,
     for (const Format& format : kFormats)
         if (name.ends_with(format.extension))
             return {path, format.open, time};
-    // Raw data have any name; their dimensions say that they are meant.
+    // Raw data may have any name; giving dimensions says that a file is raw.
     if (options.dims)
         return {path, open_raw, time};
     throw Error(fmt::format("{}: unknown format, expected one of {}, or raw values with --dims and "
@@ -47,7 +47,7 @@ SeriesFile series_file(const fs::path& path, const ReadOptions& options,
                             path.string(), known_extensions()));
 }
 
-/// In the order of the last numbers in their names, which are their times.
+/// Orders files by the last number in their names, which is their time.
 std::vector<SeriesFile> timed_by_name(const std::vector<fs::path>& files,
                                       const ReadOptions& options) {
     if (options.time_step)

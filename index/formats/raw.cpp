@@ -1,4 +1,4 @@
-// Headerless values.
+// Raw files: values without a header.
 #include "index/error.h"
 #include "index/formats/readers.h"
 #include "index/formats/stored_file.h"

@@ -1,4 +1,4 @@
-// The formats that can be read: one function each, in a file of its own.
+// The formats that can be read: one function for each, in a separate file.
 #pragma once
 
 #include "index/formats/file_series.h"
@@ -6,14 +6,15 @@
 namespace isochron::index {
 
 /// Headerless values: `dims` and `type` come from the options. A file whose size is a multiple of
-/// one step's holds several.
+/// one step's size has several steps.
 std::unique_ptr<VolumeFile> open_raw(const std::filesystem::path& path, const ReadOptions& options);
 
-/// MetaImage: .mhd with its data beside it, .mha. Space is LPS, as ITK has it.
+/// MetaImage: .mhd with its data beside it, .mha. Space is LPS, as in ITK.
 std::unique_ptr<VolumeFile> open_metaimage(const std::filesystem::path& path,
                                            const ReadOptions& options);
 
-/// NRRD: .nrrd, .nhdr. A slowest fourth axis is time.
+/// NRRD: .nrrd, .nhdr. The kinds of its axes say which are time and components; without kinds, a
+/// slowest fourth axis is time.
 std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
                                       const ReadOptions& options);
 
@@ -21,22 +22,22 @@ std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
                                        const ReadOptions& options);
 
-/// VTK XML image data (.vti) and legacy structured points (.vtk), in a reader.
+/// VTK XML image data (.vti) and legacy structured points (.vtk), decoded in a reader process.
 std::unique_ptr<VolumeFile> open_vti(const std::filesystem::path& path, const ReadOptions& options);
 std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path, const ReadOptions& options);
 
-/// NetCDF, classic and 4 (.nc, .nc4, .cdf), in a reader, where it was built with the library. Space
-/// is that of the coordinate variables, with z up where a file says so.
+/// NetCDF, classic and 4 (.nc, .nc4, .cdf), decoded in a reader process, if the build has the
+/// library. Space is that of the coordinate variables, with z up if the file says so.
 std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
                                         const ReadOptions& options);
 
-/// HDF5 (.h5, .hdf5, .he5, .vtkhdf, .hdf), in a reader, where it was built with the library:
-/// datasets by their path, VTKHDF image data, openPMD meshes.
+/// HDF5 (.h5, .hdf5, .he5, .vtkhdf, .hdf), decoded in a reader process, if the build has the
+/// library: datasets by their path, VTKHDF image data, openPMD meshes.
 std::unique_ptr<VolumeFile> open_hdf5(const std::filesystem::path& path,
                                       const ReadOptions& options);
 
-/// The files and times of a ParaView collection (.pvd), in its order, paths made relative to where
-/// the program runs; in a reader. @throws Error naming the file
+/// The files and times of a ParaView collection (.pvd), ordered by time; paths are made relative to
+/// the working directory. Decoded in a reader process. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> read_pvd(const std::filesystem::path& path);
 
 } // namespace isochron::index

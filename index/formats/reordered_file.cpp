@@ -1,4 +1,4 @@
-// Interleaved steps and stacked components, each by opening the file as the other.
+// Reads interleaved steps as components, and stacked components as steps, of a plain file.
 #include "index/formats/reordered_file.h"
 
 #include <cmath>
@@ -52,12 +52,12 @@ class InterleavedSteps final : public VolumeFile {
     }
 
     std::filesystem::path header_;
-    SeriesInfo plain_; ///< what is said of the file before it is opened
+    SeriesInfo plain_; ///< the description before the file is opened
     StoredLayout layout_;
     ReadOptions options_;
     std::size_t steps_;
     SeriesInfo info_;
-    std::unique_ptr<VolumeFile> file_; ///< that of one step
+    std::unique_ptr<VolumeFile> file_; ///< opened for one step
     std::size_t open_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Writing of .pvd and .vti: by hand, so that making data needs no VTK.
+// Writes .pvd and .vti without VTK, so that making data does not need it.
 #include "index/formats/series_writer.h"
 
 #include "index/error.h"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
 
 constexpr std::size_t kBlockBytes = 1 << 16;
-constexpr int kCompressionLevel = 1; // volumes of floats gain little from more
+constexpr int kCompressionLevel = 1; // a higher level gains little for volumes of floats
 
 std::string_view vtk_name_of(ValueType type) {
     switch (type) {

@@ -1,4 +1,4 @@
-// Writes a series as ParaView reads it: one .vti per step and a .pvd with the times.
+// Writes a series for ParaView: one .vti for each step, and a .pvd with the times.
 //
 //     index::SeriesWriter writer(dir, "sphere", info);
 //     for (std::size_t step = 0; step < steps; ++step)
@@ -17,13 +17,13 @@
 namespace isochron::index {
 
 /// Writes `dir/name_0000.vti`, ... (appended raw, zlib) and `dir/name.pvd`, in the order of the
-/// steps. The same values give the same bytes. Destroyed before `finish`, it removes what it has
-/// written.
+/// steps. The same values give the same bytes. If it is destroyed before `finish`, it removes what
+/// it has written.
 class SeriesWriter {
   public:
     /// Creates `dir`. @param info its grid, type and array name; times, units and sources are not
     /// used.
-    /// @throws Error when the folder cannot be made, or `info.scaling` is set: a .vti carries none
+    /// @throws Error when the folder cannot be made, or `info.scaling` is set (a .vti has none)
     SeriesWriter(std::filesystem::path dir, std::string name, SeriesInfo info);
     ~SeriesWriter();
     SeriesWriter(const SeriesWriter&) = delete;
@@ -44,7 +44,7 @@ class SeriesWriter {
         double time;
     };
 
-    // One name per file until all are there: open NewFiles would be as many open descriptors.
+    // Files get temporary names; a NewFile for each would keep a descriptor open for each step.
     std::filesystem::path temporary(const std::string& file) const {
         return dir_ / (file + ".tmp");
     }

@@ -1,4 +1,4 @@
-// Reading of values that lie as one plain array.
+// Reads values that are one plain array.
 #include "index/formats/stored_file.h"
 
 #include "index/error.h"
@@ -32,7 +32,7 @@ class StoredFile final : public VolumeFile {
                ChosenScalar chosen, bool allow_surplus)
         : header_(std::move(header)), info_(std::move(info)), layout_(std::move(layout)),
           chosen_(std::move(chosen)), allow_surplus_(allow_surplus) {
-        // What is compressed or text shows its end only when it is read.
+        // The end of compressed data and of text is only found when it is read.
         if (layout_.compression == Compression::none && !layout_.ascii)
             expect_end(open_data(layout_.data, layout_.offset, Compression::none)
                            ->rest(layout_.skip + layout_.steps * std::uint64_t{step_bytes()}));
@@ -58,11 +58,12 @@ class StoredFile final : public VolumeFile {
         return layout_.array.components * size_of(*layout_.array.type);
     }
 
-    /// Piece by piece. @param out where all go to, one behind the other; empty: where there is room
+    /// Reads a step piece by piece. @param out receives all pieces in order; if empty, each piece
+    /// uses the same memory
     void stream_to(std::size_t step, std::span<std::byte> out, const TakePiece& take) {
         const std::size_t value = size_of(chosen_.value_type()), all = info_.grid.vertex_count();
         const std::size_t at_once = std::min(all, kPiece / std::max(tuple_bytes(), value));
-        // Values that need no conversion go straight to where they belong.
+        // Values that need no conversion are read directly into their final place.
         const bool as_they_are = layout_.array.components == 1 &&
                                  stored_type_of(chosen_.value_type()) == *layout_.array.type &&
                                  chosen_.component != ChosenScalar::kMagnitude;
@@ -99,7 +100,7 @@ class StoredFile final : public VolumeFile {
             swap_bytes(out, size_of(*layout_.array.type));
     }
 
-    /// More values than the header says may be steps that it forgot.
+    /// @throws Error when more values follow: they may be steps that the header does not count
     void expect_end(const Rest& rest) const {
         if (allow_surplus_ || (rest.bytes == 0 && rest.foreign == 0))
             return;
@@ -134,7 +135,7 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     info.type = chosen.value_type();
     for (std::string& note : chosen.notes())
         info.notes.push_back(std::move(note));
-    // A text value takes a digit and a blank; the last may go without its blank.
+    // A value as text takes at least a digit and a blank; the last value needs no blank.
     const double values = static_cast<double>(info.grid.vertex_count()) * layout.array.components *
                           static_cast<double>(layout.steps);
     const double bytes = layout.ascii ? values * 2 - 1
@@ -144,7 +145,7 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     expect_room(layout.data, layout.offset, layout.compression,
                 static_cast<std::uint64_t>(std::min(bytes, kMost)));
     expect_few_steps(layout.steps, name);
-    // Only now is it known that there are as many steps as the header says.
+    // Only now, after the checks, can the header's number of steps be trusted.
     give_times(info, layout, layout.steps);
     return std::make_unique<StoredFile>(header, std::move(info), layout, chosen,
                                         options.allow_surplus);
@@ -172,7 +173,7 @@ void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file) {
                                     "number",
                                     file, axis, length));
         grid.spacing[axis] = length;
-        grid.direction[axis] = steps[axis] / length + 0.0; // no -0, which reads badly
+        grid.direction[axis] = steps[axis] / length + 0.0; // turns -0 into 0, for display
     }
     if (std::abs(glm::determinant(grid.direction)) < 1e-6)
         throw Error(fmt::format("{}: the three axes lie in a plane", file));

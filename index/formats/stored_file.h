@@ -1,4 +1,4 @@
-// A file whose values lie as one plain array behind a header: raw, MetaImage, NRRD, NIfTI.
+// A file whose values are one plain array after a header: raw, MetaImage, NRRD, NIfTI.
 #pragma once
 
 #include "index/formats/data_stream.h"
@@ -7,11 +7,11 @@
 
 namespace isochron::index {
 
-/// Where the values of a file are, and how they are written.
+/// The place and the encoding of a file's values.
 struct StoredLayout {
     std::filesystem::path data; ///< may be the header's own file
-    std::uint64_t offset = 0;   ///< of the first (compressed) byte; for deflate of a whole file,
-                                ///< see `skip`
+    std::uint64_t offset = 0;   ///< of the first (compressed) byte; if the whole file is
+                                ///< compressed, see `skip`
     std::uint64_t skip = 0;     ///< decompressed bytes before the first value
     Compression compression = Compression::none;
     bool ascii = false; ///< numbers as text, separated by blanks or commas
@@ -22,27 +22,27 @@ struct StoredLayout {
     double time_step = 0; ///< between steps; 0 when the file does not say
 };
 
-/// @param info grid, scaling, units and times; array, type and notes are completed from the layout
-/// @throws Error when the data cannot be as long as the layout says
+/// @param info grid, scaling, units and times; array, type and notes are set from the layout
+/// @throws Error when the data are too short for the layout
 std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, SeriesInfo info,
                                         const StoredLayout& layout, const ReadOptions& options);
 
-/// Sets the times of so many steps after the layout's first and the time between them; without
-/// these there are none, and no unit.
+/// Sets the times of that many steps from the layout's first time and time step; if the file does
+/// not give them, removes times and their unit.
 void give_times(SeriesInfo& info, const StoredLayout& layout, std::size_t steps);
 
 /// Sets spacing and direction from the vectors between neighboring vertices along the index axes.
-/// @throws Error naming the file when one vanishes, is not finite, or all lie in a plane
+/// @throws Error naming the file when one is zero or not finite, or all lie in a plane
 void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file);
 
-/// A million steps are decades of work for whoever looks at them; a header that has more lies.
+/// Checks that there are at most a million steps; a header with more must be wrong.
 /// @throws Error naming the file
 void expect_few_steps(std::size_t steps, const std::string& file);
 
 /// @throws Error naming the file: fewer than 2 vertices along an axis, or more than 65,537
 void check_grid(const Grid& grid, const std::string& file);
 
-/// As `check_grid`, for sizes that may not even fit a grid. @return the grid's vertices
+/// The same for sizes that may not even fit a grid. @return the grid's vertices
 std::array<std::uint32_t, 3> checked_vertices(const std::array<std::int64_t, 3>& sizes,
                                               const std::string& file);
 

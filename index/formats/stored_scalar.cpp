@@ -1,4 +1,4 @@
-// Choice and conversion of stored scalar arrays.
+// Chooses and converts stored scalar arrays.
 #include "index/formats/stored_scalar.h"
 
 #include "index/error.h"
@@ -23,7 +23,7 @@ bool fits_f32(StoredType type) {
     return type == StoredType::f32 || size_of(type) <= 2;
 }
 
-/// Nobody is offered what holds no numbers.
+/// Whether the array can be chosen: it holds numbers.
 bool is_offered(const StoredArray& array) {
     return array.type.has_value();
 }
@@ -65,7 +65,7 @@ std::uint32_t component_of(const StoredArray& array, const ReadOptions& options,
     return number;
 }
 
-/// Value of a tuple in double, whatever is stored.
+/// Values of tuples in double, for any stored type.
 template <class T>
 class TupleValues {
   public:
@@ -88,8 +88,8 @@ class TupleValues {
     std::uint32_t components_, component_;
 };
 
-// Each vertex is the mean of the up to 8 cells around it; a NaN among them makes it NaN. Those that
-// are missing count for nothing.
+// The value at a vertex is the mean of the up to 8 cells around it, NaN if one of them is NaN.
+// Missing cells are ignored.
 template <class T, class Values>
 void average_to_vertices(const Values& cell, const Grid& grid, T* out,
                          std::span<const std::uint8_t> missing) {

@@ -1,4 +1,4 @@
-// The scalar arrays that files hold: choosing one, and turning it into values of a series.
+// Chooses one of the scalar arrays of a file, and converts it to values of a series.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -14,7 +14,7 @@
 
 namespace isochron::index {
 
-/// What files may hold; u32, i64 and u64 become f64 values, exactly or not at all.
+/// The types of values in files; u32, i64 and u64 become f64 values, exactly or with an error.
 enum class StoredType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 
 std::size_t size_of(StoredType type);
@@ -39,14 +39,14 @@ decltype(auto) visit_stored_type(StoredType type, F&& f) {
     return f(std::type_identity<double>{});
 }
 
-/// An array as a file offers it. Tuples lie x fastest, the components of a tuple together.
+/// An array in a file. Tuples are stored x fastest, the components of a tuple together.
 struct StoredArray {
     std::string name;
     std::optional<StoredType> type; ///< none: a type that no volume can have (strings, bits, ...)
     std::uint32_t components = 1;
-    bool on_cells = false; ///< one tuple per cell rather than per vertex
-    bool gaps = false;     ///< values may be missing, for which there is only NaN
-    std::string shape = {}; ///< where a list of arrays has it: `64 x 64 x 32`
+    bool on_cells = false;  ///< one tuple per cell rather than per vertex
+    bool gaps = false;      ///< values may be missing; these become NaN
+    std::string shape = {}; ///< for lists of arrays: `64 x 64 x 32`; may be empty
 };
 
 /// An array, or one component of it, or its magnitude.
@@ -56,23 +56,24 @@ struct ChosenScalar {
     StoredArray array;
     std::uint32_t component = 0; ///< or kMagnitude
 
-    /// Type of the values: the stored one where a series can have it. Means over cells, magnitudes
-    /// and arrays with gaps are f32 for f32 and integers up to 16 bits, f64 for the others.
+    /// Type of the values: the stored type if a series can have it. Means over cells, magnitudes
+    /// and arrays with gaps are f32 if the stored type is f32 or an integer of up to 16 bits, else
+    /// f64.
     ValueType value_type() const;
     std::string label() const;              ///< `speed`, `velocity.2`, `velocity.magnitude`
     std::vector<std::string> notes() const; ///< what was done to the stored values
 };
 
-/// Picks what `options` ask for; a single array needs no name. Point data wins over cell data of
-/// the same name.
-/// @throws Error listing the arrays, with type and components, when the choice is open or wrong
+/// Picks the array and component that `options` name; a single array needs no name. Point data win
+/// over cell data with the same name.
+/// @throws Error listing the arrays, with type and components, if the choice is ambiguous or wrong
 ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOptions& options,
                            const std::string& file);
 
-/// Converts the tuples of one step (native byte order) to values at the vertices: all of them, or
-/// a part where the array lies on vertices.
-/// @param missing one for each tuple, not 0 where its value is missing; or empty. It takes an array
-///        with gaps
+/// Converts the tuples of one step (native byte order) to values at the vertices: all of them, or,
+/// if the array is on vertices, a part of them.
+/// @param missing a number for each tuple, not 0 if its value is missing; or empty. Only for arrays
+///        with `gaps`
 /// @throws Error naming `file` when a 64-bit integer has no exact f64
 void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, const Grid& grid,
              std::span<std::byte> out, const std::string& file,

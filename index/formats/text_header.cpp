@@ -1,4 +1,4 @@
-// Words and numbers of text headers.
+// Parses words and numbers of text headers.
 #include "index/formats/text_header.h"
 
 #include "index/error.h"

@@ -11,14 +11,14 @@ std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
 std::vector<std::string> words_of(std::string_view text);
 
-/// What a message quotes of a text: its beginning, where it is long.
+/// A text as quoted in a message; of a long text only the beginning.
 std::string excerpt(std::string_view text);
 
 /// @throws Error: `FILE: KEY: WORD is not a number`
 double number_of(std::string_view word, const std::string& key, const std::string& file);
 std::vector<double> numbers_of(std::string_view text, const std::string& key,
                                const std::string& file);
-/// As above, for whole numbers that fit 64 bits.
+/// The same for whole numbers that fit 64 bits.
 std::vector<std::int64_t> integers_of(std::string_view text, const std::string& key,
                                       const std::string& file);
 

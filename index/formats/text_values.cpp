@@ -1,4 +1,4 @@
-// Reading of numbers as text, a part of the file at a time.
+// Reads numbers as text, a part of the file at a time.
 #include "index/formats/text_values.h"
 
 #include "index/error.h"
@@ -15,7 +15,7 @@ namespace isochron::index {
 namespace {
 
 constexpr std::string_view kBetween = " \t\r\n,";
-constexpr std::size_t kLongestWord = 1024; ///< of a number, which zeros make as long as they like
+constexpr std::size_t kLongestWord = 1024; ///< longest number; zeros can make one of any length
 constexpr std::uint64_t kPart = 1 << 18;
 
 Error not_a_value(std::string_view word, const std::string& file) {
@@ -27,7 +27,7 @@ void parse_number(std::string_view word, std::byte* out, const std::string& file
     T value{};
     if (word.starts_with('+'))
         word.remove_prefix(1);
-    // from_chars would read a byte as a character.
+    // A wider type for types of one byte, which from_chars would read as a character.
     std::conditional_t<sizeof(T) == 1, int, T> wide{};
     const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), wide);
     value = static_cast<T>(wide);

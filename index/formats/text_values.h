@@ -1,4 +1,4 @@
-// Numbers that a file holds as text, separated by blanks or commas.
+// Reads numbers that a file has as text, separated by blanks or commas.
 #pragma once
 
 #include "index/formats/data_stream.h"
@@ -6,17 +6,16 @@
 
 namespace isochron::index {
 
-/// Reading forward takes each number apart once; going back starts again from the beginning.
+/// Reading forward parses each number once; going back starts from the beginning again.
 class TextValues {
   public:
     /// @param offset of the first number in the file
     TextValues(const std::filesystem::path& path, std::uint64_t offset, StoredType type);
 
     /// Fills `out` with the values from number `first` on, in native byte order.
-    /// @throws Error naming the file: too few numbers, or one that the type cannot have
+    /// @throws Error naming the file: too few numbers, or one that does not fit the type
     void read(std::uint64_t first, std::span<std::byte> out);
-
-    /// Bytes from the first number that has not been read to the end, but for blanks at the end.
+    /// Number of bytes after the last number that was read, without blanks at the end of the file.
     std::uint64_t rest();
 
   private:
@@ -27,7 +26,7 @@ class TextValues {
     bool refill(std::size_t begin);
 
     std::string name_;
-    std::uint64_t offset_, bytes_; ///< where the text starts in the file, and its length
+    std::uint64_t offset_, bytes_; ///< start of the text in the file, and its length
     StoredType type_;
     std::unique_ptr<DataStream> stream_;
     std::string text_;           ///< a part of the file

@@ -1,4 +1,4 @@
-// Units of physical time: parsing, and the days of calendars.
+// Parses units of physical time, and counts the days of calendars.
 #include "index/formats/time_unit.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 struct TimeUnit {
     double seconds = 0; ///< of one unit
     bool dated = false;
-    double from = 0; ///< seconds to the date it counts from, from one of its calendar
+    double from = 0; ///< [s] to the reference date from a fixed date of the calendar
     std::string calendar;
 };
 
@@ -38,7 +38,7 @@ std::optional<double> seconds_of(const std::string& name) {
     return std::nullopt;
 }
 
-/// Days to a date from a date of the same calendar.
+/// Days to a date from a fixed date of the same calendar; none for an unknown calendar.
 std::optional<double> days_to(int year, unsigned month, unsigned day, const std::string& calendar) {
     constexpr std::array<int, 13> kBefore{0,   31,  59,  90,  120, 151, 181,
                                           212, 243, 273, 304, 334, 365};

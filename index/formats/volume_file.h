@@ -1,4 +1,4 @@
-// One opened file of a series: what each format implements.
+// One open file of a series: the interface of each format.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -16,16 +16,16 @@ class VolumeFile {
   public:
     virtual ~VolumeFile() = default;
 
-    /// As the file says it, without overrides. `times` is empty when the file gives none, otherwise
-    /// one per step; `sources` is not used.
+    /// The description from the file, without overrides. `times` is empty when the file gives none,
+    /// otherwise has one for each step; `sources` is not used.
     virtual const SeriesInfo& info() const = 0;
     virtual std::size_t steps() const = 0;
-    /// Other files that hold its values, as the .raw of a .mhd.
+    /// Other files with its values, such as the .raw of a .mhd.
     virtual std::vector<std::filesystem::path> beside() const { return {}; }
 
-    /// As `VolumeSeries::read`, for a step of this file.
+    /// The same as `VolumeSeries::read`, for a step of this file.
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;
-    /// As `VolumeSeries::stream`, for a step of this file.
+    /// The same as `VolumeSeries::stream`, for a step of this file.
     virtual void stream(std::size_t step, const TakePiece& take) = 0;
 };
 

@@ -1,4 +1,4 @@
-// Values as the bytes of a message, and back: of numbers, texts and what is made of them.
+// Writes values as the bytes of a message, and reads them back: numbers, texts and structures.
 #pragma once
 
 #include "index/error.h"
@@ -21,14 +21,14 @@
 
 namespace isochron::index {
 
-/// The last value of an enumeration whose values count from 0: what is above it is no value.
+/// The last value of an enumeration whose values count from 0; greater numbers are invalid.
 template <class Enum>
 constexpr Enum kLastValue = Enum{};
 
 template <class T>
 concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Both ends are of one machine and one build: numbers stand as they lie in memory.
+/// Writes numbers as they are in memory: both ends are on one machine and of one build.
 class MessageWriter {
   public:
     template <class... Values>
@@ -77,17 +77,17 @@ class MessageWriter {
     std::vector<std::byte> bytes_;
 };
 
-/// Takes nothing on trust: a count that lies costs no more memory than the message itself.
+/// Trusts nothing in the message: a count that is too high costs no more memory than the message.
 class MessageReader {
   public:
     explicit MessageReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
-    /// @throws Error when the message ends before, or holds what no such value can be
+    /// @throws Error when the message ends too early, or has an invalid value
     template <class... Values>
     void operator()(Values&... values) {
         (get(values), ...);
     }
-    /// @throws Error when something follows
+    /// @throws Error when bytes are left
     void expect_end() const {
         if (!bytes_.empty())
             throw Error("a message that is longer than its content");
@@ -147,7 +147,7 @@ class MessageReader {
         std::uint64_t count = 0;
         get(count);
         values.clear();
-        for (; count > 0; --count) // of those that are not there, the first ends it
+        for (; count > 0; --count) // the first value that is not there throws
             get(values.emplace_back());
     }
     std::span<const std::byte> take(std::uint64_t size) {

@@ -1,4 +1,4 @@
-// Messages over a stream: their length, then their bytes.
+// Messages over a stream: each is its length, then its bytes.
 #include "index/reader/message_socket.h"
 
 #include "index/error.h"
@@ -18,10 +18,10 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::uint64_t kLongest = 256 << 20; ///< times and names of a million of files
-constexpr std::size_t kPiece = 1 << 20; ///< a length that lies costs no more memory than comes
+constexpr std::uint64_t kLongest = 256 << 20; ///< room for times and names of a million files
+constexpr std::size_t kPiece = 1 << 20;       ///< memory grows by pieces as bytes arrive
 
-/// Room for one descriptor beside the bytes.
+/// Control data with room for one descriptor.
 union Beside {
     cmsghdr header;
     std::array<char, CMSG_SPACE(sizeof(int))> bytes;
@@ -58,7 +58,7 @@ bool MessageSocket::send(std::span<const std::byte> bytes, int attached) {
             continue;
         if (sent < 0)
             return false;
-        message.msg_control = nullptr; // it went with the first byte
+        message.msg_control = nullptr; // sent with the first byte
         message.msg_controllen = 0;
         auto gone = static_cast<std::size_t>(sent);
         for (iovec& part : parts) {
@@ -114,7 +114,7 @@ bool MessageSocket::fill(std::span<std::byte> into, Descriptor& attached, const 
                  at += sizeof(int)) {
                 int number = -1;
                 std::memcpy(&number, at, sizeof number);
-                attached = Descriptor(number); // of several, which nobody of us sends, the last
+                attached = Descriptor(number); // the last, if there are several; we send one
             }
         into = into.subspan(static_cast<std::size_t>(got));
     }

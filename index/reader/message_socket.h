@@ -1,4 +1,4 @@
-// Messages of any length over a socket, with a descriptor where one belongs to them.
+// Sends and receives messages over a socket, each with a file descriptor if it has one.
 #pragma once
 
 #include "index/system/descriptor.h"
@@ -15,31 +15,31 @@ namespace isochron::index {
 
 struct Message {
     std::vector<std::byte> bytes;
-    Descriptor attached; ///< or none
+    Descriptor attached; ///< may be none
 };
 
 class MessageSocket {
   public:
-    /// @param socket one end of a pair of streams
+    /// @param socket one end of a pair of connected stream sockets
     explicit MessageSocket(Descriptor socket) : socket_(std::move(socket)) {}
 
-    /// Two ends that are connected to each other. @throws Error
+    /// Two connected ends. @throws Error
     static std::pair<Descriptor, Descriptor> pair();
 
-    /// @param attached travels with the message; negative: none
-    /// @return false when nobody is at the other end
+    /// @param attached descriptor to send with the message; negative: none
+    /// @return false when the other end is closed
     bool send(std::span<const std::byte> bytes, int attached = -1);
 
-    /// Called while nothing comes, each time `kAwait` has passed; it may throw.
+    /// Called every `kAwait` while nothing arrives; it may throw.
     using Waiting = std::function<void()>;
     static constexpr std::chrono::milliseconds kAwait{100};
-    /// @param waiting empty: waits as long as it takes
-    /// @return none when nobody is at the other end any more
-    /// @throws Error when a message claims to be longer than any is
+    /// @param waiting if empty, waits as long as it takes
+    /// @return none when the other end is closed
+    /// @throws Error when a message claims to be longer than messages can be
     std::optional<Message> receive(const Waiting& waiting = {});
 
   private:
-    /// @return false when the other end is gone before all of `into` has come
+    /// @return false when the other end closes before `into` is full
     bool fill(std::span<std::byte> into, Descriptor& attached, const Waiting& waiting);
 
     Descriptor socket_;

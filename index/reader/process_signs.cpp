@@ -1,4 +1,4 @@
-// /proc/PID/io and /proc/PID/stat, see proc(5).
+// Reads /proc/PID/io and /proc/PID/stat, see proc(5).
 #include "index/reader/process_signs.h"
 
 #include <fmt/format.h>

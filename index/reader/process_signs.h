@@ -1,4 +1,4 @@
-// What the system tells of another process: whether it still gets anywhere.
+// What the system tells about another process, to see whether it still makes progress.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 namespace isochron::index {
 
 struct ProcessSigns {
-    std::uint64_t read = 0;    ///< [bytes] by calls that read
-    std::uint64_t touched = 0; ///< pages that it has met for the first time, in memory or on disk
+    std::uint64_t read = 0;    ///< [bytes] by read calls
+    std::uint64_t touched = 0; ///< page faults: pages that it has touched for the first time
     bool waits_for_disk = false;
 };
 
-/// None where the system does not say.
+/// None if the system does not tell.
 std::optional<ProcessSigns> signs_of(pid_t process);
 
 } // namespace isochron::index

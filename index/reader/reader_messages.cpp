@@ -1,4 +1,4 @@
-// Requests and replies as bytes: the number of the kind, then its fields.
+// Requests and replies as bytes: the number of the message's type, then its fields.
 #include "index/reader/reader_messages.h"
 
 #include "index/reader/message_bytes.h"
@@ -18,7 +18,7 @@ constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::hdf5;
 
 namespace {
 
-// The fields of every kind, listed once for both directions.
+// The fields of every message, listed once for reading and writing.
 
 template <class Bytes, class T>
 concept Of = std::is_same_v<std::remove_const_t<Bytes>, T>;

@@ -1,10 +1,10 @@
-// What the program and a reader say to each other: requests and replies, as bytes.
+// The messages between the program and a reader: requests and replies, as bytes.
 //
 //     const std::vector<std::byte> bytes = encoded(ReaderRequest(ReadSlab{.step = 7, .slices = {0, 64}}));
 //     const ReaderRequest same = request_from(bytes);
 //
-// Decoding is a function of the bytes alone, and takes nothing on trust: what decodes a foreign file
-// may have been taken over by it.
+// Decoding depends on the bytes only and trusts nothing in them: a hostile file may have taken over
+// the reader that sent them.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -23,74 +23,76 @@ namespace isochron::index {
 /// The formats that libraries decode.
 enum class ForeignFormat : std::uint8_t { vti, vtk, netcdf, hdf5 };
 
-/// The program in which a format is decoded: one for each library, so that none waits for the
-/// loading of another.
+/// The reader program that decodes a format: one for each library, so that no format waits until
+/// the library of another is loaded.
 std::string program_of(ForeignFormat format);
-/// That of collections (.pvd).
+/// The reader program for collections (.pvd).
 extern const std::string kCollectionProgram;
 
-/// Layers of vertices of one z, [first, first + count).
+/// Planes of vertices with the same z: [first, first + count).
 struct Slices {
     std::uint32_t first = 0, count = 0;
     bool operator==(const Slices&) const = default;
 };
 
-/// What is in this? Answered by `Described`; the file stays open until the next request of the kind
-/// or `CloseFile`.
+/// Opens a file and asks for its description. Answered by `Described`; the file stays open until
+/// the next `OpenFile` or `CloseFile`.
 struct OpenFile {
     ForeignFormat format = ForeignFormat::vti;
     std::filesystem::path path;
     ReadOptions options;
     std::uint64_t most_memory = 0; ///< [bytes] that decoding may take; 0: what is free
 };
-/// Where values go from now on: memory whose descriptor comes with this; not answered.
+/// Sets the shared memory into which values go from now on; its descriptor is attached. Not
+/// answered.
 struct UseMemory {
     std::uint64_t bytes = 0;
 };
-/// This step, this slab, into the shared memory from `offset`, as `VolumeSeries::read` has it.
-/// Answered by `SlabRead`.
+/// Reads slices of a step into the shared memory at `offset`, in the format of
+/// `VolumeSeries::read`. Answered by `SlabRead`.
 struct ReadSlab {
     std::uint64_t step = 0;
     Slices slices;
     std::uint64_t offset = 0;
 };
-/// Which files and times are in this .pvd? Answered by `Collected`.
+/// Asks for the files and times in a .pvd. Answered by `Collected`.
 struct ReadCollection {
     std::filesystem::path path;
 };
-/// Answered by `Closed`: from then on others may write to the file, which libraries lock.
+/// Closes the file. Answered by `Closed`; libraries lock files, so others can write to it only
+/// then.
 struct CloseFile {};
 
 using ReaderRequest = std::variant<OpenFile, UseMemory, ReadSlab, ReadCollection, CloseFile>;
 
-/// Sent once, before anything is asked. @see kReaderVersion
+/// Sent once by the reader, before any request. @see kReaderVersion
 struct Ready {
     std::string version;
 };
 struct Described {
     SeriesInfo info;
     std::uint64_t steps = 0;
-    std::uint32_t slices_at_once = 0; ///< that are best asked for together; the last may be fewer
+    std::uint32_t slices_at_once = 0; ///< best number for one request; the last may have fewer
 };
 struct SlabRead {};
 struct Collected {
     std::vector<std::pair<std::filesystem::path, double>> files; ///< in their order, with times
 };
 struct Closed {};
-/// Instead of what was asked for.
+/// The reply to any request that failed.
 struct Refused {
     std::string message; ///< one line that names the file
 };
 
 using ReaderReply = std::variant<Ready, Described, SlabRead, Collected, Closed, Refused>;
 
-/// What `Ready` must say: program and reader are of one build.
+/// The version that `Ready` must have, so that program and reader are of one build.
 extern const std::string kReaderVersion;
 
 std::vector<std::byte> encoded(const ReaderRequest& request);
 std::vector<std::byte> encoded(const ReaderReply& reply);
 
-/// @throws Error when the bytes are no such message: in one line that says what is wrong with it
+/// @throws Error saying in one line what is wrong, when the bytes are no such message
 ReaderRequest request_from(std::span<const std::byte> bytes);
 ReaderReply reply_from(std::span<const std::byte> bytes);
 

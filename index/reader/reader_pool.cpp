@@ -1,4 +1,4 @@
-// The readers of this process.
+// The pool of reader processes.
 #include "index/reader/reader_pool.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kMostIdle = 4; ///< each holds some megabytes of libraries
+constexpr std::size_t kMostIdle = 4; ///< each takes some megabytes for its libraries
 
 } // namespace
 

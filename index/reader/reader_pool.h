@@ -1,4 +1,4 @@
-// The readers of this process: as many as files are open in them at a time, kept for the next files.
+// The pool of reader processes: one for each open file; idle ones are kept for the next files.
 #pragma once
 
 #include "index/reader/reader_process.h"
@@ -10,19 +10,19 @@
 
 namespace isochron::index {
 
-/// Thread-safe. It outlives what it gives.
+/// Thread-safe. It must outlive the readers' users.
 class ReaderPool {
   public:
     explicit ReaderPool(ReaderLimits limits = {}) : limits_(limits) {}
 
     const ReaderLimits& limits() const { return limits_; }
 
-    /// One of a program that nobody else uses: the one that was given back last, or a new one.
-    /// @throws Error when none can be started
+    /// A reader of a program that nobody else uses: the idle one that was given back last, or a new
+    /// one. @throws Error when none can be started
     std::unique_ptr<ReaderProcess> take(const std::string& program);
-    /// One that has seen no file.
+    /// A new reader, which has seen no file.
     std::unique_ptr<ReaderProcess> take_new(const std::string& program) const;
-    /// For others to use; it has no file open, and owes no reply.
+    /// Makes a reader idle. It must have no file open and no request without a reply.
     void give_back(std::unique_ptr<ReaderProcess> reader);
 
   private:
@@ -31,8 +31,8 @@ class ReaderPool {
     std::vector<std::unique_ptr<ReaderProcess>> idle_;
 };
 
-/// The pool that `open_series` uses. One for the whole process, since starting a reader takes many
-/// times as long as opening a small file.
+/// The pool that `open_series` uses. There is one for the whole process, since starting a reader
+/// takes many times as long as opening a small file.
 ReaderPool& readers_of_this_process();
 
 } // namespace isochron::index

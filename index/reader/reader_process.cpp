@@ -1,4 +1,4 @@
-// Starting of a reader, talking with it, and telling how it ended.
+// Starts a reader, exchanges messages with it, and finds how it ended.
 #include "index/reader/reader_process.h"
 
 #include "index/reader/reader_start.h"
@@ -20,7 +20,7 @@
 namespace isochron::index {
 namespace {
 
-/// What a reader is started with: nothing open but its socket, no signal of the terminal.
+/// How a reader is started: only its socket is open, and signals of the terminal are blocked.
 class SpawnSetup {
   public:
     explicit SpawnSetup(int socket) {
@@ -29,8 +29,8 @@ class SpawnSetup {
         for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
             ::posix_spawn_file_actions_addopen(&files, standard, "/dev/null", O_RDWR, 0);
         ::posix_spawn_file_actions_addclosefrom_np(&files, kReaderSocket + 1);
-        // Whoever ends this program ends its readers: they notice that nobody is there any more.
-        // Ctrl-C, which reaches all processes of a terminal, must not look like a crash.
+        // Readers notice when this program ends, and end too. They block these signals, since
+        // Ctrl-C reaches all processes of a terminal and would look like a crash of the reader.
         sigset_t blocked, restored;
         ::sigemptyset(&blocked);
         for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
@@ -52,7 +52,7 @@ class SpawnSetup {
     posix_spawnattr_t attributes{};
 };
 
-/// Waits for the end of a process that has closed its socket, which may be a step ahead of it.
+/// Waits for the end of a process that has closed its socket: it may end a moment after that.
 std::optional<int> status_at_end(pid_t process) {
     constexpr std::chrono::milliseconds kPause{1};
     constexpr int kPauses = 2000;
@@ -138,7 +138,8 @@ ReaderReply ReaderProcess::next_reply() {
     fail_as_it_ended();
 }
 
-// Called every `kAwait`, so that time in which this process itself was stopped does not count.
+// Called every `kAwait`: each call counts as `kAwait`, so that time in which this process itself
+// was stopped does not count.
 void ReaderProcess::watch() {
     const auto now = signs_of(process_);
     const bool alive = now && (!signs_ || now->waits_for_disk || now->read != signs_->read ||

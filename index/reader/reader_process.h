@@ -1,7 +1,7 @@
-// One running reader: a program beside this one in which a library decodes foreign files.
+// One reader process, in which a library decodes foreign files.
 //
-// VTK, HDF5 and their like crash on damaged files, and worse on hostile ones. In a process of their
-// own that costs one line.
+// VTK, HDF5 and similar libraries crash on damaged files, and hostile files can do worse. In a
+// separate process that ends with an error message instead.
 #pragma once
 
 #include "index/error.h"
@@ -23,11 +23,11 @@ namespace isochron::index {
 struct ReaderLimits {
     std::uint64_t memory = 0; ///< [bytes] that decoding a file may take; 0: what was free
     /// How long a reader may neither read nor touch new memory. Time in which it waits for a disk
-    /// does not count, so that a slow one is no fault.
+    /// does not count, so that a slow disk is no failure.
     std::chrono::milliseconds patience{60'000};
 };
 
-/// A reader is no longer there. The message says how it ended, of the file that was in it.
+/// A reader has ended. The message names the file that it had open and says how the reader ended.
 class ReaderEnded : public Error {
   public:
     enum class How : std::uint8_t { by_itself, by_our_hand };
@@ -41,24 +41,25 @@ class ReaderEnded : public Error {
 /// Not thread-safe: one owner.
 class ReaderProcess {
   public:
-    /// Starts one, without waiting for it. @throws Error when there is none to start
+    /// Starts a reader, without waiting until it is ready. @throws Error when it cannot be started
     ReaderProcess(std::string program, ReaderLimits limits);
     ~ReaderProcess();
     ReaderProcess(const ReaderProcess&) = delete;
     ReaderProcess& operator=(const ReaderProcess&) = delete;
 
     const std::string& program() const { return program_; }
-    /// Files that it has been asked to open or to list.
+    /// Number of files that it has been asked to open or to list.
     unsigned files() const { return files_; }
 
-    /// Asks, without waiting. @throws ReaderEnded
+    /// Sends a request, without waiting for the reply. @throws ReaderEnded
     void ask(const ReaderRequest& request);
-    /// The reply to what was asked first of what has not been replied to.
-    /// @throws ReaderEnded also when it gets nowhere or says what no reader does: it is ended then
+    /// Waits for the reply to the oldest request without one.
+    /// @throws ReaderEnded also when the reader makes no progress or sends an invalid message; it
+    ///         is killed then
     ReaderReply reply();
 
-    /// Memory of at least so many bytes, which the reader has, too. Its contents do not outlast the
-    /// next call. @throws ReaderEnded
+    /// Shared memory of at least that many bytes, which the reader has, too. Its contents are lost
+    /// at the next call. @throws ReaderEnded
     std::span<std::byte> memory(std::size_t bytes);
 
   private:
@@ -75,7 +76,7 @@ class ReaderProcess {
     bool ready_ = false;
     unsigned files_ = 0;
     std::unique_ptr<SharedMemory> memory_;
-    std::chrono::milliseconds silence_{0}; ///< since it last got anywhere
+    std::chrono::milliseconds silence_{0}; ///< time since it last made progress
     std::optional<ProcessSigns> signs_;
 };
 

@@ -1,5 +1,5 @@
-// Extremes of bricks: along y and z by whole rows, in the order of the file, then along x, then
-// ranks.
+// Extremes of bricks: along y and z by whole rows, in the order of the file, then along x; then
+// turns them into ranks.
 #include "index/scan/bricks.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The smaller one; `a` where `b` is NaN.
+/// The smaller value; `a` if `b` is NaN.
 template <class V>
 HWY_INLINE V lower_of(V a, V b) {
     if constexpr (hwy::IsFloat<hn::TFromV<V>>())
@@ -35,7 +35,7 @@ HWY_INLINE V higher_of(V a, V b) {
         return hn::Max(a, b);
 }
 
-/// What no value lies above, and below; they stay where there are only NaN.
+/// Bounds of all values; they remain as extremes where there are only NaN.
 template <class T>
 constexpr T kHighest = std::is_floating_point_v<T> ? std::numeric_limits<T>::infinity()
                                                    : std::numeric_limits<T>::max();
@@ -48,7 +48,7 @@ template <class T>
 struct RowExtremes {
     explicit RowExtremes(std::size_t length) : low(length), high(length) {}
 
-    /// Of `rows` rows of `length` vertices.
+    /// Takes the extremes over `rows` rows of `length` vertices.
     template <class D>
     void reduce(D d, const T* first, std::uint32_t rows, std::size_t length) {
         if constexpr (hn::MaxLanes(D()) > 1)
@@ -87,7 +87,7 @@ void build_values(const StepValues& values, const LevelMap& levels, std::size_t 
     constexpr auto kCells = BrickGrid::kCells;
     const BrickGrid grid(values.grid);
     const auto [nx, ny, nz] = values.grid.vertices;
-    // Behind the border the last vertex repeats: a brick's last one is the first of the next.
+    // Beyond the border the last vertex repeats. Neighboring bricks share a vertex.
     const std::size_t used = grid.bricks()[0] * kCells[0] + 1;
     const std::size_t length = hwy::RoundUpTo(used, hn::Lanes(hn::ScalableTag<T>()));
     RowExtremes<T> rows(length);

@@ -1,4 +1,5 @@
-// Which bricks may hold active cells, by their extremes; compiled once for each SIMD target.
+// Finds the bricks that may hold active cells by their extremes; compiled once for each SIMD
+// target.
 #include "index/scan/vertex_bits_inl.h"
 #include "index/volume/level_map.h"
 
@@ -18,17 +19,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 
-/// Which bricks may hold active cells.
+/// The candidates: bricks that may hold active cells.
 class Candidates {
   public:
     Candidates(std::span<const std::uint8_t> bricks, const LevelMap::Cut& cut)
         : count_(bricks.size() / 2), low_(bricks.data()), high_(low_ + count_), level_(cut.level),
           highest_low_(static_cast<std::uint8_t>(cut.level - (cut.exact ? 1 : 0))) {}
 
-    /// All bricks, candidates or not.
+    /// Number of all bricks, candidates or not.
     std::size_t bricks() const { return count_; }
 
-    /// Bits of the 64 bricks from `first` on.
+    /// A bit for each of the 64 bricks from `first` on: whether it is a candidate.
     HWY_INLINE std::uint64_t word(std::size_t first) const {
         const std::size_t left = count_ - first;
         if (HWY_LIKELY(left >= kWordBits))

@@ -20,8 +20,9 @@ HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 namespace {
 
-/// With more candidates in a hundred bricks than these a scan is faster: it reads every vertex
-/// once, the bricks those around them twice, which costs less where comparing is most of the work.
+/// Percentage of candidates above which a scan is faster: a scan reads every vertex once, while
+/// bricks read vertices on their borders twice. That costs less for types whose comparison takes
+/// most time.
 std::size_t scan_percent(ValueType type) {
     return size_of(type) == 1 ? 25 : 40;
 }
@@ -36,8 +37,8 @@ static_assert(kCells[0] == 8 && kCells[1] % 2 == 0);
 
 using Pairs = std::array<std::uint16_t, kPairs>;
 
-/// The vertices of some bricks as bits (set where below the cut), and then their cells, brick after
-/// brick in every row.
+/// The vertices of some bricks as bits (set if below the cut), and then their cells; in every row,
+/// brick after brick.
 struct Batch {
     std::array<std::array<std::uint16_t, kBatch>, kVertexRows> vertices{};
     std::array<std::array<std::uint16_t, kBatch>, kPairs> active;
@@ -46,7 +47,8 @@ struct Batch {
     std::size_t size = 0;
 };
 
-/// Finds the active cells of all bricks of a batch: any & ~all of eight vertices, as in the scan.
+/// Finds the active cells of all bricks of a batch, as the scan does: some, but not all, of a
+/// cell's eight vertices are below the cut.
 void find_active(Batch& batch) {
     const hn::CappedTag<std::uint16_t, kBatch> d;
     constexpr std::size_t kAcross = kCells[1] + 1;
@@ -77,14 +79,14 @@ void find_active(Batch& batch) {
         }
 }
 
-/// What bricks at the same borders have in common.
+/// What all bricks at the same borders of the grid have in common.
 struct BrickShape {
     std::array<std::uint32_t, 3> size;         ///< cells; fewer than usual at an upper border
     std::array<std::size_t, kVertexRows> rows; ///< from the first vertex; the border's row repeats
-    Pairs cells{};                             ///< those of the grid
+    Pairs cells{};                             ///< bits of cells inside the grid
 };
 
-/// A row of eight cells in its place.
+/// A row of eight cells in its place in a pair of rows.
 std::uint16_t row_of_pair(std::uint64_t cells, std::uint32_t y) {
     return static_cast<std::uint16_t>((cells & 0xff) << y % 2 * 8);
 }
@@ -125,10 +127,10 @@ class BrickSearch {
             finish();
     }
 
-    /// Cells of the bricks so far.
+    /// Number of cells of the bricks so far.
     std::uint64_t tested() const { return tested_; }
 
-    /// Tests what has been added.
+    /// Tests the bricks that have been added.
     void finish() {
         find_active(batch_);
         for (std::size_t i = 0; i < batch_.size; ++i)
@@ -138,7 +140,7 @@ class BrickSearch {
 
   private:
     using D = hn::CappedTag<T, 16>;
-    static constexpr std::size_t kRowValues = 16; ///< read of a row, of which a brick needs 9
+    static constexpr std::size_t kRowValues = 16; ///< values read from a row; a brick needs 9
 
     std::size_t plane() const { return std::size_t{vertices_[0]} * vertices_[1]; }
 
@@ -168,7 +170,7 @@ class BrickSearch {
         const D d;
         auto sum = hn::Zero(d);
         for (std::size_t row = 0; row < kVertexRows;) {
-            auto plane_sum = hn::Zero(d); // of their own, so that they need not wait for each other
+            auto plane_sum = hn::Zero(d); // one for each plane, so that they need not wait
             for (std::size_t y = 0; y <= kCells[1]; ++y, ++row) {
                 std::uint64_t lower = 0;
                 for (std::size_t i = 0; i <= kCells[0]; i += hn::Lanes(d)) {
@@ -181,7 +183,7 @@ class BrickSearch {
             }
             sum = hn::Add(sum, plane_sum);
         }
-        // A NaN stays in a sum; infinities may make one where there is none, which does no harm.
+        // A NaN stays in a sum. Infinities may give a NaN where there is none, which is harmless.
         if constexpr (std::is_floating_point_v<T>)
             return !hn::AllFalse(d, hn::IsNaN(sum));
         return false;
@@ -234,16 +236,16 @@ class BrickSearch {
     std::array<std::uint32_t, 3> bricks_, vertices_, cells_;
     std::span<const T> stored_;
     hn::Vec<D> cut_;
-    std::array<BrickShape, 8> shapes_; ///< at the upper borders of x (1), y (2) and z (4), or not
-    std::array<CellId, kRows * kCells[0]> id_; ///< of all cells of a brick, from its first
+    std::array<BrickShape, 8> shapes_; ///< by bits: at the upper border of x (1), y (2), z (4)
+    std::array<CellId, kRows * kCells[0]> id_; ///< of a brick's cells, relative to its first
     std::vector<CellId>& out_;
     CellBuffer buffer_{out_};
     Batch batch_;
     std::uint64_t tested_ = 0;
 };
 
-/// @return cells that were tested; none, and nothing is found, where a scan is faster and may be
-///         used instead
+/// @return number of cells that were tested; none, without finding anything, if `may_scan` and a
+///         scan is faster
 std::optional<std::uint64_t> search_step(const StepValues& values,
                                          std::span<const std::uint8_t> bricks,
                                          const LevelMap::Cut& level, std::uint64_t cut,

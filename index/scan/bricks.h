@@ -6,8 +6,8 @@
 //     index::build_bricks(values, levels, step, bricks);
 //     index::search_bricks(values, levels, bricks, {step, isovalue}, ids);
 //
-// Two bytes for 128 cells, 0.065 % of 24 bytes a cell. Any levels give exact results, since the
-// cells of a brick that may hold active ones are tested in the volume.
+// They take two bytes for 128 cells: 0.065 % of 24 bytes for each cell. Any levels give exact
+// results, since all cells of a brick that may hold active ones are tested in the volume.
 #pragma once
 
 #include "index/volume/level_map.h"
@@ -21,7 +21,7 @@
 
 namespace isochron::index {
 
-/// The bricks of a grid, x fastest, then y, then z; those at the upper borders are clipped.
+/// The bricks of a grid, x fastest, then y, then z; bricks at the upper borders are clipped.
 class BrickGrid {
   public:
     /// Cells of a brick along x, y and z.
@@ -40,22 +40,22 @@ class BrickGrid {
     std::array<std::uint32_t, 3> bricks_{};
 };
 
-/// Ranks of the lowest and the highest of each brick's vertices at a step, those on its border
-/// included; NaN do not count, and a brick of NaN only gets 255 and 0.
+/// Computes the ranks of the lowest and the highest value of each brick's vertices at a step, its
+/// border included. NaN are ignored; a brick with nothing but NaN gets 255 and 0.
 /// @param out `bytes_per_step()` bytes: the lowest of all bricks, then the highest of all bricks
 void build_bricks(const StepValues& values, const LevelMap& levels, std::size_t step,
                   std::span<std::uint8_t> out);
 
-/// Appends the active cells, exactly as `scan` finds them but in another order: brick by brick, and
-/// in ascending order within each; all in ascending order where so many bricks may hold active
-/// cells that a scan is faster.
+/// Appends the active cells: the same as `scan` finds, but brick by brick, in ascending order
+/// within each. If so many bricks may hold active cells that a scan is faster, it scans, and all
+/// cells are in ascending order.
 /// @param bricks of the query's step, as from `build_bricks` with these levels
-/// @return number of cells that were tested for it; of those found where a scan was faster
+/// @return number of cells that were tested; after a scan, the number of cells found
 std::uint64_t search_bricks(const StepValues& values, const LevelMap& levels,
                             std::span<const std::uint8_t> bricks, const Query& query,
                             std::vector<CellId>& out);
 
-/// The same without the scan: reads nothing but the vertices of bricks that may hold active cells.
+/// The same, but never scans: reads only the vertices of bricks that may hold active cells.
 /// @return number of cells that were tested
 std::uint64_t test_bricks(const StepValues& values, const LevelMap& levels,
                           std::span<const std::uint8_t> bricks, const Query& query,

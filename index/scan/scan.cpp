@@ -20,20 +20,20 @@ HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 namespace {
 
-/// Words that are searched for active cells at a time.
+/// Number of words that are searched for active cells at a time.
 constexpr std::size_t kBlock = 8;
 using ActiveWords = std::array<std::uint64_t, kBlock>;
 using Words = hn::CappedTag<std::uint64_t, kBlock>;
 
-/// For every row of cells between two neighboring z planes, bits of those of one plane: whether
-/// any of a cell's four vertices in the plane is upper, is lower (or NaN), is NaN. Rows take whole
-/// words and follow each other without gaps.
+/// Bits of one z plane of vertices, for the cells above or below it: whether any of a cell's four
+/// vertices in the plane is upper, is lower (or NaN), is NaN. Rows of cells take whole words and
+/// follow each other without gaps.
 class PlaneBits {
   public:
     PlaneBits(std::size_t words, std::uint32_t rows)
         : words_(words), rows_(rows), upper_(size()), lower_(size()) {}
 
-    /// All words of all rows, up to a whole block.
+    /// Number of words of all rows, rounded up to a whole block.
     std::size_t size() const { return (words_ * (rows_ - 1) + kBlock - 1) / kBlock * kBlock; }
     const std::uint64_t* upper() const { return upper_.data(); }
     const std::uint64_t* lower() const { return lower_.data(); }
@@ -44,7 +44,7 @@ class PlaneBits {
     template <class T>
     void fill(const VertexComparer<T>& comparer, const T* plane, std::uint32_t row_length,
               std::vector<std::uint64_t>& scratch) {
-        scratch.resize(size() + words_ + 1); // the row and the word behind the last are read too
+        scratch.resize(size() + words_ + 1); // the row and the word after the last are read, too
         has_nan_ = false;
         for_each_word(plane, row_length, [&](std::size_t i, const T* s, std::size_t count) {
             const VertexBits bits = comparer.compare(s, count);
@@ -71,7 +71,8 @@ class PlaneBits {
                 f(i++, plane + x, std::min<std::size_t>(kWordBits, row_length - x));
     }
 
-    /// A bit of a word is a vertex; the next vertex of the last bit is in the next word.
+    /// ORs the bits of the four vertices around each cell. A bit is a vertex; the vertex after a
+    /// word's last bit is in the next word.
     template <std::uint64_t kFlip>
     HWY_INLINE void any_of_four(const std::vector<std::uint64_t>& vertices,
                                 std::vector<std::uint64_t>& out) const {
@@ -94,14 +95,14 @@ class PlaneBits {
     bool has_nan_ = false;
 };
 
-/// What all layers of cells have in common, for every word of `PlaneBits`.
+/// For every word of `PlaneBits`: what is the same in all layers of cells.
 struct LayerWords {
     LayerWords(const PlaneBits& bits, std::size_t words, const std::array<std::uint32_t, 3>& cells)
         : first(bits.size()), valid(bits.size()) {
         for (std::size_t i = 0; i < words * cells[1]; ++i) {
             const std::size_t x = i % words * kWordBits;
             first[i] = static_cast<CellId>(i / words * cells[0] + x);
-            // A row may end with a word of its last vertex only, which begins no cell.
+            // The last word of a row may hold only its last vertex, at which no cell begins.
             const std::size_t left = cells[0] - std::min<std::size_t>(cells[0], x);
             valid[i] = left < kWordBits ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
         }
@@ -128,7 +129,7 @@ HWY_INLINE void write_active(const ActiveWords& active, const CellId* first, Cel
         const std::size_t quarter = hwy::Num0BitsBelowLS1Bit_Nonzero64(filled);
         const auto cell = static_cast<CellId>(layer_first + first[quarter / 4] + quarter % 4 * 16);
         at = write_cells(at, quarters[quarter], [&](std::size_t i) HWY_ATTR {
-            const hn::CappedTag<CellId, 16> ids; // a constant Iota: with `cell` in it, it is slow
+            const hn::CappedTag<CellId, 16> ids; // Iota with a constant; with `cell` it is slow
             return hn::Add(hn::Set(ids, cell), hn::Iota(ids, static_cast<CellId>(i)));
         });
     }
@@ -178,7 +179,7 @@ void scan_values(const StepValues& values, std::size_t step, T cut, std::vector<
     }
 }
 
-/// Tests ids that lie close together in a row of cells with one comparison of the rows around them.
+/// Tests ids that are close together in a row of cells with one comparison of the rows around them.
 template <class T>
 void keep_active_values(const StepValues& values, std::size_t step, T cut,
                         std::vector<CellId>& ids) {
@@ -196,7 +197,7 @@ void keep_active_values(const StepValues& values, std::size_t step, T cut,
             continue;
         }
         const auto [x, y, z] = values.grid.cell_of(ids[i]);
-        // The cells of a word of vertices are one fewer than its bits.
+        // A word of vertices has one cell fewer than bits.
         const std::uint64_t near = std::min<std::uint64_t>(kWordBits - 1, width - x);
         std::size_t end = i + 1;
         std::uint64_t last = first;
@@ -222,7 +223,7 @@ void keep_active_values(const StepValues& values, std::size_t step, T cut,
     ids.resize(kept);
 }
 
-// What is chosen at run time is no template.
+// Functions that are chosen at run time cannot be templates.
 void scan_step(const StepValues& values, std::size_t step, std::uint64_t cut,
                std::vector<CellId>& out) {
     visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {

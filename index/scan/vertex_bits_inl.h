@@ -1,4 +1,5 @@
-// Vertices at or above a cut, and cells, as bits, 64 to a word; compiled once for each SIMD target.
+// Finds the vertices at or above a cut, and writes cells, by bits, 64 in a word; compiled once for
+// each SIMD target.
 #include "index/volume/grid.h"
 
 #include <hwy/highway.h>
@@ -28,7 +29,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kWordBits = 64;
 
-/// A bit for every lane, at most 64.
+/// A mask as bits, one for every lane, at most 64.
 template <class D, class Mask>
 HWY_INLINE std::uint64_t bits_of(D d, Mask mask) {
     std::uint64_t bits = 0;
@@ -36,28 +37,28 @@ HWY_INLINE std::uint64_t bits_of(D d, Mask mask) {
     return bits;
 }
 
-/// Up to 64 neighboring vertices, and whether one of them is NaN.
+/// Sides of up to 64 neighboring vertices, and whether one of them is NaN.
 struct VertexBits {
-    std::uint64_t upper; ///< of no meaning at a NaN
-    bool nan;            ///< perhaps: a vertex behind the ones asked for counts too
+    std::uint64_t upper; ///< a bit for each vertex; undefined for a NaN
+    bool nan;            ///< may also be true because of a NaN after the given vertices
 };
 
 /// Compares stored values of one step with a cut. Reads whole vectors of at most kLanes values, but
-/// never outside the step.
+/// never beyond the step's end.
 template <class T, std::size_t kLanes = kWordBits>
 class VertexComparer {
   public:
-    /// @param end of the step's values @param cut `upper` means not below it
+    /// @param end of the step's values @param cut `upper` means not below `cut`
     VertexComparer(const T* end, T cut) : end_(end), cut_(hn::Set(D{}, cut)) {}
 
-    /// The bits of `count` vertices (1 to 64); those behind them are of no meaning.
+    /// The bits of `count` vertices (1 to 64); bits after them have no meaning.
     HWY_INLINE VertexBits compare(const T* s, std::size_t count) const {
         if (HWY_LIKELY(readable(s, count)))
             return compare_whole(s, count);
         return compare_whole(copy(s, count).data(), count);
     }
 
-    /// Which of these vertices are NaN; those behind them are of no meaning.
+    /// A bit for each of these vertices that is NaN; bits after them have no meaning.
     std::uint64_t nan(const T* s, std::size_t count) const {
         if (readable(s, count))
             return nan_whole(s, count);
@@ -106,9 +107,9 @@ class VertexComparer {
     hn::Vec<D> cut_;
 };
 
-/// Writes those of 16 cells whose bits are set, behind `at`, where there is room for 32.
+/// Writes the cells, out of 16, whose bits are set, from `at` on, where there must be room for 32.
 /// @param cells gives the vector of cells from the i-th on
-/// @return the end of what was written
+/// @return the end of the written cells
 template <class Cells>
 HWY_INLINE CellId* write_cells(CellId* at, std::uint16_t bits, Cells&& cells) {
     const hn::CappedTag<CellId, 16> d;
@@ -122,8 +123,8 @@ HWY_INLINE CellId* write_cells(CellId* at, std::uint16_t bits, Cells&& cells) {
     return at;
 }
 
-/// Appends cells in bulk, since `push_back` costs more than finding them. Between `room` and
-/// `written` the caller holds the end in a register.
+/// Appends cells in bulk, since `push_back` costs more than finding a cell. Between `room` and
+/// `written` the caller keeps the end in a register.
 class CellBuffer {
   public:
     explicit CellBuffer(std::vector<CellId>& out) : out_(out) {}
@@ -133,7 +134,7 @@ class CellBuffer {
 
     static constexpr std::size_t kRoom = 1024;
 
-    /// Where the next cells go; at most kRoom of them.
+    /// Memory for the next cells, at most kRoom.
     HWY_INLINE CellId* room() {
         if (size_ > kRoom)
             flush();

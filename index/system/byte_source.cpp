@@ -1,4 +1,4 @@
-// Reading of files by position.
+// Reads files by position.
 #include "index/system/byte_source.h"
 
 #include "index/error.h"
@@ -13,13 +13,13 @@
 namespace isochron::index {
 namespace {
 
-/// The kernel may take up no more than this of what it is told at a time, without a word.
+/// Most bytes that the kernel reads ahead for one call; it silently ignores the rest.
 constexpr std::uint64_t kAdvised = 128 << 10;
 
 class OpenFile final : public ByteSource {
   public:
     explicit OpenFile(const std::filesystem::path& path) : name_(path.string()), file_(path) {
-        // What is read lies here and there: reading ahead would read what nobody asked for.
+        // Reads are scattered, so the kernel's own reading ahead would read unneeded bytes.
         ::posix_fadvise(file_.descriptor(), 0, 0, POSIX_FADV_RANDOM);
     }
 

@@ -1,4 +1,4 @@
-// The one way to the bytes of an index: read by position, never mapped.
+// The interface for reading the bytes of an index: by position, never mapped.
 #pragma once
 
 #include <atomic>
@@ -11,20 +11,20 @@
 
 namespace isochron::index {
 
-/// A file that is read by position, by any number of threads at once. What goes wrong with the file
-/// or its disk is an Error in one line, never a signal.
+/// A file that is read by position, by any number of threads at once. A failure of the file or its
+/// disk is an Error in one line, never a signal.
 class ByteSource {
   public:
     virtual ~ByteSource() = default;
     virtual const std::string& name() const = 0;
-    /// As it was when it was opened.
+    /// Its size [bytes] when it was opened.
     virtual std::uint64_t size() const = 0;
-    /// Reads the bytes from `offset` on, all of them.
-    /// @throws Error: what the system said, or that the file has become shorter
+    /// Fills `out` with the bytes from `offset` on.
+    /// @throws Error with the system's message, or saying that the file has become shorter
     void read(std::uint64_t offset, std::span<std::byte> out) const;
     /// Bytes that `read` has given so far.
     std::uint64_t bytes_read() const { return bytes_read_; }
-    /// Says that these bytes are wanted soon, so that the disk works on many requests at once.
+    /// Announces that these bytes are needed soon, so that the disk works on many requests at once.
     virtual void expect(std::uint64_t /*offset*/, std::uint64_t /*bytes*/) const {}
 
   protected:

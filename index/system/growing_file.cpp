@@ -1,4 +1,4 @@
-// Writing behind the end of a file that others read.
+// Writes after the end of a file that others read.
 #include "index/system/growing_file.h"
 
 #include "index/error.h"

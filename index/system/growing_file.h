@@ -10,9 +10,9 @@ namespace isochron::index {
 /// Opens an existing regular file for writing, by position.
 class GrowingFile final : public GrowingSink {
   public:
-    /// @param alone whether nobody else may write to it until this is closed; members of a team
-    ///        that write beside the one who does leave it false
-    /// @throws Error: missing, not a regular file, not writable, somebody else appends to it
+    /// @param alone lock it, so that no other program appends until this is closed. In a team, only
+    ///        rank 0 sets it
+    /// @throws Error: missing, not a regular file, not writable, another program appends to it
     GrowingFile(std::filesystem::path path, bool alone);
     ~GrowingFile() override;
     GrowingFile(const GrowingFile&) = delete;

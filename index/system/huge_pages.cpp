@@ -1,4 +1,4 @@
-// What Linux is told of memory.
+// Asks Linux for huge pages.
 #include "index/system/huge_pages.h"
 
 #include <sys/mman.h>

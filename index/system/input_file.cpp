@@ -1,4 +1,4 @@
-// Opening of regular files.
+// Opens regular files.
 #include "index/system/input_file.h"
 
 #include "index/error.h"
@@ -20,7 +20,7 @@ namespace {
     const std::string name = path.string();
     if (error == ENOENT)
         throw Error(fmt::format("{}: there is no such file", name));
-    if (error == ENXIO) // a socket, or a device that is not there
+    if (error == ENXIO) // a socket, or a device that does not exist
         throw Error(fmt::format("{}: not a regular file", name));
     throw Error(fmt::format("{}: cannot be opened: {}", name, std::strerror(error)));
 }

@@ -1,4 +1,4 @@
-// Regular files that are open for reading: the one place that opens an input.
+// Opens regular files for reading; all input files are opened here.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,7 @@
 
 namespace isochron::index {
 
-/// What tells a file from the one that had its name before, and from what it was before it was
-/// written to.
+/// Identity, size and time of a file, which show whether it was replaced or written to.
 struct FileState {
     std::uint64_t device = 0, inode = 0, size = 0; ///< size in bytes
     std::int64_t written = 0;                      ///< [ns] since 1970
@@ -22,8 +21,9 @@ struct FileState {
 /// @throws Error naming the file: missing, a folder, not a regular file
 FileState state_of(const std::filesystem::path& path);
 
-/// A descriptor, which the caller closes. Pipes, devices and sockets are refused without waiting
-/// for them. @throws Error naming the file: missing, a folder, not a regular file, unreadable
+/// Opens a file. @return a descriptor, which the caller closes. Pipes, devices and sockets are
+/// refused without waiting for them. @throws Error naming the file: missing, a folder, not a
+/// regular file, unreadable
 int open_regular(const std::filesystem::path& path);
 
 /// A file read by position. Thread-safe.
@@ -58,7 +58,7 @@ class InputStream : public std::istream {
     __gnu_cxx::stdio_filebuf<char> buffer_;
 };
 
-/// The whole of a file that is meant to be small.
+/// Reads a whole file that should be small.
 /// @throws Error as `open_regular`, and when it is larger than `most` bytes
 std::string read_text(const std::filesystem::path& path, std::uint64_t most);
 

@@ -1,4 +1,4 @@
-// Pages of a stretch of a file, read once each.
+// Reads pages of a part of a file, once each.
 #include "index/system/lazy_part.h"
 
 #include "index/error.h"
@@ -42,7 +42,7 @@ void LazyPart::need(std::span<const std::byte> part) const {
         return;
     const auto begin = static_cast<std::uint64_t>(part.data() - memory_);
     const std::uint64_t last = (begin + part.size() - 1) / kPage;
-    /// The first page from this one on that is there, or is not; or behind the last.
+    /// The first page from `page` on that is present, or not present; 1 + `last` if there is none.
     const auto next = [&](std::uint64_t page, bool present) {
         while (page <= last && has(page) != present)
             ++page;

@@ -1,4 +1,4 @@
-// A stretch of a file at a fixed place in memory, read piece by piece when it is first needed.
+// A part of a file at a fixed address in memory, whose pages are read when they are first needed.
 #pragma once
 
 #include "index/system/byte_source.h"
@@ -9,8 +9,8 @@
 
 namespace isochron::index {
 
-/// Takes address space for the whole stretch, and memory for the pages that were asked for.
-/// Thread-safe. The source outlives it.
+/// Takes address space for the whole part, but memory only for the pages that were needed.
+/// Thread-safe. The source must outlive it.
 class LazyPart {
   public:
     /// @throws Error when there is no address space
@@ -19,15 +19,15 @@ class LazyPart {
     LazyPart(const LazyPart&) = delete;
     LazyPart& operator=(const LazyPart&) = delete;
 
-    /// Bytes that were not asked for may be zero. They stay where they are.
+    /// The whole part; its address never changes. Bytes that were not needed yet may be zero.
     std::span<const std::byte> bytes() const { return {memory_, bytes_}; }
-    /// Reads what is missing of a part of `bytes()`. @throws Error as the source does
+    /// Reads the missing pages of a part of `bytes()`. @throws Error as the source does
     void need(std::span<const std::byte> part) const;
-    /// Says that a part will be needed soon.
+    /// Announces that a part will be needed soon.
     void expect(std::span<const std::byte> part) const;
-    /// Bytes that have been read.
+    /// Number of bytes in memory.
     std::uint64_t held() const { return held_; }
-    /// Gives the memory back; nobody may be using it. What is needed again is read again.
+    /// Gives the memory back; nobody may be using it. Pages that are needed again are read again.
     void drop() const;
 
   private:

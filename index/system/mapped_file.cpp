@@ -17,7 +17,7 @@
 namespace isochron::index {
 namespace {
 
-/// Whole pages; nothing depends on whether the system follows the advice.
+/// Advises the system on whole pages; it may ignore the advice.
 void advise(std::span<const std::byte> part, int advice) {
     const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
     const auto begin = reinterpret_cast<std::uintptr_t>(part.data()) / page * page;
@@ -48,7 +48,7 @@ MappedFile::~MappedFile() {
 void MappedFile::let_go(std::span<const std::byte> part) const {
     assert(part.data() >= bytes_.data() &&
            part.data() + part.size() <= bytes_.data() + bytes_.size());
-    advise(part, MADV_DONTNEED); // of a shared mapping: the file and its cache stay as they are
+    advise(part, MADV_DONTNEED); // the mapping is shared, so file and page cache stay
 }
 
 } // namespace isochron::index

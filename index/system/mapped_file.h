@@ -7,9 +7,8 @@
 
 namespace isochron::index {
 
-/// The whole of a regular file as it was when it was mapped. Pages are read when they are first
-/// touched. Limit: when the file is made shorter meanwhile, or its disk fails, touching it ends the
-/// program with SIGBUS.
+/// A whole regular file. Pages are read when they are first touched. Limit: if the file becomes
+/// shorter meanwhile or its disk fails, touching the memory ends the program with SIGBUS.
 class MappedFile {
   public:
     /// @throws Error: missing, unreadable, not a regular file, too large to map
@@ -20,8 +19,8 @@ class MappedFile {
 
     std::span<const std::byte> bytes() const { return bytes_; }
 
-    /// Says that a part has been read: its pages no longer count as memory of this process. It may
-    /// be read again, also meanwhile.
+    /// Drops the pages of a part that has been read, so that they no longer count as memory of this
+    /// process. It may be read again at any time.
     void let_go(std::span<const std::byte> part) const;
 
   private:

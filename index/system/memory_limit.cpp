@@ -1,4 +1,4 @@
-// Memory of the machine, of the control groups and of the resource limits.
+// Finds the limit by the machine's memory, control groups and resource limits.
 #include "index/system/memory_limit.h"
 
 #include <sys/resource.h>
@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The lowest limit of a control group and of those around it; a file that is not there, or that
-/// says `max`, sets none.
+/// The lowest limit of a control group and the groups around it; a file that is missing, or says
+/// `max`, sets no limit.
 std::uint64_t group_limit(const fs::path& root, fs::path group, const char* file,
                           std::uint64_t limit) {
     for (;; group = group.parent_path()) {

@@ -6,8 +6,8 @@
 
 namespace isochron::index {
 
-/// Bytes: the machine's memory, or less where a control group (version 1 or 2) or a resource limit
-/// says so. @param root where `proc` and `sys` are, for tests
+/// [bytes] the machine's memory, or less if a control group (version 1 or 2) or a resource limit is
+/// lower. @param root folder that holds `proc` and `sys`, for tests
 std::uint64_t memory_limit(const std::filesystem::path& root = "/");
 
 } // namespace isochron::index

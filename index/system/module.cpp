@@ -1,4 +1,4 @@
-// Finding of the program's own files, and loading of its modules.
+// Finds the program's own files, and loads its modules.
 #include "index/system/module.h"
 
 #include "index/error.h"

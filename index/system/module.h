@@ -1,4 +1,5 @@
-// The program's own modules and programs: heavy libraries stay out of its start.
+// Finds the program's own modules and helper programs, in which heavy libraries are loaded when
+// they are needed.
 #pragma once
 
 #include <filesystem>
@@ -6,13 +7,13 @@
 
 namespace isochron::index {
 
-/// A file of ours, `isochron-reader-vtk` or `libisochron_mpi.so`: beside the program, where a build
-/// puts it, or in ../libexec/isochron, where it is installed. Nowhere else is looked.
+/// The path of one of the program's files, `isochron-reader-vtk` or `libisochron_mpi.so`: beside
+/// the program (in a build folder) or in ../libexec/isochron (installed), and nowhere else.
 /// @throws Error naming the file and the folder of the program
 std::filesystem::path file_of_program(const std::string& name);
 
 /// Address of `symbol` in `lib<name>.so`. The module stays loaded.
-/// @throws Error naming the module and what the loader said
+/// @throws Error naming the module, with the loader's message
 void* module_symbol(const std::string& name, const std::string& symbol);
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// The ranks of an MPI job: a module, loaded only inside one.
+// The team of an MPI job, as a module that is loaded only inside such a job.
 #include "index/error.h"
 #include "index/system/team.h"
 
@@ -44,7 +44,7 @@ class MpiTeam final : public Team {
             starts.push_back(static_cast<int>(total));
             counts.push_back(static_cast<int>(bytes));
             total += bytes;
-            // All see the same sizes, so all throw.
+            // All members see the same sizes, so all of them throw.
             if (total > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
                 throw Error(
                     fmt::format("MPI: {} bytes to exchange, expected less than 2^31", total));
@@ -93,7 +93,7 @@ class MpiTeam final : public Team {
     [[noreturn]] void abandon(int status) override {
         std::fflush(nullptr);
         MPI_Abort(MPI_COMM_WORLD, status);
-        std::_Exit(status); // MPI_Abort is not declared to stay away
+        std::_Exit(status); // MPI_Abort is not declared noreturn
     }
 
   private:
@@ -104,7 +104,7 @@ class MpiTeam final : public Team {
     };
 
     int rank_ = 0, size_ = 1;
-    std::mutex calls_; ///< of MPI, since messages are posted by several threads
+    std::mutex calls_; ///< for calls of MPI, since several threads post messages
     std::deque<Sending> under_way_;
 };
 

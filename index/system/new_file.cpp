@@ -1,4 +1,4 @@
-// A file that appears complete under its name, or not at all.
+// A file that appears under its name only when it is complete.
 #include "index/system/new_file.h"
 
 #include "index/error.h"
@@ -28,8 +28,8 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// What the system said. Of a folder that is there and takes nothing new, as below /proc, it says
-/// that something is missing.
+/// The system's message. If a folder exists but accepts no new files, as below /proc, the system
+/// says that something is missing, so that case gets another message.
 std::string refusal(int error) {
     return error == ENOENT ? "its folder takes nothing new" : std::strerror(error);
 }
@@ -62,7 +62,7 @@ NewFile::NewFile(fs::path target) : target_(std::move(target)) {
         if (file_ < 0 && (errno != EEXIST || tries == kMostTries))
             fail(errno);
     }
-    ::flock(file_, LOCK_EX | LOCK_NB); // says that its writer lives
+    ::flock(file_, LOCK_EX | LOCK_NB); // shows others that its writer is alive
 }
 
 NewFile::NewFile(fs::path target, fs::path temporary)
@@ -83,19 +83,19 @@ NewFile::~NewFile() {
 void NewFile::remove_remains() const {
     const std::string start = fmt::format(".{}.", target_.filename().string());
     const fs::path folder = folder_of(target_);
-    // Not by std::filesystem's iterator, which ends the program where memory is short.
+    // Not std::filesystem's iterator, which ends the program when memory runs out.
     const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
     while (const dirent* entry = entries ? ::readdir(entries.get()) : nullptr) {
         const std::string_view name = entry->d_name;
         if (name.size() != start.size() + 8 || !name.starts_with(start) ||
             !name.ends_with(".tmp") || name == temporary_.filename().string())
             continue;
-        // What somebody else put there under such a name may be anything, a pipe or a link, too.
+        // Anything may have such a name, even a pipe or a link.
         const fs::path path = folder / name;
         const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
         if (file < 0)
             continue;
-        // A new one may not have its lock yet.
+        // A file that was just made may not be locked yet.
         struct stat status {};
         const bool old = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
                          status.st_mtime + 60 < std::time(nullptr);
@@ -136,7 +136,7 @@ void NewFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
 }
 
 void begin_flush_of(int file) {
-    ::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE); // fails where it cannot be: no harm
+    ::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE); // if it fails, nothing is lost
 }
 
 void NewFile::begin_flush() {
@@ -152,8 +152,8 @@ void NewFile::commit() {
         fail(errno);
     ::close(file_);
     file_ = -1;
-    // The new name itself must survive a power failure too; not every file system needs or allows
-    // it.
+    // Flushes the folder, so that the new name survives a power failure; not every file system
+    // needs or allows that.
     const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder >= 0) {
         ::fsync(folder);

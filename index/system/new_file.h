@@ -1,4 +1,4 @@
-// A file that appears complete under its name, or not at all.
+// A file that appears under its name only when it is complete.
 #pragma once
 
 #include "index/system/byte_sink.h"
@@ -10,37 +10,37 @@
 
 namespace isochron::index {
 
-/// Writes all bytes to an open file. @return 0, or the system's error
+/// Writes all bytes to an open file. @return 0, or the system's error number
 int write_all(int file, std::uint64_t offset, std::span<const std::byte> bytes);
 
-/// Makes a folder, and those above it, where it is missing.
-/// @throws Error naming it and what the system said
+/// Makes a folder, and its parents, if they are missing.
+/// @throws Error naming it, with the system's message
 void make_folder(const std::filesystem::path& folder);
 
 /// As ByteSink::begin_flush, for an open file.
 void begin_flush_of(int file);
 
-/// Writes to `.NAME.XXXX.tmp` in the folder of NAME; `commit` gives it its name. Destroyed before
-/// that, it removes what it wrote and an older file of that name stays as it was. Every function
-/// throws Error with the final name and what the system said (disk full, folder not writable, ...).
+/// Writes to `.NAME.XXXX.tmp` in the folder of NAME; `commit` renames it. If it is destroyed before
+/// that, it removes the temporary file, and an older file of that name stays as it was. Every
+/// function throws Error with the final name and the system's message (disk full, folder not
+/// writable, ...).
 class NewFile final : public ByteSink {
   public:
     /// @throws Error also when `target` exists and is not a regular file
     explicit NewFile(std::filesystem::path target);
-    /// Writes into the temporary file of another process, which owns it: here `commit` only
-    /// flushes.
+    /// Writes to the temporary file of another process, which owns it: `commit` only flushes then.
     NewFile(std::filesystem::path target, std::filesystem::path temporary);
     ~NewFile() override;
     NewFile(const NewFile&) = delete;
     NewFile& operator=(const NewFile&) = delete;
 
-    /// Claims disk space from the start of the file, so that a full disk shows before the work.
+    /// Claims disk space from the start of the file, so that a full disk is found before the work.
     void reserve(std::uint64_t bytes);
     void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
     void begin_flush() override;
-    /// Removes the temporary files that killed writers of the same name left.
+    /// Removes temporary files that killed writers of the same NAME have left.
     void remove_remains() const;
-    /// Flushes to disk, then renames over the final name.
+    /// Flushes to disk, then renames the file to its final name.
     void commit();
 
     const std::filesystem::path& temporary() const { return temporary_; }

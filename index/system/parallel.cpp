@@ -1,4 +1,4 @@
-// Independent pieces of work on all processors.
+// Runs independent pieces of work on all processors.
 #include "index/system/parallel.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ void parallel_for(std::size_t count, unsigned threads,
                            static_cast<double>(count));
             }
         } catch (...) {
-            next = count; // whoever asks for another item finds none
+            next = count; // other workers find no more items
             const std::lock_guard lock(failure_mutex);
             if (!failure)
                 failure = std::current_exception();

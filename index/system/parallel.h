@@ -1,4 +1,4 @@
-// Independent pieces of work on all processors.
+// Runs independent pieces of work on all processors.
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,14 @@
 
 namespace isochron::index {
 
-/// Threads to use where 0 asks for as many as there are processors.
+/// The number of threads to use; `asked` 0 means one for each processor.
 unsigned thread_count(unsigned asked);
 
-/// Calls `work(item, worker)` once for every item below `count`; workers are numbered below
-/// `threads`, and no two calls with one worker overlap. The calling thread is worker 0 and the only
-/// one to call `progress` (may be empty) with the fraction done: at the start and after its items.
-/// What any of them throws first stops the others after their current item, and is thrown.
+/// Calls `work(item, worker)` once for every item below `count`. Workers are numbered from 0 to
+/// `threads` - 1, and two calls with the same worker never overlap. The calling thread is worker 0.
+/// Only it calls `progress` (may be empty) with the fraction done, at the start and after each of
+/// its items. The first exception of any worker stops the others after their current item, and is
+/// thrown.
 void parallel_for(std::size_t count, unsigned threads,
                   const std::function<void(std::size_t item, unsigned worker)>& work,
                   const std::function<void(double)>& progress);

@@ -1,4 +1,5 @@
-// How far ahead: enough for a disk to be busy, little enough to be still there when it is wanted.
+// Announces reads far enough ahead to keep a disk busy, but not so far that pages are evicted
+// before they are needed.
 #include "index/system/read_ahead.h"
 
 #include <utility>
@@ -6,7 +7,7 @@
 namespace isochron::index {
 namespace {
 
-/// Bytes that are asked for before they are needed.
+/// Bytes that are announced before they are needed.
 constexpr std::uint64_t kAhead = 32 << 20;
 
 } // namespace

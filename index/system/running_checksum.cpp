@@ -1,4 +1,4 @@
-// XXH3 of bytes that come piece by piece.
+// XXH3 of bytes that arrive piece by piece.
 #include "index/system/running_checksum.h"
 
 #include <xxhash.h>

@@ -1,4 +1,4 @@
-// XXH3 of bytes that come piece by piece.
+// XXH3 of bytes that arrive piece by piece.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class RunningChecksum {
     RunningChecksum& operator=(const RunningChecksum&) = delete;
 
     void add(std::span<const std::byte> bytes);
-    /// XXH3, 64 bits, of all that was added since the last call.
+    /// XXH3, 64 bits, of all bytes that were added since the last call.
     std::uint64_t take();
 
   private:

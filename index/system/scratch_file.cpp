@@ -1,4 +1,4 @@
-// A file without a name.
+// A temporary file without a name.
 #include "index/system/scratch_file.h"
 
 #include "index/error.h"

@@ -1,4 +1,4 @@
-// A file without a name: it goes with the process that made it, however that ends.
+// A temporary file without a name, which vanishes when its process ends in any way.
 #pragma once
 
 #include "index/system/byte_sink.h"
@@ -9,7 +9,7 @@ namespace isochron::index {
 
 class ScratchFile final : public ByteSink {
   public:
-    /// @param beside a name in the folder on whose disk it lies, for messages
+    /// @param beside a path in the folder on whose disk the file lies; also its name in messages
     /// @throws Error: there is no such folder, it cannot be written to
     explicit ScratchFile(std::filesystem::path beside);
     ~ScratchFile() override;
@@ -17,7 +17,7 @@ class ScratchFile final : public ByteSink {
     ScratchFile& operator=(const ScratchFile&) = delete;
 
     void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
-    /// Reads what was written; all else is zero. @throws Error: the disk fails
+    /// Reads bytes; those that were not written are zero. @throws Error: the disk fails
     void read(std::uint64_t offset, std::span<std::byte> out) const;
 
   private:

@@ -1,4 +1,4 @@
-// Memory that two processes see.
+// Memory that two processes share.
 #include "index/system/shared_memory.h"
 
 #include "index/error.h"

@@ -1,4 +1,4 @@
-// Memory that two processes see.
+// Memory that two processes share.
 #pragma once
 
 #include "index/system/descriptor.h"
@@ -8,13 +8,14 @@
 
 namespace isochron::index {
 
-/// Has no name, and goes when the last process that maps it does. Its size stays: whoever else has
-/// it can change what is in it at any time, but can not make it shorter.
+/// It has no name, and is freed when the last process that maps it ends. The other process can
+/// change its contents at any time, but cannot change its size.
 class SharedMemory {
   public:
-    /// New memory. @throws Error when there is not so much
+    /// Allocates new memory. @throws Error when there is not enough
     explicit SharedMemory(std::size_t bytes);
-    /// That of another process. @throws Error when it is shorter, or none
+    /// Maps the memory of another process. @throws Error when it is shorter than `bytes`, or is not
+    /// shared memory of fixed size
     SharedMemory(Descriptor theirs, std::size_t bytes);
     ~SharedMemory();
     SharedMemory(const SharedMemory&) = delete;

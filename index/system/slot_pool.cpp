@@ -1,4 +1,4 @@
-// Blocks of slots, each with a list of those that are free.
+// Blocks of slots, each with a list of its free slots.
 #include "index/system/slot_pool.h"
 
 #include <algorithm>
@@ -14,11 +14,11 @@ namespace isochron::index {
 namespace {
 
 constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64, kSmallPage = 4096;
-constexpr std::size_t kTogether = 64 << 10; ///< pages that come at a time
+constexpr std::size_t kTogether = 64 << 10; ///< [bytes] of pages allocated at a time
 
-/// Makes pages come together: one by one, as they are touched, takes longer. Not as one large page,
-/// though it takes half of the time where the machine is real: a virtual one may have given free
-/// large pages back to its host, and then waits for them.
+/// Allocates pages together, since allocating each at its first touch takes longer. A huge page
+/// would take half of that time on a physical machine. But a virtual machine may have returned its
+/// free huge pages to the host, and would wait for them.
 void fetch_pages(std::byte* begin, std::byte* end) {
 #ifdef MADV_POPULATE_WRITE
     ::madvise(begin, static_cast<std::size_t>(end - begin), MADV_POPULATE_WRITE);
@@ -29,11 +29,11 @@ void fetch_pages(std::byte* begin, std::byte* end) {
 
 } // namespace
 
-/// At the begin of its memory.
+/// The head of a block, at the beginning of the block's memory.
 struct alignas(kSlotAlignment) SlotPool::Block {
-    std::byte* next = nullptr;  ///< the first free slot, which holds where the one behind it is
+    std::byte* next = nullptr;  ///< the first free slot; a free slot holds the address of the next
     std::byte* fresh = nullptr; ///< slots from here on have never been used
-    std::byte* there = nullptr; ///< pages from here on have not been asked for
+    std::byte* there = nullptr; ///< pages from here on have not been allocated
     std::size_t used = 0;
 
     static Block* make() {
@@ -43,7 +43,7 @@ struct alignas(kSlotAlignment) SlotPool::Block {
         auto* const block = new (memory) Block;
         block->there = reinterpret_cast<std::byte*>(block);
         block->fresh = reinterpret_cast<std::byte*>(block + 1);
-        // What is not in use is nobody's to read, where that is looked at.
+        // Under AddressSanitizer, reading an unused slot is an error.
         ASAN_POISON_MEMORY_REGION(block->fresh, block->end() - block->fresh);
         return block;
     }

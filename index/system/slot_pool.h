@@ -1,4 +1,4 @@
-// Memory for many things of the same size, whose pages come together.
+// Memory for many objects of the same size, whose pages are allocated many at a time.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace isochron::index {
 
-/// Gives pieces of one size out of blocks of 2 MiB, whose pages come many at a time: fresh memory
-/// costs as much as decoding into it. A block goes back when nothing of it is in use, but for one.
-/// Thread-safe.
+/// Gives slots of one size from blocks of 2 MiB. Pages of a block are allocated many at a time,
+/// since fresh memory costs as much time as decoding into it. A block without used slots is freed,
+/// except for one. Thread-safe.
 class SlotPool {
   public:
     /// @param bytes of a slot, at most 1 MiB
@@ -19,12 +19,12 @@ class SlotPool {
     SlotPool(const SlotPool&) = delete;
     SlotPool& operator=(const SlotPool&) = delete;
 
-    /// Aligned to 64 bytes; its content has no meaning. @throws std::bad_alloc
+    /// A slot, aligned to 64 bytes, with undefined contents. @throws std::bad_alloc
     std::byte* take();
     /// @param slot from `take`
     void give_back(std::byte* slot);
 
-    /// What the blocks take together.
+    /// The size of all blocks together.
     std::size_t bytes() const;
 
   private:

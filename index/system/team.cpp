@@ -1,4 +1,4 @@
-// The processes that work on one thing together.
+// A team: processes that work together.
 #include "index/system/team.h"
 
 #include "index/error.h"
@@ -53,7 +53,8 @@ std::unique_ptr<Team> alone() {
 }
 
 std::unique_ptr<Team> join_team() {
-    // What the launchers of Open MPI and MPICH set; MPI itself takes long to load.
+    // Checks the variables of the launchers of Open MPI and MPICH, since MPI itself takes long to
+    // load.
     const char* ranks = std::getenv("OMPI_COMM_WORLD_SIZE");
     if (!ranks)
         ranks = std::getenv("PMI_SIZE");

@@ -1,4 +1,4 @@
-// The processes that work on one thing together: building an index, showing a room.
+// A team: processes that work together, to build an index or to show a room.
 #pragma once
 
 #include <cstddef>
@@ -11,34 +11,36 @@
 
 namespace isochron::index {
 
-/// One process alone, or the ranks of an MPI job, which share a file system. Every function but the
-/// first two is called by all members, in the same order.
+/// One process alone, or the ranks of an MPI job, which share a file system. All members must call
+/// `gather` and the functions that use it in the same order.
 class Team {
   public:
     virtual ~Team() = default;
-    virtual unsigned rank() const = 0; ///< from 0, who alone names files and reports
+    virtual unsigned rank() const = 0; ///< from 0; only rank 0 names files and reports
     virtual unsigned size() const = 0;
 
-    /// What every member gives, in order of rank; each aligned as memory from `new` is.
+    /// The bytes of every member, in order of rank; each is aligned like memory from `new`.
     virtual std::vector<std::vector<std::byte>> gather(std::span<const std::byte> mine) = 0;
 
-    /// What another member has posted.
+    /// A message from another member.
     struct Message {
         unsigned from;
         std::vector<std::byte> bytes;
     };
-    /// Sends to another member, waiting for nothing. Any thread may call it, beside one that polls.
+    /// Sends a message to another member without waiting. Any thread may call it, also while
+    /// another thread polls.
     virtual void post(unsigned to, std::span<const std::byte> message) = 0;
-    /// What has come and has not been taken, those of one member in their order; waits for nothing.
+    /// The next message that has arrived, if any; never waits. Messages of one member keep their
+    /// order.
     virtual std::optional<Message> poll() = 0;
     /// Ends this process and all others at once, whatever they are doing.
     [[noreturn]] virtual void abandon(int status) = 0;
 
-    /// Does a member's part. When it throws, or that of another member does, everybody throws: its
-    /// own exception, or an Error with what the first of the others said.
+    /// Runs this member's part. If the part of any member throws, all members throw: each its own
+    /// exception, or else an Error with the message of the lowest rank that failed.
     void together(const std::function<void()>& part);
 
-    /// The items of all members in one row, in order of rank; plain data.
+    /// The items of all members in one vector, in order of rank. T must be plain data.
     template <class T>
     std::vector<T> gather_items(std::span<const T> mine) {
         std::vector<T> all;
@@ -52,13 +54,13 @@ class Team {
     std::vector<T> gather_items(const std::vector<T>& mine) {
         return gather_items(std::span<const T>(mine));
     }
-    /// One of each.
+    /// One value from each member, in order of rank.
     template <class T>
     std::vector<T> gather_values(const T& mine) {
         return gather_items(std::span<const T>(&mine, 1));
     }
 
-    /// A member's share of `count` items, as a stretch: [first, last).
+    /// A member's share of `count` items, a contiguous range: [first, last).
     struct Share {
         std::size_t first, last;
     };
@@ -68,7 +70,7 @@ class Team {
 /// This process alone.
 std::unique_ptr<Team> alone();
 
-/// The MPI job that this process was started in (mpirun), otherwise this process alone.
+/// The MPI job in which this process was started (mpirun), or else this process alone.
 /// @throws Error when in a job, but built without MPI
 std::unique_ptr<Team> join_team();
 

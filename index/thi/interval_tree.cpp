@@ -1,4 +1,4 @@
-// Interval trees: which of many intervals hold a value, and the sorted lists they are made of.
+// Interval trees, which find the intervals that contain a value, and the sorted lists inside them.
 #include "index/thi/interval_tree.h"
 
 #include <algorithm>
@@ -8,19 +8,19 @@ namespace {
 
 constexpr std::uint32_t kNone = IntervalNode::kNone;
 
-/// Builds one tree; the recursion is as deep as the sequence of extremes can be halved.
+/// Builds one tree. The depth of the recursion is about log2 of the number of distinct extremes.
 struct Builder {
     std::vector<IntervalNode>& nodes;
     const Lists<Writable>& lists;
     std::uint32_t begin;
     std::uint32_t written = 0;
 
-    /// @param extremes those of the intervals, ascending and distinct, and maybe others
+    /// @param extremes of the intervals, and maybe others; ascending and distinct
     std::uint32_t build(std::span<Interval> intervals, std::span<const OrderKey> extremes) {
         if (intervals.empty())
             return kNone;
-        // With two extremes or more, the upper half begins behind the first: both halves are
-        // smaller than the whole. One extreme has no interval, because of low < high.
+        // With two or more extremes, both halves are smaller than the whole. With one extreme there
+        // is no interval, since low < high.
         const std::size_t half = extremes.size() / 2;
         const OrderKey split = extremes[half];
         const auto here =
@@ -30,7 +30,7 @@ struct Builder {
             here, intervals.end(), [&](const Interval& interval) { return interval.low < split; });
         const std::span<Interval> left(intervals.begin(), here), at(here, above),
             right(above, intervals.end());
-        // A node without intervals is needed only where it parts others.
+        // A node without intervals of its own is needed only if it has two subtrees.
         if (at.empty() && right.empty())
             return build(left, extremes.first(half));
         if (at.empty() && left.empty())

@@ -1,4 +1,4 @@
-// Interval trees: which of many intervals hold a value, and the sorted lists they are made of.
+// Interval trees, which find the intervals that contain a value, and the sorted lists inside them.
 #pragma once
 
 #include "index/volume/grid.h"
@@ -34,7 +34,7 @@ using Readable = std::span<const T>;
 template <class T>
 using Writable = std::span<T>;
 
-/// Sorts the intervals into both lists, which are as long; equal keys by ascending id.
+/// Sorts the intervals into both lists, which are equally long; equal keys by ascending id.
 void write_lists(std::span<Interval> intervals, const Lists<Writable>& lists);
 
 /// Appends the cells with a low extreme below the threshold: a prefix of the list.
@@ -43,25 +43,27 @@ void collect_low(const Lists<Readable>& lists, OrderKey threshold, std::vector<C
 void collect_high(const Lists<Readable>& lists, OrderKey threshold, std::vector<CellId>& out);
 
 /// Node of an interval tree (Edelsbrunner 1980; section 3.3). Its lists hold the intervals with
-/// `low < split <= high`; the left tree those with `high < split`, the right `low >= split`.
+/// `low < split <= high`, the left subtree those with `high < split`, the right one those with
+/// `low >= split`.
 struct IntervalNode {
     static constexpr std::uint32_t kNone = 0xffffffff;
     OrderKey split;
-    std::uint32_t begin, end;  ///< of its lists
+    std::uint32_t begin, end;  ///< range of its entries in the lists
     std::uint32_t left, right; ///< numbers of nodes, above the node's own; or kNone
 };
 static_assert(sizeof(IntervalNode) == 20);
 
 /// Builds the tree of the intervals, each with `low < high`; reorders them.
-/// @param nodes where its nodes are appended, root first
-/// @param lists where its lists go, exactly as long
-/// @param begin what is added to the nodes' `begin` and `end`
+/// @param nodes to which its nodes are appended, root first
+/// @param lists for its lists, exactly as long as `intervals`
+/// @param begin added to the nodes' `begin` and `end`
 /// @return number of the root, kNone when there are no intervals
 std::uint32_t build_interval_tree(std::span<Interval> intervals, std::vector<IntervalNode>& nodes,
                                   const Lists<Writable>& lists, std::uint32_t begin);
 
-/// Walks to the threshold: of every node on the way, `low(node)` is to take the intervals that
-/// begin below the threshold, or `high(node)` those that do not end below it.
+/// Walks down towards the threshold. For every node on the way it calls `low(node)`, which must
+/// take the intervals that begin below the threshold, or `high(node)`, which must take those that
+/// do not end below it.
 template <class Low, class High>
 void visit_interval_tree(std::span<const IntervalNode> nodes, std::uint32_t root,
                          OrderKey threshold, Low&& low, High&& high) {
@@ -71,14 +73,15 @@ void visit_interval_tree(std::span<const IntervalNode> nodes, std::uint32_t root
             high(node);
             number = node.right;
         } else {
-            // At the split itself these are all there are: the others end below or begin there.
+            // If the threshold is the split, no other intervals contain it: those to the left end
+            // below it, and those to the right begin at or above it.
             low(node);
             number = threshold < node.split ? node.left : IntervalNode::kNone;
         }
     }
 }
 
-/// Appends the cells whose interval holds the threshold.
+/// Appends the cells whose interval contains the threshold.
 void search_interval_tree(std::span<const IntervalNode> nodes, std::uint32_t root,
                           const Lists<Readable>& lists, OrderKey threshold,
                           std::vector<CellId>& out);

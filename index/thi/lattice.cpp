@@ -1,4 +1,4 @@
-// The lattice that divides span space, and the set of distinct extremes it is made from.
+// The lattice that divides span space, and the set of distinct extremes from which it is made.
 #include "index/thi/lattice.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void DistinctKeys::insert(OrderKey key) {
     }
     auto& word = page->words[(key & 0xffff) / 64];
     const std::uint64_t bit = std::uint64_t{1} << (key % 64);
-    // Most keys are there already, and reading keeps the line shared between the threads.
+    // Most keys are in the set already, and reading first keeps the cache line shared by threads.
     if (!(word.load(std::memory_order_relaxed) & bit))
         word.fetch_or(bit, std::memory_order_relaxed);
 }

@@ -1,4 +1,4 @@
-// The lattice that divides span space, and the set of distinct extremes it is made from.
+// The lattice that divides span space, and the set of distinct extremes from which it is made.
 #pragma once
 
 #include "index/volume/order_key.h"
@@ -12,9 +12,9 @@
 
 namespace isochron::index {
 
-/// A set of keys: one bit for each key, in pages of 8 KiB that exist where there are keys (a few
-/// MiB for usual data, 512 MiB for 32-bit values spread over their whole range).
-/// Threads may insert at the same time; everything else waits until they are done.
+/// A set of keys: one bit for each key, in pages of 8 KiB that are allocated when a key needs them
+/// (a few MiB for usual data, 512 MiB for 32-bit values spread over their whole range).
+/// Threads may insert at the same time; call other functions only after all of them are done.
 class DistinctKeys {
   public:
     DistinctKeys() : pages_(kPages) {}
@@ -25,7 +25,7 @@ class DistinctKeys {
     void insert(OrderKey key);
     std::uint64_t count() const;
 
-    /// The keys at these ranks (0 for the smallest), which ascend and are below `count()`.
+    /// The keys at these ranks (0 for the smallest). @param ranks ascending, below `count()`
     std::vector<OrderKey> at_ranks(std::span<const std::uint64_t> ranks) const;
 
   private:
@@ -36,16 +36,16 @@ class DistinctKeys {
     std::vector<std::atomic<Page*>> pages_;
 };
 
-/// Section 3.2: the sorted list of distinct extremes, divided into L sublists of equal length,
-/// gives the lines of the lattice, the same for columns and rows. Element i holds the keys in (line
-/// i-1, line i], and everything up to line 0 for i = 0. Each line is the last extreme of its
-/// sublist; the last line is the largest extreme. With fewer extremes than L each is a line.
+/// The lines of the lattice, the same for columns and rows (section 3.2): the sorted list of
+/// distinct extremes is divided into L sublists of equal length, and the last extreme of each is a
+/// line; with fewer than L extremes, each is a line. Element i holds the keys in (line i-1, line
+/// i], element 0 all keys up to line 0.
 std::vector<OrderKey> lattice_lines(const DistinctKeys& extremes, std::uint32_t lattice);
 
-/// Element that holds the key; `lines.size()` for keys above the last line.
+/// Number of the element that holds the key; `lines.size()` for keys above the last line.
 std::uint32_t element_of(std::span<const OrderKey> lines, OrderKey key);
 
-/// The same, at once when the key is in element `guess`, which must be one.
+/// The same, faster if the key is in element `guess`. @param guess below `lines.size()`
 std::uint32_t element_near(std::span<const OrderKey> lines, OrderKey key, std::uint32_t guess);
 
 } // namespace isochron::index

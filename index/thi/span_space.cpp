@@ -1,4 +1,4 @@
-// One span space: rows of the lattice as sorted lists, interval trees on its diagonal.
+// Span space: the rows of the lattice as sorted lists, and interval trees on its diagonal.
 #include "index/thi/span_space.h"
 
 #include <cstddef>

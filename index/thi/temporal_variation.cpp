@@ -1,4 +1,4 @@
-// Where in the binary time tree a cell is stored, by how much it varies over time.
+// Finds the time nodes at which a cell is stored, by how much it varies over time.
 #include "index/thi/temporal_variation.h"
 
 #include "index/thi/lattice.h"
@@ -24,7 +24,7 @@ TemporalVariation::TemporalVariation(std::span<const OrderKey> lines, std::uint3
 }
 
 void TemporalVariation::locate(const OrderKey* low, const OrderKey* high, std::size_t stride) {
-    std::uint32_t column = 0, row = 0; // a coherent cell stays where it was a step before
+    std::uint32_t column = 0, row = 0; // guesses from the step before: a coherent cell stays there
     for (const std::uint32_t leaf : leaves_) {
         Variation& node = nodes_[leaf];
         node = {0, *low < *high, *low, *high};
@@ -50,7 +50,7 @@ void TemporalVariation::merge() {
             nodes_[number].count = max_variation_ + 1;
             continue;
         }
-        // A side without a point has nothing to say about the extremes.
+        // A child without points does not count for the extremes.
         nodes_[number] = {unite(number, left_number, right_number), left.varies || right.varies,
                           !left.count    ? right.low
                           : !right.count ? left.low
@@ -61,7 +61,8 @@ void TemporalVariation::merge() {
     }
 }
 
-/// Makes a node's elements of its children's. @return their number, max_variation_ + 1 if more
+/// Unites the elements of a node's children. @return their number; max_variation_ + 1 if there are
+/// more than max_variation_
 std::uint32_t TemporalVariation::unite(std::uint32_t number, std::uint32_t left,
                                        std::uint32_t right) {
     const std::uint32_t *a = elements(left), *a_end = a + nodes_[left].count;

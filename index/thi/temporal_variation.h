@@ -1,4 +1,4 @@
-// Where in the binary time tree a cell is stored, by how much it varies over time.
+// Finds the time nodes at which a cell is stored, by how much it varies over time.
 #pragma once
 
 #include "index/volume/order_key.h"
@@ -20,8 +20,8 @@ class TemporalVariation {
                       std::uint32_t max_variation);
 
     /// Calls `store(node number, low, high)` with the cell's temporal extremes for the highest time
-    /// nodes over which its points occupy at most `max_variation` elements, but for those where it
-    /// cannot be active: where at every step it has one value only, or none.
+    /// nodes over which its points occupy at most `max_variation` elements. It leaves out nodes at
+    /// which the cell cannot be active: at every step its extremes are equal or there is no point.
     /// @param low, high the extremes, `stride` numbers apart from step to step; low > high where a
     ///        vertex is NaN, which gives no point
     template <class Store>
@@ -42,9 +42,9 @@ class TemporalVariation {
 
   private:
     struct Variation {
-        std::uint32_t count; ///< of elements; above max_variation_ for any more
-        bool varies;         ///< has two values at some step
-        OrderKey low, high;  ///< temporal extremes; low > high where it has no point
+        std::uint32_t count; ///< number of elements; if above max_variation_, not exact
+        bool varies;         ///< its extremes differ at some step
+        OrderKey low, high;  ///< temporal extremes; low > high if it has no point
     };
 
     void locate(const OrderKey* low, const OrderKey* high, std::size_t stride);

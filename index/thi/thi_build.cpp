@@ -1,4 +1,4 @@
-// Building of the THI tree: the entries of every time node, then the span space of each.
+// Builds the THI tree: first the entries of every time node, then the span space of each.
 #include "index/system/parallel.h"
 #include "index/thi/span_space.h"
 #include "index/thi/thi_layout.h"
@@ -26,7 +26,7 @@ std::vector<std::byte> build_thi_tree(const StepValues& values, const ThiOptions
     }
     node_starts[nodes].entry = header.entries;
 
-    // The interval nodes, whose number is known at last, are the last part.
+    // The interval nodes are the last part, since their number is known last.
     std::vector<std::byte> bytes(thi_offsets(header, SIZE_MAX).back());
     const ThiParts<Writable> parts = thi_parts(header, std::span(bytes));
     std::vector<std::vector<IntervalNode>> interval_nodes(nodes);

@@ -1,4 +1,4 @@
-// Which cells are stored at which time nodes of a THI tree, by which extremes.
+// Finds the entries of a THI tree: the cells at each time node, with their extremes.
 #include "index/thi/thi_entries.h"
 
 #include "index/error.h"
@@ -15,8 +15,8 @@
 namespace isochron::index {
 namespace {
 
-/// The cells in batches of whole rows, small enough that a batch's extremes at all steps stay in
-/// the cache.
+/// Divides the cells into batches of whole rows, so small that a batch's extremes at all steps stay
+/// in the cache.
 class Batches {
   public:
     explicit Batches(const StepValues& values) : values_(values) {
@@ -59,7 +59,7 @@ class Batches {
     std::size_t row_cells_, rows_, rows_per_batch_;
 };
 
-/// What a thread keeps from batch to batch.
+/// The work space of a thread, kept from batch to batch.
 struct Worker {
     explicit Worker(const StepValues& values) : compute(values) {}
     CellExtremes compute;
@@ -86,7 +86,7 @@ std::vector<OrderKey> find_lattice(const Batches& batches, std::vector<Worker>& 
     return lattice_lines(distinct, lattice);
 }
 
-/// One set of entries for each worker: by time node, in blocks.
+/// Finds all entries, one set for each worker: by time node, in blocks.
 std::vector<std::vector<std::deque<Interval>>>
 classify(const Batches& batches, std::vector<Worker>& workers, std::span<const OrderKey> lines,
          std::uint32_t steps, std::uint32_t max_variation,

@@ -1,4 +1,4 @@
-// Which cells are stored at which time nodes of a THI tree, by which extremes.
+// The entries of a THI tree: the cells at each time node, with their extremes.
 #pragma once
 
 #include "index/progress.h"
@@ -17,18 +17,18 @@ namespace isochron::index {
 struct ThiOptions {
     std::uint32_t lattice = 64; ///< SpanSpaceSize L: the lattice has L x L elements; 1 to 4096
     std::uint32_t max_variation =
-        2; ///< most distinct lattice elements of a "constant" cell; 1 to 64
+        2; ///< most distinct lattice elements of a cell that counts as constant; 1 to 64
     bool operator==(const ThiOptions&) const = default;
 };
 
-/// The entries of a THI tree before they are organized into lists: what every structure shares that
-/// merges cells over time as the paper does.
+/// The entries of a THI tree before they are sorted into lists. Other structures that merge cells
+/// over time as the paper does can share them.
 class ThiEntries {
   public:
-    /// Every cell becomes an entry of the highest time nodes over whose span its points occupy at
-    /// most `max_variation` elements, with its temporal extremes; steps where it has a NaN vertex
-    /// give no point. It is left out where it cannot be active: at no step of the span does it have
-    /// two values. An entry takes 12 bytes.
+    /// Every cell becomes an entry, with its temporal extremes, of the highest time nodes over
+    /// whose span its points occupy at most `max_variation` elements; steps at which it has a NaN
+    /// vertex give no point. It is left out of nodes at which it cannot be active, since its
+    /// extremes are equal at every step of the span. An entry takes 12 bytes.
     /// @param progress called from the calling thread only
     /// @throws Error when an option is out of its range, or there is no step
     ThiEntries(const StepValues& values, const ThiOptions& options, const Progress& progress,
@@ -38,16 +38,16 @@ class ThiEntries {
     std::size_t nodes() const { return nodes_; }                  ///< as TimeNode numbers them
     std::uint64_t count(std::size_t node) const;
 
-    /// Gives a node's entries away, in no particular order. Threads may take from different nodes.
+    /// Moves a node's entries out, in no particular order. Threads may take from different nodes.
     std::vector<Interval> take(std::size_t node);
 
   private:
-    /// For each time node; in small blocks, for there are many.
+    /// Entries of each time node; in small blocks, since there are many nodes.
     using ByNode = std::vector<std::deque<Interval>>;
 
     std::size_t nodes_;
     std::vector<OrderKey> lines_;
-    std::vector<ByNode> by_worker_; ///< as each thread of the construction found them
+    std::vector<ByNode> by_worker_; ///< the entries that each building thread found
 };
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// The bytes of a THI tree: where its parts lie, and whether they are what a search relies on.
+// The byte layout of a THI tree, and the checks that a search relies on.
 #include "index/thi/thi_layout.h"
 
 #include "index/error.h"
@@ -49,7 +49,7 @@ void check_starts(const ThiHeader& header, std::span<const ThiNodeStart> starts)
     for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
         const std::uint64_t entries = starts[i + 1].entry - starts[i].entry;
         const std::uint64_t nodes = starts[i + 1].interval_node - starts[i].interval_node;
-        // A wrapped difference is large: a descent is found, too.
+        // If numbers decrease, the difference wraps around and is too large.
         require(entries < IntervalNode::kNone && nodes < IntervalNode::kNone,
                 "time nodes out of order");
     }
@@ -69,7 +69,7 @@ void check_time_node(std::span<const std::uint32_t> row_starts,
         const IntervalNode& node = nodes[number];
         require(node.begin <= node.end && node.end <= entries, "interval list out of range");
         for (const std::uint32_t child : {node.left, node.right})
-            // Numbers that only grow end every descent.
+            // Since child numbers only grow, every descent ends.
             require(child == IntervalNode::kNone || (child > number && child < nodes.size()),
                     "interval tree out of order");
     }

@@ -1,4 +1,4 @@
-// The bytes of a THI tree: where its parts lie, for the builder and for the search.
+// The byte layout of a THI tree, for its builder and its search.
 #pragma once
 
 #include "index/thi/interval_tree.h"
@@ -11,8 +11,8 @@
 
 namespace isochron::index {
 
-/// The block begins with this; the parts follow in the order of ThiParts, each from a multiple
-/// of 8.
+/// The first bytes of the block. The parts follow in the order of ThiParts, each at a multiple of
+/// 8.
 struct ThiHeader {
     static constexpr std::array<char, 8> kMagic{'I', 'S', 'O', 'T', 'H', 'I', '0', '1'};
     std::array<char, 8> magic = kMagic;
@@ -25,34 +25,34 @@ struct ThiHeader {
 };
 static_assert(sizeof(ThiHeader) == 40);
 
-/// Where the parts of a time node begin; it ends where the next begins.
+/// Where the parts of a time node begin; they end where those of the next begin.
 struct ThiNodeStart {
     std::uint64_t entry;
     std::uint64_t interval_node;
 };
 
-/// The parts. Time nodes are numbered as in TimeNode. Numbers of entries and of interval nodes
-/// count from the time node's first. A time node's entries are: for each row of span space the
-/// cells off the diagonal, then the lists of the interval trees of the diagonal elements.
+/// The parts. Time nodes are numbered as in TimeNode. Numbers of entries and interval nodes are
+/// relative to the time node's first. A time node's entries are the cells off the diagonal, row by
+/// row of span space, then the lists of the interval trees of the diagonal elements.
 template <template <class> class Array>
 struct ThiParts {
     Array<OrderKey> lines;           ///< of the lattice
     Array<ThiNodeStart> node_starts; ///< time nodes + 1
-    Array<std::uint32_t> row_starts; ///< (elements + 1) for each time node, the last is a row's end
+    Array<std::uint32_t> row_starts; ///< (elements + 1) for each time node; the last is an end
     Array<std::uint32_t> roots;      ///< an interval tree for each time node and element
     Lists<Array> lists;              ///< all entries
     Array<IntervalNode> interval_nodes;
 };
 
-/// Offset of every part, and the size of the whole as the last number.
+/// Byte offset of every part, then the size of the whole block.
 /// @throws Error when a block of `limit` bytes cannot hold them
 std::array<std::uint64_t, 10> thi_offsets(const ThiHeader& header, std::uint64_t limit);
 
-/// The parts of a block, whose size fits the header.
+/// The parts of a block. Its size must fit the header.
 ThiParts<Readable> thi_parts(const ThiHeader& header, std::span<const std::byte> bytes);
 ThiParts<Writable> thi_parts(const ThiHeader& header, std::span<std::byte> bytes);
 
-/// Checks the header, the size of the block and every number that a search goes by.
+/// Checks the header, the size of the block and every offset that a search uses.
 /// @throws Error saying what is damaged
 ThiHeader check_thi_bytes(std::span<const std::byte> bytes);
 

@@ -1,4 +1,4 @@
-// Searches in a THI tree.
+// Searches a THI tree.
 #include "index/thi/thi_tree.h"
 
 #include "index/thi/span_space.h"
@@ -54,9 +54,10 @@ std::size_t ThiTree::search_incremental(Cursor& cursor, std::uint32_t step,
                                         std::uint64_t threshold) const {
     assert(step < steps());
     const bool continues = cursor.valid && cursor.threshold == threshold;
-    cursor.valid = false; // until it is whole again
+    cursor.valid = false; // until it is complete again
     TimeNode node = TimeNode::root(steps());
-    // Down to the first node that the last search did not enter; its parent is the last common one.
+    // Goes down to the first node that the last search did not enter; its parent is the lowest
+    // common node.
     std::size_t common = 0;
     if (continues)
         while (common < cursor.reached.size() && node.contains(cursor.step)) {

@@ -25,21 +25,21 @@
 
 namespace isochron::index {
 
-/// Builds the tree; the bytes are position-independent, little-endian, a multiple of 8 long, and
-/// the same for every thread count. Holds the cells where ThiEntries puts them. An entry takes 16
+/// Builds the tree. The bytes are position-independent, little-endian, a multiple of 8 long, and
+/// the same for every number of threads. The entries are those of ThiEntries. An entry takes 16
 /// bytes, and 12 more while the tree is built.
 /// @param progress called from the calling thread only
-/// @param threads 0 for as many as there are processors
+/// @param threads 0: one for each processor
 /// @throws Error when an option is out of its range, or there is no step
 std::vector<std::byte> build_thi_tree(const StepValues& values, const ThiOptions& options,
                                       const Progress& progress = {}, unsigned threads = 0);
 
-/// Read access to a built tree. Refers to the bytes, which must outlive it.
+/// A built tree. Refers to the bytes, which must outlive it.
 class ThiTree {
   public:
-    /// @throws Error when the bytes are not a tree or not aligned to 8: every offset is checked,
-    ///         so that a search in a damaged block cannot leave it. Ids and keys are not: a damaged
-    ///         block may yield wrong ones, also ids that no cell has.
+    /// Checks every offset, so that a search cannot leave a damaged block. It does not check ids
+    /// and keys: a damaged block may give wrong ids, even ids that no cell has.
+    /// @throws Error when the bytes are not a tree or not aligned to 8
     explicit ThiTree(std::span<const std::byte> bytes);
 
     /// Entries stored at every node of the binary time tree, in depth-first order, root first.
@@ -48,10 +48,10 @@ class ThiTree {
     std::uint32_t steps() const { return header_.steps; }
     std::uint64_t entries() const {
         return header_.entries;
-    } ///< over all nodes; per cell-step: 1 without coherence, less with it
+    } ///< of all nodes; at most 1 for each cell and step, fewer with temporal coherence
 
-    /// Appends every cell that may be active (section 4.1): all active cells once each, unordered,
-    /// and the false positives of temporal merging. The step must be one of the tree's.
+    /// Appends every cell that may be active (section 4.1), unordered: all active cells, once each,
+    /// and false positives of temporal merging. The step must be one of the tree's.
     void search(std::uint32_t step, std::uint64_t threshold, std::vector<CellId>& out) const;
 
     /// State of an incremental search (section 4.2): the last result and the vector V.
@@ -62,8 +62,9 @@ class ThiTree {
         std::uint64_t threshold = 0;
         bool valid = false;
     };
-    /// Moves the cursor to any step; reuses what the lowest common node and those above it gave.
-    /// A changed threshold searches fully. @return the number of cells that were reused
+    /// Moves the cursor to any step. Reuses the cells of the lowest common node of both steps and
+    /// of the nodes above it. A changed threshold makes a full search.
+    /// @return number of reused cells
     std::size_t search_incremental(Cursor& cursor, std::uint32_t step,
                                    std::uint64_t threshold) const;
 

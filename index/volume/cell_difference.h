@@ -1,4 +1,4 @@
-// Differences of values around a cell: what its normal is made from.
+// Differences of values around a cell, from which its normal is made.
 #pragma once
 
 #include "index/volume/step_values.h"
@@ -16,8 +16,8 @@
 
 namespace isochron::index {
 
-/// How the differences along one axis weigh the four planes around a cell: two vertices and their
-/// outer neighbors, folded inwards at the border, where the difference is one-sided.
+/// Weights of the four planes around a cell in the differences along one axis: the planes of its
+/// two vertices and their outer neighbors. At the border, differences are one-sided.
 struct AxisTaps {
     AxisTaps(std::uint32_t cell, std::uint32_t vertices, std::ptrdiff_t step) {
         const bool first = cell == 0, last = cell + 2 == vertices;
@@ -37,13 +37,13 @@ struct AxisTaps {
     double low_weight, high_weight;
 };
 
-/// The isovalue among a cell's own eight values.
+/// The slope of a cell's own eight values, and the way from their mean to the isovalue.
 struct CellSlope {
     glm::dvec3 own; ///< four times the mean difference along each axis, index space
-    double rise;    ///< eight times from the mean up to the isovalue
+    double rise;    ///< eight times (isovalue - mean)
 };
 
-/// The stored value that stands for a scaled one.
+/// The stored value of a scaled one.
 inline double stored_value(const Scaling& scaling, double scaled) {
     return (scaled - scaling.intercept) / scaling.slope;
 }
@@ -89,15 +89,16 @@ class CellDifferences {
     const T* first_;
 };
 
-/// Turns differences into vectors along the normal, in physical space. Gradients are covectors;
-/// minus because a normal points towards lower values.
+/// Matrix that turns differences into vectors along the normal, in physical space: gradients are
+/// covectors, and the sign makes normals point towards lower scaled values.
 inline glm::dmat3 normal_from_difference(const StepValues& values) {
     const glm::dmat3 physical_from_index(values.grid.physical_from_index());
     return glm::transpose(glm::inverse(physical_from_index)) *
            (values.scaling.slope < 0 ? 1.0 : -1.0);
 }
 
-/// Scaled to a largest entry of 1, which does not change the direction of what it gives.
+/// The matrix divided by its largest entry, so that its results keep their direction.
+/// @param smallest_column gets the least, over the columns, of a column's largest entry after that
 inline glm::dmat3 scaled_to_one(glm::dmat3 matrix, double& smallest_column) {
     double largest = 0;
     smallest_column = std::numeric_limits<double>::infinity();

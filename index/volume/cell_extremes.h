@@ -15,8 +15,8 @@ class CellExtremes {
   public:
     explicit CellExtremes(const StepValues& values);
 
-    /// Extremes of the cells (0..nx-2, y, z) at a step. A cell with a NaN vertex, which has none,
-    /// gets `low` 1 and `high` 0; of all others `low <= high`.
+    /// Extremes of the cells (0..nx-2, y, z) at a step. A cell with a NaN vertex has no extremes
+    /// and gets `low` 1 and `high` 0; all others have `low <= high`.
     void row(std::size_t step, std::uint32_t y, std::uint32_t z, std::span<OrderKey> low,
              std::span<OrderKey> high);
 

@@ -1,4 +1,4 @@
-// Coordinates of ascending cell ids, mostly without a division.
+// Computes the coordinates of ascending cell ids, mostly without divisions.
 #pragma once
 
 #include "index/volume/grid.h"
@@ -7,14 +7,14 @@
 
 namespace isochron::index {
 
-/// Goes through cells in the order of their ids.
+/// Visits cells in the order of their ids.
 class CellWalk {
   public:
     explicit CellWalk(const Grid& grid)
         : grid_(grid), width_(grid.cells()[0]), height_(grid.cells()[1]) {}
 
-    /// @param id larger than the one before
-    /// @return whether the cell is the first one of its row (the same y and z) to be met
+    /// Moves to a cell. @param id larger than the one before
+    /// @return whether the cell is the first visited one of its row (the same y and z)
     bool to(CellId id) {
         const bool new_row = id >= row_end_;
         if (new_row)
@@ -28,7 +28,7 @@ class CellWalk {
 
   private:
     void enter_row_of(CellId id) {
-        // Most often the next row, which saves the divisions.
+        // Mostly it is the next row, which needs no divisions.
         if (row_end_ > 0 && id - row_end_ < width_ && y_ + 1 < height_) {
             ++y_;
             row_end_ += width_;
@@ -42,7 +42,7 @@ class CellWalk {
 
     Grid grid_;
     std::uint32_t width_, height_;
-    std::uint64_t row_end_ = 0; ///< id behind the row, 0 before the first
+    std::uint64_t row_end_ = 0; ///< first id after the row; 0 before the first cell
     std::uint32_t x_ = 0, y_ = 0, z_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Chunks: the units in which cells are indexed, built and checked.
+// Chunks of cells: whole rows of cells that are indexed, built and checked together.
 #pragma once
 
 #include "index/volume/grid.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::index {
 
-/// A chunk is as many whole rows of cells, in id order, as keep their number below 2^16: ids within
-/// it take 16 bits, and it is built from one stretch of every step.
+/// A chunk of cells is the largest number of whole rows, in id order, with fewer than 2^16 cells.
+/// So ids within it take 16 bits, and it is built from one contiguous range of every step.
 class Chunking {
   public:
     static constexpr std::uint32_t kMaxCells = 0xffff;
@@ -19,7 +19,7 @@ class Chunking {
           rows_per_chunk_(std::min(kMaxCells / row_, rows_)) {}
 
     std::uint32_t count() const { return (rows_ + rows_per_chunk_ - 1) / rows_per_chunk_; }
-    /// Rows of cells count over y first: row r is that of y = r % (ny-1), z = r / (ny-1).
+    /// Rows are numbered y first: row r has y = r % (ny-1), z = r / (ny-1).
     std::uint32_t first_row(std::uint32_t chunk) const { return chunk * rows_per_chunk_; }
     std::uint32_t row_count(std::uint32_t chunk) const {
         return std::min(rows_per_chunk_, rows_ - first_row(chunk));

@@ -10,8 +10,8 @@
 
 namespace isochron::index {
 
-/// File storage order: x fastest, then y, then z. Of grids of 2^32 cells and more the low 32 bits of
-/// that: within a layer of chunks they still tell cells apart.
+/// Number of a cell: x fastest, then y, then z. In grids of 2^32 cells and more it is the low 32
+/// bits of that number, which are still unique within a layer of chunks.
 using CellId = std::uint32_t;
 
 /// Vertices lie at origin + direction * (spacing * index). A cell is the box between 8 vertices;
@@ -33,7 +33,7 @@ struct Grid {
         const auto c = cells();
         return std::uint64_t{c[0]} * c[1] * c[2];
     }
-    /// Cell coordinates (x, y, z) of an id.
+    /// Cell coordinates (x, y, z) of an id. The grid must have fewer than 2^32 cells.
     std::array<std::uint32_t, 3> cell_of(CellId id) const {
         const auto c = cells();
         return {id % c[0], id / c[0] % c[1], id / c[0] / c[1]};
@@ -45,12 +45,12 @@ struct Grid {
     bool operator==(const Grid&) const = default;
 };
 
-/// Whether there are cells whose number does not fit into a CellId.
+/// Whether the grid has cells whose number does not fit into a CellId.
 inline bool has_wide_ids(const Grid& grid) {
     return grid.cell_count() > 0xffff'ffffu;
 }
 
-/// The number of the cell at (x, y, z), of any grid.
+/// The full number of the cell at (x, y, z), in any grid.
 inline std::uint64_t wide_id(const Grid& grid, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     const auto c = grid.cells();
     return x + c[0] * (y + std::uint64_t{c[1]} * z);

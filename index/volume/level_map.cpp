@@ -40,7 +40,7 @@ LevelMap LevelMap::of_values(ValueType type, std::span<const std::uint64_t> dist
     std::uint64_t lowest = 0;
     if (!thresholds.empty()) {
         lowest = thresholds.front();
-        thresholds.erase(thresholds.begin()); // no value lies below it
+        thresholds.erase(thresholds.begin()); // no value is below it
     }
     return {type, std::move(thresholds), true, lowest};
 }
@@ -65,7 +65,7 @@ std::optional<LevelMap::Cut> LevelMap::cut(const Scaling& scaling, double isoval
         return Cut{rank, true};
     if (!lossless_)
         return Cut{rank, false};
-    // The values of rank `rank` lie below the cut, the next ones reach it.
+    // Values of rank `rank` are below the cut; values of the next rank are not.
     if (rank == thresholds_.size())
         return std::nullopt;
     return Cut{static_cast<std::uint8_t>(rank + 1), true};
@@ -79,8 +79,8 @@ void LevelMap::ranks(std::span<const std::byte> stored, std::span<std::uint8_t> 
             for (std::size_t i = 0; i < out.size(); ++i)
                 out[i] = table_[ordinal(values[i])];
         } else {
-            // Halving without branches, which could not be predicted, among 255 thresholds of which
-            // the last ones lie above all values.
+            // Binary search without branches, which could not be predicted, among 255 thresholds;
+            // those added at the end are above all values.
             std::array<std::uint64_t, kMaxLevels - 1> padded;
             padded.fill(~std::uint64_t{0});
             std::copy(thresholds_.begin(), thresholds_.end(), padded.begin());

@@ -1,8 +1,8 @@
-// Ranks of stored values among at most 256 levels: what bricks and cells are indexed by.
+// Ranks of stored values among at most 256 levels, by which bricks and cells are indexed.
 //
 //     const auto levels = index::LevelMap::of_type(ValueType::u8);        // 256 levels: lossless
 //     levels.ranks(std::as_bytes(values.step<std::uint8_t>(t)), ranks);   // a byte for each vertex
-//     if (const auto cut = levels.cut(values.scaling, isovalue))          // what to search for
+//     if (const auto cut = levels.cut(values.scaling, isovalue))          // the level to find
 //         search(*cut);
 #pragma once
 
@@ -17,14 +17,14 @@
 
 namespace isochron::index {
 
-/// A rank is the number of thresholds that are not above a value, 0 to 255: monotone, and exact at
-/// every threshold (`rank >= k` if and only if the value reaches the k-th threshold). Works on
-/// stored values, before scaling.
+/// The rank of a value is the number of thresholds that are not above it, 0 to 255. Ranks are
+/// monotone and exact at every threshold: `rank >= k` if and only if the value is not below the
+/// k-th threshold. They are of stored values, before scaling.
 class LevelMap {
   public:
     static constexpr std::size_t kMaxLevels = 256;
 
-    /// Every value of an 8-bit type has its own rank.
+    /// The map for an 8-bit type: every value has its own rank.
     static LevelMap of_type(ValueType type);
     /// Lossless: every value has its own rank. @param distinct ordinals (ordinal.h) of all values
     ///   of the series, ascending, at most 256
@@ -33,25 +33,25 @@ class LevelMap {
     static LevelMap of_thresholds(ValueType type, std::span<const std::uint64_t> thresholds);
 
     ValueType type() const { return type_; }
-    /// True when no two values of the series have the same rank: every cut is exact.
+    /// True if no two values of the series have the same rank: then every cut is exact.
     bool lossless() const { return lossless_; }
     std::size_t levels() const { return thresholds_.size() + 1; }
     std::span<const std::uint64_t> thresholds() const { return thresholds_; }
-    /// All values' ordinals, as `of_values` takes them; of a lossless map.
+    /// The ordinals of all values, as `of_values` takes them. The map must be lossless.
     std::vector<std::uint64_t> distinct() const;
 
-    /// The side of a vertex by its rank: upper if `rank >= level` when exact; else upper if above
-    /// the level, lower if below, and open if at it, which only the volume decides. The level is
-    /// never 0 when exact.
+    /// The level that tells on which side of an isovalue a vertex is. If exact, it is upper if
+    /// `rank >= level`, else lower; the level is never 0. If not exact, it is upper if
+    /// `rank > level` and lower if `rank < level`; at `rank == level` only the volume tells.
     struct Cut {
         std::uint8_t level = 0;
         bool exact = false;
         bool operator==(const Cut&) const = default;
     };
-    /// None when all values lie on one side: no cell is active.
+    /// None if all values are on one side, so that no cell is active.
     std::optional<Cut> cut(const Scaling& scaling, double isovalue) const;
 
-    /// Ranks of stored values of `type()`; that of a NaN is of no use.
+    /// Ranks of stored values of `type()`; the rank of a NaN has no meaning.
     void ranks(std::span<const std::byte> stored, std::span<std::uint8_t> out) const;
 
     bool operator==(const LevelMap&) const = default;
@@ -63,7 +63,7 @@ class LevelMap {
     ValueType type_;
     std::vector<std::uint64_t> thresholds_; ///< ordinals
     bool lossless_;
-    std::uint64_t lowest_;            ///< ordinal of the lowest value, where lossless
+    std::uint64_t lowest_;            ///< ordinal of the lowest value, if lossless
     std::vector<std::uint8_t> table_; ///< rank of every ordinal, for types of up to 16 bits
 };
 

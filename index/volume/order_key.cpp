@@ -6,7 +6,7 @@
 namespace isochron::index {
 namespace {
 
-/// Calls `f` with the type whose ordinals the keys are: the stored one, or f32 for f64.
+/// Calls `f` with the type whose ordinals are the keys: the stored type, or f32 for f64.
 template <class F>
 auto visit_key_type(ValueType type, F&& f) {
     return visit_value_type(type == ValueType::f64 ? ValueType::f32 : type, f);

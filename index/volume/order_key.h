@@ -8,17 +8,17 @@
 
 namespace isochron::index {
 
-/// A key with `value a < value b` (scaled) implies `key a < key b`, and equal keys mean equal
-/// values. Every type but f64 keeps the order of its stored values exactly; f64 is rounded to f32:
-/// down for minima, up for maxima, so that an interval of keys never loses an isovalue.
+/// An integer that orders values: if scaled value a < b, then key a < key b, and equal keys mean
+/// equal values. That holds exactly for every type but f64. f64 is rounded to f32, down for minima
+/// and up for maxima, so that an interval of keys never loses an isovalue.
 using OrderKey = std::uint32_t;
 
 /// Turns stored values into keys and isovalues into key thresholds, for one type and scaling.
 ///
-/// The thresholds are exact although several stored values may round to one scaled value:
-/// multiplying by a constant and adding a constant are monotone in floating point, so the scaled
-/// values never decrease with the key, and the keys with `value >= isovalue` are all those from the
-/// threshold on.
+/// The thresholds are exact although several stored values may round to one scaled value. In
+/// floating point, multiplying by a constant and adding a constant are monotone. So scaled values
+/// never decrease as keys increase, and `value >= isovalue` holds for all keys from the threshold
+/// on.
 class KeyMap {
   public:
     KeyMap(ValueType type, Scaling scaling);
@@ -40,10 +40,10 @@ class KeyMap {
             return ordinal(stored) ^ flip_;
     }
 
-    /// Smallest key whose scaled value is >= isovalue: `min < v` <=> `low_key(min) < threshold(v)`
-    /// and `max >= v` <=> `high_key(max) >= threshold(v)` (for f64 only `=>`). One above the
-    /// highest key, which may be 2^32, when no value of the type reaches the isovalue.
-    /// The isovalue is finite.
+    /// The smallest key whose scaled value is >= isovalue: `min < v` <=> `low_key(min) <
+    /// threshold(v)` and `max >= v` <=> `high_key(max) >= threshold(v)` (for f64 only `=>`). If all
+    /// values of the type are below the isovalue, it is the highest key + 1, which may be 2^32.
+    /// The isovalue must be finite.
     std::uint64_t threshold(double isovalue) const;
 
     /// Scaled value of a key, for reports. For f64: the f32 that the key stands for.
@@ -57,8 +57,8 @@ class KeyMap {
 
     ValueType type_;
     Scaling scaling_;
-    OrderKey flip_;         ///< all ones when the order of keys is not that of the stored values
-    OrderKey first_, last_; ///< of the type's values
+    OrderKey flip_;         ///< all ones if keys run against the stored values, else 0
+    OrderKey first_, last_; ///< range of the keys of the type's values
 };
 
 } // namespace isochron::index

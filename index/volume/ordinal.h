@@ -1,4 +1,4 @@
-// Whole numbers in the order of the stored values, for every stored type.
+// Ordinals: whole numbers in the order of the stored values, for every stored type.
 #pragma once
 
 #include <bit>
@@ -9,11 +9,11 @@
 
 namespace isochron::index {
 
-/// Wide enough for every value of T.
+/// A type wide enough for the ordinals of T.
 template <class T>
 using Ordinal = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
 
-/// False for every whole number.
+/// Whether a value is NaN; false for every whole number.
 template <class T>
 constexpr bool is_nan(T stored) {
     if constexpr (std::is_floating_point_v<T>)
@@ -22,7 +22,7 @@ constexpr bool is_nan(T stored) {
 }
 
 /// `a < b` if and only if `ordinal(a) < ordinal(b)`, infinities included; -0 and +0 are one value.
-/// A NaN has no place in the order.
+/// The ordinal of a NaN has no meaning.
 template <class T>
 constexpr Ordinal<T> ordinal(T stored) {
     if constexpr (std::is_floating_point_v<T>) {
@@ -63,7 +63,8 @@ constexpr Ordinal<T> highest_ordinal() {
         return ordinal(std::numeric_limits<T>::max());
 }
 
-/// Smallest number in [first, end) that `holds`, which stays true once it is; `end` when none does.
+/// The smallest number in [first, end) for which `holds` is true; `end` if there is none. Once
+/// true, `holds` must be true for all greater numbers.
 template <class Holds>
 constexpr std::uint64_t first_that(std::uint64_t first, std::uint64_t end, Holds&& holds) {
     while (first < end) {

@@ -1,4 +1,4 @@
-// What is asked of an index: isovalues at one step.
+// Queries to an index: isovalues at one step.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@ namespace isochron::index {
 enum class SearchMethod : std::uint8_t { cells, bricks, tree, scan };
 constexpr std::array<std::string_view, 4> kSearchMethodNames{"cells", "bricks", "tree", "scan"};
 
-/// Active cells are those with min < isovalue <= max over their 8 scaled vertex values, none of
-/// them NaN. An isovalue that is NaN or infinite has no active cells.
+/// Asks for the active cells: those with min < isovalue <= max over their 8 scaled vertex values,
+/// of which none is NaN. An isovalue that is NaN or infinite has no active cells.
 struct Query {
     std::uint32_t step = 0;
     double isovalue = 0.0;
     bool operator==(const Query&) const = default;
 };
 
-/// Isosurfaces that are shown together.
+/// Most isosurfaces that are shown together.
 constexpr std::size_t kMostSurfaces = 8;
 
-/// What cells carry color coordinates of (index/extraction/cell_colors.h).
+/// The quantity of the cells' color coordinates (index/extraction/cell_colors.h).
 enum class CellColoring : std::uint8_t {
     none,
     value,         ///< the second array on the surface
@@ -35,7 +35,7 @@ constexpr std::array<std::string_view, 3> kCellColoringNames{"none", "value", "f
 /// The isosurfaces of 1 to kMostSurfaces isovalues at one step.
 struct SurfacesQuery {
     std::uint32_t step = 0;
-    std::vector<double> isovalues; ///< a surface is known by its place in this list
+    std::vector<double> isovalues; ///< a surface is identified by its place in this list
     CellColoring coloring = CellColoring::none;
 
     Query surface(std::size_t i) const { return {step, isovalues[i]}; }

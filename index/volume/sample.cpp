@@ -26,7 +26,7 @@ std::optional<double> value_at(const Grid& grid, const glm::dvec3& at,
         sum += value * (x ? local.x : 1 - local.x) * (y ? local.y : 1 - local.y) *
                (z ? local.z : 1 - local.z);
     }
-    // A vertex of no weight that is not a number makes none of the sum either.
+    // NaN and infinite vertices make the sum NaN or infinite, even those with weight 0.
     return std::isfinite(sum) ? std::optional(sum) : std::nullopt;
 }
 

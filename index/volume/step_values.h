@@ -1,4 +1,4 @@
-// Read-only view of a whole series in memory (or of the parts of it that matter): what search and extraction work on.
+// Read-only view of the steps of a series in memory, on which search and extraction work.
 #pragma once
 
 #include "index/volume/grid.h"
@@ -9,8 +9,8 @@
 
 namespace isochron::index {
 
-/// Stored values of all steps, or of a window of them, step after step with a constant stride. Does
-/// not own; cheap to copy.
+/// Stored values of all steps, or of a window of them, with a constant stride from step to step.
+/// Does not own the memory; cheap to copy.
 struct StepValues {
     Grid grid;
     ValueType type = ValueType::f32;
@@ -18,7 +18,7 @@ struct StepValues {
     std::size_t steps = 0;            ///< of the series
     const std::byte* first = nullptr; ///< step `first_step`, aligned for the type
     std::size_t stride = 0;           ///< bytes from one step to the next, a multiple of 8
-    std::size_t first_step = 0;       ///< of the window; steps outside must not be asked for
+    std::size_t first_step = 0;       ///< of the window; do not ask for steps outside
 
     /// Stored values of one step, [z][y][x], x fastest.
     template <class T>

@@ -1,4 +1,4 @@
-// Where an isovalue cuts the stored values of a type in two.
+// The stored value at which an isovalue divides the values of a type.
 #include "index/volume/stored_cut.h"
 
 #include "index/volume/ordinal.h"

@@ -1,4 +1,4 @@
-// The binary time tree: which time spans there are follows from the number of steps alone.
+// The binary time tree, whose time spans follow from the number of steps alone.
 #pragma once
 
 #include <bit>
@@ -6,7 +6,7 @@
 
 namespace isochron::index {
 
-/// How many cells a node of the tree holds, for reports.
+/// The number of cells in a node of the tree, for reports.
 struct TimeNodeCells {
     std::uint32_t first_step, last_step; ///< inclusive span [t0, t1]
     std::uint32_t depth;
@@ -14,28 +14,28 @@ struct TimeNodeCells {
 };
 
 /// A node of the tree (section 3.1): an inclusive span of steps. Nodes are numbered depth first,
-/// root 0, a left child right after its parent, so that nothing about the tree has to be stored.
-/// A span is halved after the largest power of two of steps below its length: 10 steps have [0,9],
-/// [0,7], [0,3], [0,1], ..., [8,9], as in Figure 1.
+/// the root 0 and a left child right after its parent, so that the tree need not be stored. The
+/// left child of a span has the largest power of two of steps that is less than the span's: 10
+/// steps have [0,9], [0,7], [0,3], [0,1], ..., [8,9], as in Figure 1.
 struct TimeNode {
     std::uint32_t first, last; ///< steps
     std::uint32_t number = 0;  ///< depth first
     std::uint32_t depth = 0;
 
     static TimeNode root(std::uint32_t steps) { return {0, steps - 1}; }
-    /// Of a whole tree, or of the part below a node of so many steps, itself included.
+    /// Number of nodes of the subtree of a node with that many steps, the node itself included.
     static std::uint32_t count(std::uint32_t steps) { return 2 * steps - 1; }
 
     std::uint32_t steps() const { return last - first + 1; }
     bool is_leaf() const { return first == last; }
     bool contains(std::uint32_t step) const { return first <= step && step <= last; }
 
-    // Children, of nodes that are no leaves:
+    // Children of nodes that are not leaves:
     TimeNode left() const { return {first, middle() - 1, number + 1, depth + 1}; }
     TimeNode right() const {
         return {middle(), last, number + 1 + count(middle() - first), depth + 1};
     }
-    /// The child on the way to one of the node's steps.
+    /// The child that contains one of the node's steps.
     TimeNode towards(std::uint32_t step) const { return step < middle() ? left() : right(); }
 
   private:

@@ -1,4 +1,4 @@
-// The types a stored scalar can have, and how stored values become the values a user sees.
+// The types of stored scalars, and the scaling that turns stored values into the user's values.
 #pragma once
 
 #include <cstddef>

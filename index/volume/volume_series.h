@@ -1,4 +1,4 @@
-// A time-varying scalar volume as its files give it: what it is, and its steps one at a time.
+// A time-varying scalar volume as its files give it: its description, and its steps one by one.
 #pragma once
 
 #include "index/volume/grid.h"
@@ -15,9 +15,9 @@
 
 namespace isochron::index {
 
-/// What the axes of physical space mean. `ras` (NIfTI) and `lps` (DICOM, MetaImage, NRRD) are
-/// anatomical, with +z towards the head; `enu` (NetCDF) is that of the Earth's surface: east,
-/// north, up. All are right-handed.
+/// The meaning of the axes of physical space. `ras` (NIfTI) and `lps` (DICOM, MetaImage, NRRD) are
+/// anatomical, with +z towards the head; `enu` (NetCDF) is east, north, up on the Earth's surface.
+/// All are right-handed.
 enum class Anatomy : std::uint8_t { none, ras, lps, enu };
 
 struct SeriesInfo {
@@ -38,20 +38,20 @@ struct SeriesInfo {
     std::size_t step_bytes() const { return grid.vertex_count() * size_of(type); }
 };
 
-/// How to read files that leave something open.
+/// How to read files whose contents leave something open.
 struct ReadOptions {
     std::optional<std::string> array;     ///< --array
     std::optional<std::string> component; ///< --component: a number from 0, or `magnitude`
-    bool allow_surplus = false; ///< --allow-surplus: values may follow those that the header has
+    bool allow_surplus = false; ///< --allow-surplus: more values may follow those of the header
     bool extra_axis_is_time =
-        false;                     ///< --extra-axis-is-time: of an NRRD file, beside those of space
+        false;                     ///< --extra-axis-is-time: an axis beside those of space is time
     bool times_from_names = false; ///< --times-from-names: the last number in each file's name
     // Headerless raw files only:
     std::optional<std::array<std::uint32_t, 3>> dims; ///< --dims NX NY NZ, vertices
     std::optional<ValueType> type;                    ///< --type
     bool big_endian = false;                          ///< --big-endian
     std::uint64_t header_bytes = 0;                   ///< --header-bytes: skipped at the start
-    // Overrides of what the files say, or what they leave unsaid:
+    // Override what the files say, or add what they do not say:
     std::optional<glm::dvec3> spacing;      ///< --spacing
     std::optional<glm::dvec3> origin;       ///< --origin
     std::optional<double> time_step;        ///< --time-step: physical time between steps
@@ -60,7 +60,7 @@ struct ReadOptions {
     std::optional<std::string> value_unit;  ///< --value-unit
 };
 
-/// Takes stored values, a piece of a step after the other.
+/// Receives the stored values of a step, piece by piece.
 using TakePiece = std::function<void(std::span<const std::byte>)>;
 
 /// A series of steps. Not thread-safe: one owner.
@@ -74,20 +74,20 @@ class VolumeSeries {
     /// @throws Error naming the file when it cannot be read or disagrees with the first step
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;
 
-    /// The same in pieces, each of whole values, one behind the other, which are gone when `take`
-    /// returns: where the format allows it memory never holds the whole step.
+    /// The same in consecutive pieces of whole values; a piece is valid until `take` returns. If
+    /// the format allows it, the whole step is never in memory.
     virtual void stream(std::size_t step, const TakePiece& take) {
         std::vector<std::byte> whole(info().step_bytes());
         read(step, whole);
         take(whole);
     }
 
-    /// The same series for another thread, which reads it at the same time; null where that gains
-    /// nothing, as where many steps lie in one file that is decoded from its start.
+    /// The same series for another thread that reads at the same time; null if that gains nothing,
+    /// as for many steps in one file that is decoded from its start.
     virtual std::unique_ptr<VolumeSeries> another() const { return nullptr; }
 
-    /// A number that changes when what a step is read from is written to; 0 where that cannot be
-    /// told without reading.
+    /// A number that changes when the source of a step is written to; 0 if that cannot be told
+    /// without reading.
     virtual std::uint64_t state(std::size_t /*step*/) const { return 0; }
 };
 
@@ -97,7 +97,7 @@ class VolumeSeries {
 std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::path>& files,
                                           const ReadOptions& options = {});
 
-/// The ends of the names that `open_series` knows, as in ".pvd .vti .vtk".
+/// The file name extensions that `open_series` knows, as in ".pvd .vti .vtk".
 std::string known_extensions();
 
 } // namespace isochron::index

@@ -19,13 +19,13 @@ namespace {
 
 using nlohmann::json;
 
-/// A structure of fields, all of which a recording must have unless they are optional.
+/// A structure of fields. A recording must have all of them, except optional ones.
 template <class T>
 concept Part = requires(T& part) {
     each_field([](const Field&, auto&) {}, part);
 };
 
-// Found by name before they are defined, since parts hold lists of parts.
+// Declared before parts, since parts hold lists of parts.
 template <class T>
 json to_json(const std::vector<T>& list);
 template <class T>
@@ -155,7 +155,7 @@ void from_json(const json& value, const Field& field, T& into) {
     members.done(known);
 }
 
-/// No place is null.
+/// A mark without a place is null.
 json to_json(const Mark& mark) {
     return mark.point ? to_json(*mark.point) : json();
 }
@@ -177,7 +177,7 @@ void from_json(const json& value, const Field& field, std::vector<T>& into) {
         from_json(one, field, into.emplace_back());
 }
 
-// What JSON cannot hold.
+// Whether JSON can hold a value: its numbers are finite.
 
 template <class T>
 bool writable(const T& value) {

@@ -9,15 +9,15 @@
 
 namespace isochron::interaction {
 
-/// Only what is set.
+/// An object of the fields that are set.
 nlohmann::json commands_json(const Commands& commands);
 
-/// @param where what they are called in an error
+/// @param where name of the commands in an error message
 /// @throws Error without file and line: `scale: expected a finite number, got "big"`
 Commands commands_from(const nlohmann::json& value, std::string_view where);
 
-/// The key of the first field that holds what JSON cannot, such as a number that is not finite;
-/// null when all can be written.
+/// The key of the first field with a value that JSON cannot hold (a number that is not finite);
+/// null if there is none.
 const char* unwritable_field(const Commands& commands);
 
 } // namespace isochron::interaction

@@ -1,4 +1,4 @@
-// Values taken from JSON, each checked.
+// Reads values from JSON and checks each.
 #include "interaction/recording/json_values.h"
 
 #include "interaction/error.h"

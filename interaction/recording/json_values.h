@@ -1,4 +1,4 @@
-// Values taken from JSON, each checked and named in the error when it is not what it should be.
+// Reads values from JSON and checks each; an error names the value that is wrong.
 #pragma once
 
 #include "interaction/pose.h"
@@ -15,22 +15,23 @@
 
 namespace isochron::interaction {
 
-inline constexpr double kUnitTolerance = 1e-3; ///< of a quaternion's length
+inline constexpr double kUnitTolerance = 1e-3; ///< of a quaternion's length from 1
 
 /// A value as it may appear in an error line: short, ASCII, without line breaks.
 std::string excerpt(const nlohmann::json& value);
 
-/// @throws Error `where: expected .., got ..`, as everything below does
+/// @throws Error `where: expected .., got ..`; so do the functions below
 [[noreturn]] void fail(std::string_view where, std::string_view expected,
                        const nlohmann::json& got);
 
-/// An object's members, each asked for once; those never asked for are errors.
+/// An object's members. Ask for each once; `done` throws if there are others.
 class Members {
   public:
     Members(const nlohmann::json& object, std::string_view where);
     /// Null when it is missing.
     const nlohmann::json* find(const char* key);
     const nlohmann::json& at(const char* key);
+    /// @throws Error naming a member that was not asked for
     /// @param known every key that was asked for
     void done(std::initializer_list<std::string_view> known) const {
         done(std::span(known.begin(), known.size()));

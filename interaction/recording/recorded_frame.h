@@ -1,4 +1,4 @@
-// What a recording says of the session and of each of its frames.
+// The contents of a recording: the session's header and one record per frame.
 #pragma once
 
 #include "interaction/commands.h"
@@ -16,17 +16,18 @@ struct RecordingHeader {
     std::string data;            ///< path of the index as given
     std::string data_hash;       ///< hexadecimal content hash
     std::array<int, 2> window{}; ///< [pixels] at the start; 0: as the configuration says
-    Commands start;              ///< everything that commands can set, set
+    Commands start;              ///< the state at the start: every setting
     bool operator==(const RecordingHeader&) const = default;
 };
 
 struct RecordedFrame {
     InputState input;    ///< devices as polled, with the frame's time
-    Commands commands;   ///< what they and the panel led to
-    Commands from_panel; ///< the part of `commands` that no device alone explains; picks too
-    /// What the cells were drawn with (`quad`, ...); a report, which no replay obeys. May be empty.
+    Commands commands;   ///< the commands of devices and panel
+    Commands from_panel; ///< the part of `commands` that devices alone do not give: panel and picks
+    /// Footprint that cells were drawn with (`quad`, ...). For information: replays ignore it. May
+    /// be empty.
     std::string footprint = {};
-    /// Heads as they were right before drawing, for the views alone; no devices: as in `input`.
+    /// Poses of the heads right before drawing, used for the views only; no devices: as in `input`.
     InputState latched = {};
     bool operator==(const RecordedFrame&) const = default;
 };

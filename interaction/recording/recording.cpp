@@ -49,11 +49,11 @@ json parse(const std::string& line) {
     }
 }
 
-/// Line by line, with the errors of each named after it.
+/// Reads a file line by line; its error messages name the file and the line's number.
 class LineReader {
   public:
     LineReader(std::istream& file, std::string name) : name_(std::move(name)), file_(file) {}
-    /// False at the end of the file.
+    /// Reads the next line. @return false at the end of the file
     bool next() {
         line_.clear();
         complete_ = false;
@@ -85,7 +85,7 @@ class LineReader {
     std::size_t number_ = 0;
 };
 
-/// What the frames take in memory, which a short file can blow up by repeating devices.
+/// Limits the memory of the frames: a short file can state many devices by repeating them.
 class Budget {
   public:
     void add(const RecordedFrame& frame) {

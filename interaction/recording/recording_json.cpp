@@ -89,7 +89,7 @@ DeviceState device_from(const json& value) {
     return device;
 }
 
-/// All devices that a list states, each once.
+/// Adds the devices of a list. @throws Error when a name occurs twice
 void add_devices(const json& value, InputState& input) {
     for (const json& device : list(value, "devices", 0, kMostDevices)) {
         input.devices.push_back(device_from(device));

@@ -1,4 +1,4 @@
-// Where a tracker stands in the room, and where the thing sits that its sensor tracks.
+// Calibration: from the poses that a tracker reports to poses in the room.
 #include "interaction/trackers/calibration.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -8,7 +8,7 @@
 namespace isochron::interaction {
 namespace {
 
-/// Of the products of a rotation's columns; trackers send a few decimals.
+/// Tolerance of the dot products of a rotation's columns; trackers send few decimals.
 constexpr double kNearlyOrthogonal = 0.02;
 
 } // namespace

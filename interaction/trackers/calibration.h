@@ -1,4 +1,4 @@
-// Where a tracker stands in the room, and where the thing sits that its sensor tracks.
+// Calibration: from the poses that a tracker reports to poses in the room.
 #pragma once
 
 #include "interaction/pose.h"
@@ -9,8 +9,9 @@
 
 namespace isochron::interaction {
 
-/// room = room_from_tracker * (scale * sensor) * sensor_from_thing, where the thing is what the
-/// device is named after: the point between the eyes, the hand.
+/// room = room_from_tracker * (scale * sensor) * sensor_from_thing. The thing is what the device is
+/// named after: the point between the eyes for `head`, the hand for `wand`. Only positions are
+/// scaled.
 struct Calibration {
     Pose room_from_tracker; ///< the tracker's origin and axes in the room
     double scale = 1.0;     ///< meters per meter that the tracker reports
@@ -31,11 +32,11 @@ Velocity calibrated(const Calibration& calibration, const Pose& thing, const Vel
 /// positive heading turns to the left, a positive pitch looks up.
 glm::quat rotation_from_angles(const glm::vec3& heading_pitch_roll);
 
-/// The rotation that a matrix of axes (column i is the image of axis i) stands for; empty when it
-/// is not finite, mirrors, or its columns are not nearly orthogonal and of unit length.
+/// The rotation of a matrix whose column i is the image of axis i; empty if the matrix is not
+/// finite or mirrors, or if its columns are not nearly orthogonal and of unit length.
 std::optional<glm::quat> rotation_from(const glm::dmat3& axes);
 
-/// Where a thing will be after `ahead`, at constant velocity.
+/// The pose after the time `ahead`, at constant velocity.
 Pose extrapolated(const Pose& pose, const Velocity& velocity, Seconds ahead);
 
 } // namespace isochron::interaction

@@ -6,8 +6,8 @@
 namespace isochron::interaction {
 namespace {
 
-constexpr Seconds kWindow{1.0};      ///< clocks drift by less than 0.1 ms meanwhile
-constexpr Seconds kAnotherTime{0.1}; ///< what is delayed by more is of no use to a picture
+constexpr Seconds kWindow{1.0};      ///< clocks drift by less than 0.1 ms in that time
+constexpr Seconds kAnotherTime{0.1}; ///< a sample that is delayed by more is of no use
 
 } // namespace
 

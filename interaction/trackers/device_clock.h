@@ -7,10 +7,10 @@
 
 namespace isochron::interaction {
 
-/// A device stamps its samples evenly, a network delivers them late by varying times. The least
-/// delay of the last seconds is the best guess at the clocks' difference, so a sample is dated by
-/// its own stamp plus that difference. The guess starts over when a stamp is far from it: the
-/// device's clock has been set, or has passed midnight.
+/// A device stamps its samples evenly, but a network delivers them with varying delays. The
+/// smallest difference between arrival and stamp in the last 1 to 2 s is the best estimate of the
+/// difference between the clocks; a sample's time is its stamp plus that. The estimate starts over
+/// when a stamp is more than 0.1 s off: the device's clock has been set, or has passed midnight.
 class DeviceClock {
   public:
     /// @param stamp time by the device's clock, finite
@@ -19,7 +19,7 @@ class DeviceClock {
     Seconds session_time(Seconds stamp, Seconds arrival);
 
   private:
-    /// The least difference, session minus device time, since some arrival.
+    /// The smallest difference, session minus device time, since an arrival.
     struct Least {
         Seconds since, difference;
     };

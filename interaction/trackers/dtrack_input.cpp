@@ -1,4 +1,4 @@
-// An ART tracking system: DTrack's datagrams as devices.
+// Input from an ART tracking system: turns DTrack's datagrams into devices.
 #include "interaction/trackers/dtrack_input.h"
 
 #include "interaction/trackers/device_clock.h"
@@ -13,7 +13,8 @@
 namespace isochron::interaction {
 namespace {
 
-/// Per poll or latch. At 300 frames per second a display that shows 20 keeps up.
+/// Per poll or latch: a program that polls 20 times per second keeps up with 300 datagrams per
+/// second.
 constexpr std::size_t kMostDatagrams = 32;
 
 void add_body(TrackedDevice& device, const DTrackBody& body, Seconds measured,
@@ -70,7 +71,7 @@ struct DTrackInput::State {
             }
     }
 
-    /// Buttons come by radio: they are good even while the Flystick cannot be seen.
+    /// Buttons come by radio, so they are valid even while the Flystick is not tracked.
     static void take(TrackedDevice& device, const DTrackFlystick& flystick, Seconds measured,
                      Seconds arrival, std::optional<Seconds> stamp) {
         device.heard(arrival);
@@ -82,7 +83,7 @@ struct DTrackInput::State {
 
     void take(const Datagram& datagram, Seconds now) {
         const Seconds arrival = now - datagram.age;
-        // Again: the one before may have shown that its sender makes no sense.
+        // Asked again, as an earlier datagram may have shown that its sender makes no sense.
         if (!senders.admits(datagram.sender, arrival))
             return;
         const auto frame = parse_dtrack(datagram.bytes);

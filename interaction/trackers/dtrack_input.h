@@ -1,4 +1,4 @@
-// An ART tracking system: DTrack's datagrams as devices.
+// Input from an ART tracking system: turns DTrack's datagrams into devices.
 #pragma once
 
 #include "interaction/trackers/tracked_device.h"
@@ -10,23 +10,23 @@ namespace isochron::interaction {
 
 enum class DTrackKind : std::uint8_t { body, flystick, marker };
 
-/// One of DTrack's things, by its number there from 0 (markers: from 1), as a device. A marker has
-/// a position only; its orientation is the tracker's.
+/// A body, Flystick or marker of DTrack as a device. A marker has a position only; its orientation
+/// is that of the tracker's axes.
 struct DTrackDevice {
     DeviceOptions device;
     DTrackKind kind = DTrackKind::body;
-    int id = 0;
+    int id = 0; ///< in DTrack: bodies and Flysticks from 0, markers from 1
 };
 
 struct DTrackOptions {
     Endpoint endpoint{"127.0.0.1", 5000};
-    std::optional<Endpoint> from; ///< who may send; port 0: from any port there
+    std::optional<Endpoint> from; ///< the only allowed sender; port 0: any port of that address
     std::vector<DTrackDevice> devices;
 };
 
-/// Datagrams that overtake each other are put right by their frame counter: one that is not newer
-/// than the newest is dropped. Poses are dated by the controller's time stamps where it sends them
-/// (`ts`), else by their arrival. One sender counts at a time (`SenderChoice`).
+/// A datagram whose frame counter is not newer than the newest so far is dropped. The time of a
+/// pose is the controller's time stamp if it sends one (`ts`), else the time of arrival. One sender
+/// counts at a time (`SenderChoice`).
 class DTrackInput final : public TrackedInput {
   public:
     /// @throws Error when the address cannot be bound
@@ -35,9 +35,10 @@ class DTrackInput final : public TrackedInput {
     InputState poll(Seconds now) override;
     InputState latch(Seconds now) override;
     void begin() override;
-    /// `dtrack 127.0.0.1:5000: 3600 frames, 2 missing, 1 late, 0 malformed`, then its devices.
+    /// `dtrack 127.0.0.1:5000: 3600 frames, 2 missing, 1 late, 0 malformed, 0 thrown away`, then a
+    /// line for each device.
     std::vector<std::string> status() const override;
-    /// Where it listens.
+    /// The address and port on which it listens.
     const Endpoint& endpoint() const;
 
   private:

@@ -63,7 +63,7 @@ std::optional<int> id_of(const Block& block) {
     return static_cast<int>(block[0]);
 }
 
-/// A position of 3 numbers, or of 6 where old formats add angles, and the nine of the rotation.
+/// A position of 3 numbers (6 in old formats, which add angles), and the rotation's 9 numbers.
 bool read_pose(const Block& position, const Block& rotation, DTrackBody& body) {
     if ((position.size() != 3 && position.size() != 6) || rotation.size() != 9)
         return false;
@@ -74,7 +74,8 @@ bool read_pose(const Block& position, const Block& rotation, DTrackBody& body) {
     return true;
 }
 
-/// `[id qu][x y z ..][b0..b8]`: qu is -1 while it is not tracked. In `6di`, `[id st er]` with st 0.
+/// `[id qu][x y z ..][b0..b8]`: qu is -1 while it is not tracked. In `6di` the first block is
+/// `[id st er]`, with st 0 while it is not tracked.
 std::optional<DTrackBody> body_from(std::span<const Block> blocks, bool hybrid) {
     const auto id = id_of(blocks[0]);
     DTrackBody body;
@@ -85,7 +86,7 @@ std::optional<DTrackBody> body_from(std::span<const Block> blocks, bool hybrid) 
     return body;
 }
 
-/// `buttons` numbers of 32 bits each to one of 64.
+/// Joins words of 32 button bits each; buttons beyond the first 64 are ignored.
 std::optional<std::uint64_t> bits_from(std::span<const double> words) {
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -133,7 +134,7 @@ std::optional<DTrackMarker> marker_from(std::span<const Block> blocks) {
     return DTrackMarker{*id, kMillimeter * glm::dvec3(blocks[1][0], blocks[1][1], blocks[1][2])};
 }
 
-/// The things of one line: their number, then each in `blocks` consecutive blocks.
+/// Reads the things of one line: their number, then `blocks` blocks for each.
 template <typename Thing, typename Read>
 bool read_things(std::string_view line, std::size_t blocks, std::vector<Thing>& into, Read read) {
     const auto count = take_whole(line, 0, kMostBlocks);
@@ -174,7 +175,7 @@ bool read_calibrated(std::string_view line, DTrackFrame& frame) {
     return count.has_value();
 }
 
-/// The number of defined Flysticks comes before the number of those in the line.
+/// The line gives the number of Flysticks that are defined, then the number of those in the line.
 bool read_flysticks(std::string_view line, DTrackFrame& frame) {
     return take_whole(line, 0, kMostBlocks) && read_things(line, 4, frame.flysticks, flystick_from);
 }

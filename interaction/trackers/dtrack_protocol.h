@@ -12,8 +12,8 @@
 
 namespace isochron::interaction {
 
-/// A body or the body of a Flystick. Rotation: column i is the image of axis i, as the protocol
-/// orders its nine numbers. What is not tracked carries zeros.
+/// A body, or the body of a Flystick. Rotation: column i is the image of axis i; the protocol sends
+/// its nine numbers in that order. DTrack sends zeros while a body is not tracked.
 struct DTrackBody {
     int id = 0; ///< from 0
     bool tracked = false;
@@ -37,14 +37,13 @@ struct DTrackFrame {
     std::vector<DTrackBody> bodies;
     std::vector<DTrackFlystick> flysticks;
     std::vector<DTrackMarker> markers;
-    int malformed_lines = 0; ///< left out
+    int malformed_lines = 0; ///< number of lines that were left out
 };
 
-/// Lines `fr`, `ts`, `6dcal`, `6d`, `6di`, `6df2`, `6df` and `3d`; others are passed over. A line
-/// that does not read as it should, holds a number that is not finite, or announces another number
-/// of blocks than it has is left out whole.
-/// Source: A.R.T. GmbH, DTrack2 user manual, "Output of measurement data via Ethernet" (appendix B
-/// in version 2.12, 2016).
+/// Reads the lines `fr`, `ts`, `6dcal`, `6d`, `6di`, `6df2`, `6df` and `3d`, and ignores others. A
+/// line is left out as a whole if it is malformed, has a number that is not finite, or does not
+/// have the number of blocks that it announces. Source: A.R.T. GmbH, DTrack2 user manual, "Output
+/// of measurement data via Ethernet" (appendix B in version 2.12, 2016).
 /// @return empty when the datagram does not begin with a frame counter
 std::optional<DTrackFrame> parse_dtrack(std::string_view datagram);
 

@@ -1,11 +1,11 @@
-// Puts frames in order by their counter.
+// Checks the frame counter of a tracker's frames.
 #include "interaction/trackers/frame_sequence.h"
 
 namespace isochron::interaction {
 namespace {
 
-constexpr std::int32_t kLongestWay = 1000; ///< [frames] no datagram is overtaken by more
-constexpr Seconds kSilence{0.5};           ///< nor by so long
+constexpr std::int32_t kLongestWay = 1000; ///< [frames] by which a datagram may be overtaken
+constexpr Seconds kSilence{0.5};           ///< longest gap between the frames of one run
 
 } // namespace
 

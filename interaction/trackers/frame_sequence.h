@@ -1,4 +1,4 @@
-// Puts frames in order by their counter: late ones are dropped, missing ones are counted.
+// Checks the frame counter of a tracker's frames: drops late frames, counts missing ones.
 #pragma once
 
 #include "interaction/pose.h"
@@ -8,15 +8,16 @@
 
 namespace isochron::interaction {
 
-/// Counters are 32 bits wide and wrap round. One that goes back by a little has been overtaken; one
-/// that goes back by much, or after a silence, comes from a sender that has started over.
+/// Counters have 32 bits and wrap around. A counter that goes back by at most 1000 is of a frame
+/// that was overtaken. One that jumps by more than 1000 either way, or that follows a silence of
+/// more than 0.5 s, is of a sender that has started over.
 class FrameSequence {
   public:
-    /// @return whether the frame is newer than all before
+    /// @return whether to use the frame: it is newer than all before, or its sender started over
     bool accept(std::uint32_t counter, Seconds arrival);
 
     std::uint64_t accepted() const { return accepted_; }
-    std::uint64_t missing() const { return missing_; } ///< never came, or came late
+    std::uint64_t missing() const { return missing_; } ///< frames that never came, or came late
     std::uint64_t late() const { return late_; }
 
   private:

@@ -1,4 +1,4 @@
-// Devices that send their state as Open Sound Control messages; liblo takes the messages apart.
+// Input from devices that send Open Sound Control messages; liblo parses the messages.
 #include "interaction/trackers/osc_input.h"
 
 #include "interaction/trackers/device_clock.h"
@@ -19,7 +19,7 @@ namespace isochron::interaction {
 namespace {
 
 constexpr std::size_t kMostMessages = 512; ///< datagrams per poll or latch; each may be one button
-constexpr int kDeepest = 4;                ///< of bundles in bundles
+constexpr int kDeepest = 4;                ///< levels of bundles within bundles
 constexpr std::string_view kBundle("#bundle\0", 8);
 constexpr double kFraction = 4294967296.0; ///< of a second in a time tag
 
@@ -38,7 +38,7 @@ std::optional<Seconds> time_of(std::string_view tag) {
     return Seconds(seconds + fraction / kFraction);
 }
 
-/// liblo leaves 64-bit values where the message has them, at multiples of 4 bytes.
+/// Copies the value, as liblo leaves 64-bit values in the message, aligned to 4 bytes only.
 template <typename T>
 double value_at(const void* argument) {
     T value;
@@ -77,7 +77,7 @@ std::optional<std::array<double, kCount>> numbers(lo_message message) {
     return values;
 }
 
-/// A button's or valuator's number; too large a one is none of any device.
+/// The number of a button or valuator; none if it is not whole, or is above 255.
 std::optional<std::size_t> index_of(double value) {
     if (!(value >= 0 && value < 256) || value != static_cast<double>(static_cast<int>(value)))
         return std::nullopt;
@@ -104,7 +104,7 @@ struct OscInput::State {
                                {}});
     }
 
-    /// When a message was sent and came in.
+    /// When a message arrived, and when its values were measured.
     struct Moment {
         Seconds arrival, measured;
         std::optional<Seconds> stamp;
@@ -172,7 +172,7 @@ struct OscInput::State {
 
     void take_message(std::string bytes, const Moment& moment) {
         int status = 0;
-        // It turns the numbers round in place.
+        // liblo swaps the byte order of the numbers in place, in `bytes`.
         const Message message(lo_message_deserialise(bytes.data(), bytes.size(), &status),
                               &lo_message_free);
         if (!message || bytes.front() != '/') {

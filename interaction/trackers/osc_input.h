@@ -1,4 +1,4 @@
-// Devices that send their state as Open Sound Control messages.
+// Input from devices that send their state as Open Sound Control messages.
 #pragma once
 
 #include "interaction/trackers/tracked_device.h"
@@ -20,8 +20,9 @@ struct OscDevice {
 ///     PREFIX/NAME/button i state             0 is up
 ///     PREFIX/NAME/valuator i value
 ///
-/// The time tag of a bundle is the time of measurement by the sender's clock. Buttons that are down
-/// and valuators that are not at rest are sent again at least every `limits.lost_after`.
+/// The time tag of a bundle is the time of measurement by the sender's clock. While a button is
+/// down or a valuator is not at rest, the sender must send something at least every
+/// `limits.lost_after`, or all of them go to rest.
 struct OscOptions {
     Endpoint endpoint{"127.0.0.1", 9000};
     std::string prefix = "/isochron";
@@ -36,7 +37,7 @@ class OscInput final : public TrackedInput {
     InputState poll(Seconds now) override;
     InputState latch(Seconds now) override;
     void begin() override;
-    /// `osc 127.0.0.1:9000: 3600 messages, 2 of wrong types, ..`, then its devices.
+    /// `osc 127.0.0.1:9000: 3600 messages, 2 of wrong types, ..`, then a line for each device.
     std::vector<std::string> status() const override;
     const Endpoint& endpoint() const;
 

@@ -1,4 +1,4 @@
-// Decides which of a tracker's samples are believed.
+// Decides which of a tracker's samples are accepted.
 #include "interaction/trackers/pose_filter.h"
 
 #include <cmath>
@@ -6,9 +6,9 @@
 namespace isochron::interaction {
 namespace {
 
-/// Of a quaternion's length; trackers send a few decimals.
+/// Tolerance of a quaternion's length; trackers send few decimals.
 constexpr float kNearlyUnit = 0.02f;
-/// [m] no room is larger; bounds what garbage can do to the arithmetic that follows.
+/// [m] no room is larger; the limit keeps garbage from breaking the arithmetic that follows.
 constexpr float kFarthest = 1e4f;
 
 } // namespace
@@ -34,7 +34,7 @@ PoseFilter::Verdict PoseFilter::accept(const PoseSample& sample) {
 }
 
 bool PoseFilter::continues_jump(const PoseSample& sample) const {
-    // A jump that nothing continues for a while is over.
+    // A jump ends when no sample continues it for `held_after`.
     return jump_ && plausible(jump_->newest, sample) &&
            sample.time - jump_->newest.time <= limits_.held_after;
 }
@@ -64,8 +64,8 @@ PoseFilter::Verdict PoseFilter::add(PoseSample sample) {
         ++counts_.late;
         return Verdict::refused;
     }
-    // With time the old place comes into reach of the new one: what goes on from a jump is still
-    // the jump.
+    // As time passes, the jump's place comes within reach of the last good pose. So this test is
+    // first: a sample that continues a jump is part of the jump.
     if (continues_jump(sample))
         return jump(sample, jump_->since);
     return plausible(*last_, sample) ? accept(sample) : jump(sample, sample.time);

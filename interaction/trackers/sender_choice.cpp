@@ -1,4 +1,4 @@
-// Whose datagrams count, where anybody can send.
+// Chooses the sender whose datagrams are used.
 #include "interaction/trackers/sender_choice.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace isochron::interaction {
 namespace {
 
 constexpr Seconds kSenderGone{1};      ///< a tracker sends some 60 frames in that time
-constexpr std::size_t kMostNoisy = 64; ///< remembered
+constexpr std::size_t kMostNoisy = 64; ///< senders that are remembered
 
 } // namespace
 

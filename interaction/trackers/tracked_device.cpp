@@ -1,4 +1,4 @@
-// One device of a tracker: what its samples, buttons and valuators come to in a frame.
+// One device of a tracker: turns its samples, buttons and valuators into its state in a frame.
 #include "interaction/trackers/tracked_device.h"
 
 #include <algorithm>
@@ -11,7 +11,8 @@ namespace {
 
 constexpr Seconds kShortestHistory{0.015}; ///< two samples of a tracker at 60 Hz show a velocity
 
-/// As the data age, the velocity is trusted less, until the last good pose itself is held.
+/// Weight of the velocity: 1 up to half of `held_after`, falling to 0 at `held_after`, from which
+/// on the last good pose itself is held.
 double trust(Seconds age, const PoseFilterLimits& limits) {
     return std::clamp(2.0 - 2.0 * (age / limits.held_after), 0.0, 1.0);
 }

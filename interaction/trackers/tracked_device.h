@@ -1,4 +1,4 @@
-// One device of a tracker: what its samples, buttons and valuators come to in a frame.
+// One device of a tracker: turns its samples, buttons and valuators into its state in a frame.
 #pragma once
 
 #include "interaction/pose_history.h"
@@ -10,16 +10,16 @@
 
 namespace isochron::interaction {
 
-/// Poses are stated for the time at which the picture that they lead to is seen.
+/// Prediction states a pose for the time at which the picture made from it is seen.
 struct PredictionOptions {
     bool on = true;
     Seconds display_delay{0.025}; ///< from the poll of a frame until its picture is seen
-    Seconds limit{0.05};          ///< never further than this from the measurement
-    Seconds smoothing{0.05};      ///< over which a velocity is estimated that no device tells
+    Seconds limit{0.05};          ///< longest prediction beyond the measurement
+    Seconds smoothing{0.05};      ///< over which velocity is estimated if the device sends none
     bool operator==(const PredictionOptions&) const = default;
 };
 
-/// One of the source's valuators, scaled: a factor of -1 turns it round.
+/// One of the source's valuators, scaled: a factor of -1 reverses it.
 struct ValuatorSource {
     std::size_t index;
     float factor = 1.0f;
@@ -34,12 +34,12 @@ struct DeviceOptions {
     Seconds latency{0}; ///< from the measurement until the tracker sends it
     PoseFilterLimits limits;
     PredictionOptions prediction;
-    std::vector<std::size_t> buttons; ///< the source's button for each bit; empty: as they come
-    std::vector<ValuatorSource> valuators; ///< empty: as they come
+    std::vector<std::size_t> buttons; ///< the source's button for each bit; empty: the same bits
+    std::vector<ValuatorSource> valuators; ///< empty: the source's, in its order
 };
 
-/// Collects what came since the last poll. The pose goes through calibration, filter and
-/// prediction; buttons and valuators go to rest when the device has not been heard of for
+/// Collects what has arrived since the last poll. The pose goes through calibration, filter and
+/// prediction. Buttons and valuators go to rest when nothing has been heard from the device for
 /// `limits.lost_after`, so that a tracker that stops leaves nothing pressed.
 class TrackedDevice {
   public:
@@ -48,28 +48,29 @@ class TrackedDevice {
     explicit TrackedDevice(DeviceOptions options);
     const std::string& name() const { return options_.name; }
 
-    /// The device's voice: called with every message that concerns it.
+    /// Notes that the device has sent something; call it with every message of the device.
     void heard(Seconds now) { heard_ = now; }
-    /// @param time session time of arrival, or of the measurement where that is known
-    /// @param sensor in the tracker's frame [m]; anything that is not a pose is counted and refused
+    /// @param time session time of the measurement, or of arrival if that is not known; the
+    ///        configured latency is subtracted
+    /// @param sensor in the tracker's frame [m]; counted and refused if it is not a pose
     void add_pose(Seconds time, const Pose& sensor, std::optional<Velocity> velocity = std::nullopt,
                   std::optional<Seconds> device_time = std::nullopt);
-    /// Something that should have been a pose.
+    /// Counts something that should have been a pose but is none.
     void refuse_pose() { filter_.refuse(); }
-    /// By the source's numbering; numbers beyond the limits and values that are not finite are
-    /// ignored.
+    /// Set buttons and valuators, numbered as the source does. Numbers beyond the limits and values
+    /// that are not finite are ignored.
     void set_button(std::size_t index, bool down);
     void set_buttons(std::uint64_t bits);
     void set_valuator(std::size_t index, float value);
 
     /// State as of `now`. A button that was down at any time since the last poll is down.
     DeviceState poll(Seconds now);
-    /// Its pose alone, of what has come since too, for the time at which the picture of the last
-    /// poll's frame is seen. @param now not before the last poll
+    /// The pose only, with the samples that have arrived since the last poll, for the time at which
+    /// the picture of that poll's frame is seen. @param now not before the last poll
     DeviceState latch(Seconds now) const;
 
     const PoseFilterCounts& counts() const { return filter_.counts(); }
-    /// `  head: 3600 poses, 2 no poses, 0 late, 12 jumped, 1 moved on`.
+    /// `  head: 3600 poses, 2 refused as none, 0 late, 12 jumped, 1 moved on`.
     std::string status() const;
 
   private:
@@ -83,7 +84,7 @@ class TrackedDevice {
     PoseFilter filter_;
     PoseHistory history_;
     std::optional<Seconds> heard_;
-    Seconds polled_{0}; ///< last
+    Seconds polled_{0}; ///< time of the last poll
     std::uint64_t buttons_ = 0, tapped_ = 0;
     std::vector<float> valuators_;
 };

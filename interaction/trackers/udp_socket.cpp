@@ -1,4 +1,4 @@
-// Datagrams from the network, without ever waiting for one.
+// Receives UDP datagrams without ever waiting for one.
 #include "interaction/trackers/udp_socket.h"
 
 #include "interaction/error.h"
@@ -28,8 +28,8 @@ namespace {
 
 using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
-/// Numeric addresses only: a name could stand for an interface that nobody meant, and asking for it
-/// may take long.
+/// Numeric addresses only: a name could resolve to an unintended interface, and resolving may take
+/// long.
 Addresses resolve(const std::string& address, int port) {
     addrinfo hints{};
     hints.ai_family = AF_UNSPEC;
@@ -97,7 +97,7 @@ bool is_address(const std::string& text) {
 std::optional<Endpoint> endpoint_from(const std::string& text) {
     std::string address = text, port = "0";
     const std::size_t colon = text.rfind(':');
-    // More than one colon is an IPv6 address, which stands in brackets where a port follows.
+    // Text with more than one colon is an IPv6 address, in brackets if a port follows.
     if (text.starts_with('[') ? text.find("]:") + 1 == colon : text.find(':') == colon) {
         address = text.substr(0, colon);
         port = colon == std::string::npos ? "0" : text.substr(colon + 1);
@@ -116,7 +116,7 @@ std::optional<Endpoint> endpoint_from(const std::string& text) {
         address.empty() ? Addresses(nullptr, &freeaddrinfo) : resolve(address, number);
     if (!found)
         return std::nullopt;
-    // In the one spelling that senders are told by.
+    // Returns the address in the spelling that `endpoint_of` gives for senders.
     sockaddr_storage canonical{};
     std::memcpy(&canonical, found->ai_addr, found->ai_addrlen);
     return endpoint_of(canonical);
@@ -148,7 +148,7 @@ UdpSocket::~UdpSocket() {
 }
 
 void UdpSocket::drain() {
-    // A sender that never pauses must not keep it here.
+    // The limit ends the loop even if a sender never pauses.
     constexpr std::size_t kMostDrained = 1 << 20;
     for (std::size_t drained = 0; drained < kMostDrained; ++drained)
         if (recv(socket_, buffer_.data(), buffer_.size(), 0) < 0)
@@ -172,7 +172,7 @@ std::vector<Datagram> UdpSocket::take(std::size_t kept, const Admission& admits)
         const ssize_t length = recvmsg(socket_, &message, 0);
         if (length < 0)
             break; // nothing is waiting, or an error that concerns one datagram only
-        // The wall clock may have been set meanwhile: a wait has a sensible length.
+        // The wall clock may have been set meanwhile, so the age is limited to 0 to 1 s.
         const Seconds age =
             std::clamp(now - arrival(message).value_or(now), Seconds(0), Seconds(1));
         const Endpoint from = endpoint_of(sender);

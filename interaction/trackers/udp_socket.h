@@ -1,4 +1,4 @@
-// Datagrams from the network, without ever waiting for one.
+// Receives UDP datagrams without ever waiting for one.
 #pragma once
 
 #include "interaction/pose.h"
@@ -11,10 +11,10 @@
 
 namespace isochron::interaction {
 
-/// Numeric address of one of this machine's interfaces, IPv4 or IPv6, and a UDP port.
+/// A numeric IPv4 or IPv6 address and a UDP port. To listen, the address is one of this machine's.
 struct Endpoint {
     std::string address = "127.0.0.1";
-    int port = 0; ///< 0: any free one
+    int port = 0; ///< to listen, 0 is any free port
     bool operator==(const Endpoint&) const = default;
 };
 /// `127.0.0.1:5000`, `[::1]:5000`.
@@ -25,13 +25,13 @@ std::optional<Endpoint> endpoint_from(const std::string& text);
 
 struct Datagram {
     std::string bytes;
-    Seconds age{0}; ///< how long it had been waiting here when it was taken
+    Seconds age{0}; ///< how long it had been waiting in the kernel when it was taken
     Endpoint sender;
 };
-/// Whether a datagram of this sender, which has waited so long, is to be kept.
+/// Decides whether to keep a datagram of this sender, which has waited for `age`.
 using Admission = std::function<bool(const Endpoint& sender, Seconds age)>;
 
-/// A socket that is bound to one address and receives what is sent there.
+/// A socket that is bound to one address and receives the datagrams that are sent there.
 class UdpSocket {
   public:
     static constexpr std::size_t kMostTaken = 1024; ///< per call of `take`
@@ -41,16 +41,16 @@ class UdpSocket {
     UdpSocket(const UdpSocket&) = delete;
     UdpSocket& operator=(const UdpSocket&) = delete;
 
-    /// Takes what is waiting, at most `kMostTaken` datagrams, and keeps the newest `kept` of them,
-    /// oldest first. Datagrams longer than `kLongest` bytes are counted and thrown away; those
-    /// that `admits` refuses are passed over, so that they displace nobody's.
+    /// Takes the waiting datagrams, at most `kMostTaken`, and returns the newest `kept` of them,
+    /// oldest first. Datagrams longer than `kLongest` bytes are counted and thrown away. Those that
+    /// `admits` refuses are dropped uncounted, so that they take no place among the newest.
     std::vector<Datagram> take(
         std::size_t kept, const Admission& admits = [](const Endpoint&, Seconds) { return true; });
-    /// Throws away all that is waiting, uncounted.
+    /// Throws away all waiting datagrams, uncounted.
     void drain();
-    /// Datagrams that were taken but not kept, or too long.
+    /// Number of datagrams that were taken but not kept, or were too long.
     std::uint64_t thrown_away() const { return thrown_away_; }
-    /// With the port that was found, where any was asked for.
+    /// The address it is bound to, with the actual port if 0 was asked for.
     const Endpoint& endpoint() const { return endpoint_; }
 
   private:

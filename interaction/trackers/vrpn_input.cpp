@@ -1,4 +1,4 @@
-// Devices of VRPN servers, each read on a thread of VRPN's own.
+// Input from devices of VRPN servers, all read on one thread.
 #include "interaction/trackers/vrpn_input.h"
 
 #include "interaction/trackers/device_clock.h"
@@ -21,7 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPause = 1ms; ///< between two looks at the connections
+constexpr auto kPause = 1ms; ///< between two polls of the connections
 constexpr std::size_t kMostSamples = 64;
 
 Seconds seconds_of(const timeval& time) {
@@ -29,7 +29,7 @@ Seconds seconds_of(const timeval& time) {
            Seconds(1e-6 * static_cast<double>(time.tv_usec));
 }
 
-/// VRPN tells turning as the rotation within a time.
+/// VRPN reports angular velocity as the rotation within a time.
 Velocity velocity_of(const vrpn_TRACKERVELCB& report) {
     const glm::quat turn(
         static_cast<float>(report.vel_quat[3]), static_cast<float>(report.vel_quat[0]),
@@ -57,7 +57,7 @@ struct Received {
 } // namespace
 
 struct VrpnInput::State {
-    /// One device's remotes, used by the thread alone; only `received` is shared.
+    /// One device: the thread fills `received`, the polling side takes it over.
     struct Source {
         VrpnDevice options;
         TrackedDevice tracked; ///< of the polling side
@@ -93,7 +93,7 @@ struct VrpnInput::State {
             buttons = report.state ? buttons | mask : buttons & ~mask;
             source.received.tapped |= buttons;
         }
-        /// All of them, sent when a connection is made: some may be down already.
+        /// The states of all buttons, sent when a connection is made: some may be down already.
         static void VRPN_CALLBACK buttons(void* self, const vrpn_BUTTONSTATESCB report) {
             auto& source = *static_cast<Source*>(self);
             std::uint64_t states = 0;
@@ -113,7 +113,7 @@ struct VrpnInput::State {
             std::copy_n(report.channel, received.valuator_count, received.valuators.begin());
         }
 
-        /// Takes over what the thread has received; it holds the lock for a copy only.
+        /// Takes over what the thread has received; holds the lock only while it copies.
         Received take() {
             const std::lock_guard lock(mutex);
             Received taken = received;
@@ -133,7 +133,7 @@ struct VrpnInput::State {
                 tracked.add_pose(clock.session_time(sample.stamp, arrival), sample.pose,
                                  taken.velocity, sample.stamp);
             }
-            tracked.set_buttons(taken.buttons | taken.tapped); // down in the next poll
+            tracked.set_buttons(taken.buttons | taken.tapped); // shows taps in the next poll
             tracked.set_buttons(taken.buttons);
             for (std::size_t i = 0; i < taken.valuator_count; ++i)
                 tracked.set_valuator(i, taken.valuators[i]);
@@ -181,7 +181,7 @@ struct VrpnInput::State {
     };
 
     std::vector<std::unique_ptr<Source>> sources;
-    std::jthread thread; ///< last: ends before what it uses
+    std::jthread thread; ///< the last member, so that it ends before what it uses is destroyed
 
     void run(const std::stop_token& stop) {
         std::vector<Remotes> remotes;

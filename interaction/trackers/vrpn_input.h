@@ -1,4 +1,4 @@
-// Devices of VRPN servers.
+// Input from devices of VRPN servers.
 #pragma once
 
 #include "interaction/trackers/tracked_device.h"
@@ -7,7 +7,7 @@
 
 namespace isochron::interaction {
 
-/// Servers by VRPN's names, `Tracker0@host:3883`; an empty name: the device has none of these.
+/// Sources of a device, by VRPN's names: `Tracker0@host:3883`; an empty name: no such source.
 struct VrpnDevice {
     DeviceOptions device;
     std::string tracker, buttons, analog;
@@ -18,15 +18,16 @@ struct VrpnOptions {
     std::vector<VrpnDevice> devices;
 };
 
-/// Connecting to a server may take long and is tried again for ever: all of VRPN runs on a thread
-/// of its own, and the frame takes over what has come since.
+/// Connecting to a server may take long, and VRPN tries again forever. So all of VRPN runs on a
+/// thread of its own; a poll takes over what that thread has received since.
 class VrpnInput final : public TrackedInput {
   public:
     explicit VrpnInput(const VrpnOptions& options);
     ~VrpnInput() override;
     InputState poll(Seconds now) override;
     InputState latch(Seconds now) override;
-    /// `vrpn Tracker0@host: connected`, then the device.
+    /// For each device `vrpn Tracker0@host Wand@host Stick@host: connected` (tracker, buttons,
+    /// analog), then the device's line.
     std::vector<std::string> status() const override;
 
   private:

@@ -16,12 +16,21 @@ std::unique_ptr<DecodedFile> decode_vti(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_vtk(const std::filesystem::path& path,
                                         const ReadOptions& options);
 
+/// VTK's rectilinear grids (.vtr, legacy), files of several pieces (.pvti, .pvtr), and, where they are
+/// to be resampled, other grids (.vtu, .vts, .pvtu, .pvts, .vtm, .vth, legacy).
+std::unique_ptr<DecodedFile> decode_vtk_data(const std::filesystem::path& path,
+                                             const ReadOptions& options);
+
 /// NetCDF, classic and 4.
 std::unique_ptr<DecodedFile> decode_netcdf(const std::filesystem::path& path,
                                            const ReadOptions& options);
 
 /// HDF5 datasets by their path, VTKHDF image data and openPMD meshes.
 std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
+                                         const ReadOptions& options);
+
+/// TIFF, BigTIFF, OME-TIFF and ImageJ's hyperstacks; with `slices` a file for each slice.
+std::unique_ptr<DecodedFile> decode_tiff(const std::filesystem::path& path,
                                          const ReadOptions& options);
 
 /// The files and times of a ParaView collection (.pvd), in the order of their times, paths made

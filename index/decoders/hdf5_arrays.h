@@ -13,9 +13,10 @@ namespace isochron::index {
 
 /// One dataset, or several whose paths differ in the number of one group: a step each.
 struct Hdf5Array {
-    std::string name;                ///< its path; `/data/*/rho` where there are several
-    std::vector<Hdf5Dataset> steps;  ///< in the order of their numbers
-    std::vector<std::string> groups; ///< of several: what `*` stands for, with all before it
+    std::string name;                      ///< its path; `/data/*/rho` where there are several
+    std::vector<Hdf5Dataset> steps;        ///< in the order of their numbers
+    std::vector<std::string> groups;       ///< of several: what `*` stands for, with all before it
+    std::vector<std::string> offered = {}; ///< what it was chosen from, with types
 };
 
 /// Dimensions of a dataset, counted from the slowest.

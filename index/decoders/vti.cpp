@@ -33,24 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The text of a file up to its appended data, which the mapping gives without reading the rest.
-std::string_view markup_of(const MappedFile& file) {
-    const std::string_view all(reinterpret_cast<const char*>(file.bytes().data()),
-                               file.bytes().size());
-    return all.substr(0, std::min(all.find("<AppendedData"), all.size()));
-}
-
-// Of appended values that end too early VTK leaves the rest as they were in memory. Whatever was
-// cut off, the end of the markup is gone as well.
-void expect_end(const MappedFile& file, const std::string& name) {
-    constexpr std::size_t kTail = 4096; // some writers leave blanks or a comment after it
-    const std::span<const std::byte> bytes = file.bytes();
-    const std::span<const std::byte> tail = bytes.last(std::min(bytes.size(), kTail));
-    if (std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size())
-            .find("</VTKFile") == std::string_view::npos)
-        throw Error(fmt::format("{}: truncated: it does not end with </VTKFile>", name));
-}
-
 // Every piece gives its part of the vertices; where one is missing VTK would leave zeros. Pieces
 // may overlap.
 void expect_whole(std::string_view markup, const Grid& grid, const std::string& file) {
@@ -195,6 +177,7 @@ class VtiFile final : public DecodedFile {
         add_arrays(out->Get(vtkDataObject::POINT_DATA_VECTOR()), false, arrays);
         add_arrays(out->Get(vtkDataObject::CELL_DATA_VECTOR()), true, arrays);
         chosen_ = choose_scalar(without_flags(std::move(arrays)), options, name);
+        info_.arrays = chosen_.offered;
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         info_.notes = chosen_.notes();

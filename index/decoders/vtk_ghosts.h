@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-class vtkImageData;
+class vtkDataSet;
 
 namespace isochron::index {
 
@@ -23,7 +23,7 @@ std::vector<StoredArray> without_flags(std::vector<StoredArray> arrays);
 /// has no flags. Values at vertices are hidden where a point is, where all cells around it are, and
 /// at every corner of a cell that would not be hidden by that.
 /// @param image with its arrays of flags read
-std::vector<std::uint8_t> hidden_by_flags(vtkImageData& image, const ChosenScalar& chosen,
+std::vector<std::uint8_t> hidden_by_flags(vtkDataSet& image, const ChosenScalar& chosen,
                                           const Grid& grid);
 
 /// `1,331 of 8,000 vertices are hidden by ...`; nothing where none is.

@@ -13,7 +13,7 @@
 
 class vtkDataArray;
 class vtkFieldData;
-class vtkImageData;
+class vtkDataSet;
 class vtkOutputWindow;
 
 namespace isochron::index {
@@ -34,7 +34,7 @@ Grid grid_of_vtk(const int (&extent)[6], const double* origin, const double* spa
 /// Converts slices of the chosen array of an image that has been read; of cell data all.
 /// @param hidden see `hidden_by_flags`
 /// @throws Error naming the file when the array is absent or not as long as the image
-void values_of_vtk(vtkImageData& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
+void values_of_vtk(vtkDataSet& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
                    std::span<const std::uint8_t> hidden, std::span<std::byte> out,
                    const std::string& file);
 
@@ -43,7 +43,7 @@ std::uint32_t slices_of_vtk(const ChosenScalar& chosen, const SeriesInfo& info);
 std::uint64_t bytes_of_vtk(const ChosenScalar& chosen, const Grid& grid);
 
 /// Arrays of an image that has been read.
-std::vector<StoredArray> arrays_of_vtk(vtkImageData& image);
+std::vector<StoredArray> arrays_of_vtk(vtkDataSet& image);
 
 /// The time that the field data give, if they do: `TimeValue` as ParaView writes it, `TIME` as VisIt
 /// does, or `TimeStep`; of the others a note says so.

@@ -1,12 +1,22 @@
 // What is looked at in XML before VTK gets it.
 #pragma once
 
+#include "index/system/mapped_file.h"
+
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace isochron::index {
+
+/// The text of a file up to its appended data, which the mapping gives without reading the rest.
+std::string_view markup_of(const MappedFile& file);
+
+/// Of appended values that end too early VTK leaves the rest as they were in memory. Whatever was
+/// cut off, the end of the markup is gone as well.
+/// @throws Error naming the file
+void expect_end(const MappedFile& file, const std::string& name);
 
 /// VTK's parsers descend into elements by recursion, and take quadratic time before.
 /// @throws Error naming the file when elements are nested deeper than in any file of VTK's

@@ -10,7 +10,7 @@ namespace isochron::index {
 
 struct SeriesFile {
     std::filesystem::path path;
-    OpenVolumeFile open = nullptr;
+    OpenVolumeFile open = {};
     std::optional<double> time; ///< given by an index of the series (.pvd), before what files say
 };
 

@@ -28,7 +28,7 @@ void describe_sources(BuildArguments arguments, bool in_json) {
     const BuildSources sources = open_sources(files, arguments);
     const std::string name = fmt::format("{}", fmt::join(arguments.files, " "));
     fmt::print("{}",
-               json ? source_json(name, *sources.volume) : source_text(name, *sources.volume));
+               in_json ? source_json(name, *sources.volume) : source_text(name, *sources.volume));
 }
 
 void run_info(const InfoArguments& given) {

@@ -48,8 +48,11 @@ struct CellMesh {
 
 using CellMeshPtr = std::shared_ptr<const CellMesh>;
 
-/// Sets of more cells come without a mesh: it would take a hundred megabytes and more, twice where
-/// the processor draws, which takes seconds for so many triangles.
-constexpr std::size_t kMostMeshedCells = std::size_t{1} << 21;
+std::uint64_t bytes_of(const CellMesh& mesh);
+/// What the mesh of so many active cells takes at least: each has a triangle. Most have two, and
+/// about one vertex.
+constexpr std::uint64_t least_mesh_bytes(std::size_t cells) {
+    return cells * (3 * sizeof(std::uint32_t) + 1);
+}
 
 } // namespace isochron::index

@@ -23,12 +23,13 @@ SearchMethod cheapest_method(const IndexFile& file);
 /// Whether the file has what a method works on.
 bool can_search(const IndexFile& file, SearchMethod method);
 
-/// Whether a set gets its points and rows, and a mesh with them, or stays a list of ids.
-enum class Shading : std::uint8_t { none, cells, cells_and_mesh };
+/// Whether a set gets its points and rows, and a mesh with them where the query has room for one, or
+/// stays a list of ids.
+enum class Shading : std::uint8_t { none, cells };
 
 /// The search over an open index. Copies share their state.
 /// @param method instead of the cheapest; the file must have that tier
-/// @param shading what completes the sets: `shade_cells`, and `make_mesh` up to kMostMeshedCells
+/// @param shading what completes the sets: `shade_cells`, and `make_mesh` within the query's room
 Search search_in(std::shared_ptr<const IndexFile> file,
                  std::optional<SearchMethod> method = std::nullopt,
                  Shading shading = Shading::cells);

@@ -132,7 +132,8 @@ MessageBytes encoded(const FrameChoice& choice) {
     return bytes_of({{"footprint", choice.footprint},
                      {"reason", choice.reason},
                      {"final", choice.final},
-                     {"measure", choice.measure}});
+                     {"measure", choice.measure},
+                     {"mesh", choice.mesh}});
 }
 
 FrameChoice decode_choice(std::span<const std::byte> bytes) {
@@ -142,8 +143,9 @@ FrameChoice decode_choice(std::span<const std::byte> bytes) {
         footprint_from(members.at("footprint")),
         static_cast<QualityReason>(natural(members.at("reason"), "reason",
                                            static_cast<unsigned>(QualityReason::over_budget))),
-        boolean(members.at("final"), "final"), boolean(members.at("measure"), "measure")};
-    members.done({"footprint", "reason", "final", "measure"});
+        boolean(members.at("final"), "final"), boolean(members.at("measure"), "measure"),
+        boolean(members.at("mesh"), "mesh")};
+    members.done({"footprint", "reason", "final", "measure", "mesh"});
     return choice;
 }
 

@@ -38,6 +38,7 @@ struct FrameChoice {
     QualityReason reason = QualityReason::moving;
     bool final = false;   ///< the picture is as good as it gets for these cells
     bool measure = false; ///< draw even if nothing has changed
+    bool mesh = false;    ///< the sets asked for from now on come with a mesh
     bool operator==(const FrameChoice&) const = default;
 };
 

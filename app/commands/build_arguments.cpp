@@ -44,6 +44,8 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
     index::ReadOptions read = arguments.read;
     if (!arguments.dims.empty())
         read.dims = {arguments.dims[0], arguments.dims[1], arguments.dims[2]};
+    if (!arguments.resample.empty())
+        read.resample = {arguments.resample[0], arguments.resample[1], arguments.resample[2]};
     if (!arguments.type.empty())
         read.type = index::value_type_from_name(arguments.type);
     read.spacing = vector_of(arguments.spacing);
@@ -139,6 +141,15 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
             "--extra-axis-is-time", read.extra_axis_is_time,
             "Read the axis that is none of space as time, whatever a file says of it, or where it "
             "may be components")
+        .group("Reading");
+    command
+        .option(
+            "--resample", arguments.resample,
+            "Make a regular grid of so many vertices of one that is not (rectilinear, curvilinear, "
+            "unstructured): its values are interpolated")
+        .values(3)
+        .type_name("NX NY NZ")
+        .between(2u, 65537u)
         .group("Reading");
     command
         .flag("--times-from-names", read.times_from_names,

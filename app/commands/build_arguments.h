@@ -16,7 +16,7 @@ struct BuildArguments {
     std::filesystem::path out;
     index::ReadOptions read;
     std::string type;
-    std::vector<std::uint32_t> dims;
+    std::vector<std::uint32_t> dims, resample;
     std::vector<double> spacing, origin;
     index::BuildOptions build;
     std::string tiers, codec;

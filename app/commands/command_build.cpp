@@ -1,5 +1,5 @@
 // `isochron build`: reads a series of volume files and writes its index.
-#include "app/commands/build_arguments.h"
+#include "app/commands/build_sources.h"
 #include "app/commands/cancel.h"
 #include "app/commands/file_patterns.h"
 #include "app/commands/index_report.h"
@@ -9,7 +9,6 @@
 #include "index/build/appended_series.h"
 #include "index/build/index_build.h"
 #include "index/error.h"
-#include "index/file/index_series.h"
 #include "index/system/growing_file.h"
 #include "index/system/team.h"
 #include "stereo/cluster.h"
@@ -26,11 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An index is a series too: of an older file version it becomes one of this.
-bool is_one_index(const std::vector<fs::path>& files) {
-    return files.size() == 1 && index::is_index(files.front());
-}
-
 std::string summary(const fs::path& out, const index::IndexFile& file) {
     const index::SeriesInfo& info = file.info();
     const index::IndexStats& stats = file.stats();
@@ -45,33 +39,9 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
     return text;
 }
 
-/// The volume and the array to color by; no volume when there is nothing to append.
-struct Sources {
-    std::unique_ptr<index::VolumeSeries> volume, colors;
-};
-
-Sources open_sources(const std::vector<fs::path>& files, const BuildArguments& arguments) {
-    Sources sources;
-    if (!is_one_index(files)) {
-        sources.volume = index::open_series(files, read_options(arguments));
-        if (arguments.color)
-            sources.colors = index::open_series(files, color_options(arguments));
-        return sources;
-    }
-    if (arguments.refer)
-        throw UsageError("--refer: an index has no files of values to refer to");
-    sources.volume = index::open_index_series(files.front(), read_options(arguments));
-    index::ReadOptions of_colors = color_options(arguments);
-    if (!of_colors.array)
-        of_colors.array = index::color_of_index(files.front());
-    if (of_colors.array)
-        sources.colors = index::open_index_series(files.front(), of_colors);
-    return sources;
-}
-
 /// Appends in place where that can be, else builds anew.
 /// @param file null where nothing is appended to @return what a user should know, or nothing
-std::string write_index(const Sources& sources, const BuildArguments& arguments,
+std::string write_index(const BuildSources& sources, const BuildArguments& arguments,
                         const index::BuildOptions& options, const index::IndexFile* held,
                         index::GrowingFile* file, const index::Progress& progress,
                         index::Team& team) {
@@ -100,21 +70,11 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
             arguments = with_held(asked, *held);
         });
     }
-    index::BuildOptions options = arguments.build;
-    if (!arguments.tiers.empty())
-        options.tiers = tiers_of(arguments.tiers);
-    if (!arguments.codec.empty())
-        options.codec = *index::codec_from_name(arguments.codec);
-    options.array = arguments.read.array;
-    options.component = arguments.read.component;
-    options.color_array = arguments.color;
-    options.color_component = arguments.color_component;
-    Sources sources;
+    BuildSources sources;
+    index::BuildOptions options;
     team.together([&] {
         const std::vector<fs::path> files = expand_patterns(arguments.files);
         refuse_input_as_output(files, arguments.out);
-        if (arguments.refer)
-            options.referral = referral_to(files, arguments);
         sources = open_sources(files, arguments);
         if (held) {
             sources.volume =
@@ -122,7 +82,9 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
             sources.colors =
                 index::append_colors_to(held, arguments.out.string(), std::move(sources.colors));
         }
-        options.color = sources.colors.get();
+        options = build_options(arguments, sources);
+        if (arguments.refer)
+            options.referral = referral_to(files, arguments);
     });
     if (!sources.volume) { // nothing to append
         if (reports)

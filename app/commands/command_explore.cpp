@@ -3,6 +3,7 @@
 #include "app/commands/cluster_job.h"
 #include "app/commands/drawing_options.h"
 #include "app/commands/explore_options.h"
+#include "app/commands/explored_data.h"
 #include "app/commands/file_patterns.h"
 #include "app/commands/kept_session.h"
 #include "app/commands/live_setup.h"
@@ -120,8 +121,10 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
 /// @param headset that the first window mirrors: it paces the frames, not that window's display
 stereo::Windows open(const ExploreOptions& options, const Config& config, const ClusterJob& job,
                      const stereo::Headset* headset) {
-    const std::string title = fmt::format(
-        "Isochron: {}", options.test_pattern ? "test pattern" : options.data.value_or("open data"));
+    const std::string title =
+        fmt::format("Isochron: {}", options.test_pattern        ? "test pattern"
+                                    : options.data_name.empty() ? "open data"
+                                                                : options.data_name);
     const stereo::Installation& installation = config.installation;
     if (options.emulate) {
         stereo::ContextOptions room{.title = title, .vsync = config.vsync};
@@ -298,7 +301,7 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
                     : opened->state();
         opened->set_state(start_from(start, options, steps));
         opened->outputs().set_screenshots(options.screenshots);
-        opened->set_data_name(std::filesystem::path(*options.data).filename().string());
+        opened->set_data_name(std::filesystem::path(options.data_name).filename().string());
         if (config.cluster.swap_group && job.size() > 1)
             stereo::join_swap_group(opened->outputs().windows());
     });
@@ -313,7 +316,8 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
         how.why_not_open = [&](const std::filesystem::path& data) {
             return why_not_open(options, data);
         };
-        greet(session, memory, remembering, *options.data);
+        greet(session, memory, remembering,
+              options.data_name == *options.data ? options.data : std::nullopt);
     }
     LiveLoop live(config, std::move(trackers), how, session.outputs().headset());
     session.set_clock(live.clock());
@@ -352,7 +356,7 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
 
 /// The same for other data: what was said of the first ones alone holds no longer.
 ExploreOptions with_data(ExploreOptions options, const std::string& data) {
-    options.data = data;
+    options.data = options.data_name = data;
     options.isovalue.reset();
     options.step.reset();
     options.session.reset();
@@ -365,16 +369,18 @@ ExploreOptions with_data(ExploreOptions options, const std::string& data) {
 
 void add_explore(Command& program) {
     auto options = std::make_shared<ExploreOptions>();
-    Command command = program.subcommand("explore", "Explore an index in a window, live.");
+    Command command =
+        program.subcommand("explore", "Explore an index, or files of values, in a window, live.");
     add_explore_options(command, *options);
     command.on_run([options] {
         if (!only_describes(*options))
             run_in_cluster([&](ClusterJob& job) {
-                ExploreOptions now = *options;
+                ExploreOptions now = with_index(*options, job);
                 if (!now.data && !now.test_pattern && job.size() == 1) {
-                    now.data = chosen_data(now, job);
-                    if (!now.data)
+                    const auto chosen = chosen_data(now, job);
+                    if (!chosen)
                         return;
+                    now.data = now.data_name = *chosen;
                 }
                 while (const auto next = explore(now, job))
                     now = with_data(std::move(now), *next);

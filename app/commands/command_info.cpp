@@ -1,9 +1,15 @@
-// `isochron info`: what an index holds.
+// `isochron info`: what an index holds, or what files of values are.
+#include "app/commands/build_sources.h"
+#include "app/commands/file_patterns.h"
 #include "app/commands/index_report.h"
 #include "app/commands/open_index.h"
+#include "app/commands/series_report.h"
 #include "app/commands/subcommands.h"
 
+#include "index/file/index_series.h"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -11,26 +17,52 @@ namespace isochron::app {
 namespace {
 
 struct InfoArguments {
-    std::filesystem::path file;
+    BuildArguments sources;
     bool json = false, tree = false;
 };
 
-void run_info(const InfoArguments& arguments) {
-    const auto file = open_index(arguments.file);
-    const IndexReport report{arguments.file.string(), *file, arguments.tree};
-    fmt::print("{}", arguments.json ? as_json(report) : as_text(report));
+/// What no command but this one makes of files: a description, whatever they leave open.
+void describe_sources(BuildArguments arguments, bool in_json) {
+    arguments.read.any_array = true;
+    const auto files = expand_patterns(arguments.files);
+    const BuildSources sources = open_sources(files, arguments);
+    const std::string name = fmt::format("{}", fmt::join(arguments.files, " "));
+    fmt::print("{}",
+               in_json ? source_json(name, *sources.volume) : source_text(name, *sources.volume));
+}
+
+void run_info(const InfoArguments& given) {
+    const BuildArguments arguments = with_path_within(given.sources);
+    const std::string& first = arguments.files.front();
+    std::error_code ignored;
+    const bool is_data = arguments.files.size() > 1 ||
+                         (std::filesystem::path(first).extension() != ".isochron" &&
+                          !(std::filesystem::exists(first, ignored) && index::is_index(first)));
+    if (is_data && given.tree)
+        throw UsageError(fmt::format("--tree: {} is no index, and has none", first));
+    if (is_data)
+        return describe_sources(arguments, given.json);
+    const auto file = open_index(first);
+    const IndexReport report{first, *file, given.tree};
+    fmt::print("{}", given.json ? as_json(report) : as_text(report));
 }
 
 } // namespace
 
 void add_info(Command& program) {
     auto arguments = std::make_shared<InfoArguments>();
-    Command command = program.subcommand("info", "Print what an index holds.");
-    command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
+    Command command =
+        program.subcommand("info", "Print what an index holds, or what files of values are.");
+    command
+        .option("files", arguments->sources.files,
+                "Index, or the files that `build` would make one of")
+        .required()
+        .type_name("FILES");
     command.flag("--tree", arguments->tree,
                  "Print the cells stored at every time node: of the paper's tree where there "
                  "is one, else of the cells");
     command.flag("--json", arguments->json, "Print one JSON object");
+    add_reading_options(command, arguments->sources);
     command.footer(
         "Sizes along axes are in the length unit of the files, times in their time unit, values\n"
         "scaled and in their unit. Coherence is entries for each cell and step, in the same tree "
@@ -50,7 +82,8 @@ void add_info(Command& program) {
         "with a\n"
         "tree), content_hash, sources, notes, tree (only with --tree: first_step, last_step, "
         "depth\n"
-        "and cells of each node, depth first).");
+        "and cells of each node, depth first). Of files of values: file to intercept as above, "
+        "first_step\n(low, high, nan_values), arrays (all that there are), sources and notes.");
     command.on_run([arguments] { run_info(*arguments); });
 }
 

@@ -298,8 +298,24 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOldFlags
     {"--colour-unit", "--color-unit"},
 }};
 
-/// The arguments in today's spelling, last first, as the parser wants them.
-std::vector<std::string> arguments_from(int argc, const char* const* argv) {
+/// Whether a word in the place of a command is data to explore, maybe with a path within.
+bool is_data(const CLI::App& program, const std::string& word) {
+    const std::string file = word.substr(0, word.find(":/"));
+    const std::string_view command = command_for(file);
+    std::error_code error;
+    const auto known = program.get_subcommands([](const CLI::App*) { return true; });
+    const auto is_command = [&](std::string_view name) {
+        return std::ranges::any_of(known,
+                                   [&](const CLI::App* each) { return each->get_name() == name; });
+    };
+    return !is_command(word) && is_command("explore") &&
+           (command == "explore" || command == "build") && std::filesystem::exists(file, error);
+}
+
+/// The arguments in today's spelling, last first, as the parser wants them. `isochron DATA` is
+/// `isochron explore DATA`.
+std::vector<std::string> arguments_from(const CLI::App& program, int argc,
+                                        const char* const* argv) {
     std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     for (std::string& argument : arguments) {
         const std::size_t end = std::min(argument.find('='), argument.size());
@@ -309,6 +325,8 @@ std::vector<std::string> arguments_from(int argc, const char* const* argv) {
                 break;
             }
     }
+    if (!arguments.empty() && is_data(program, arguments.front()))
+        arguments.insert(arguments.begin(), "explore");
     std::ranges::reverse(arguments);
     return arguments;
 }
@@ -331,7 +349,7 @@ int parse_and_run(const ProgramText& text,
     for (const auto add : commands)
         add(root);
     try {
-        program.parse(arguments_from(argc, argv));
+        program.parse(arguments_from(program, argc, argv));
     } catch (const CLI::Success& request) {
         return program.exit(request);
     } catch (const CLI::ParseError& error) {

@@ -35,8 +35,12 @@ std::string footer() {
 } // namespace
 
 void add_explore_options(Command& command, ExploreOptions& options) {
-    command.option("file", options.data,
-                   "Index made by `isochron build`; without it the window lets you choose one");
+    command
+        .option(
+            "files", options.sources.files,
+            "Index made by `isochron build`, or files of values, of which an index is made that "
+            "is kept in the user's cache folder; without any the window lets you choose one")
+        .type_name("FILES");
     command
         .option("--config", options.config,
                 fmt::format("TOML file, or the name of a shipped one: {}",
@@ -91,6 +95,7 @@ void add_explore_options(Command& command, ExploreOptions& options) {
                  "at a known depth, the axes of every device; needs no index");
     command.flag("--verbose", options.verbose, "Let the OpenXR loader say what it does, too");
     command.flag("--no-panel", options.no_panel, "Start with the panel hidden (Tab shows it)");
+    add_reading_options(command, options.sources);
     command.footer(footer());
 }
 

@@ -1,7 +1,7 @@
 // What `explore` is told on the command line.
 #pragma once
 
-#include "app/commands/command_line.h"
+#include "app/commands/build_arguments.h"
 
 #include <cstdint>
 #include <optional>
@@ -11,7 +11,9 @@
 namespace isochron::app {
 
 struct ExploreOptions {
-    std::optional<std::string> data;
+    BuildArguments sources;          ///< what was given: an index, or files of values
+    std::optional<std::string> data; ///< the index that is shown
+    std::string data_name;           ///< what the user knows it by
     std::string config = "desktop";
     std::optional<std::string> check_config, context, stereo, quality, footprint, shape;
     std::optional<std::string> record, report;

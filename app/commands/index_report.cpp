@@ -1,45 +1,19 @@
 // What an index holds, as text and as JSON.
 #include "app/commands/index_report.h"
 
-#include "app/config/first_placement.h"
+#include "app/commands/series_report.h"
 #include "app/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace isochron::app {
 namespace {
 
-using index::Grid;
 using index::SeriesInfo;
-
-constexpr std::array kAnatomies{"none", "ras", "lps", "enu"};
-
-std::array<double, 3> numbers(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-bool right_handed(const Grid& grid) {
-    return glm::determinant(grid.direction) > 0;
-}
-
-/// Equal steps, as far as the rounding of decimal times lets them be.
-bool uniform(const std::vector<double>& times) {
-    if (times.size() < 3)
-        return true;
-    const double mean = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-    const double tolerance =
-        1e-6 * mean + 1e-12 * std::max(std::abs(times.front()), std::abs(times.back()));
-    for (std::size_t t = 1; t < times.size(); ++t)
-        if (std::abs(times[t] - times[t - 1] - mean) > tolerance)
-            return false;
-    return true;
-}
 
 double raw_bytes(const SeriesInfo& info) {
     return static_cast<double>(info.steps()) * static_cast<double>(info.grid.cell_count()) * 24;
@@ -89,15 +63,6 @@ std::string levels_text(const index::IndexFile& file) {
                        by_step ? " (of the last step; each has its own)" : "");
 }
 
-std::string times_text(const SeriesInfo& info) {
-    if (info.steps() == 1)
-        return fmt::format("1 at time {}{}", human_number(info.times.front()),
-                           with_space(info.time_unit));
-    return fmt::format("{}, times {} to {}{}, {}", info.steps(), human_number(info.times.front()),
-                       human_number(info.times.back()), with_space(info.time_unit),
-                       uniform(info.times) ? "uniform" : "not uniform");
-}
-
 std::string sources_text(const std::vector<std::string>& sources) {
     constexpr std::size_t kListed = 8;
     std::string text;
@@ -143,36 +108,10 @@ std::string as_text(const IndexReport& report) {
     const index::IndexFile& file = report.file;
     const SeriesInfo& info = file.info();
     const index::IndexStats& stats = file.stats();
-    const Grid& grid = info.grid;
-    const std::string length = with_space(info.length_unit);
-
-    std::string text = fmt::format("{}\n", report.name);
+    std::string text = fmt::format("{}\n", report.name) + text_of(info);
     const auto line = [&](std::string_view label, const std::string& value) {
         text += fmt::format("{:<13} {}\n", label, value);
     };
-    line("array", info.array.empty() ? "unnamed" : info.array);
-    line("vertices", fmt::format("{}", fmt::join(grid.vertices, " x ")));
-    line("cells",
-         fmt::format("{} = {}", fmt::join(grid.cells(), " x "), grouped(grid.cell_count())));
-    line("spacing", fmt::format("{:.10g}{}", fmt::join(numbers(grid.spacing), " x "), length));
-    line("size", fmt::format("{:.10g}{}", fmt::join(numbers(physical_size(grid)), " x "), length));
-    line("origin", fmt::format("{:.10g}{}", fmt::join(numbers(grid.origin), " "), length));
-    for (int axis = 0; axis < 3; ++axis)
-        line(
-            axis == 0 ? "direction" : "",
-            fmt::format("{}: {:.10g}", "xyz"[axis], fmt::join(numbers(grid.direction[axis]), " ")));
-    line("handedness", right_handed(grid) ? "right" : "left");
-    switch (info.anatomy) {
-    case index::Anatomy::ras: line("anatomy", "RAS"); break;
-    case index::Anatomy::lps: line("anatomy", "LPS"); break;
-    case index::Anatomy::enu: line("up", "z"); break;
-    case index::Anatomy::none: break;
-    }
-    line("steps", times_text(info));
-    line("type", std::string(index::name_of(info.type)));
-    if (info.scaling != index::Scaling{})
-        line("scaling",
-             fmt::format("{} * stored + {}", info.scaling.slope, info.scaling.intercept));
     line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
     line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
     if (const index::ColorArray* color = file.color())
@@ -217,27 +156,9 @@ std::string as_json(const IndexReport& report) {
     const index::IndexFile& file = report.file;
     const SeriesInfo& info = file.info();
     const index::IndexStats& stats = file.stats();
-    const Grid& grid = info.grid;
-    nlohmann::ordered_json j{
-        {"file", report.name},
-        {"array", info.array},
-        {"vertices", grid.vertices},
-        {"cells", grid.cells()},
-        {"spacing", numbers(grid.spacing)},
-        {"origin", numbers(grid.origin)},
-        {"direction",
-         {numbers(grid.direction[0]), numbers(grid.direction[1]), numbers(grid.direction[2])}},
-        {"handedness", right_handed(grid) ? "right" : "left"},
-        {"physical_size", numbers(physical_size(grid))},
-        {"length_unit", info.length_unit},
-        {"anatomy", kAnatomies[static_cast<std::size_t>(info.anatomy)]},
-        {"steps", info.steps()},
-        {"times", info.times},
-        {"time_unit", info.time_unit},
-        {"uniform_time", uniform(info.times)},
-        {"type", index::name_of(info.type)},
-        {"slope", info.scaling.slope},
-        {"intercept", info.scaling.intercept},
+    nlohmann::ordered_json j{{"file", report.name}};
+    j.update(json_of(info));
+    j.update(nlohmann::ordered_json{
         {"low", stats.low},
         {"high", stats.high},
         {"value_unit", info.value_unit},
@@ -260,7 +181,7 @@ std::string as_json(const IndexReport& report) {
         {"refers_to", nullptr},
         {"lattice", file.tree_options().lattice},
         {"max_variation", file.tree_options().max_variation},
-    };
+    });
     for (std::size_t level = 1; level < file.detail_levels(); ++level)
         j["detail"].push_back(
             {{"level", level}, {"vertices", file.chunks(level).info().grid.vertices}});

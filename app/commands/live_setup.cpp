@@ -71,11 +71,13 @@ MovieOrders movie_orders(const ExploreOptions& options, interaction::RecordingHe
     return orders;
 }
 
-void greet(Session& session, UserMemory& memory, BackgroundWork& writing, const std::string& data) {
-    writing.post([&memory, data] {
-        memory.remember(data);
-        return std::string();
-    });
+void greet(Session& session, UserMemory& memory, BackgroundWork& writing,
+           const std::optional<std::string>& data) {
+    if (data)
+        writing.post([&memory, data = *data] {
+            memory.remember(data);
+            return std::string();
+        });
     session.panel().offer_files([&memory] { return memory.recent(); });
     if (!memory.introduced())
         session.panel().introduce();

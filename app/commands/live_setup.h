@@ -28,8 +28,10 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
 MovieOrders movie_orders(const ExploreOptions& options, interaction::RecordingHeader header);
 
 /// Data, as the user knows them, are remembered; the first lines stand in the picture once.
+/// @param data nothing: of what is only kept for a while
 /// @param memory outlives the session's frames
 /// @param writing remembers while the session begins
-void greet(Session& session, UserMemory& memory, BackgroundWork& writing, const std::string& data);
+void greet(Session& session, UserMemory& memory, BackgroundWork& writing,
+           const std::optional<std::string>& data);
 
 } // namespace isochron::app

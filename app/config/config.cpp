@@ -158,6 +158,7 @@ void read_root(TomlReader& reader, Config& config) {
     read_surfaces(reader, config);
     reader.table("memory", [&](TomlReader& inner) {
         inner.integer("cache_megabytes", 0, 1 << 24, config.cache_megabytes);
+        inner.integer("mesh_megabytes", 0, 1 << 16, config.mesh_megabytes);
     });
     reader.table("placement", [&](TomlReader& inner) { read_placement(inner, config.placement); });
 }

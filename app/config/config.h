@@ -71,6 +71,7 @@ struct Config {
     int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
     int picture_samples = 0;  ///< likewise of pictures that are written; 0: 4, or more on displays
     int cache_megabytes = 0;  ///< what is kept of the index; 0: a quarter of what there may be
+    int mesh_megabytes = 192; ///< that the triangles of a set may take; 0: none are made
     bool bounding_box = true; ///< with ticks and numbers
     bool wand_ray = true;
     bool picture_ray = false;     ///< pictures that are written show it, too
@@ -80,6 +81,8 @@ struct Config {
 
     /// As IndexFile::open takes it.
     std::uint64_t cache_bytes() const { return std::uint64_t(cache_megabytes) << 20; }
+    /// Likewise SurfacesQuery.
+    std::uint64_t mesh_room() const { return std::uint64_t(mesh_megabytes) << 20; }
 };
 
 /// @param name stands before the line number in messages

@@ -49,7 +49,8 @@ void FrameQuality::learn(std::span<const DrawSample> samples) {
 }
 
 bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
-                          render::FootprintSet available, FrameReport& report) {
+                          render::FootprintSet available, render::FootprintSet possible,
+                          FrameReport& report) {
     if (changed)
         changed_at_ = report.time;
     const bool still = report.time - changed_at_ >= kStillAfter;
@@ -57,17 +58,23 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     input.pace = report.pace;
     input.mode = state.quality;
     input.playing = state.playback.playing;
-    input.available = available;
     input.settled = settled_;
     input.by_pace = how == Choosing::by_pace;
     if (input.by_pace)
         input.settled = input.settled.value_or(render::kBestFootprint);
     input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
     QualityController& controller = still ? still_ : steady_;
+    input.available = possible;
+    const QualityChoice with_all = QualityController(controller).choose(input);
+    input.available = available;
     const QualityChoice choice = controller.choose(input);
+    // A trial of the exact surface comes first where both are next.
+    wants_mesh_ = with_all.footprint == render::Footprint::mesh &&
+                  choice.footprint <= render::Footprint::mesh;
     report.footprint = choice.footprint;
     report.reason = choice.reason;
-    report.final = choice.final;
+    // What a mesh may still change is not final.
+    report.final = choice.final && with_all.final && choice.footprint == with_all.footprint;
     report.budget = controller.budget();
     report.expected = choice.cost;
     report.better = choice.better_cost;

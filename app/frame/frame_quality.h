@@ -2,7 +2,8 @@
 //
 //     quality.learn(quality.collect(log));                  // every frame
 //     quality.charge(quality.view());
-//     if (quality.choose(state, changed, Choosing::by_measurement, footprints, report) || changed) {
+//     const Choosing how = Choosing::by_measurement;
+//     if (quality.choose(state, changed, how, footprints, possible, report) || changed) {
 //         quality.begin(log.next());
 //         draw(views, report.footprint);
 //         quality.end(report, of_cell, processor_time);
@@ -56,8 +57,12 @@ class FrameQuality {
     /// @param changed what the eyes see is not what they saw last, beside the footprint
     /// @return true: draw even if nothing has changed, so that the cost gets known
     /// @param available that the cells can be drawn with
+    /// @param possible likewise, if they came with a mesh where they can
     bool choose(const ExplorerState& state, bool changed, Choosing how,
-                render::FootprintSet available, FrameReport& report);
+                render::FootprintSet available, render::FootprintSet possible, FrameReport& report);
+
+    /// Whether the last choice would have been a mesh if there had been one.
+    bool wants_mesh() const { return wants_mesh_; }
 
     /// Between these two, the frame is drawn.
     void begin(std::uint64_t frame);
@@ -78,6 +83,7 @@ class FrameQuality {
     DrawMeter meter_;
     DrawLoad view_; ///< of one cell in the frame drawn last
     DrawLoad charged_;
+    bool wants_mesh_ = false;
 };
 
 } // namespace isochron::app

@@ -35,6 +35,8 @@ bool blends_light(const render::Gl& gl, Blending blending) {
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : gl_(gl), info_(info), upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame),
+      mesh_room_(
+          render::CellBuffers::wanted_shading(gl) == index::Shading::none ? 0 : config.mesh_room()),
       appearance_(config.appearance), cells_(gl, info.grid),
       cell_pass_(gl, {.shape = config.cell_shape}), line_pass_(gl),
       text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), veil_pass_(gl) {
@@ -64,6 +66,15 @@ render::FootprintSet Scene::footprints() const {
     if (cells_.has_volume() && cells_.size() <= cells_.corner_limit())
         footprints.add(render::Footprint::surface);
     return footprints;
+}
+
+render::FootprintSet Scene::possible_footprints() const {
+    render::FootprintSet possible = footprints();
+    const index::ExtractionPtr& set = shown();
+    const bool asked = set && set->query.mesh_room > 0;
+    if (set && !asked && index::least_mesh_bytes(set->cells()) <= mesh_room_)
+        possible.add(render::Footprint::mesh);
+    return possible;
 }
 
 void Scene::look(const ExplorerState& state, const interaction::Pose& head,

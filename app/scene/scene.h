@@ -48,6 +48,8 @@ class Scene {
     /// That the shown cells can be drawn with: a very large set has no room for its surface, and
     /// where a GPU draws cells come without a mesh.
     render::FootprintSet footprints() const;
+    /// That they could be drawn with if a mesh came with them, which they may be asked for with.
+    render::FootprintSet possible_footprints() const;
     std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
 
     /// What the driver promises but was found not to do, a line each.
@@ -115,6 +117,7 @@ class Scene {
     const render::Gl& gl_;
     const index::SeriesInfo info_;
     const std::size_t upload_bytes_; ///< per frame
+    const std::uint64_t mesh_room_;  ///< 0: no set comes with a mesh
     bool box_ = true;
     Axes axes_;
     std::vector<interaction::Isosurface> surfaces_;

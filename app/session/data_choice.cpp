@@ -4,6 +4,11 @@
 #include "app/frame/pacer.h"
 #include "app/panel/operator_window.h"
 #include "render/gl/gl.h"
+#include "render/gl/render_target.h"
+#include "stereo/presenter.h"
+
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
 
 #include <chrono>
 #include <utility>
@@ -17,6 +22,8 @@ std::optional<fs::path> choose_data(const stereo::Windows& windows, const DataCh
     window.make_current();
     const render::Gl gl(window.loader());
     PanelLayer layer(gl);
+    render::RenderTarget picture(gl, glm::max(window.framebuffer_size(), glm::ivec2(1)));
+    stereo::Presenter presenter(gl, window, window);
     layer.offer_files([&choice] { return choice.recent; });
     layer.open_files();
     Pacer pacer(choice.frame_rate_limit);
@@ -28,11 +35,11 @@ std::optional<fs::path> choose_data(const stereo::Windows& windows, const DataCh
         if (size.x > 0 && size.y > 0) { // a minimized window has none
             layer.set_scale(panel_scale(window, choice.font_scale, size.x));
             layer.lay_out_files(size, complaint, std::chrono::steady_clock::now() - start);
-            gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-            gl.ClearColor(choice.background.x, choice.background.y, choice.background.z, 1);
-            gl.Clear(GL_COLOR_BUFFER_BIT);
+            picture.resize(size);
+            picture.clear(glm::vec4(choice.background, 1));
+            picture.bind();
             layer.draw(size);
-            window.present();
+            presenter.present(picture, nullptr);
         }
         std::optional<fs::path> wanted = layer.take_chosen();
         for (fs::path& dropped : window.take_dropped())

@@ -133,7 +133,9 @@ Commands Session::commands_from(const interaction::InputState& input) {
 }
 
 void Session::request_cells(Waiting waiting) {
-    index::Request request{frames_->ask(state_.surfaces(), waiting), std::nullopt};
+    index::SurfacesQuery query = state_.surfaces();
+    query.mesh_room = mesh_wanted_ ? config_.mesh_room() : 0;
+    index::Request request{frames_->ask(query, waiting), std::nullopt};
     const auto steps = static_cast<std::uint32_t>(this->steps());
     if (state_.playback.playing && steps > 1) {
         const bool reverse = state_.playback.reverse;
@@ -170,7 +172,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     report.upload = watch.lap();
     report.uploaded = scene_.uploaded().since(before);
     if (const index::ExtractionPtr& shown = scene_.shown()) {
-        report.shown = shown->query;
+        report.shown = shown->query.of_cells();
         report.cells = shown->cells();
         report.candidates = shown->candidates();
         report.reused = shown->reused();
@@ -255,8 +257,9 @@ void Session::learn_costs() {
 
 /// The leader's choice counts. @return whether it wants this frame measured
 bool Session::agree(bool measure, FrameReport& report) {
-    const FrameChoice choice =
-        frames_->agree({report.footprint, report.reason, report.final, measure});
+    const FrameChoice choice = frames_->agree(
+        {report.footprint, report.reason, report.final, measure, quality_.wants_mesh()});
+    mesh_wanted_ = choice.mesh;
     report.footprint = choice.footprint;
     report.reason = choice.reason;
     report.final = choice.final;
@@ -270,10 +273,22 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool changed = now != drawn_;
     render::FootprintSet footprints = scene_.footprints();
+    render::FootprintSet possible = scene_.possible_footprints();
     if (report.cells > frames_->surface_limit())
-        footprints.remove(render::Footprint::surface);
+        for (render::FootprintSet* set : {&footprints, &possible})
+            set->remove(render::Footprint::surface);
     const Choosing how = live ? Choosing::by_measurement : Choosing::by_pace;
-    const bool measure = agree(quality_.choose(state_, changed, how, footprints, report), report);
+    const bool had_mesh = mesh_wanted_;
+    bool measure =
+        agree(quality_.choose(state_, changed, how, footprints, possible, report), report);
+    if (!live && mesh_wanted_ && !had_mesh) { // a replay's picture is as good as it gets at once
+        request_cells(waiting);
+        take_newest_cells(waiting, report);
+        now.cells = scene_.shown();
+        footprints = scene_.footprints();
+        measure =
+            agree(quality_.choose(state_, changed, how, footprints, footprints, report), report);
+    }
     now.footprint = report.footprint;
     // While a headset wants no picture, there is nothing to draw and nothing to learn from it.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure);

@@ -218,6 +218,7 @@ class Session {
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     CaptureWait captures_;
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
+    bool mesh_wanted_ = false;                       ///< by the last frame's choice of quality
     bool recording_ = false;
     MovieState movies_;
     std::string message_;

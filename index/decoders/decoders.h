@@ -16,6 +16,11 @@ std::unique_ptr<DecodedFile> decode_vti(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_vtk(const std::filesystem::path& path,
                                         const ReadOptions& options);
 
+/// VTK's rectilinear grids (.vtr, legacy), files of several pieces (.pvti, .pvtr), and, where they are
+/// to be resampled, other grids (.vtu, .vts, .pvtu, .pvts, .vtm, .vth, legacy).
+std::unique_ptr<DecodedFile> decode_vtk_data(const std::filesystem::path& path,
+                                             const ReadOptions& options);
+
 /// NetCDF, classic and 4.
 std::unique_ptr<DecodedFile> decode_netcdf(const std::filesystem::path& path,
                                            const ReadOptions& options);
@@ -24,8 +29,12 @@ std::unique_ptr<DecodedFile> decode_netcdf(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
                                          const ReadOptions& options);
 
-/// The files and times of a ParaView collection (.pvd), ordered by time. Paths are made relative to
-/// the working directory. @throws Error naming the file
+/// TIFF, BigTIFF, OME-TIFF and ImageJ's hyperstacks; with `slices` a file for each slice.
+std::unique_ptr<DecodedFile> decode_tiff(const std::filesystem::path& path,
+                                         const ReadOptions& options);
+
+/// The files and times of a ParaView collection (.pvd), in the order of their times, paths made
+/// relative to where the program runs. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> decode_pvd(const std::filesystem::path& path);
 
 } // namespace isochron::index

@@ -198,6 +198,10 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
             offered = found; // several paths have this end
             asked.array.reset();
         }
+    if (options.any_array) // one that can be read before one that leaves something open
+        std::ranges::stable_partition(offered, [&](const Hdf5Array& array) {
+            return layout_of(array.steps.front(), options).has_value();
+        });
     std::vector<StoredArray> listed;
     for (const Hdf5Array& array : offered) {
         std::string shape = shape_text(array.steps.front().dimensions);
@@ -208,7 +212,9 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
     }
     asked.component.reset(); // components are an axis of the dataset here
     const ChosenScalar chosen = choose_scalar(listed, asked, file.name());
-    return *std::ranges::find(offered, chosen.array.name, &Hdf5Array::name);
+    Hdf5Array found = *std::ranges::find(offered, chosen.array.name, &Hdf5Array::name);
+    found.offered = chosen.offered;
+    return found;
 }
 
 } // namespace isochron::index

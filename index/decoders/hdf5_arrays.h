@@ -13,9 +13,10 @@ namespace isochron::index {
 
 /// One dataset, or several whose paths differ only in the number of one group: one for each step.
 struct Hdf5Array {
-    std::string name;                ///< its path; `/data/*/rho` if there are several
-    std::vector<Hdf5Dataset> steps;  ///< in the order of their numbers
-    std::vector<std::string> groups; ///< if several: each one's path up to the group at `*`
+    std::string name;                      ///< its path; `/data/*/rho` where there are several
+    std::vector<Hdf5Dataset> steps;        ///< in the order of their numbers
+    std::vector<std::string> groups;       ///< of several: what `*` stands for, with all before it
+    std::vector<std::string> offered = {}; ///< what it was chosen from, with types
 };
 
 /// Dimensions of a dataset, counted from the slowest.

@@ -23,6 +23,7 @@ namespace {
 struct Hdf5Axis {
     std::string label; ///< empty: none
     AxisSpread spread;
+    std::vector<double> at = {}; ///< coordinates, where there are any
     std::string unit;
     bool placed = false;
 };
@@ -103,7 +104,8 @@ class Placing {
         if (axis.label.empty())
             axis.label = last_name(path);
         try {
-            axis.spread = spread_of(file_.values(*found), path, axis.unit, file_.name());
+            axis.at = file_.values(*found);
+            axis.spread = spread_of(axis.at, path, axis.unit, file_.name());
         } catch (const Error&) {
             if (!options_.spacing)
                 throw;
@@ -228,6 +230,9 @@ class Placing {
                 info_.notes.push_back(*spread.note);
         }
         set_axes(info_.grid, steps, file_.name());
+        for (std::size_t a = 0; a < 3; ++a)
+            if (axes_[a].spread.note)
+                set_positions(info_.grid, a, axes_[a].at);
         if (axes_[0].unit == axes_[1].unit && axes_[0].unit == axes_[2].unit)
             info_.length_unit = axes_[0].unit;
         else if (!options_.spacing)

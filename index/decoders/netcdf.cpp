@@ -36,8 +36,25 @@ std::vector<std::string> bounds_in(const NetcdfFile& file) {
                             file.name(), found.empty() ? "" : ": ", fmt::join(found, ", ")));
 }
 
-/// Picks the variable that `options` name among those with three dimensions of space.
-/// @throws Error naming the file: as `choose_scalar`, or when the variable has other dimensions
+/// Those with three dimensions.
+std::vector<StoredArray> offered_in(const NetcdfFile& file, const ReadOptions& options) {
+    const std::vector<std::string> bounds = bounds_in(file);
+    std::vector<StoredArray> offered;
+    for (const NetcdfVariable& variable : file.variables())
+        if (layout_of(file, variable) && std::ranges::find(bounds, variable.name) == bounds.end() &&
+            (variable.type || options.array == variable.name)) {
+            std::vector<std::size_t> lengths;
+            for (const NetcdfDimension& dimension : variable.dimensions)
+                lengths.push_back(dimension.length);
+            offered.push_back({.name = variable.name,
+                               .type = variable.type,
+                               .shape = fmt::format("{}", fmt::join(lengths, " x "))});
+        }
+    return offered;
+}
+
+/// Picks the variable that `options` ask for among those with three dimensions.
+/// @throws Error naming the file, as `choose_scalar` does, or when it has others
 const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions& options) {
     const auto& variables = file.variables();
     if (options.array) {
@@ -47,12 +64,7 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
                                     "vertex besides time",
                                     file.name(), text(*named)));
     }
-    const std::vector<std::string> bounds = bounds_in(file);
-    std::vector<StoredArray> offered;
-    for (const NetcdfVariable& variable : variables)
-        if (layout_of(file, variable) && std::ranges::find(bounds, variable.name) == bounds.end() &&
-            (variable.type || options.array == variable.name))
-            offered.push_back({.name = variable.name, .type = variable.type});
+    const std::vector<StoredArray> offered = offered_in(file, options);
     if (offered.empty())
         fail_without_volume(file);
     const ChosenScalar chosen = choose_scalar(offered, options, file.name());
@@ -82,6 +94,9 @@ class NetcdfVolume final : public DecodedFile {
         file_.expect_room(variable_);
         if (layout_.time)
             file_.keep_chunks(variable_, *layout_.time);
+        ReadOptions any = options;
+        any.any_array = true;
+        info_.arrays = choose_scalar(offered_in(file_, options), any, name).offered;
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         info_.scaling = file_.scaling(variable_);

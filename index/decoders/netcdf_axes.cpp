@@ -22,6 +22,7 @@ struct Positions {
     double first = 0, step = 1; ///< the step may be negative
     std::string unit;           ///< tidy; empty: none
     bool downwards = false;
+    std::vector<double> at = {}; ///< of all vertices, where they are not even
 };
 
 struct Role {
@@ -119,8 +120,10 @@ Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable
         const AxisSpread spread = spread_of(at, positions.label, positions.unit, file.name());
         positions.first = spread.first;
         positions.step = spread.step;
-        if (spread.note)
+        if (spread.note) {
             notes.push_back(*spread.note);
+            positions.at = at;
+        }
     } catch (const Error&) {
         if (!options.spacing)
             throw;
@@ -213,6 +216,11 @@ void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const Ne
         info.grid.origin[physical] = axis.first * factor + 0.0; // no -0
     }
     set_axes(info.grid, steps, file.name());
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Positions& axis = axes[static_cast<std::size_t>(layout.physical[a])];
+        if (!axis.at.empty())
+            set_positions(info.grid, a, axis.at, to_go_with(axes[0], axis));
+    }
     if (in_one_unit(axes)) {
         info.length_unit = axes[0].unit;
     } else if (!options.spacing) {

@@ -33,26 +33,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The text of a file up to its appended data; mapping the file avoids reading the rest.
-std::string_view markup_of(const MappedFile& file) {
-    const std::string_view all(reinterpret_cast<const char*>(file.bytes().data()),
-                               file.bytes().size());
-    return all.substr(0, std::min(all.find("<AppendedData"), all.size()));
-}
-
-// If appended values end too early, VTK leaves the rest uninitialized. A file that is cut off
-// anywhere lacks the end of its markup, so that is checked.
-void expect_end(const MappedFile& file, const std::string& name) {
-    constexpr std::size_t kTail = 4096; // some writers add blanks or a comment after the end
-    const std::span<const std::byte> bytes = file.bytes();
-    const std::span<const std::byte> tail = bytes.last(std::min(bytes.size(), kTail));
-    if (std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size())
-            .find("</VTKFile") == std::string_view::npos)
-        throw Error(fmt::format("{}: truncated: it does not end with </VTKFile>", name));
-}
-
-// Checks that the pieces cover the grid: VTK would leave zeros where one is missing. Pieces may
-// overlap.
+// Every piece gives its part of the vertices; where one is missing VTK would leave zeros. Pieces
+// may overlap.
 void expect_whole(std::string_view markup, const Grid& grid, const std::string& file) {
     std::uint64_t cells = 0;
     for (std::size_t at = markup.find("<Piece"); at != std::string_view::npos;
@@ -196,6 +178,7 @@ class VtiFile final : public DecodedFile {
         add_arrays(out->Get(vtkDataObject::POINT_DATA_VECTOR()), false, arrays);
         add_arrays(out->Get(vtkDataObject::CELL_DATA_VECTOR()), true, arrays);
         chosen_ = choose_scalar(without_flags(std::move(arrays)), options, name);
+        info_.arrays = chosen_.offered;
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         info_.notes = chosen_.notes();

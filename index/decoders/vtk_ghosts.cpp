@@ -5,8 +5,8 @@
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkImageData.h>
 #include <vtkPointData.h>
 
 #include <algorithm>
@@ -85,7 +85,7 @@ std::vector<StoredArray> without_flags(std::vector<StoredArray> arrays) {
     return arrays;
 }
 
-std::vector<std::uint8_t> hidden_by_flags(vtkImageData& image, const ChosenScalar& chosen,
+std::vector<std::uint8_t> hidden_by_flags(vtkDataSet& image, const ChosenScalar& chosen,
                                           const Grid& grid) {
     const std::vector<std::uint8_t> cells =
         flagged(image.GetCellData(),

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-class vtkImageData;
+class vtkDataSet;
 
 namespace isochron::index {
 
@@ -21,11 +21,11 @@ inline constexpr std::array<const char*, 2> kGhostFlags{"vtkGhostType", "vtkGhos
 /// which values may be missing.
 std::vector<StoredArray> without_flags(std::vector<StoredArray> arrays);
 
-/// One number for each tuple of the chosen array, not 0 if a flag hides it; empty if the image has
-/// no flags. The value at a vertex is hidden if its point is hidden, if all cells around it are
-/// hidden, or if it is a corner of a hidden cell that these two rules would leave visible.
-/// @param image whose arrays of flags have been read
-std::vector<std::uint8_t> hidden_by_flags(vtkImageData& image, const ChosenScalar& chosen,
+/// One number for each tuple of the chosen array, not 0 where a flag hides it; empty where an image
+/// has no flags. Values at vertices are hidden where a point is, where all cells around it are, and
+/// at every corner of a cell that would not be hidden by that.
+/// @param image with its arrays of flags read
+std::vector<std::uint8_t> hidden_by_flags(vtkDataSet& image, const ChosenScalar& chosen,
                                           const Grid& grid);
 
 /// `1,331 of 8,000 vertices are hidden by ...`; nothing if none is hidden.

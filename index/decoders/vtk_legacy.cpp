@@ -80,6 +80,7 @@ class LegacyFile final : public DecodedFile {
                                      image.GetDirectionMatrix()->GetData(), path_.string());
             chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, path_.string());
             hidden_ = hidden_by_flags(image, chosen_, info_.grid);
+            info_.arrays = chosen_.offered;
             info_.array = chosen_.label();
             info_.type = chosen_.value_type();
             info_.notes = chosen_.notes();
@@ -111,6 +112,12 @@ class LegacyFile final : public DecodedFile {
 } // namespace
 
 std::unique_ptr<DecodedFile> decode_vtk(const fs::path& path, const ReadOptions& options) {
+    const std::string head = head_of(path, 4096);
+    // The third line of the header, behind a title that may hold any word.
+    for (const char* other :
+         {"\nDATASET RECTILINEAR_GRID", "\nDATASET STRUCTURED_GRID", "\nDATASET UNSTRUCTURED_GRID"})
+        if (head.starts_with("# vtk DataFile") && head.find(other) != std::string::npos)
+            return decode_vtk_data(path, options);
     return std::make_unique<LegacyFile>(path, options);
 }
 

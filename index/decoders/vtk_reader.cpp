@@ -7,6 +7,7 @@
 int main() {
     using namespace isochron::index;
     constexpr std::array kDecoders{Decoder{ForeignFormat::vti, decode_vti},
-                                   Decoder{ForeignFormat::vtk, decode_vtk}};
+                                   Decoder{ForeignFormat::vtk, decode_vtk},
+                                   Decoder{ForeignFormat::vtk_data, decode_vtk_data}};
     return run_reader(kDecoders, decode_pvd);
 }

@@ -9,8 +9,8 @@
 #include <vtkAbstractArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataSet.h>
 #include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -168,7 +168,7 @@ Grid grid_of_vtk(const int (&extent)[6], const double* origin, const double* spa
     return grid;
 }
 
-void values_of_vtk(vtkImageData& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
+void values_of_vtk(vtkDataSet& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
                    std::span<const std::uint8_t> hidden, std::span<std::byte> out,
                    const std::string& file) {
     vtkFieldData* fields = chosen.array.on_cells ? static_cast<vtkFieldData*>(image.GetCellData())
@@ -208,7 +208,7 @@ std::uint64_t bytes_of_vtk(const ChosenScalar& chosen, const Grid& grid) {
     return tuples_of(chosen, grid) * chosen.array.components * size_of(*chosen.array.type);
 }
 
-std::vector<StoredArray> arrays_of_vtk(vtkImageData& image) {
+std::vector<StoredArray> arrays_of_vtk(vtkDataSet& image) {
     std::vector<StoredArray> arrays;
     const auto add = [&](vtkFieldData* fields, bool on_cells) {
         for (int i = 0; i < fields->GetNumberOfArrays(); ++i) {

@@ -13,7 +13,7 @@
 
 class vtkDataArray;
 class vtkFieldData;
-class vtkImageData;
+class vtkDataSet;
 class vtkOutputWindow;
 
 namespace isochron::index {
@@ -33,8 +33,8 @@ Grid grid_of_vtk(const int (&extent)[6], const double* origin, const double* spa
 
 /// Converts slices of the chosen array of an image that has been read; for cell data, all slices.
 /// @param hidden see `hidden_by_flags`
-/// @throws Error naming the file when the array is missing or not as long as the image
-void values_of_vtk(vtkImageData& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
+/// @throws Error naming the file when the array is absent or not as long as the image
+void values_of_vtk(vtkDataSet& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
                    std::span<const std::uint8_t> hidden, std::span<std::byte> out,
                    const std::string& file);
 
@@ -42,8 +42,8 @@ void values_of_vtk(vtkImageData& image, const ChosenScalar& chosen, const Grid& 
 std::uint32_t slices_of_vtk(const ChosenScalar& chosen, const SeriesInfo& info);
 std::uint64_t bytes_of_vtk(const ChosenScalar& chosen, const Grid& grid);
 
-/// The arrays of an image that has been read.
-std::vector<StoredArray> arrays_of_vtk(vtkImageData& image);
+/// Arrays of an image that has been read.
+std::vector<StoredArray> arrays_of_vtk(vtkDataSet& image);
 
 /// Sets the time from the field data, if they have one: `TimeValue` (ParaView), `TIME` (VisIt) or
 /// `TimeStep`. If it is not `TimeValue`, a note says so.

@@ -127,6 +127,7 @@ std::unique_ptr<DecodedFile> decode_vtkhdf(std::unique_ptr<Hdf5File> file,
         }
     const ChosenScalar chosen = choose_scalar(offered, options, file->name());
     const std::string& name = chosen.array.name;
+    volume.info.arrays = chosen.offered;
     volume.on_cells = chosen.array.on_cells;
     volume.datasets = {*file->dataset((volume.on_cells ? kCells : kPoints) + name)};
     volume.layout = *vtkhdf_layout(volume.datasets.front(), sizes, volume.on_cells, in_steps);

@@ -61,6 +61,21 @@ int hard_infinity(std::string_view word) {
 
 } // namespace
 
+std::string_view markup_of(const MappedFile& file) {
+    const std::string_view all(reinterpret_cast<const char*>(file.bytes().data()),
+                               file.bytes().size());
+    return all.substr(0, std::min(all.find("<AppendedData"), all.size()));
+}
+
+void expect_end(const MappedFile& file, const std::string& name) {
+    constexpr std::size_t kTail = 4096; // some writers leave blanks or a comment after it
+    const std::span<const std::byte> bytes = file.bytes();
+    const std::span<const std::byte> tail = bytes.last(std::min(bytes.size(), kTail));
+    if (std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size())
+            .find("</VTKFile") == std::string_view::npos)
+        throw Error(fmt::format("{}: truncated: it does not end with </VTKFile>", name));
+}
+
 void expect_names(std::string_view markup, const std::string& file) {
     constexpr std::string_view kArray = "<DataArray";
     for (std::size_t at = markup.find(kArray); at != markup.npos; at = markup.find(kArray, at)) {

@@ -1,6 +1,8 @@
 // Checks and changes XML before VTK reads it.
 #pragma once
 
+#include "index/system/mapped_file.h"
+
 #include <limits>
 #include <optional>
 #include <string>
@@ -8,9 +10,16 @@
 
 namespace isochron::index {
 
-/// Checks the depth of elements, since VTK's parsers recurse into them, after taking quadratic
-/// time.
-/// @throws Error naming the file when elements are nested deeper than in any VTK file
+/// The text of a file up to its appended data, which the mapping gives without reading the rest.
+std::string_view markup_of(const MappedFile& file);
+
+/// Of appended values that end too early VTK leaves the rest as they were in memory. Whatever was
+/// cut off, the end of the markup is gone as well.
+/// @throws Error naming the file
+void expect_end(const MappedFile& file, const std::string& name);
+
+/// VTK's parsers descend into elements by recursion, and take quadratic time before.
+/// @throws Error naming the file when elements are nested deeper than in any file of VTK's
 void expect_shallow(std::string_view markup, const std::string& file);
 
 /// Checks that all arrays have names: VTK refuses others with a message that users cannot

@@ -11,6 +11,11 @@ glm::dvec3 position_of(const MeshVertex& vertex) {
     return at;
 }
 
+std::uint64_t bytes_of(const CellMesh& mesh) {
+    return mesh.vertices.size() * sizeof(MeshVertex) +
+           mesh.triangles.size() * sizeof(std::uint32_t) + mesh.cases.size();
+}
+
 glm::dvec3 normal_of(const MeshVertex& vertex) {
     if (vertex.normal == MeshVertex::kNoNormal)
         return glm::dvec3(0.0);

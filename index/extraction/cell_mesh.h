@@ -49,8 +49,11 @@ struct CellMesh {
 
 using CellMeshPtr = std::shared_ptr<const CellMesh>;
 
-/// Sets of more cells get no mesh. It would take a hundred megabytes or more, twice that with
-/// software rendering, which takes seconds for that many triangles.
-constexpr std::size_t kMostMeshedCells = std::size_t{1} << 21;
+std::uint64_t bytes_of(const CellMesh& mesh);
+/// What the mesh of so many active cells takes at least: each has a triangle. Most have two, and
+/// about one vertex.
+constexpr std::uint64_t least_mesh_bytes(std::size_t cells) {
+    return cells * (3 * sizeof(std::uint32_t) + 1);
+}
 
 } // namespace isochron::index

@@ -28,12 +28,21 @@ class Extracting {
         auto result = std::make_shared<Extraction>();
         result->query = query;
         by_chunks_ = !file_->better_whole(query.step);
+        std::uint64_t room = query.mesh_room;
         for (std::size_t i = 0; i < count; ++i) {
             if (searches_.size() == i)
                 searches_.push_back(search_into(file_, method_, shading_));
-            if (!searches_[i](query.surface(i), stop, result->surfaces.emplace_back()))
+            Query surface = query.surface(i);
+            surface.mesh_room = room;
+            CellSet& set = result->surfaces.emplace_back();
+            if (!searches_[i](surface, stop, set))
                 return nullptr;
+            room = set.mesh ? room - bytes_of(*set.mesh) : set.ids.empty() ? room : 0;
+            set.query.mesh_room = 0;
         }
+        if (!result->meshed()) // some without the others are never drawn
+            for (CellSet& surface : result->surfaces)
+                surface.mesh.reset();
         try {
             return fill(*result, stop) ? result : nullptr;
         } catch (const Stopped&) {
@@ -90,6 +99,10 @@ std::size_t Extraction::cells() const {
 bool Extraction::shaded() const {
     return std::ranges::all_of(
         surfaces, [](const CellSet& set) { return set.points.size() == set.ids.size(); });
+}
+bool Extraction::meshed() const {
+    return std::ranges::all_of(surfaces,
+                               [](const CellSet& set) { return set.mesh || set.ids.empty(); });
 }
 std::uint64_t Extraction::candidates() const {
     return sum_of<std::uint64_t>(surfaces, [](const CellSet& set) { return set.candidates; });

@@ -28,6 +28,7 @@ struct Extraction {
 
     std::size_t cells() const; ///< of all surfaces: a cell that is active in two counts twice
     bool shaded() const;       ///< whether every cell has its point, with its normal
+    bool meshed() const;       ///< whether every surface that has cells has a mesh
     std::uint64_t candidates() const;
     std::uint64_t reused() const;
     std::chrono::nanoseconds search_time() const;

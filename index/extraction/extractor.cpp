@@ -9,8 +9,10 @@
 namespace isochron::index {
 namespace {
 
-bool same(const SurfacesQuery& a, const SurfacesQuery& b) {
-    return a.step == b.step && same_but_for_step(a, b);
+/// Whether what was extracted for one query is what another asks for.
+bool answers(const SurfacesQuery& query, const SurfacesQuery& wanted) {
+    return query.step == wanted.step && same_but_for_step(query, wanted) &&
+           query.mesh_room >= wanted.mesh_room;
 }
 
 } // namespace
@@ -108,8 +110,8 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
         const std::scoped_lock lock(mutex);
         running.reset();
         const bool stopped = job.stop.stop_requested();
-        const bool is_answer = same(job.query, wanted->query) && !answered;
-        // An older query is not shown if the newest request has been answered from kept ones.
+        const bool is_answer = answers(job.query, wanted->query) && !answered;
+        // What was asked for before something that was at hand comes too late.
         const bool shows = is_answer || (!job.prefetch && !answered);
         if (job.times_forgotten != times_forgotten) {
             // Started before `forget`: its result is not wanted.
@@ -164,7 +166,7 @@ void Extractor::request(const Request& request) {
     {
         const std::scoped_lock lock(state_->mutex);
         State& s = *state_;
-        const bool same_query = s.wanted && same(s.wanted->query, request.query);
+        const bool same_query = s.wanted && answers(s.wanted->query, request.query);
         const bool was_in_flux = std::exchange(
             s.in_flux, s.wanted && !same_but_for_step(s.wanted->query, request.query));
         if (same_query && s.wanted->ahead == request.ahead && !was_in_flux)
@@ -181,7 +183,8 @@ void Extractor::request(const Request& request) {
             // If this request is answered at once, a running prefetch for its surfaces goes on.
             const bool going_on = s.answered && s.running && s.running->prefetch &&
                                   same_but_for_step(s.running->query, request.query);
-            const bool obsolete = s.running && !going_on && !same(s.running->query, request.query);
+            const bool obsolete =
+                s.running && !going_on && !answers(s.running->query, request.query);
             if (obsolete && (s.running->prefetch || !s.abandoned))
                 stop = s.running->stop;
         }

@@ -80,8 +80,9 @@ class IndexSearch {
 
     /// Adds a mesh if one is asked for and possible. @return false when stopped
     bool add_mesh(CellSet& set, const std::stop_token& stop) {
-        if (shading_ != Shading::cells_and_mesh || set.ids.empty() ||
-            set.ids.size() > kMostMeshedCells || has_wide_ids(file_->info().grid))
+        const std::uint64_t room = set.query.mesh_room;
+        if (shading_ == Shading::none || set.ids.empty() ||
+            least_mesh_bytes(set.ids.size()) > room || has_wide_ids(file_->info().grid))
             return true;
         const auto started = Clock::now();
         CellMesh mesh;
@@ -89,7 +90,8 @@ class IndexSearch {
                          : make_mesh(makers_, whole(set.query.step, stop).values, set.query,
                                      set.ids, mesh, stop)))
             return false;
-        set.mesh = std::make_shared<const CellMesh>(std::move(mesh));
+        if (bytes_of(mesh) <= room)
+            set.mesh = std::make_shared<const CellMesh>(std::move(mesh));
         set.shading_time += Clock::now() - started;
         return true;
     }

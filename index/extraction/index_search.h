@@ -24,12 +24,13 @@ SearchMethod cheapest_method(const IndexFile& file);
 /// Whether the file has the tier that a method needs.
 bool can_search(const IndexFile& file, SearchMethod method);
 
-/// Whether a set stays a list of ids, gets points and rows, or gets points, rows and a mesh.
-enum class Shading : std::uint8_t { none, cells, cells_and_mesh };
+/// Whether a set gets its points and rows, and a mesh with them where the query has room for one, or
+/// stays a list of ids.
+enum class Shading : std::uint8_t { none, cells };
 
-/// Makes a search in an open index. Copies share their state.
-/// @param method to use instead of the cheapest; the file must have that tier
-/// @param shading completes sets by `shade_cells`, and by `make_mesh` up to kMostMeshedCells
+/// The search over an open index. Copies share their state.
+/// @param method instead of the cheapest; the file must have that tier
+/// @param shading what completes the sets: `shade_cells`, and `make_mesh` within the query's room
 Search search_in(std::shared_ptr<const IndexFile> file,
                  std::optional<SearchMethod> method = std::nullopt,
                  Shading shading = Shading::cells);

@@ -22,7 +22,8 @@ std::uint64_t bytes_of(const Extraction& extraction) {
                           bytes_of(extraction.bricks.ids) + bytes_of(extraction.bricks.digests) +
                           bytes_of(extraction.bricks.bytes);
     for (const CellSet& set : extraction.surfaces)
-        bytes += bytes_of(set.ids) + bytes_of(set.points) + bytes_of(set.rows);
+        bytes += bytes_of(set.ids) + bytes_of(set.points) + bytes_of(set.rows) +
+                 (set.mesh ? bytes_of(*set.mesh) : 0);
     return bytes;
 }
 
@@ -37,14 +38,18 @@ bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b) {
 ExtractionPtr RecentExtractions::find(const SurfacesQuery& query) const {
     if (kept_.empty())
         return nullptr;
+    const auto enough = [&](const Kept& kept) {
+        return kept.extraction->query.mesh_room >= query.mesh_room;
+    };
     if (same_but_for_step(kept_.front().extraction->query, query)) {
         const auto known = by_step_.find(query.step);
-        return known == by_step_.end() ? nullptr : known->second->extraction;
+        return known != by_step_.end() && enough(*known->second) ? known->second->extraction
+                                                                 : nullptr;
     }
     // At most a few kept extractions are for other surfaces.
     std::size_t looked_at = 0;
     for (auto it = kept_.rbegin(); it != kept_.rend() && looked_at < kFewest; ++it, ++looked_at)
-        if (it->extraction->query.step == query.step &&
+        if (it->extraction->query.step == query.step && enough(*it) &&
             same_but_for_step(it->extraction->query, query))
             return it->extraction;
     return nullptr;

@@ -248,8 +248,16 @@ std::vector<Grid> detail_grids(const Grid& grid) {
     while (std::ranges::any_of(grids.back().vertices,
                                [](std::uint32_t vertices) { return vertices > kChunkEdge; })) {
         Grid next = grids.back();
-        for (std::uint32_t& vertices : next.vertices)
-            vertices = coarser(vertices);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            next.vertices[axis] = coarser(next.vertices[axis]);
+            if (const auto& at = next.positions[axis].distances(); !at.empty()) {
+                std::vector<double> kept;
+                for (std::size_t i = 0; i + 1 < at.size(); i += 2)
+                    kept.push_back(at[i]);
+                kept.push_back(at.back());
+                next.positions[axis] = AxisPositions(std::move(kept));
+            }
+        }
         next.spacing *= 2.0;
         grids.push_back(next);
     }

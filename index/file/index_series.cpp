@@ -38,6 +38,8 @@ OldHeader header_of(const ByteSource& bytes) {
 /// Applies the overrides that are possible for any series.
 SeriesInfo with_overrides(SeriesInfo info, const ReadOptions& options) {
     info.grid.spacing = options.spacing.value_or(info.grid.spacing);
+    if (options.spacing)
+        info.grid.positions = {};
     info.grid.origin = options.origin.value_or(info.grid.origin);
     info.length_unit = options.length_unit.value_or(info.length_unit);
     info.time_unit = options.time_unit.value_or(info.time_unit);

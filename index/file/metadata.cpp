@@ -108,6 +108,13 @@ SeriesInfo info_of(const json& j) {
     const json& direction = j.at("direction");
     for (std::size_t axis = 0; axis < 3; ++axis)
         info.grid.direction[static_cast<int>(axis)] = vector_of(direction.at(axis));
+    if (const auto found = j.find("positions"); found != j.end())
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (!found->at(axis).empty())
+                info.grid.positions[axis] =
+                    AxisPositions(found->at(axis).get<std::vector<double>>());
+    if (const auto found = j.find("axis_names"); found != j.end())
+        found->get_to(info.axis_names);
     const auto type = value_type_from_name(j.at("type").get<std::string>());
     if (!type)
         throw Error("unknown value type");
@@ -335,6 +342,11 @@ std::string to_json(const Metadata& metadata) {
         {"tree",
          {{"lattice", metadata.tree.lattice}, {"max_variation", metadata.tree.max_variation}}},
     };
+    if (grid.rectilinear())
+        j["positions"] = {grid.positions[0].distances(), grid.positions[1].distances(),
+                          grid.positions[2].distances()};
+    if (info.axis_names != decltype(info.axis_names){})
+        j["axis_names"] = info.axis_names;
     if (!metadata.earlier.empty())
         j["earlier"] = metadata.earlier;
     if (metadata.levels)

@@ -20,6 +20,18 @@ bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+void check_positions(const std::vector<double>& at, std::uint32_t vertices) {
+    if (at.empty())
+        return;
+    if (at.size() != vertices || at.front() != 0 || !std::isfinite(at.back()))
+        throw Error(
+            fmt::format("{} positions along an axis, expected {} from 0 on", at.size(), vertices));
+    for (std::size_t i = 1; i < at.size(); ++i)
+        if (!(at[i] > at[i - 1]))
+            throw Error(
+                fmt::format("position {} along an axis after {}, expected more", at[i], at[i - 1]));
+}
+
 } // namespace
 
 void check_limits(const SeriesInfo& info) {
@@ -40,6 +52,8 @@ void check_limits(const SeriesInfo& info) {
     if (!(grid.spacing.x > 0 && grid.spacing.y > 0 && grid.spacing.z > 0))
         throw Error(fmt::format("spacing {} {} {}, expected positive numbers", grid.spacing.x,
                                 grid.spacing.y, grid.spacing.z));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        check_positions(grid.positions[axis].distances(), grid.vertices[axis]);
     if (!(std::abs(glm::determinant(grid.direction)) > 1e-6))
         throw Error("the direction's axes lie in one plane");
     if (!std::isfinite(info.scaling.slope) || info.scaling.slope == 0 ||
@@ -61,6 +75,8 @@ std::uint64_t content_hash_of(const SeriesInfo& info, std::span<const std::uint6
         numbers.insert(numbers.end(), {v.x, v.y, v.z});
     numbers.insert(numbers.end(),
                    {static_cast<double>(info.type), info.scaling.slope, info.scaling.intercept});
+    for (const AxisPositions& positions : info.grid.positions)
+        numbers.insert(numbers.end(), positions.distances().begin(), positions.distances().end());
     numbers.insert(numbers.end(), info.times.begin(),
                    info.times.begin() + static_cast<std::ptrdiff_t>(checksums.size()));
     return XXH3_64bits_withSeed(numbers.data(), numbers.size() * sizeof(double),

@@ -31,9 +31,16 @@ AxisSpread spread_of(const std::vector<double>& at, const std::string& label,
     const std::string of_unit = unit.empty() ? "" : " " + unit;
     if (off > kEven * std::abs(step))
         spread.note = fmt::format("{} is not uniform: vertices {:.4g} to {:.4g}{} apart are "
-                                  "spread evenly, {:.4g}{} apart",
+                                  "shown evenly, {:.4g}{} apart; --resample makes it uniform",
                                   label, least, most, of_unit, std::abs(step), of_unit);
     return spread;
+}
+
+void set_positions(Grid& grid, std::size_t axis, const std::vector<double>& at, double factor) {
+    std::vector<double> distances;
+    for (const double coordinate : at)
+        distances.push_back(std::abs(coordinate - at.front()) * std::abs(factor));
+    grid.positions[axis] = AxisPositions(std::move(distances));
 }
 
 } // namespace isochron::index

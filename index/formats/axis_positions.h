@@ -1,6 +1,9 @@
 // Turns coordinates along an axis, as files give them, into origin and spacing of a grid.
 #pragma once
 
+#include "index/volume/grid.h"
+
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,5 +23,9 @@ struct AxisSpread {
 /// @throws Error naming the file: coordinates that neither all rise nor all fall
 AxisSpread spread_of(const std::vector<double>& at, const std::string& label,
                      const std::string& unit, const std::string& file);
+
+/// Sets the positions of an axis that is not even; spacing and direction are already set.
+/// @param factor of the coordinates' unit
+void set_positions(Grid& grid, std::size_t axis, const std::vector<double>& at, double factor = 1);
 
 } // namespace isochron::index

@@ -25,6 +25,12 @@ bool close(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& tolerance
     return true;
 }
 
+bool same_positions(const AxisPositions& a, const AxisPositions& b, double spacing) {
+    constexpr double kSlack = 1e-4; // of the spacing
+    const auto near = [&](double x, double y) { return std::abs(x - y) <= kSlack * spacing; };
+    return std::ranges::equal(a.distances(), b.distances(), near);
+}
+
 std::string text(const glm::dvec3& v) {
     return fmt::format("({} {} {})", v.x, v.y, v.z);
 }
@@ -58,6 +64,11 @@ void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInf
     if (!close(a.origin, b.origin,
                glm::dvec3(1e-4 * std::min({b.spacing.x, b.spacing.y, b.spacing.z}))))
         fail("origin", text(a.origin), text(b.origin));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!same_positions(a.positions[axis], b.positions[axis],
+                            b.spacing[static_cast<int>(axis)]))
+            throw Error(fmt::format("{}: other positions of vertices along axis {} than {}", file,
+                                    axis, first_file));
     for (int axis = 0; axis < 3; ++axis)
         if (!close(a.direction[axis], b.direction[axis], glm::dvec3(1e-5)))
             fail(fmt::format("direction of axis {}", axis), text(a.direction[axis]),
@@ -275,6 +286,7 @@ class FileSeries final : public VolumeSeries {
                     throw Error(fmt::format("--spacing: {}, expected positive numbers",
                                             text(*options_.spacing)));
             info_.grid.spacing = *options_.spacing;
+            info_.grid.positions = {}; // even
         }
         if (options_.origin)
             info_.grid.origin = *options_.origin;

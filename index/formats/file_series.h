@@ -10,8 +10,8 @@ namespace isochron::index {
 
 struct SeriesFile {
     std::filesystem::path path;
-    OpenVolumeFile open = nullptr;
-    std::optional<double> time; ///< from an index of the series (.pvd); overrides the file's own
+    OpenVolumeFile open = {};
+    std::optional<double> time; ///< given by an index of the series (.pvd), before what files say
 };
 
 /// Opens every file once and checks that all agree with the first in vertices, spacing, origin,

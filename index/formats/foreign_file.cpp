@@ -127,6 +127,8 @@ class ForeignFile final : public VolumeFile {
     const SeriesInfo& info() const override { return described_.info; }
     std::size_t steps() const override { return described_.steps; }
 
+    std::vector<fs::path> beside() const override { return open_.options.slices; }
+
     void read(std::size_t step, std::span<std::byte> out) override {
         stream(step, [to = out.data()](std::span<const std::byte> piece) mutable {
             std::memcpy(to, piece.data(), piece.size());
@@ -208,12 +210,20 @@ std::unique_ptr<VolumeFile> open_vtk(const fs::path& path, const ReadOptions& op
     return open_foreign(readers_of_this_process(), ForeignFormat::vtk, path, options);
 }
 
+std::unique_ptr<VolumeFile> open_vtk_data(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::vtk_data, path, options);
+}
+
 std::unique_ptr<VolumeFile> open_netcdf(const fs::path& path, const ReadOptions& options) {
     return open_foreign(readers_of_this_process(), ForeignFormat::netcdf, path, options);
 }
 
 std::unique_ptr<VolumeFile> open_hdf5(const fs::path& path, const ReadOptions& options) {
     return open_foreign(readers_of_this_process(), ForeignFormat::hdf5, path, options);
+}
+
+std::unique_ptr<VolumeFile> open_tiff(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::tiff, path, options);
 }
 
 std::vector<std::pair<fs::path, double>> read_pvd(const fs::path& path) {

@@ -102,6 +102,19 @@ NiftiHeader header_2(const Fields& f) {
     return h;
 }
 
+// Analyze 7.5, "ANALYZE Header File Format", Mayo Foundation 1990; the scaling is SPM's.
+NiftiHeader analyze_header(const Fields& f, bool swapped) {
+    NiftiHeader h = header_1(f);
+    h.qform_code = h.sform_code = 0;
+    h.scl_inter = h.toffset = 0;
+    h.vox_offset = std::abs(h.vox_offset); // negative: of each volume
+    h.xyzt_units = f.at<char>(56) == 'm' && f.at<char>(57) == 'm' ? 2 : 0;
+    h.bytes = kBytes1;
+    h.big_endian = swapped;
+    h.pair = true;
+    return h;
+}
+
 NiftiHeader read_header(const fs::path& path) {
     const std::string name = path.string();
     const std::string head = head_of(path, kBytes2);
@@ -114,8 +127,12 @@ NiftiHeader read_header(const fs::path& path) {
         if (size != kBytes1 && (size != kBytes2 || head.size() < kBytes2))
             continue;
         const std::string magic = head.substr(size == kBytes1 ? 344 : 4, 4);
-        if (magic[0] != 'n' || (magic[1] != '+' && magic[1] != 'i') || magic[3] != '\0')
-            throw Error(fmt::format("{}: not NIfTI (an Analyze header has no orientation)", name));
+        const bool nifti =
+            magic[0] == 'n' && (magic[1] == '+' || magic[1] == 'i') && magic[3] == '\0';
+        if (!nifti && size == kBytes1)
+            return analyze_header(fields, swapped);
+        if (!nifti)
+            throw Error(fmt::format("{}: not NIfTI: its magic word is missing", name));
         NiftiHeader header = size == kBytes1 ? header_1(fields) : header_2(fields);
         header.bytes = static_cast<std::size_t>(size);
         header.big_endian = swapped;
@@ -214,6 +231,19 @@ std::string time_unit(std::int32_t units) {
     }
 }
 
+/// `scan.hdr` of `scan.img`, which may be given in its place.
+fs::path header_of_pair(const fs::path& path) {
+    const std::string name = path.string();
+    const std::size_t image = name.rfind(".img");
+    if (image == std::string::npos || (image + 4 != name.size() && !name.ends_with(".img.gz")))
+        return path;
+    std::error_code ignored;
+    for (const char* extension : {".hdr", ".hdr.gz"})
+        if (fs::path header = name.substr(0, image) + extension; fs::exists(header, ignored))
+            return header;
+    throw Error(fmt::format("{}: its .hdr is not beside it", name));
+}
+
 fs::path image_beside(const fs::path& header) {
     std::string name = header.string();
     const std::size_t dot = name.rfind(".hdr");
@@ -228,7 +258,8 @@ fs::path image_beside(const fs::path& header) {
 
 } // namespace
 
-std::unique_ptr<VolumeFile> open_nifti(const fs::path& path, const ReadOptions& options) {
+std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions& options) {
+    const fs::path path = header_of_pair(given);
     const std::string name = path.string();
     const NiftiHeader h = read_header(path);
     const std::int64_t dimensions = h.dim[0];

@@ -2,8 +2,11 @@
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/file_series.h"
+#include "index/formats/json_series.h"
 #include "index/formats/natural_order.h"
 #include "index/formats/readers.h"
+#include "index/formats/resampled_series.h"
+#include "index/formats/slice_files.h"
 #include "index/formats/text_header.h"
 
 #include <fmt/format.h>
@@ -19,17 +22,22 @@ namespace fs = std::filesystem;
 
 struct Format {
     std::string_view extension;
-    OpenVolumeFile open;
+    std::unique_ptr<VolumeFile> (*open)(const fs::path&, const ReadOptions&);
 };
 
 /// One entry for each extension; the first that matches the end of a name is used.
 constexpr std::array kFormats{
-    Format{".vti", open_vti},       Format{".vtk", open_vtk},      Format{".mhd", open_metaimage},
-    Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},    Format{".nhdr", open_nrrd},
-    Format{".nii", open_nifti},     Format{".nii.gz", open_nifti}, Format{".hdr", open_nifti},
-    Format{".nc", open_netcdf},     Format{".nc4", open_netcdf},   Format{".cdf", open_netcdf},
-    Format{".h5", open_hdf5},       Format{".hdf5", open_hdf5},    Format{".he5", open_hdf5},
-    Format{".hdf", open_hdf5},      Format{".vtkhdf", open_hdf5},  Format{".raw", open_raw},
+    Format{".vti", open_vti},       Format{".vtk", open_vtk},       Format{".mhd", open_metaimage},
+    Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},     Format{".nhdr", open_nrrd},
+    Format{".nii", open_nifti},     Format{".nii.gz", open_nifti},  Format{".hdr", open_nifti},
+    Format{".hdr.gz", open_nifti},  Format{".img", open_nifti},     Format{".img.gz", open_nifti},
+    Format{".nc", open_netcdf},     Format{".nc4", open_netcdf},    Format{".cdf", open_netcdf},
+    Format{".vtr", open_vtk_data},  Format{".pvti", open_vtk_data}, Format{".pvtr", open_vtk_data},
+    Format{".vtu", open_vtk_data},  Format{".vts", open_vtk_data},  Format{".pvtu", open_vtk_data},
+    Format{".pvts", open_vtk_data}, Format{".vtm", open_vtk_data},  Format{".vth", open_vtk_data},
+    Format{".tif", open_tiff},      Format{".tiff", open_tiff},     Format{".btf", open_tiff},
+    Format{".h5", open_hdf5},       Format{".hdf5", open_hdf5},     Format{".he5", open_hdf5},
+    Format{".hdf", open_hdf5},      Format{".vtkhdf", open_hdf5},   Format{".raw", open_raw},
 };
 
 SeriesFile series_file(const fs::path& path, const ReadOptions& options,
@@ -65,10 +73,49 @@ std::vector<SeriesFile> timed_by_name(const std::vector<fs::path>& files,
     return series;
 }
 
+bool is_pvd(const fs::path& path) {
+    return lower_case(path.extension().string()) == ".pvd";
+}
+
+bool names_its_files(const fs::path& path) {
+    return is_pvd(path) || lower_case(path.extension().string()) == ".series";
+}
+
+std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& files,
+                                            const ReadOptions& options) {
+    if (files.empty())
+        throw Error("no files given");
+    std::vector<SeriesFile> series;
+    const auto list = std::find_if(files.begin(), files.end(), names_its_files);
+    if (list != files.end()) {
+        const std::string name = list->string();
+        if (files.size() != 1)
+            throw Error(fmt::format("{}: names its files itself, {} more given", name,
+                                    files.size() - 1));
+        if (options.times_from_names)
+            throw Error(
+                fmt::format("{}: gives the times itself, --times-from-names cannot", name));
+        file_bytes(*list);
+        for (const auto& [path, time] : is_pvd(*list) ? read_pvd(*list) : read_json_series(*list))
+            series.push_back(series_file(path, options, time));
+        return open_file_series(std::move(series), options);
+    }
+    if (options.times_from_names)
+        return open_file_series(timed_by_name(files, options), options);
+    if (std::ranges::all_of(files, is_tiff))
+        return open_file_series(tiff_series(files, options), options);
+    for (const fs::path& path : files)
+        series.push_back(series_file(path, options));
+    std::stable_sort(series.begin(), series.end(), [](const SeriesFile& a, const SeriesFile& b) {
+        return natural_less(a.path.string(), b.path.string());
+    });
+    return open_file_series(std::move(series), options);
+}
+
 } // namespace
 
 std::string known_extensions() {
-    std::string known = ".pvd";
+    std::string known = ".pvd .series";
     for (const Format& format : kFormats)
         known += fmt::format(" {}", format.extension);
     return known;
@@ -76,33 +123,8 @@ std::string known_extensions() {
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options) {
-    if (files.empty())
-        throw Error("no files given");
-    std::vector<SeriesFile> series;
-    const auto is_pvd = [](const fs::path& path) {
-        return lower_case(path.extension().string()) == ".pvd";
-    };
-    const auto pvd = std::find_if(files.begin(), files.end(), is_pvd);
-    if (pvd != files.end()) {
-        if (files.size() != 1)
-            throw Error(fmt::format("{}: a .pvd names its files itself, {} more given",
-                                    pvd->string(), files.size() - 1));
-        if (options.times_from_names)
-            throw Error(fmt::format("{}: a .pvd gives the times itself, --times-from-names cannot",
-                                    pvd->string()));
-        file_bytes(*pvd);
-        for (const auto& [path, time] : read_pvd(*pvd))
-            series.push_back(series_file(path, options, time));
-        return open_file_series(std::move(series), options);
-    }
-    if (options.times_from_names)
-        return open_file_series(timed_by_name(files, options), options);
-    for (const fs::path& path : files)
-        series.push_back(series_file(path, options));
-    std::stable_sort(series.begin(), series.end(), [](const SeriesFile& a, const SeriesFile& b) {
-        return natural_less(a.path.string(), b.path.string());
-    });
-    return open_file_series(std::move(series), options);
+    auto series = open_as_it_is(files, options);
+    return options.resample ? resampled(std::move(series), *options.resample) : std::move(series);
 }
 
 } // namespace isochron::index

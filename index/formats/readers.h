@@ -18,7 +18,7 @@ std::unique_ptr<VolumeFile> open_metaimage(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
                                       const ReadOptions& options);
 
-/// NIfTI-1 and -2: .nii, .nii.gz, .hdr with .img. The fourth axis is time. Space is RAS.
+/// NIfTI-1 and -2, and Analyze 7.5: .nii, .nii.gz, .hdr with .img, either of which names the pair. The fourth axis is time. Space is RAS.
 std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
                                        const ReadOptions& options);
 
@@ -26,8 +26,13 @@ std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_vti(const std::filesystem::path& path, const ReadOptions& options);
 std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path, const ReadOptions& options);
 
-/// NetCDF, classic and 4 (.nc, .nc4, .cdf), decoded in a reader process, if the build has the
-/// library. Space is that of the coordinate variables, with z up if the file says so.
+/// VTK's rectilinear grids (.vtr), files of several pieces (.pvti, .pvtr), and, with `resample`, its
+/// other grids (.vtu, .vts, .pvtu, .pvts, .vtm, .vth), in a reader.
+std::unique_ptr<VolumeFile> open_vtk_data(const std::filesystem::path& path,
+                                          const ReadOptions& options);
+
+/// NetCDF, classic and 4 (.nc, .nc4, .cdf), in a reader, where it was built with the library. Space
+/// is that of the coordinate variables, with z up where a file says so.
 std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
                                         const ReadOptions& options);
 
@@ -36,8 +41,13 @@ std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_hdf5(const std::filesystem::path& path,
                                       const ReadOptions& options);
 
-/// The files and times of a ParaView collection (.pvd), ordered by time; paths are made relative to
-/// the working directory. Decoded in a reader process. @throws Error naming the file
+/// TIFF and BigTIFF (.tif, .tiff), in a reader, where it was built with the library: pages as
+/// slices, as OME-XML has them, or as ImageJ does.
+std::unique_ptr<VolumeFile> open_tiff(const std::filesystem::path& path,
+                                      const ReadOptions& options);
+
+/// The files and times of a ParaView collection (.pvd), in its order, paths made relative to where
+/// the program runs; in a reader. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> read_pvd(const std::filesystem::path& path);
 
 } // namespace isochron::index

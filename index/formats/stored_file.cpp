@@ -131,6 +131,7 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     const std::string name = header.string();
     check_grid(info.grid, name);
     const ChosenScalar chosen = choose_scalar(std::span(&layout.array, 1), options, name);
+    info.arrays = chosen.offered;
     info.array = chosen.label();
     info.type = chosen.value_type();
     for (std::string& note : chosen.notes())

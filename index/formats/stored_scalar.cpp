@@ -4,6 +4,7 @@
 #include "index/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -28,20 +29,26 @@ bool is_offered(const StoredArray& array) {
     return array.type.has_value();
 }
 
-std::string listed(std::span<const StoredArray> arrays) {
+std::vector<std::string> offered_of(std::span<const StoredArray> arrays) {
+    std::vector<std::string> list;
+    for (const StoredArray& array : arrays)
+        if (is_offered(array))
+            list.push_back(
+                fmt::format("{} ({}{}{}{})", array.name, name_of(*array.type),
+                            array.components == 1 ? "" : fmt::format(" x {}", array.components),
+                            array.shape.empty() ? "" : ", " + array.shape,
+                            array.on_cells ? ", cell data" : ""));
+    return list;
+}
+
+std::string listed(const std::vector<std::string>& offered) {
     constexpr std::size_t kShown = 20;
-    std::string list;
-    std::size_t count = 0;
-    for (const StoredArray& array : arrays) {
-        if (!is_offered(array) || ++count > kShown)
-            continue;
-        list += fmt::format(
-            "{}{} ({}{}{}{})", list.empty() ? "" : ", ", array.name, name_of(*array.type),
-            array.components == 1 ? "" : fmt::format(" x {}", array.components),
-            array.shape.empty() ? "" : ", " + array.shape, array.on_cells ? ", cell data" : "");
-    }
-    if (count > kShown)
-        list += fmt::format(" and {} more", count - kShown);
+    const std::size_t shown = std::min(offered.size(), kShown);
+    std::string list =
+        fmt::format("{}", fmt::join(offered.begin(),
+                                    offered.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+    if (offered.size() > kShown)
+        list += fmt::format(" and {} more", offered.size() - kShown);
     return list;
 }
 
@@ -50,6 +57,8 @@ std::uint32_t component_of(const StoredArray& array, const ReadOptions& options,
     if (!options.component) {
         if (array.components == 1)
             return 0;
+        if (options.any_array)
+            return ChosenScalar::kMagnitude;
         throw Error(fmt::format("{}: array {} has {} components, choose one with --component 0 to "
                                 "{} or --component magnitude",
                                 file, array.name, array.components, array.components - 1));
@@ -178,11 +187,12 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
         else if (found->name != array.name)
             open = true;
     }
-    const std::string list = listed(arrays);
+    std::vector<std::string> offered = offered_of(arrays);
+    const std::string list = listed(offered);
     if (list.empty() && !found)
         throw Error(fmt::format("{}: holds no array{}", file,
                                 arrays.empty() ? "" : " of numbers that can be read"));
-    if (open)
+    if (open && !options.any_array)
         throw Error(fmt::format("{}: several arrays, choose one with --array: {}", file, list));
     if (!found)
         throw Error(
@@ -190,7 +200,7 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
     if (!found->type)
         throw Error(
             fmt::format("{}: array {} does not hold numbers that can be read", file, found->name));
-    return {*found, component_of(*found, options, file)};
+    return {*found, component_of(*found, options, file), std::move(offered)};
 }
 
 void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, const Grid& grid,

@@ -45,8 +45,8 @@ struct StoredArray {
     std::optional<StoredType> type; ///< none: a type that no volume can have (strings, bits, ...)
     std::uint32_t components = 1;
     bool on_cells = false;  ///< one tuple per cell rather than per vertex
-    bool gaps = false;      ///< values may be missing; these become NaN
-    std::string shape = {}; ///< for lists of arrays: `64 x 64 x 32`; may be empty
+    bool gaps = false;      ///< values may be missing, for which there is only NaN
+    std::string shape = {}; ///< where a list of arrays has it: `64 x 64 x 32`
 };
 
 /// An array, or one component of it, or its magnitude.
@@ -54,7 +54,8 @@ struct ChosenScalar {
     static constexpr std::uint32_t kMagnitude = ~0u;
 
     StoredArray array;
-    std::uint32_t component = 0; ///< or kMagnitude
+    std::uint32_t component = 0;           ///< or kMagnitude
+    std::vector<std::string> offered = {}; ///< what there was to choose from, with types
 
     /// Type of the values: the stored type if a series can have it. Means over cells, magnitudes
     /// and arrays with gaps are f32 if the stored type is f32 or an integer of up to 16 bits, else

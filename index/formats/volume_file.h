@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -30,7 +31,7 @@ class VolumeFile {
 };
 
 /// Opens one file, reading no more than it must to describe it. @throws Error naming the file
-using OpenVolumeFile = std::unique_ptr<VolumeFile> (*)(const std::filesystem::path&,
-                                                       const ReadOptions&);
+using OpenVolumeFile =
+    std::function<std::unique_ptr<VolumeFile>(const std::filesystem::path&, const ReadOptions&)>;
 
 } // namespace isochron::index

@@ -14,7 +14,7 @@ constexpr ValueType kLastValue<ValueType> = ValueType::f64;
 template <>
 constexpr Anatomy kLastValue<Anatomy> = Anatomy::enu;
 template <>
-constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::hdf5;
+constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::vtk_data;
 
 namespace {
 
@@ -25,17 +25,26 @@ concept Of = std::is_same_v<std::remove_const_t<Bytes>, T>;
 
 void each_field(auto& bytes, Of<Grid> auto& grid) {
     bytes(grid.vertices, grid.origin, grid.spacing, grid.direction);
+    for (auto& positions : grid.positions) {
+        std::vector<double> distances = positions.distances();
+        bytes(distances);
+        if constexpr (!std::is_const_v<std::remove_reference_t<decltype(positions)>>)
+            if (!distances.empty())
+                positions = AxisPositions(std::move(distances));
+    }
 }
 void each_field(auto& bytes, Of<SeriesInfo> auto& info) {
     bytes(info.array, info.value_unit, info.length_unit, info.time_unit, info.anatomy, info.type,
-          info.scaling.slope, info.scaling.intercept, info.times, info.sources, info.notes);
+          info.scaling.slope, info.scaling.intercept, info.times, info.sources, info.notes,
+          info.axis_names, info.arrays);
     each_field(bytes, info.grid);
 }
 void each_field(auto& bytes, Of<ReadOptions> auto& options) {
     bytes(options.array, options.component, options.dims, options.type, options.big_endian,
           options.allow_surplus, options.extra_axis_is_time, options.times_from_names,
           options.header_bytes, options.spacing, options.origin, options.time_step,
-          options.length_unit, options.time_unit, options.value_unit);
+          options.length_unit, options.time_unit, options.value_unit, options.slices,
+          options.any_array, options.resample);
 }
 
 void each_field(auto& bytes, Of<OpenFile> auto& open) {
@@ -108,8 +117,10 @@ std::string program_of(ForeignFormat format) {
     switch (format) {
     case ForeignFormat::netcdf: return "isochron-reader-netcdf";
     case ForeignFormat::hdf5: return "isochron-reader-hdf5";
+    case ForeignFormat::tiff: return "isochron-reader-tiff";
     case ForeignFormat::vti:
-    case ForeignFormat::vtk: break;
+    case ForeignFormat::vtk:
+    case ForeignFormat::vtk_data: break;
     }
     return kCollectionProgram;
 }

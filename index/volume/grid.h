@@ -1,8 +1,10 @@
-// The regular grid that every step of a series shares.
+// The grid that every step of a series shares: regular, or rectilinear.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -14,14 +16,39 @@ namespace isochron::index {
 /// bits of that number, which are still unique within a layer of chunks.
 using CellId = std::uint32_t;
 
+/// Distances of the vertices along an axis from the first of them, where they are not even.
+class AxisPositions {
+  public:
+    AxisPositions() = default; ///< even ones
+    /// @param distances rising from 0, one for each vertex
+    explicit AxisPositions(std::vector<double> distances)
+        : distances_(std::make_shared<const std::vector<double>>(std::move(distances))) {}
+
+    bool even() const { return !distances_; }
+    /// Empty where they are even.
+    const std::vector<double>& distances() const {
+        static const std::vector<double> none;
+        return distances_ ? *distances_ : none;
+    }
+    bool operator==(const AxisPositions& other) const {
+        return distances_ == other.distances_ || distances() == other.distances();
+    }
+
+  private:
+    std::shared_ptr<const std::vector<double>> distances_;
+};
+
 /// Vertices lie at origin + direction * (spacing * index). A cell is the box between 8 vertices;
 /// there are (nx-1)(ny-1)(nz-1). Physical space is right-handed and in `SeriesInfo::length_unit`;
-/// a direction matrix of determinant -1 says that the storage order itself is left-handed.
+/// a direction matrix of determinant -1 says that the storage order itself is left-handed. On a
+/// rectilinear grid some axes have positions of their own; `spacing` is then the mean between them,
+/// so that the first and the last vertex lie where it puts them.
 struct Grid {
     std::array<std::uint32_t, 3> vertices{}; ///< nx, ny, nz, each at least 2
     glm::dvec3 origin{0.0};
-    glm::dvec3 spacing{1.0};   ///< each > 0
-    glm::dmat3 direction{1.0}; ///< columns: the unit vectors of the three index axes
+    glm::dvec3 spacing{1.0};                  ///< each > 0
+    glm::dmat3 direction{1.0};                ///< columns: the unit vectors of the three index axes
+    std::array<AxisPositions, 3> positions{}; ///< in the unit of `spacing`
 
     std::array<std::uint32_t, 3> cells() const {
         return {vertices[0] - 1, vertices[1] - 1, vertices[2] - 1};
@@ -38,9 +65,23 @@ struct Grid {
         const auto c = cells();
         return {id % c[0], id / c[0] % c[1], id / c[0] / c[1]};
     }
+    bool rectilinear() const {
+        return !(positions[0].even() && positions[1].even() && positions[2].even());
+    }
     /// Maps vertex index coordinates (a cell's center is its lowest vertex + 0.5) to physical
-    /// space.
+    /// space; on a rectilinear grid as if vertices were even.
     glm::dmat4 physical_from_index() const;
+    /// The same within one cell, and exact there.
+    glm::dmat4 physical_from_index_in(const std::array<std::uint32_t, 3>& cell) const;
+
+    /// From the first vertex to a place in index coordinates along an axis; between vertices, and
+    /// beyond them, in proportion.
+    double distance(int axis, double index) const;
+    /// The other way round.
+    double index_at(int axis, double distance) const;
+    /// Exact everywhere.
+    glm::dvec3 physical(const glm::dvec3& index) const;
+    glm::dvec3 index_of(const glm::dvec3& physical) const;
 
     bool operator==(const Grid&) const = default;
 };

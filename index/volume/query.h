@@ -18,6 +18,8 @@ constexpr std::array<std::string_view, 4> kSearchMethodNames{"cells", "bricks", 
 struct Query {
     std::uint32_t step = 0;
     double isovalue = 0.0;
+    /// Bytes that a mesh of the surface may take; 0: none is made, nor where it would take more.
+    std::uint64_t mesh_room = 0;
     bool operator==(const Query&) const = default;
 };
 
@@ -37,8 +39,16 @@ struct SurfacesQuery {
     std::uint32_t step = 0;
     std::vector<double> isovalues; ///< a surface is identified by its place in this list
     CellColoring coloring = CellColoring::none;
+    /// Bytes that the meshes of all surfaces together may take: either all have one or none; 0: none.
+    std::uint64_t mesh_room = 0;
 
     Query surface(std::size_t i) const { return {step, isovalues[i]}; }
+    /// The same cells, however they are drawn.
+    SurfacesQuery of_cells() const {
+        SurfacesQuery query = *this;
+        query.mesh_room = 0;
+        return query;
+    }
     bool operator==(const SurfacesQuery&) const = default;
 };
 

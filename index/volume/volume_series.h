@@ -4,6 +4,7 @@
 #include "index/volume/grid.h"
 #include "index/volume/value_type.h"
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -21,12 +22,15 @@ namespace isochron::index {
 enum class Anatomy : std::uint8_t { none, ras, lps, enu };
 
 struct SeriesInfo {
+    std::vector<std::string> arrays; ///< that there are to choose from, each with its type
     std::string array;       ///< name of the scalar array, with its component: `velocity.magnitude`
     std::string value_unit;  ///< empty when the files do not say
     std::string length_unit; ///< `mm`, `m`, ... or empty
     std::string time_unit;   ///< `s`, `ms`, ... or empty
     Anatomy anatomy = Anatomy::none;
     Grid grid;
+    /// What the axes of physical space are called, `longitude` and so on; empty: x, y, z.
+    std::array<std::string, 3> axis_names;
     ValueType type = ValueType::f32;
     Scaling scaling;
     std::vector<double>
@@ -42,10 +46,16 @@ struct SeriesInfo {
 struct ReadOptions {
     std::optional<std::string> array;     ///< --array
     std::optional<std::string> component; ///< --component: a number from 0, or `magnitude`
-    bool allow_surplus = false; ///< --allow-surplus: more values may follow those of the header
+    /// Where a choice is open, the first array, and the length of its vectors: to describe files.
+    bool any_array = false;
+    bool allow_surplus = false; ///< --allow-surplus: values may follow those that the header has
     bool extra_axis_is_time =
         false;                     ///< --extra-axis-is-time: an axis beside those of space is time
     bool times_from_names = false; ///< --times-from-names: the last number in each file's name
+    /// --resample NX NY NZ: grids that are not regular become one of so many vertices.
+    std::optional<std::array<std::uint32_t, 3>> resample;
+    /// Of one step, a file for each slice, in their order; set by `open_series` alone.
+    std::vector<std::filesystem::path> slices;
     // Headerless raw files only:
     std::optional<std::array<std::uint32_t, 3>> dims; ///< --dims NX NY NZ, vertices
     std::optional<ValueType> type;                    ///< --type

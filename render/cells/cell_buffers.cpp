@@ -41,7 +41,7 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       mesh_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
-    return takes_processor_ways(gl) ? index::Shading::cells_and_mesh : index::Shading::none;
+    return takes_processor_ways(gl) ? index::Shading::cells : index::Shading::none;
 }
 
 CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points) {
@@ -154,7 +154,7 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     sending_bricks_ = volume == SendVolume::with_cells || !ranked_;
     if (sending_bricks_)
         bricks_->begin(set->bricks);
-    sending_mesh_ = ranked_ && MeshBuffers::has_meshes(*set);
+    sending_mesh_ = ranked_ && set->meshed();
     if (sending_mesh_)
         mesh_.begin(*set);
     arriving_ = std::move(set);

@@ -19,12 +19,6 @@ void fit(const Gl& gl, const Buffer& buffer, std::size_t bytes, std::size_t& roo
 
 MeshBuffers::MeshBuffers(const Gl& gl) : gl_(&gl), shown_(gl), arriving_(gl) {}
 
-bool MeshBuffers::has_meshes(const index::Extraction& set) {
-    return std::ranges::all_of(set.surfaces, [](const index::CellSet& surface) {
-        return surface.mesh || surface.ids.empty();
-    });
-}
-
 void MeshBuffers::begin(const index::Extraction& set) {
     arriving_.surfaces.clear();
     pieces_.clear();

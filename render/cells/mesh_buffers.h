@@ -17,10 +17,7 @@ class MeshBuffers {
   public:
     explicit MeshBuffers(const Gl& gl);
 
-    /// Whether every surface of the set that has cells has a mesh, as `begin` needs.
-    static bool has_meshes(const index::Extraction& set);
-
-    /// Begins with the meshes of a set, which lives until `show`; what was on its way is dropped.
+    /// Begins with the meshes of a set that is meshed, which lives until `show`; what was on its way is dropped.
     void begin(const index::Extraction& set);
     /// Sends at most so many bytes of them. @return bytes sent
     std::size_t send(std::size_t bytes);

@@ -235,7 +235,8 @@ void run_verify(const std::filesystem::path&) {}
 #include "app/commands/command_line.example"
 
 void frame_quality_example(FrameQuality& quality, FrameLog& log, const ExplorerState& state,
-                           bool changed, const render::FootprintSet& footprints, FrameReport& report,
+                           bool changed, const render::FootprintSet& footprints,
+                           const render::FootprintSet& possible, FrameReport& report,
                            std::span<const render::View> views, const DrawLoad& of_cell,
                            Milliseconds processor_time) {
 #include "app/frame/frame_quality.example"

@@ -64,7 +64,7 @@ TEST(ClusterMessages, WhatIsSaidIsUnderstoodExactly) {
         const FrameAnswer answer = rich_answer(random);
         EXPECT_EQ(decode_answer(view(encoded(answer))), answer);
         const FrameChoice choice{render::Footprint::gaussian, QualityReason::over_budget, true,
-                                 i % 2 == 0};
+                                 i % 2 == 0, i % 3 == 0};
         EXPECT_EQ(decode_choice(view(encoded(choice))), choice);
     }
     EXPECT_EQ(decode_order(view(encoded_end())), std::nullopt);

@@ -173,7 +173,7 @@ TEST_F(CommandLine, BadInputIsOneLineAndLeavesNothingBehind) {
     fails({"query", "a.isochron", "--isovalue", "0", "--step", "0", "--method", "tree"},
           "a.isochron: has no tree to search in");
     fails({"explore", "t0.raw", "--no-panel"},
-          "`isochron build t0.raw -o t0.isochron` makes an index of data");
+          "t0.raw: raw values need --dims NX NY NZ and --type");
     fails(build_of("t[01].raw", {"--append"}), "must begin with the 5 steps that it holds");
     fails(build_of("t*.raw", {"--tiers", "deltas"}),
           "t0.raw: the tier deltas needs the tier cells");
@@ -200,14 +200,12 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
          std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"bild"}, "isochron: bild: unknown, did you mean build? (see isochron --help)\n"},
              {{"exlpore", "a.isochron"}, "exlpore: unknown, did you mean explore? (see"},
-             {{"t0.raw"}, "a file, not a command; did you mean `isochron build t0.raw`? (see"},
-             {{"a.isochron"}, "did you mean `isochron explore a.isochron`?"},
              {{"walk.jsonl"}, "did you mean `isochron replay walk.jsonl`?"},
              {{"picture.png"}, "did you mean `isochron reproduce picture.png`?"},
              {{"explore", "--isovlaue", "3", "a.isochron"},
               "--isovlaue: unknown option, did you mean --isovalue? (see isochron explore --help)"},
              {{"build", "--ouput=b", "t0.raw", "-o", "b"}, "--ouput: unknown option, did you mean"},
-             {{"info", "a.isochron", "b.isochron"}, "b.isochron: one argument too many"},
+             {{"verify", "a.isochron", "b.isochron"}, "b.isochron: one argument too many"},
              {{"query", "a.isochron", "--isovalue", "x", "--step", "1"},
               "--isovalue: expected a number, got x"},
              {{"explore", "a.isochron", "--quality", "fsat"},

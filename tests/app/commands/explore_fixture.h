@@ -46,6 +46,7 @@ class ExploreTest : public testing::Test {
     ExploreTest() {
         build_sphere(folder_.path());
         setenv("XDG_STATE_HOME", state_.path().c_str(), 1);
+        setenv("XDG_CACHE_HOME", state_.path().c_str(), 1);
     }
 
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }

@@ -5,6 +5,7 @@
 
 #include "app/config/shipped_configs.h"
 #include "app/session/recording_file.h"
+#include "index/file/index_file.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>
@@ -21,6 +22,28 @@ template <class Claim>
 bool any_frame(const interaction::Recording& recording, Claim claim) {
     return std::any_of(recording.frames.begin(), recording.frames.end(),
                        [&](const auto& frame) { return claim(frame.commands); });
+}
+
+TEST_F(ExploreTest, MakesAnIndexOfFilesOfValuesAndKeepsIt) {
+    std::string ramp;
+    for (char i = 0; i < 64; ++i)
+        ramp += i;
+    folder_.write("ramp.raw", ramp);
+    for (const char* recording : {"first.jsonl", "second.jsonl"}) {
+        // The name alone stands for `explore`.
+        ASSERT_EQ(Program({file("ramp.raw"), "--dims", "4", "4", "4", "--type", "u8", "--size",
+                           "320", "240", "--seconds", "0.2", "--record", file(recording)})
+                      .exit_status(),
+                  0);
+        const std::filesystem::path kept = read_recording(file(recording)).header.data;
+        EXPECT_EQ(kept.parent_path(), state_.path() / "isochron");
+        EXPECT_EQ(index::IndexFile::open(kept)->stats().high, 63);
+    }
+    const std::filesystem::directory_iterator kept(state_.path() / "isochron");
+    EXPECT_EQ(
+        std::count_if(begin(kept), end(kept),
+                      [](const auto& entry) { return entry.path().extension() == ".isochron"; }),
+        1);
 }
 
 TEST_F(ExploreTest, KeysLeadToCommandsThatTheRecordingHoldsAndReplays) {

@@ -170,6 +170,46 @@ TEST_P(SessionQuality, TheVolumeOfCellsInMotionFollowsWhenThePictureComesToRest)
                     frame.pace == interaction::Pace::moving);
 }
 
+TEST_P(SessionQuality, MeshesAreMadeWhereTheyAreDrawnAndWithinTheirBudget) {
+    const render::Gl gl(context_->loader());
+    const bool makes = render::CellBuffers::wanted_shading(gl) != index::Shading::none;
+    const auto mesh_bytes = [](const Session& session) {
+        std::uint64_t bytes = 0;
+        for (const FrameReport& frame : session.log().frames())
+            bytes += frame.uploaded.mesh_bytes;
+        return bytes;
+    };
+    Config config = config_with(kPlenty);
+    {
+        Session session(config, file_, *context_);
+        start(session);
+        EXPECT_EQ(rest(session, 120).footprint, Footprint::surface);
+        EXPECT_EQ(mesh_bytes(session) > 0,
+                  std::ranges::any_of(session.log().frames(), [](const FrameReport& frame) {
+                      return frame.footprint == Footprint::mesh;
+                  }));
+        Commands fast;
+        fast.quality = interaction::QualityMode::fast;
+        fast.step = 2;
+        const std::uint64_t before = mesh_bytes(session);
+        walk(session, 40, fast);
+        EXPECT_EQ(mesh_bytes(session), before) << "quads need none";
+    }
+    config.settled_footprint = Footprint::mesh;
+    for (const int megabytes : {192, 0}) {
+        config.mesh_megabytes = megabytes;
+        Session session(config, file_, *context_);
+        start(session);
+        FrameReport report = rest(session, 60);
+        for (int i = 0; i < 20000 && !report.final; ++i) // the worker takes its time
+            report = rest(session, 1);
+        const bool meshed = makes && megabytes > 0;
+        EXPECT_EQ(report.footprint, meshed ? Footprint::mesh : Footprint::gaussian);
+        EXPECT_TRUE(report.final);
+        EXPECT_EQ(mesh_bytes(session) > 0, meshed);
+    }
+}
+
 TEST_P(SessionQuality, AFixedStepReplayGoesByPaceWhateverItCosts) {
     std::vector<Footprint> footprints[2];
     for (const double budget : {kPlenty, kNothing}) {

@@ -26,7 +26,8 @@ namespace {
 
 using render::Footprint;
 
-constexpr std::size_t kUploadBytes = 4 << 20; ///< per frame, while time plays
+constexpr std::size_t kUploadBytes = 4 << 20;                   ///< per frame, while time plays
+constexpr std::uint64_t kPlentyOfRoom = std::uint64_t{1} << 40; ///< [byte]
 constexpr glm::vec4 kBackground(0.02f, 0.02f, 0.03f, 1.0f);
 
 double wall_ms() {
@@ -109,7 +110,7 @@ class Bench {
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());
         const unsigned rounds = std::max(options_.rounds, 1u);
         Times times;
-        extract_ = extraction(footprint.footprint == Footprint::mesh);
+        mesh_room_ = footprint.footprint == Footprint::mesh ? kPlentyOfRoom : 0;
         const std::size_t frames = std::size_t{steps} * rounds;
         measure_step(footprint.footprint, 0, times); // warms everything up
         times = {};
@@ -124,13 +125,6 @@ class Bench {
     }
 
   private:
-    /// As a session's, with a mesh where it is drawn.
-    index::Extract extraction(bool with_mesh) const {
-        const index::Shading wanted = render::CellBuffers::wanted_shading(gl_);
-        const bool less = wanted == index::Shading::cells_and_mesh && !with_mesh;
-        return index::extract_from(file_, std::nullopt, less ? index::Shading::cells : wanted);
-    }
-
     RenderRow row_of(const NamedFootprint& footprint, const Times& times) const {
         RenderRow row;
         row.data = options_.data;
@@ -173,7 +167,10 @@ class Bench {
         gl_.Finish();
         index::ExtractionPtr set;
         times.whole.time([&] {
-            times.extract.time([&] { set = extract_({step, {options_.isovalue}}, {}); });
+            times.extract.time([&] {
+                set = extract_(
+                    {.step = step, .isovalues = {options_.isovalue}, .mesh_room = mesh_room_}, {});
+            });
             times.upload.time([&] {
                 while (cells_.shown() != set)
                     cells_.upload(set, std::numeric_limits<std::size_t>::max(), volume);
@@ -288,7 +285,9 @@ class Bench {
     render::CellBuffers cells_;
     render::OrderCache orders_;
     BareQuads bare_;
-    index::Extract extract_;
+    index::Extract extract_ =
+        index::extract_from(file_, std::nullopt, render::CellBuffers::wanted_shading(gl_));
+    std::uint64_t mesh_room_ = 0; ///< as a session's: only where meshes are drawn
     std::unique_ptr<VtkScene> vtk_;
 };
 

@@ -24,7 +24,8 @@ def field(*shape, dtype="f4"):
     return random.integers(info.min, info.max, shape, dtype=native, endpoint=True).astype(dtype)
 
 
-def expect(files, values, *, spacing=(1, 1, 1), origin=(0, 0, 0), times=None, direction=None, kind=None, **options):
+def expect(files, values, *, spacing=(1, 1, 1), origin=(0, 0, 0), times=None, direction=None, positions=None, kind=None,
+           **options):
     """values: [time][z][y][x] or [z][y][x], after all scaling. options: array, component, extra_axis_is_time, ..."""
     values = np.asarray(values)
     if values.ndim == 3:
@@ -35,7 +36,7 @@ def expect(files, values, *, spacing=(1, 1, 1), origin=(0, 0, 0), times=None, di
                         vertices=list(values.shape[:0:-1]), steps=values.shape[0],
                         spacing=[float(v) for v in spacing], origin=[float(v) for v in origin],
                         times=None if times is None else [float(t) for t in times],
-                        direction=direction, kind=kind, options=options))
+                        direction=direction, positions=positions, kind=kind, options=options))
 
 
 def refuse(files, message, **options):

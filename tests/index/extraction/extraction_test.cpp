@@ -234,6 +234,30 @@ TEST(Extraction, DigestsTellBricksThatChangeFromThoseThatDoNot) {
     }
 }
 
+TEST(Extraction, MeshesOfAllSurfacesComeWithinTheirRoomOrNot) {
+    const TestFolder folder;
+    const TestField field({20, 20, 20}, 2, ValueType::f32, moving_sphere);
+    const auto file = indexed(folder, field.view());
+    const Extract extract = extract_from(file, std::nullopt, Shading::cells);
+    const auto asked = [&](std::uint64_t room) {
+        return extract({.step = 0, .isovalues = {30.0, 60.0, 1e9}, .mesh_room = room}, {});
+    };
+    EXPECT_FALSE(asked(0)->surfaces[0].mesh) << "nobody has asked";
+    const auto all = asked(std::uint64_t{1} << 30);
+    ASSERT_TRUE(all->meshed());
+    const std::uint64_t bytes = bytes_of(*all->surfaces[0].mesh) + bytes_of(*all->surfaces[1].mesh);
+    EXPECT_GE(bytes, least_mesh_bytes(all->cells()));
+    EXPECT_TRUE(asked(bytes)->meshed());
+    const auto without = asked(bytes - 1);
+    EXPECT_FALSE(without->meshed());
+    for (const CellSet& surface : without->surfaces)
+        EXPECT_FALSE(surface.mesh);
+    EXPECT_EQ(without->cells(), all->cells());
+    EXPECT_EQ(extract_from(file)({.isovalues = {30.0}, .mesh_room = bytes}, {})->surfaces[0].mesh,
+              nullptr)
+        << "a GPU makes its own normals, and draws no mesh";
+}
+
 TEST(Extraction, WithoutActiveCellsThereIsNothingToSend) {
     const TestFolder folder;
     const TestField field({9, 9, 9}, 1, ValueType::u8, moving_sphere);

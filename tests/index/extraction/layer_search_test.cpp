@@ -18,7 +18,7 @@ namespace isochron::index {
 namespace {
 
 /// So small that no step is worked on as a whole, and that chunks are dropped and read again.
-constexpr std::uint64_t kNoRoom = 1;
+constexpr std::uint64_t kNoRoom = 1, kPlenty = std::uint64_t{1} << 30;
 
 /// Around the edge of a chunk, primes, and the smallest there is.
 constexpr std::array<std::array<std::uint32_t, 3>, 7> kChunkyGrids{
@@ -76,12 +76,10 @@ TEST_F(LayerSearchTest, FindsAndShadesWhatWholeStepsGiveForEveryTypeMethodAndGri
                                  << name_of(type) << " " << vertices[0] << " x " << vertices[1]
                                  << " x " << vertices[2] << " method " << int(method)
                                  << " isovalue " << isovalue << " noise " << noise);
-                    const Query query{static_cast<std::uint32_t>(random_() % 2), isovalue};
-                    const CellSetPtr found =
-                        search_in(chunks, method, Shading::cells_and_mesh)(query, {});
+                    const Query query{static_cast<std::uint32_t>(random_() % 2), isovalue, kPlenty};
+                    const CellSetPtr found = search_in(chunks, method, Shading::cells)(query, {});
                     ASSERT_EQ(found->ids, BruteForce(values, query.step).active(isovalue));
-                    const CellSetPtr wanted =
-                        search_in(whole, method, Shading::cells_and_mesh)(query, {});
+                    const CellSetPtr wanted = search_in(whole, method, Shading::cells)(query, {});
                     expect_same(*found, *wanted);
                     ASSERT_EQ(!found->mesh, found->ids.empty());
                     if (found->mesh) {

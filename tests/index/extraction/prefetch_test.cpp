@@ -69,6 +69,25 @@ TEST(Prefetch, AsManyStepsArePrefetchedAsThereIsRoomForAlongThePlayback) {
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{2, 3, 4, 5, 6}));
 }
 
+TEST(Prefetch, WhatHasAMeshAnswersWhoNeedsNoneAndNotTheOtherWayRound) {
+    SizedExtraction made(1000);
+    Extractor extractor(made.extract());
+    const auto ask = [&](std::uint32_t step, std::uint64_t room) {
+        extractor.request(
+            {.query = {.step = step, .isovalues = {1.0}, .mesh_room = room}, .ahead = {}});
+        extractor.wait();
+        return extractor.newest()->query.mesh_room;
+    };
+    EXPECT_EQ(ask(3, 0), 0u);
+    EXPECT_EQ(ask(3, 100), 100u);
+    EXPECT_EQ(ask(3, 0), 100u) << "what is there is kept";
+    EXPECT_EQ(ask(4, 0), 0u);
+    EXPECT_EQ(ask(3, 0), 100u);
+    EXPECT_EQ(ask(3, 100), 100u);
+    EXPECT_EQ(ask(4, 100), 100u);
+    EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{3, 3, 4, 4}));
+}
+
 TEST(Prefetch, WithoutRoomIsOfTheNextStepAlone) {
     SizedExtraction made(1000);
     Extractor extractor(made.extract());

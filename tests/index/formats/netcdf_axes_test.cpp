@@ -209,8 +209,8 @@ TEST(NetcdfAxes, ThatAreNotUniformAreSpreadEvenlyAndSaySo) {
     EXPECT_EQ(series->info().grid.spacing, glm::dvec3(1, 3, 3));
     EXPECT_EQ(series->info().grid.origin, glm::dvec3(0, 20, 5));
     EXPECT_THAT(series->info().notes,
-                ElementsAre("z (z) is not uniform: vertices 1 to 5 m apart are spread evenly, 3 m "
-                            "apart"));
+                ElementsAre("z (z) is not uniform: vertices 1 to 5 m apart are shown evenly, 3 m "
+                            "apart; --resample makes it uniform"));
 }
 
 TEST(NetcdfAxes, OfLongitudesMayPassGreenwich) {

@@ -253,14 +253,15 @@ TEST(NetcdfVariables, AreListedWhenNoneIsChosen) {
     out.put("w", ramp<float>(8));
     const auto file = out.done();
     EXPECT_THAT(error_of([&] { open_series({file}); }),
-                HasSubstr("two.nc: several arrays, choose one with --array: u (i16), "
-                          "forecast/w (f32)"));
+                HasSubstr("two.nc: several arrays, choose one with --array: u (i16, 2 x 2 x 2), "
+                          "forecast/w (f32, 2 x 2 x 2)"));
     ReadOptions options;
     options.array = "forecast/w";
     EXPECT_EQ(values_of<float>(*open_series({file}, options), 0), ramp<float>(8));
     options.array = "v";
     EXPECT_THAT(error_of([&] { open_series({file}, options); }),
-                HasSubstr("two.nc: no array v, expected one of: u (i16), forecast/w (f32)"));
+                HasSubstr("two.nc: no array v, expected one of: u (i16, 2 x 2 x 2), forecast/w "
+                          "(f32, 2 x 2 x 2)"));
     options.array = "flat";
     EXPECT_THAT(error_of([&] { open_series({file}, options); }),
                 HasSubstr("two.nc: array flat(y 2, x 2), expected three dimensions of more than "

@@ -105,7 +105,7 @@ TEST(Series, RefusesWhatIsNoKnownFile) {
                 HasSubstr("gone.vti: there is no such file"));
     EXPECT_THAT(error_of([&] { open_series({folder.path()}); }), HasSubstr("a folder"));
     EXPECT_THAT(error_of([&] { open_series({folder.write("v.xyz", "x")}); }),
-                HasSubstr("v.xyz: unknown format, expected one of .pvd .vti"));
+                HasSubstr("v.xyz: unknown format, expected one of .pvd .series .vti"));
     EXPECT_THAT(error_of([&] { open_series({}); }), HasSubstr("no files"));
 }
 

@@ -60,7 +60,7 @@ TEST_P(DriverTrials, TheWaysToDrawAreThoseThatAreAskedFor) {
     EXPECT_EQ(CellBuffers::wanted_shading(gl_), index::Shading::none);
     gl_.drawn_by = DrawnBy::processor;
     EXPECT_TRUE(takes_processor_ways(gl_));
-    EXPECT_EQ(CellBuffers::wanted_shading(gl_), index::Shading::cells_and_mesh);
+    EXPECT_EQ(CellBuffers::wanted_shading(gl_), index::Shading::cells);
 }
 
 INSTANTIATE_TEST_SUITE_P(, DriverTrials, both_contexts(), context_name);

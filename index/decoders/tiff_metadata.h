@@ -1,0 +1,49 @@
+// What the descriptions of TIFF files say of their pages: OME-XML, ImageJ's and tifffile's.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace isochron::index {
+
+/// Where the page of a channel, slice and frame is.
+struct TiffPlane {
+    std::string file; ///< its name, where it is in another; empty: this one
+    std::size_t page = 0;
+    bool there = false;
+};
+
+/// The hyperstack that pages make.
+struct TiffStack {
+    std::size_t channels = 1, slices = 1, frames = 1;
+    std::vector<std::string> channel_names = {};
+    glm::dvec3 spacing{1.0};
+    std::string length_unit = {}, time_unit = {};
+    double time_step = 0; ///< 0: not said
+    /// Channel fastest, then slice, then frame; empty: in this order.
+    std::vector<TiffPlane> planes = {};
+    bool appended = false; ///< pages may follow the first without directories
+    std::vector<std::string> notes = {};
+};
+
+/// OME-XML. http://www.openmicroscopy.org/Schemas/Documentation/Generated/OME-2016-06/ome.html
+/// @param samples of a pixel, which OME counts among the channels
+/// @throws Error naming the file: damaged, without pixels, of other sizes than can be
+TiffStack ome_stack(const std::string& description, std::uint32_t samples, const std::string& file);
+
+/// ImageJ's lines of `key=value`. @param pages that have directories
+/// @throws Error naming the file: counts that are none
+TiffStack imagej_stack(const std::string& description, std::size_t pages, double x_resolution,
+                       double y_resolution, const std::string& file);
+
+/// By what the description begins with; else all pages are slices, or as tifffile's `shape` says.
+/// @throws Error naming the file, as above
+TiffStack stack_of(const std::string& description, std::size_t pages, std::uint32_t samples,
+                   double x_resolution, double y_resolution, const std::string& file);
+
+} // namespace isochron::index

@@ -1,0 +1,11 @@
+// `isochron-reader-tiff`: what libtiff decodes.
+#include "index/decoders/decoders.h"
+#include "index/decoders/reader_program.h"
+
+#include <array>
+
+int main() {
+    using namespace isochron::index;
+    constexpr std::array kDecoders{Decoder{ForeignFormat::tiff, decode_tiff}};
+    return run_reader(kDecoders);
+}

@@ -1,0 +1,189 @@
+// What else VTK reads: rectilinear grids, files of several pieces, and grids of any kind that are
+// resampled (vtkXMLGenericDataObjectReader, vtkDataSetReader).
+#include "index/decoders/decoders.h"
+#include "index/decoders/vtk_ghosts.h"
+#include "index/decoders/vtk_session.h"
+#include "index/decoders/xml_markup.h"
+#include "index/error.h"
+#include "index/formats/axis_positions.h"
+#include "index/formats/data_stream.h"
+#include "index/formats/stored_file.h"
+#include "index/formats/text_header.h"
+
+#include <fmt/format.h>
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkDataSetReader.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkResampleToImage.h>
+#include <vtkXMLGenericDataObjectReader.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+vtkSmartPointer<vtkDataObject> read_xml(const fs::path& path) {
+    const std::string name = path.string();
+    const MappedFile file(path);
+    const std::string_view markup = markup_of(file);
+    if (markup.find("<VTKFile") == markup.npos)
+        throw Error(fmt::format("{}: not VTK XML", name));
+    expect_end(file, name);
+    expect_shallow(markup, name);
+    expect_names(markup, name);
+    const vtkNew<vtkXMLGenericDataObjectReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkDataObject> read_legacy(const fs::path& path) {
+    const vtkNew<vtkDataSetReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->ReadAllScalarsOn();
+    reader->ReadAllVectorsOn();
+    reader->ReadAllNormalsOn();
+    reader->ReadAllTensorsOn();
+    reader->ReadAllColorScalarsOn();
+    reader->ReadAllTCoordsOn();
+    reader->ReadAllFieldsOn();
+    reader->Update();
+    return reader->GetOutput();
+}
+
+std::vector<double> coordinates_of(vtkDataArray* array) {
+    std::vector<double> at;
+    for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+        at.push_back(array->GetTuple1(i));
+    return at;
+}
+
+/// Means the same on a regular grid, where a vertex outside of all cells is hidden.
+vtkSmartPointer<vtkImageData> onto_image(vtkDataObject* data,
+                                         const std::array<std::uint32_t, 3>& vertices) {
+    const vtkNew<vtkResampleToImage> filter;
+    filter->SetInputDataObject(data);
+    filter->SetSamplingDimensions(static_cast<int>(vertices[0]), static_cast<int>(vertices[1]),
+                                  static_cast<int>(vertices[2]));
+    filter->Update();
+    vtkSmartPointer<vtkImageData> image = filter->GetOutput();
+    for (const char* mask : {"vtkValidPointMask", "vtkValidCellMask"}) { // flags say the same
+        image->GetPointData()->RemoveArray(mask);
+        image->GetCellData()->RemoveArray(mask);
+    }
+    return image;
+}
+
+class VtkDataFile final : public DecodedFile {
+  public:
+    VtkDataFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
+        file_bytes(path_);
+        with_vtk(path_, [&] {
+            const bool legacy = lower_case(path_.extension().string()) == ".vtk";
+            auto read = legacy ? read_legacy(path_) : read_xml(path_);
+            if (!read)
+                throw Error(fmt::format("{}: holds no data that VTK knows", path_.string()));
+            place(*read, options);
+            chosen_ = choose_scalar(without_flags(arrays_of_vtk(*data_)), options, path_.string());
+            hidden_ = hidden_by_flags(*data_, chosen_, info_.grid);
+            info_.arrays = chosen_.offered;
+            info_.array = chosen_.label();
+            info_.type = chosen_.value_type();
+            std::ranges::copy(chosen_.notes(), std::back_inserter(info_.notes));
+            std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
+                              std::back_inserter(info_.notes));
+            take_time_of_vtk(read->GetFieldData(), info_);
+        });
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    std::size_t steps() const override { return 1; }
+    std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
+    std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
+
+    void read(std::size_t, Slices slices, std::span<std::byte> out) override {
+        values_of_vtk(*data_, chosen_, info_.grid, slices, hidden_, out, path_.string());
+    }
+
+  private:
+    void place(vtkDataObject& read, const ReadOptions& options) {
+        vtkSmartPointer<vtkImageData> image = vtkImageData::SafeDownCast(&read);
+        auto* rectilinear = vtkRectilinearGrid::SafeDownCast(&read);
+        if (!image && !rectilinear && !options.resample)
+            throw Error(fmt::format("{}: holds {}, expected image data or a rectilinear grid; "
+                                    "--resample NX NY NZ makes a regular grid of it",
+                                    path_.string(), read.GetClassName()));
+        if (!image && !rectilinear) {
+            image = onto_image(&read, *options.resample);
+            info_.notes.push_back(fmt::format("resampled from {} by VTK", read.GetClassName()));
+        }
+        if (image) {
+            data_ = image;
+            info_.grid = grid_of_vtk(*reinterpret_cast<int(*)[6]>(image->GetExtent()),
+                                     image->GetOrigin(), image->GetSpacing(),
+                                     image->GetDirectionMatrix()->GetData(), path_.string());
+            return;
+        }
+        data_ = rectilinear;
+        place_rectilinear(*rectilinear, options);
+    }
+
+    void place_rectilinear(vtkRectilinearGrid& grid, const ReadOptions& options) {
+        const std::string name = path_.string();
+        const std::array<std::vector<double>, 3> at{coordinates_of(grid.GetXCoordinates()),
+                                                    coordinates_of(grid.GetYCoordinates()),
+                                                    coordinates_of(grid.GetZCoordinates())};
+        const int* sizes = grid.GetDimensions();
+        info_.grid.vertices = checked_vertices({sizes[0], sizes[1], sizes[2]}, name);
+        glm::dmat3 steps(0.0);
+        std::array<bool, 3> uneven{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int i = static_cast<int>(axis);
+            if (at[axis].size() != info_.grid.vertices[axis])
+                throw Error(fmt::format("{}: {} coordinates along {}, expected {}", name,
+                                        at[axis].size(), "xyz"[axis], info_.grid.vertices[axis]));
+            steps[i][i] = 1;
+            try {
+                const AxisSpread spread =
+                    spread_of(at[axis], std::string(1, "xyz"[axis]), "", name);
+                steps[i][i] = spread.step;
+                info_.grid.origin[i] = spread.first;
+                uneven[axis] = spread.note.has_value();
+                if (spread.note)
+                    info_.notes.push_back(*spread.note);
+            } catch (const Error&) {
+                if (!options.spacing)
+                    throw;
+            }
+        }
+        set_axes(info_.grid, steps, name);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (uneven[axis])
+                set_positions(info_.grid, axis, at[axis]);
+    }
+
+    fs::path path_;
+    SeriesInfo info_;
+    ChosenScalar chosen_;
+    std::vector<std::uint8_t> hidden_;
+    vtkSmartPointer<vtkDataSet> data_;
+};
+
+} // namespace
+
+std::unique_ptr<DecodedFile> decode_vtk_data(const fs::path& path, const ReadOptions& options) {
+    return std::make_unique<VtkDataFile>(path, options);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,18 @@
+// A series on a regular grid of as many vertices as were asked for.
+#pragma once
+
+#include "index/volume/volume_series.h"
+
+#include <memory>
+
+namespace isochron::index {
+
+/// Values between the vertices of `series` are interpolated along each axis; vertices of the new
+/// grid are even, and the first and the last of each axis lie where they did. Values are f32, or f64
+/// where they were f64 or i32. A note tells how far the new grid is from the values at the old
+/// vertices in the first step, which is read for it.
+/// @return the series itself where its grid is regular and has so many vertices
+std::unique_ptr<VolumeSeries> resampled(std::unique_ptr<VolumeSeries> series,
+                                        const std::array<std::uint32_t, 3>& vertices);
+
+} // namespace isochron::index

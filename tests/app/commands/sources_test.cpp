@@ -1,0 +1,85 @@
+// What `info` says of files of values, and paths within files.
+#include "app/commands/build_arguments.h"
+#include "app/commands/file_patterns.h"
+
+#include "index/error.h"
+#include "tests/support/child_process.h"
+#include "tests/support/paths.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace isochron::app {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(PathWithin, IsTakenOffTheName) {
+    std::vector<std::string> names{"run.h5:/fields/rho", "b.h5:/fields/rho", "c.h5"};
+    EXPECT_EQ(take_path_within(names), "/fields/rho");
+    EXPECT_EQ(names, (std::vector<std::string>{"run.h5", "b.h5", "c.h5"}));
+    EXPECT_EQ(take_path_within(names), std::nullopt);
+    std::vector<std::string> two{"a.h5:/x", "b.h5:/y"};
+    EXPECT_THROW(take_path_within(two), index::Error);
+}
+
+TEST(PathWithin, IsNotTakenOffAFileThatIsThere) {
+    const TestFolder folder;
+    std::filesystem::create_directory(folder.path() / "odd:");
+    std::vector<std::string> names{folder.write("odd:/x", "?").string()};
+    EXPECT_EQ(take_path_within(names), std::nullopt);
+}
+
+TEST(PathWithin, GoesNotWithAnArray) {
+    BuildArguments arguments;
+    arguments.files = {"run.h5:/rho"};
+    EXPECT_EQ(with_path_within(arguments).read.array, "/rho");
+    arguments.read.array = "u";
+    EXPECT_THROW(with_path_within(arguments), UsageError);
+}
+
+class SourceInfo : public testing::Test {
+  protected:
+    ChildResult info(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), "info");
+        return run_child(test_support::binary_root() + "/isochron", arguments, folder_.path());
+    }
+    TestFolder folder_;
+};
+
+TEST_F(SourceInfo, SaysWhatFilesAre) {
+    folder_.write("t1.raw", std::string(60, '\x05'));
+    folder_.write("t2.raw", std::string(60, '\x06'));
+    const ChildResult text = info({"t*.raw", "--dims", "5", "4", "3", "--type", "u8"});
+    EXPECT_EQ(text.status, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("vertices      5 x 4 x 3\n"));
+    EXPECT_THAT(text.out, HasSubstr("values        5 to 5 in the first step\n"));
+    const ChildResult json = info({"t*.raw", "--dims", "5", "4", "3", "--type", "u8", "--json"});
+    const auto said = nlohmann::json::parse(json.out);
+    EXPECT_EQ(said["steps"], 2);
+    EXPECT_EQ(said["vertices"], (std::vector<int>{5, 4, 3}));
+    EXPECT_EQ(said["first_step"]["high"], 5);
+    EXPECT_EQ(said["sources"], (std::vector<std::string>{"t1.raw", "t2.raw"}));
+}
+
+TEST_F(SourceInfo, ListsAllArraysWithoutAChoice) {
+    const std::string flow = test_support::test_data() + "/formats/flow.vti";
+    const ChildResult text = info({flow});
+    EXPECT_EQ(text.status, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("arrays        "));
+    const auto said = nlohmann::json::parse(info({flow, "--json"}).out);
+    EXPECT_GT(said["arrays"].size(), 1u);
+}
+
+TEST_F(SourceInfo, RefusesInOneLine) {
+    const ChildResult missing = info({"nothing.vti"});
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_EQ(std::ranges::count(missing.err, '\n'), 1);
+    folder_.write("t1.raw", std::string(60, '\x05'));
+    EXPECT_EQ(info({"t1.raw", "--dims", "5", "4", "3", "--type", "u8", "--tree"}).status, 2);
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,55 @@
+"""NIfTI-1 and -2, pairs and Analyze 7.5 by nibabel."""
+import warnings
+
+import nibabel
+import numpy as np
+
+from manifest import done, expect, field, path, refuse
+
+warnings.simplefilter("ignore")
+affine = np.array([[0, -2.0, 0, 5], [1.5, 0, 0, -7], [0, 0, 3.0, 11], [0, 0, 0, 1]])
+where = dict(spacing=(1.5, 2, 3), origin=(5, -7, 11), direction=[[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+
+
+def zyx(image):
+    """As the library scales it, time first."""
+    return np.transpose(image.get_fdata())
+
+
+for name, kind, dtype, shape in [("a.nii", nibabel.Nifti1Image, "i2", (4, 5, 6)),
+                                 ("b.nii.gz", nibabel.Nifti1Image, "f4", (4, 5, 6, 3)),
+                                 ("c.nii", nibabel.Nifti2Image, "u2", (4, 5, 6, 2)),
+                                 ("d.nii", nibabel.Nifti1Image, ">f8", (4, 5, 6))]:
+    image = kind(field(*shape, dtype=dtype), affine)
+    image.header["pixdim"][4] = 2.5
+    image.header.set_xyzt_units("mm", "sec")
+    nibabel.save(image, path(name))
+    times = np.arange(shape[3]) * 2.5 if len(shape) == 4 else None
+    expect(name, zyx(nibabel.load(path(name))), times=times, **where)
+
+# A scaling: stored integers stay as they are.
+image = nibabel.Nifti1Image(field(4, 5, 6, dtype="i2"), affine)
+image.header.set_slope_inter(0.5, 10)
+nibabel.save(image, path("scaled.nii"))
+expect("scaled.nii", zyx(nibabel.load(path("scaled.nii"))), kind="rounded", **where)
+
+# Pairs, either file of which may be given.
+image = nibabel.Nifti1Pair(field(4, 5, 6, dtype="i2"), affine)
+nibabel.save(image, path("pair.img"))
+for name in ["pair.img", "pair.hdr"]:
+    expect(name, zyx(nibabel.load(path("pair.img"))), **where)
+for name, kind, dtype in [("plain", nibabel.AnalyzeImage, "u1"), ("spm", nibabel.Spm99AnalyzeImage, "i2"),
+                          ("big", nibabel.AnalyzeImage, ">f4")]:
+    image = kind(field(4, 5, 6, 2, dtype=dtype), None)
+    if dtype[0] == ">":
+        image = kind(field(4, 5, 6, 2), None, kind.header_class(endianness=">"))
+        image.header.set_data_dtype(">f4")
+    image.header.set_zooms((1.5, 2, 3, 1))
+    nibabel.save(image, path(f"{name}.img"))
+    got = nibabel.load(path(f"{name}.img"))
+    for end in ["img", "hdr"]:
+        expect(f"{name}.{end}", zyx(got), spacing=(1.5, 2, 3), kind="rounded")
+with open(path("alone.img"), "wb") as f:
+    f.write(bytes(100))
+refuse("alone.img", "alone.img: its .hdr is not beside it")
+done()

@@ -58,8 +58,8 @@ class FrameSharing {
     virtual std::vector<DrawSample> samples(std::vector<DrawSample> mine) = 0;
     /// The load of one cell in every view, on the process that draws most.
     virtual DrawLoad largest(const DrawLoad& mine) const = 0;
-    /// Most cells that all processes can draw as exact surfaces; no limit for a process alone, which
-    /// knows its own.
+    /// Most cells that all processes can draw as exact surfaces; no limit for a process alone,
+    /// which knows its own.
     virtual std::uint64_t surface_limit() const = 0;
     /// @param mine used on rank 0 @return rank 0's choice, with which all processes draw
     virtual FrameChoice agree(const FrameChoice& mine) = 0;

@@ -35,12 +35,12 @@ struct FrameReport {
     unsigned missed = 0;                  ///< refreshes of the display missed before this frame
     bool redrawn = true;                  ///< false: nothing that the eyes see had changed
     std::uint64_t cells = 0;              ///< drawn
-    std::uint64_t candidates = 0;         ///< cells that the search for them tested
-    std::uint64_t reused = 0;             ///< cells that incremental search took from the last set
-    std::string refused;                  ///< why the newest cells are not shown; empty: they are
-    render::UploadCount uploaded;         ///< in this frame
-    Milliseconds search{0}, gather{0};    ///< of the shown set, on the worker: cells, bricks
-    Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
+    std::uint64_t candidates = 0;         ///< cells that the search returned before the exact test
+    std::uint64_t reused = 0;     ///< candidates that incremental search took from the last set
+    std::string refused;          ///< why the newest cells are not shown; empty: they are
+    render::UploadCount uploaded; ///< in this frame
+    Milliseconds search{0}, gather{0}; ///< of the shown set, on the worker: cells, bricks
+    Milliseconds wait{0};              ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
     Milliseconds barrier{0}; ///< between draw and present: until all processes have drawn
     std::optional<Milliseconds> pose_age; ///< of the oldest head pose, when the views were made

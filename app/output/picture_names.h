@@ -9,7 +9,8 @@
 
 namespace isochron::app {
 
-/// A name as part of a file name: letters, digits, `-` and `_` stay, the rest becomes `_`.
+/// Makes a name usable as part of a file name: letters, digits, `-` and `_` stay, all else becomes
+/// `_`.
 std::string file_name(std::string name);
 
 /// `isochron_0001` for the first screenshot in a folder.
@@ -22,7 +23,7 @@ int last_screenshot(const std::filesystem::path& folder);
 struct PictureNames {
     struct Window {
         std::string suffix;
-        std::vector<std::string> viewports; ///< with the window's
+        std::vector<std::string> viewports; ///< beginning with the window's suffix
     };
     std::vector<Window> windows;
 };

@@ -1,4 +1,4 @@
-// From devices to frames, live.
+// The live loop, from devices to frames.
 #include "app/session/live_loop.h"
 
 #include "app/frame/pacer.h"
@@ -52,7 +52,7 @@ void LiveLoop::watch(const std::filesystem::path& path,
     watch_.emplace(path, std::move(file));
 }
 
-/// What has grown is told as commands: a recording has them, and so do all processes of a cluster.
+/// Reports new steps as commands, so that recordings and all processes of a cluster get them.
 void LiveLoop::take_new_steps(Session& session, Commands& asked) {
     auto newer = watch_ ? watch_->take() : nullptr;
     if (!newer)
@@ -118,7 +118,7 @@ InputState LiveLoop::poll(std::span<const interaction::WindowEvent> events) {
     const Seconds now = clock_();
     InputState input = trackers_.poll(now);
     InputState emulated = emulation_.poll(now);
-    // The cursor's ray is that of the emulated eye: somebody who is tracked points with the wand.
+    // The cursor's ray begins at the emulated eye. With a tracked head or wand, the wand points.
     if (input.find("head") || input.find("wand"))
         std::erase_if(emulated.devices,
                       [](const interaction::DeviceState& each) { return each.name == "pointer"; });
@@ -169,7 +169,8 @@ void LiveLoop::run(Session& session) {
         const auto events = session.panel_events(session.outputs().windows().poll_events());
         if (is_pressed(interaction::Key::f11, events))
             session.outputs().windows().first().toggle_fullscreen();
-        if (config_.devices.empty() && !session.outputs().headset()) // a tracked wand points itself
+        if (config_.devices.empty() &&
+            !session.outputs().headset()) // a tracked wand points instead
             emulation_.set_panel(session.state().room_panel, session.room_panel_size());
         const InputState input = poll(events);
         session.set_headset_period(headset_.period());

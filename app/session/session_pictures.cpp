@@ -1,4 +1,4 @@
-// What a session's pictures show, and what they say of themselves.
+// The contents of a session's pictures, and their notes.
 #include "app/session/session.h"
 
 #include "app/scene/caption.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::app {
 
-/// Whether the windows show the scene themselves: always, but beside a headset only once it has
-/// wanted no picture for a moment.
+/// Whether the windows show the scene themselves: always without a headset; beside a headset only
+/// after it has wanted no picture for a moment.
 bool Session::in_windows(const FrameReport& report) {
     constexpr interaction::Seconds kMoment{0.5};
     if (!outputs_.headset_eyes().empty())
@@ -67,7 +67,7 @@ PictureNote Session::note() const {
     note.data_hash = fmt::format("{:016x}", file_->content_hash());
     note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
     ExplorerState state = state_;
-    if (const index::ExtractionPtr& shown = scene_.shown()) { // while time plays, it may lag
+    if (const index::ExtractionPtr& shown = scene_.shown()) { // may lag behind while time plays
         state.step = shown->query.step;
         for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
              ++i)

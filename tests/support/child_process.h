@@ -1,4 +1,4 @@
-// Runs a program in a folder of its own, for tests of the command line.
+// Runs a program as a child process in a given folder, for tests of the command line.
 #pragma once
 
 #include "tests/support/test_folder.h"
@@ -22,11 +22,11 @@ struct ChildOptions {
 };
 
 struct ChildResult {
-    int status = -1; ///< exit status; 1000 + signal when one killed it
+    int status = -1; ///< exit status; 1000 + signal if a signal killed it
     std::string out, err;
 };
 
-/// Waits for its end. @throws std::runtime_error when it cannot be started
+/// Runs the program and waits for its end. @throws std::runtime_error when it cannot be started
 ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments,
                       const std::filesystem::path& folder, const ChildOptions& options = {});
 

@@ -80,7 +80,7 @@ class Display {
     /// an overlay draws into the room. None where both eyes share pixels.
     std::vector<render::View> views_in_window(std::span<const ViewerPose> viewers) const;
 
-    /// Shows the frame drawn last; without a window there is nothing to do.
+    /// Shows the last frame; does nothing without a window.
     void present();
 
     /// The ray from the eye that sees a place in the window of the last frame, or from between the
@@ -93,8 +93,8 @@ class Display {
     /// Leaves `left` pixels free at the left of each eye's part, for a panel, from the next drawn
     /// frame on.
     void leave_free(int left) { left_ = left; }
-    /// Shows what is at the left of the screen, too, in so much of the width of each eye's part: for
-    /// a panel that stands there. Takes hold with the next frame that is drawn.
+    /// Shows what is at the left of the screen, too, in so much of the width of each eye's part:
+    /// for a panel that stands there. Takes hold with the next frame that is drawn.
     void show_aside(float share) {
         for (Viewport& viewport : window_.viewports)
             viewport.screen.aside = share;

@@ -85,7 +85,7 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     return state;
 }
 
-/// What a file holds already is lost only where the user says so.
+/// Refuses to overwrite an existing recording, which only --force allows.
 void refuse_to_replace(const std::string& recording) {
     for (const std::string& name : {recording, recording + ".part"})
         if (std::filesystem::exists(name))

@@ -127,11 +127,11 @@ class Outputs {
     /// The last frame's pictures, drawn once more to be kept.
     KeptPictures kept_pictures();
     /// Where screenshots go. They are called `isochron_0001.png`, of several windows
-    /// `isochron_0001_front.png`, and are counted on from those that are there now: all processes of
-    /// a cluster must ask for the folder before the first screenshot.
+    /// `isochron_0001_front.png`, and are counted on from those that are there now: all processes
+    /// of a cluster must ask for the folder before the first screenshot.
     void set_screenshots(const std::filesystem::path& folder);
-    /// Of the room, of the headset's mirror, or of every window of this process.
-    /// @param frame what the last frame shows
+    /// Writes a picture of the room, of the headset's mirror, or of every window of this process.
+    /// @param frame note about the last frame, from which each picture's own note is made
     void take_screenshots(const PictureNote& frame);
     /// Writes a picture in the background. @param note stored in the file; empty: none
     void write_image(render::Image image, const std::filesystem::path& path,

@@ -32,8 +32,8 @@ class OperatorPanel {
 
     std::optional<MovieWish> take_wanted_movie();
 
-    /// Passes window events to the panel. @param shown it lies over the first window
-    /// @return those that it has no use for
+    /// Passes window events to the panel. @param shown the panel lies over the first window
+    /// @return the events that it does not use
     std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,
                                                bool shown);
 

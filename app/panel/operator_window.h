@@ -28,7 +28,7 @@ class Console {
 
     std::optional<MovieWish> take_wanted_movie() { return layer_.take_wanted_movie(); }
 
-    /// Lays out and draws the panel over all of the window. @return what the operator did
+    /// Lays out and draws the panel over the whole window. @return commands of the operator
     interaction::Commands draw(const PanelModel& model, interaction::Seconds time);
     void present();
 

@@ -252,7 +252,7 @@ void view_section(const PanelModel& model, Commands& commands) {
     tip("distance between the eyes ( [ and ] )");
 }
 
-/// The place that somebody picked, and what to do with it.
+/// The place that the user picked, with a button to remove it.
 void mark_section(const PanelModel& model, Commands& commands) {
     const auto& point = model.asked.mark.point;
     if (!point)
@@ -306,7 +306,7 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
         ImGui::SetNextWindowSize(
             {std::min({kDocked, std::max(kLeast, 0.45f * picture.x), 0.9f * picture.x}),
              picture.y});
-        // It would hide the data.
+        // In a narrow picture it begins folded, as it would hide the data.
         const bool narrow = picture.x < 1.5f * kLeast;
         if (std::exchange(area.narrow, narrow) != narrow)
             ImGui::SetNextWindowCollapsed(narrow);

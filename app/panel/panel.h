@@ -21,8 +21,8 @@ struct PanelArea {
 
 /// The pages that the panel's buttons open beside it.
 struct PanelPages {
-    bool offers_files = false;        ///< other data can be opened
-    bool files = false, help = false; ///< asked for in this frame
+    bool offers_files = false;        ///< the user can open other data
+    bool files = false, help = false; ///< opened in this frame
     std::optional<MovieWish> movie{}; ///< likewise
 };
 

@@ -251,7 +251,7 @@ void PanelLayer::point(const std::optional<glm::vec2>& at, bool pressed, float n
 }
 
 void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
-    constexpr double kShortest = 1e-4, kLongest = 0.1; // ImGui wants time to pass
+    constexpr double kShortest = 1e-4, kLongest = 0.1; // ImGui requires a time above 0
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(picture.x) / scale_,
@@ -270,7 +270,7 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     Commands commands;
     PanelPages pages{.offers_files = static_cast<bool>(recent_)};
     area_ = {.narrow = area_.narrow};
-    // The panel in the room stands for the one over the picture.
+    // The panel in the room replaces the one over the picture.
     if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
         commands = draw_panel(model, area_, pages);
     if (pages.files)

@@ -47,16 +47,17 @@ class PanelLayer {
     }
     /// Opens the page on which they choose.
     void open_files() { files_.open(recent_()); }
-    /// What they have chosen, once.
+    /// The data that the user has chosen; returned once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
 
     /// What movie they want to be made, or no longer, once.
     std::optional<MovieWish> take_wanted_movie() { return std::exchange(wanted_movie_, {}); }
 
-    /// Takes events into account. Dear ImGui sees levels, once a frame: what it could not tell
-    /// apart, such as a key that goes down twice, or Enter before a digit, waits for the next
-    /// frame, and all that comes after it. @return those that the panel has no use for; releases
-    /// always pass, so that nothing sticks
+    /// Passes events to Dear ImGui, which sees the state of keys and buttons once per frame. An
+    /// event that it could not tell apart within one frame (a key that goes down twice, or Enter
+    /// before a digit) waits for the next frame, with all events after it.
+    /// @param shown the panel is visible
+    /// @return the events that the panel does not use, and all releases, so that nothing sticks
     std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,
                                                bool shown);
 
@@ -76,8 +77,9 @@ class PanelLayer {
     /// @param complaint shown below it; empty: none
     void lay_out_files(glm::ivec2 picture, const std::string& complaint, interaction::Seconds time);
 
-    /// Draws what was laid out last onto a part of the bound framebuffer, of the size that it was
-    /// laid out for. @param corner lower left, pixels
+    /// Draws the last layout onto a part of the bound framebuffer, which has the size of the
+    /// layout.
+    /// @param corner lower left, pixels
     void draw(glm::ivec2 picture, glm::ivec2 corner = glm::ivec2(0));
 
     /// Sets how many times the panel appears in its window side by side (x) and above each other
@@ -88,9 +90,9 @@ class PanelLayer {
     std::size_t digest() const;
     /// A page lies over the picture, which Escape closes.
     bool has_page() const { return help_ || files_.is_open(); }
-    const PanelArea& area() const { return area_; } ///< the panel's own pixels
-    /// Whether the panel, or what it has opened, is there. @param at fractions of the picture from
-    /// the top left
+    const PanelArea& area() const { return area_; } ///< panel pixels
+    /// Whether the panel, or a page that it has opened, covers a place.
+    /// @param at fractions of the picture from the top left
     bool covers(glm::vec2 at) const;
     /// The widget under the pointer, and the one that is pressed; 0: none.
     std::uint32_t hovered() const;

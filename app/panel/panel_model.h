@@ -35,7 +35,7 @@ struct MovieState {
     std::optional<float> progress{}; ///< of the one that is being made, 0 to 1
 };
 
-/// What the panel shows in one frame; nothing in it is changed by showing it.
+/// What the panel shows in one frame. The panel changes none of it.
 struct PanelModel {
     const index::SeriesInfo& info;
     const index::IndexStats& stats;

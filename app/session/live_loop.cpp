@@ -94,7 +94,7 @@ void LiveLoop::make_movies(Session& session) {
     session.set_movies({true, recorder_ != nullptr, movies_->progress()});
 }
 
-/// Data that were chosen, or dropped onto a window.
+/// Takes other data that the user has chosen, or dropped onto a window.
 void LiveLoop::take_next_data(Session& session) {
     std::optional<std::filesystem::path> wanted = session.panel().take_chosen();
     for (const std::filesystem::path& dropped : session.outputs().windows().first().take_dropped())
@@ -140,8 +140,8 @@ void LiveLoop::record(interaction::RecordedFrame frame) {
     });
 }
 
-/// Whether a window that is closed ends the loop. Where somebody would lose something, they are
-/// asked first; whoever closes it again means it.
+/// Whether a closed window ends the loop. If the user has made changes, asks first; closing a
+/// window again while the question is open ends the loop.
 bool LiveLoop::closes(const Session& session, Commands& asked) const {
     if (!session.should_close())
         return false;

@@ -65,7 +65,8 @@ class LiveLoop {
     /// Lets the user have movies made.
     void offer_movies(MovieOrders orders) { movies_.emplace(std::move(orders)); }
 
-    /// Keeps what the user comes to, to go on from there. @param resumed what this session began as
+    /// Saves the session to a file, from which it can be resumed. @param start the session as it
+    /// begins @param resumed it was itself resumed from that file
     void keep_session(const std::filesystem::path& path, const SavedSession& start, bool resumed);
     /// Where the emulated head stands.
     interaction::StandingPlace standing() const { return emulation_.standing(); }

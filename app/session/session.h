@@ -182,7 +182,7 @@ class Session {
     bool on_desktop() const;
     /// Center of the data in the room while they are shown in parallel projection; else empty.
     std::optional<glm::dvec3> parallel_center() const;
-    bool flat_panel() const; ///< shown over the first window
+    bool flat_panel() const; ///< the operator's panel is shown over the first window
     bool head_is_emulated() const;
     std::optional<interaction::Pose> panel_place() const;
     bool stands_beside(const interaction::Pose& head) const;
@@ -201,7 +201,7 @@ class Session {
     interaction::Comfort comfort_;
     index::Extractor extractor_;
     Scene scene_;
-    std::optional<Picture> drawn_; ///< what the eyes saw last
+    std::optional<Picture> drawn_; ///< last picture
     Aids over_;                    ///< drawn over it, where that is done
     OperatorPanel panel_;
     PanelInRoom room_panel_;

@@ -52,7 +52,7 @@ bool Session::stands_beside(const interaction::Pose& head) const {
            !interaction::called(state_.room_panel, head, room_panel_.distance(), place).shown;
 }
 
-/// The one in the room replaces it.
+/// The panel in the room replaces it.
 bool Session::flat_panel() const {
     return state_.panel && !state_.room_panel.shown;
 }

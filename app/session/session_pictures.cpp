@@ -53,7 +53,7 @@ void Session::draw_aids() {
         scene_.draw_aids(view, drawn_->room_from_physical, over_.wand, over_.pointed);
 }
 
-/// In windows that stand for no wall: there people ask where they are.
+/// Whether the windows are on a desktop rather than walls: there users need help with orientation.
 bool Session::on_desktop() const {
     const auto& screens = config_.installation.windows.front().viewports;
     return outputs_.windows().first().has_window() && outputs_.shows_windows() &&

@@ -1,4 +1,4 @@
-// A context with a window: GLFW, and the translation of its events.
+// A context with a window, by GLFW; translates GLFW's events.
 #include "stereo/context/display_loss.h"
 #include "stereo/context/gl_context_backends.h"
 #include "stereo/context/gl_context_glfw_native.h"

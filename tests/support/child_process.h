@@ -14,10 +14,10 @@ namespace isochron::app {
 using test_support::TestFolder;
 
 struct ChildOptions {
-    std::string out{};              ///< file for its stdout instead of the result
-    std::uint64_t largest_file = 0; ///< [bytes] no file can grow beyond, as on a full disk; 0: any
-    std::string interrupt_after{};  ///< SIGINT once this stands on its stderr
-    std::uint64_t dies_after = 0;   ///< [us] after which an alarm kills it wherever it is; 0: never
+    std::string out{};              ///< file for its stdout, which is then not in the result
+    std::uint64_t largest_file = 0; ///< [byte] limit of files, as on a full disk; 0: no limit
+    std::string interrupt_after{};  ///< send SIGINT when stderr contains this text
+    std::uint64_t dies_after = 0;   ///< [us] until an alarm kills it, whatever it does; 0: never
     std::vector<std::string> environment{}; ///< NAME=VALUE, beside what this process has
 };
 

@@ -30,7 +30,7 @@ class VirtualDisplay {
     void die();
     /// What programs that start from now on are told of its resolution (Xft.dpi).
     void set_dots_per_inch(int dots) const;
-    /// Red, green and blue of what is shown, (0, 0) at the top left.
+    /// Red, green and blue of a pixel on the display, (0, 0) at the top left.
     std::array<int, 3> pixel(int x, int y) const;
 
   private:

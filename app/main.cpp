@@ -7,7 +7,7 @@
 
 namespace {
 
-/// The lines of --version that help whoever is asked what went wrong.
+/// The lines of --version that help with reports of errors.
 std::string version_details() {
     std::string details = "\ncommit " + std::string(kCommit) + "\nwith " ISOCHRON_PARTS_WITH;
     constexpr std::string_view without = ISOCHRON_PARTS_WITHOUT;

@@ -1,4 +1,4 @@
-// How numbers are printed for people.
+// Formats numbers and text for people.
 #include "app/text.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// How numbers are printed for people.
+// Formats numbers and text for people.
 #pragma once
 
 #include <chrono>
@@ -20,14 +20,14 @@ std::string grouped(std::uint64_t number);
 /// A number without the digits that rounding left behind: `0.3`, not `0.30000000000000004`.
 std::string human_number(double number);
 
-/// `12.5 ms`, `0.0341`, `1.20e+07`: a number with its unit, short enough for a label.
+/// `12.5 ms`, `0.0341`, `1.2e+07`: a number with its unit, short enough for a label.
 std::string with_unit(double value, const std::string& unit);
 
-/// Text as one line that a terminal shows as it is: line ends and other control characters as
-/// `\n`, `\x1b`, and of what is very long its beginning and its end.
+/// Text as one line that is safe for a terminal: line ends and other control characters become
+/// `\n`, `\x1b`; of a very long text only beginning and end remain.
 std::string one_line(std::string_view text);
 
-/// A unit set off from its number, or nothing.
+/// A unit with a space before it; empty if there is no unit.
 std::string with_space(const std::string& unit);
 
 } // namespace isochron::app

@@ -18,7 +18,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 using Duration = ClusterLimits::Duration;
 
-/// What a message is, by its first byte.
+/// The kind of a message, in its first byte.
 constexpr std::byte kBeat{0}, kWords{1};
 
 std::string host_name() {
@@ -27,7 +27,7 @@ std::string host_name() {
     return name.data();
 }
 
-/// All members' bytes in one message: the size of each before it.
+/// Packs all members' bytes into one message, each after its size.
 Bytes packed(const std::vector<Bytes>& parts) {
     Bytes all;
     for (const Bytes& part : parts) {
@@ -53,7 +53,7 @@ std::vector<Bytes> unpacked(std::span<const std::byte> all, std::size_t count) {
     return parts;
 }
 
-/// Gives the processor away: at first for as long as others want it, then for a moment.
+/// Yields the processor at first; sleeps for a moment after many passes.
 void pause(unsigned passes) {
     constexpr unsigned kBrief = 200;
     if (passes < kBrief)
@@ -64,13 +64,14 @@ void pause(unsigned passes) {
 
 } // namespace
 
-/// One wait for one member.
+/// The limits of one wait for one member.
 class Cluster::Watch {
   public:
     Watch(const Cluster& cluster, unsigned from) : cluster_(cluster), from_(from) {
         const std::scoped_lock lock(cluster.mutex_);
         limits_ = cluster.limits_;
-        // Who watches rank 0 leaves it, and those before, the time to say who is lost.
+        // Rank n waits n seconds longer for rank 0, so that rank 0, or a lower rank, is the one
+        // that reports which process is lost.
         if (from == 0)
             limits_.silence += Duration(cluster.rank()), limits_.stall += Duration(cluster.rank());
     }
@@ -78,7 +79,7 @@ class Cluster::Watch {
     /// @throws ProcessLost
     void check() {
         const Clock::time_point now = Clock::now();
-        // A process that stood still itself has missed what the others sent meanwhile.
+        // If this process itself was stopped, it has missed the others' signs of life.
         if (now - last_ > kStoodStill)
             alive_ = now;
         last_ = now;
@@ -114,7 +115,7 @@ Cluster::~Cluster() = default;
 
 void Cluster::abandon(int status) {
     team_.abandon(status);
-    std::terminate(); // which the compiler does not know to be out of reach
+    std::terminate(); // never reached, but the compiler does not know that
 }
 
 void Cluster::set_limits(const ClusterLimits& limits) {
@@ -130,7 +131,7 @@ std::string Cluster::name_of(unsigned rank) const {
                                 : fmt::format("process {}", rank);
 }
 
-/// Several in the time after which silence is noticed.
+/// The time between signs of life: a fraction of the longest allowed silence.
 Duration Cluster::beat_interval() const {
     return std::min(Duration(0.5), limits_.silence / 8);
 }

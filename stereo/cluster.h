@@ -1,4 +1,4 @@
-// The processes that show one room together: each waits for the others, but not for ever.
+// The processes that show one room together: each waits for the others, but not forever.
 //
 //     Cluster cluster(*team, {});
 //     if (cluster.rank() == 0)
@@ -23,29 +23,31 @@
 
 namespace isochron::stereo {
 
-/// How long a process is waited for.
+/// How long to wait for a process before it counts as lost. In configuration files `silence` is
+/// `timeout`, and `stall` is `frame_timeout`.
 struct ClusterLimits {
     using Duration = std::chrono::duration<double>;
-    Duration silence{5}; ///< [s] without any sign of life: it is lost
-    Duration stall{120}; ///< [s] that it may take for one thing while it lives
+    Duration silence{5}; ///< [s] without a sign of life
+    Duration stall{120}; ///< [s] for one answer, while it gives signs of life
     bool operator==(const ClusterLimits&) const = default;
 };
 
-/// A process was waited for in vain: `process 3 on wall-left: no sign of life for 5 s`.
+/// A process did not answer in time: `process 3 on wall-left: no sign of life for 5 s`.
 class ProcessLost : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// A team whose members give each other signs of life, from threads of their own, so that work that
-/// takes long is told from a process that was killed, stopped or cut off. Rank 0 watches the
-/// others, and they watch rank 0, a little longer, so that one of them all says who is lost.
+/// A team whose members send each other signs of life from background threads. So long work can be
+/// told from a process that was killed, stopped or disconnected. Rank 0 watches the others, and
+/// they watch rank 0 with longer limits, so that only one process reports which one is lost.
 ///
-/// Everything goes through rank 0: an exchange takes two messages each, however many there are.
-/// Whatever waits throws ProcessLost.
+/// Everything goes through rank 0: an exchange takes two messages per process, however many there
+/// are. Everything that waits may throw ProcessLost.
 class Cluster final : public index::Team {
   public:
-    /// Called by all members. @param team outlives this, and is not used beside it
+    /// All members must call it.
+    /// @param team outlives this; use it only through this from now on
     explicit Cluster(index::Team& team, const ClusterLimits& limits = {});
     ~Cluster() override;
 
@@ -57,12 +59,13 @@ class Cluster final : public index::Team {
     [[noreturn]] void abandon(int status) override;
 
     void set_limits(const ClusterLimits& limits);
-    /// Called again and again while this member waits for another; what it throws ends the wait.
+    /// Sets a function that is called repeatedly while this member waits for another one; an
+    /// exception from it ends the wait.
     void while_waiting(std::function<void()> check) { check_ = std::move(check); }
 
-    /// From rank 0 to all others. Waits for nothing.
+    /// Sends a message from rank 0 to all others. Does not wait.
     void tell(std::span<const std::byte> message);
-    /// What rank 0 tells, by all others.
+    /// Waits for the next message from rank 0; for all other ranks.
     std::vector<std::byte> hear() { return await(0); }
 
     /// The name of the machine that a process runs on.
@@ -84,10 +87,10 @@ class Cluster final : public index::Team {
     std::vector<std::string> hosts_;
     std::vector<std::deque<std::vector<std::byte>>> inbox_; ///< by rank
     std::vector<Clock::time_point> heard_;                  ///< by rank: the last sign of life
-    mutable std::mutex mutex_;                              ///< of limits_
+    mutable std::mutex mutex_;                              ///< protects limits_
     std::condition_variable_any changed_;
     ClusterLimits limits_;
-    std::jthread beating_; ///< last: it uses the rest
+    std::jthread beating_; ///< last member, as it uses the others
 };
 
 } // namespace isochron::stereo

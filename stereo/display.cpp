@@ -1,4 +1,4 @@
-// Targets of the eyes, their place in the window, and the composition.
+// Draws the eyes' pictures, and composes them in the window.
 #include "stereo/display.h"
 
 #include "stereo/views_in_target.h"
@@ -18,8 +18,9 @@ glm::ivec2 at_least_one(glm::ivec2 size) {
     return glm::max(size, glm::ivec2(1));
 }
 
-/// Where the eye of that number has its picture in the target of its viewport: beside the other
-/// one, or above it where that keeps the target farther from the largest that GL can make.
+/// Corner of an eye's picture in the target of its viewport. The second picture is beside the
+/// first; if pictures are wider than high it is above, to keep the target's sides within GL's
+/// limits.
 glm::ivec2 corner_in_target(std::size_t number, glm::ivec2 size) {
     const glm::ivec2 next = size.x > size.y ? glm::ivec2(0, size.y) : glm::ivec2(size.x, 0);
     return static_cast<int>(number) * next;
@@ -106,7 +107,7 @@ Display::Region Display::region_of(const Viewport& viewport, Eye place) const {
     const int left = std::clamp(left_, 0, size.x - 1);
     corner.x += left;
     size.x -= left;
-    // Both edges are rounded, so that neighboring viewports neither overlap nor gape.
+    // Round both edges, so that neighboring viewports neither overlap nor leave a gap.
     const glm::ivec2 low(glm::round(viewport.position * glm::vec2(size)));
     const glm::ivec2 high(glm::round((viewport.position + viewport.size) * glm::vec2(size)));
     return {corner + low, at_least_one(high - low)};
@@ -161,7 +162,7 @@ void Display::compose(const Overlay& overlay) {
 }
 
 void Display::compose_into(const render::RenderTarget& target, Eye buffer) const {
-    // A clear costs as much as a copy in software GL, so it is left out where it would not be seen.
+    // In software GL a clear costs as much as a copy, so skip it if nothing of it would show.
     if (!fills_window())
         target.clear(kBlack);
     gl_->Disable(GL_SCISSOR_TEST);

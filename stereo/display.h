@@ -1,4 +1,4 @@
-// Draws a window: every eye of every viewport, composed as the stereo mode wants it, and presented.
+// Draws a window: every eye of every viewport, composed by the stereo mode, and presents it.
 //
 //     Display display(gl, *context, installation.windows.front(), {});
 //     display.draw(head, 0.063f, StereoMode::side_by_side,
@@ -30,36 +30,39 @@ namespace isochron::stereo {
 struct ViewerPose {
     interaction::Pose head;
     float eye_separation = 0; ///< [m]
-    /// Desktop screens show a parallel projection, alike to both eyes, in which what is so far away
-    /// [m] is as large as in perspective; 0: they do not.
+    /// If not 0, desktop screens show a parallel projection, the same to both eyes. At this
+    /// distance [m] things are as large as in perspective.
     float parallel = 0;
     bool operator==(const ViewerPose&) const = default;
 };
 
 /// One window; an installation with several windows has one display for each.
 ///
-/// How each mode places the eyes is told in stereo_mode.h. `side_by_side` and `top_bottom` give
-/// each eye half the window, left eye left or on top. A screen that is a wall is squeezed into its
-/// half, as projectors and televisions expect that stretch each half over the whole wall again; a
-/// `fit_aspect` screen takes the aspect of the half, so that shapes stay round on a monitor.
+/// stereo_mode.h tells how each mode places the eyes. `side_by_side` and `top_bottom` give each eye
+/// half the window, with the left eye left or on top. A wall's picture is squeezed into its half,
+/// for projectors and televisions that stretch each half over the whole wall. A `fit_aspect` screen
+/// takes the aspect of the half, so that shapes keep their proportions on a monitor.
 class Display {
   public:
     /// Called once for each of the window's viewports, in their order.
     using Scene = DrawViews;
-    /// Draws over the composed window (a panel), which is bound; gets its size in pixels. Called
-    /// for each buffer of the window: twice in a quad-buffered one, where it must draw the same.
+    /// Draws over the composed window, which is bound, for example a panel; gets its size in
+    /// pixels.
+    /// Called for each buffer of the window: twice in a quad-buffered one, where it must draw the
+    /// same both times.
     using Overlay = std::function<void(glm::ivec2)>;
 
-    /// @param drawing the context that draws, current; @param context that of the window, which may
-    /// be the same one; both, and `gl`, outlive the display
+    /// @param drawing the drawing context, which is current
+    /// @param context the window's context, which may be the same one
+    /// All, with `gl`, outlive the display.
     Display(const render::Gl& gl, GlContext& drawing, GlContext& context, Window window,
             const DisplayOptions& options);
     Display(const render::Gl& gl, GlContext& context, Window window, const DisplayOptions& options)
         : Display(gl, context, context, std::move(window), options) {}
 
-    /// Draws one frame at the present size of the framebuffer: each eye that the mode shows, of
-    /// each viewport, exactly once; then the overlay. A minimized window draws nothing.
-    /// @param viewers by number, as the window's viewports name them
+    /// Draws one frame at the current size of the framebuffer: each eye of each viewport that the
+    /// mode shows, exactly once; then the overlay. Draws nothing if the window is minimized.
+    /// @param viewers by the numbers that the window's viewports use
     void draw(std::span<const ViewerPose> viewers, StereoMode mode, const Scene& scene,
               const Overlay& overlay = {});
     /// The same for one viewer.
@@ -69,29 +72,29 @@ class Display {
         draw(std::span(&viewer, 1), mode, scene, overlay);
     }
 
-    /// Composes the eyes drawn last once more, with a new overlay: for frames in which nothing that
-    /// the eyes see has changed.
+    /// Composes the last pictures of the eyes again, with a new overlay: for frames in which
+    /// nothing else has changed.
     void draw_overlay_again(const Overlay& overlay);
 
     /// The views of the eyes drawn last, where their pictures lie in the composed window: for what
     /// an overlay draws into the room. None where both eyes share pixels.
     std::vector<render::View> views_in_window(std::span<const ViewerPose> viewers) const;
 
-    /// Shows the frame drawn last; without a window there is nothing to do.
+    /// Shows the last frame; does nothing without a window.
     void present();
 
-    /// The ray from the eye that sees a place of the window as drawn last, from between the eyes
-    /// where both see it: a pose that looks along -Z. Nothing where no viewport is.
-    /// @param viewers where they are now
+    /// The ray from the eye that sees a place in the window of the last frame, or from between the
+    /// eyes if both see it: a pose that looks along -Z. Empty outside all viewports.
+    /// @param viewers where the viewers are now
     /// @param at fractions of the window from the lower left
     std::optional<interaction::Pose> ray_at(std::span<const ViewerPose> viewers,
                                             glm::vec2 at) const;
 
-    /// Leaves so many pixels free at the left of each eye's part, for a panel. Takes hold with the
-    /// next frame that is drawn.
+    /// Leaves `left` pixels free at the left of each eye's part, for a panel, from the next drawn
+    /// frame on.
     void leave_free(int left) { left_ = left; }
-    /// Shows what is at the left of the screen, too, in so much of the width of each eye's part: for
-    /// a panel that stands there. Takes hold with the next frame that is drawn.
+    /// Shows what is at the left of the screen, too, in so much of the width of each eye's part:
+    /// for a panel that stands there. Takes hold with the next frame that is drawn.
     void show_aside(float share) {
         for (Viewport& viewport : window_.viewports)
             viewport.screen.aside = share;
@@ -99,19 +102,20 @@ class Display {
     bool fills() const { return left_ == 0; } ///< nothing is left free
 
     const Window& window() const { return window_; }
-    glm::ivec2 size() const { return composed_.size(); } ///< of the frame drawn last, pixels
-    StereoMode mode() const { return mode_; }            ///< of the frame drawn last
+    glm::ivec2 size() const { return composed_.size(); } ///< of the last frame, pixels
+    StereoMode mode() const { return mode_; }            ///< of the last frame
 
-    /// The whole window as drawn last, with the overlay; of a quad-buffered one the left buffer.
+    /// The whole window in the last frame, with the overlay; the left buffer if it is
+    /// quad-buffered.
     render::Image read_window() const { return composed_.read(); }
     /// The right buffer of a quad-buffered window. @throws render::Error in any other mode
     render::Image read_right_buffer() const;
     /// One eye's picture of a viewport at its own resolution, without the overlay.
-    /// @throws render::Error when the frame drawn last did not show that eye
+    /// @throws render::Error when the last frame did not show that eye
     render::Image read_eye(Eye eye, std::size_t viewport = 0) const;
-    /// The same picture where it lies, until the next frame is drawn. @throws as `read_eye`
+    /// Where that picture lies; valid until the next frame is drawn. @throws as `read_eye`
     EyePicture eye_picture(Eye eye, std::size_t viewport) const;
-    /// Pixels of each eye's picture of a viewport, as drawn last.
+    /// Size of each eye's picture of a viewport in the last frame, pixels.
     glm::ivec2 eye_size(std::size_t viewport) const;
 
   private:
@@ -126,7 +130,7 @@ class Display {
     void draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene);
     /// The eye's picture to show in the place of `place`.
     EyePicture shown_at(Eye place, std::size_t viewport) const;
-    bool fills_window() const; ///< the eyes' regions leave no pixel of the window free
+    bool fills_window() const; ///< the eyes' regions cover every pixel of the window
     void compose(const Overlay& overlay);
     void compose_into(const render::RenderTarget& target, Eye buffer) const;
 
@@ -136,7 +140,7 @@ class Display {
     DisplayOptions options_;
     Multiplex multiplex_;
     Presenter presenter_;
-    StereoMode mode_ = StereoMode::mono; ///< of the frame drawn last
+    StereoMode mode_ = StereoMode::mono; ///< of the last frame
     render::RenderTarget composed_;
     std::optional<render::RenderTarget> right_buffer_; ///< while the window is quad-buffered
     std::vector<std::optional<render::RenderTarget>> targets_; ///< by viewport, from its first draw

@@ -8,7 +8,7 @@
 namespace isochron::stereo {
 namespace {
 
-/// A frustum that reaches this far aside has no finite edge [rad].
+/// Largest angle of a frustum's edge [rad]: near 90 degrees the edge is at infinity.
 constexpr float kWidest = 1.55f;
 
 } // namespace
@@ -17,7 +17,7 @@ bool is_drawable(const HeadsetEye& eye) {
     const FieldOfView& fov = eye.fov;
     bool within = true;
     for (const float angle : {fov.left, fov.right, fov.up, fov.down})
-        within = within && std::abs(angle) < kWidest; // false for what is not a number
+        within = within && std::abs(angle) < kWidest; // false for NaN
     return within && fov.left < fov.right && fov.down < fov.up && is_finite(eye.pose) &&
            std::abs(glm::length(eye.pose.orientation) - 1.0f) < 0.01f && eye.pixels.x > 0 &&
            eye.pixels.y > 0;

@@ -1,4 +1,4 @@
-// A headset: when it wants a picture, where its eyes are then, and what its wearer does.
+// A headset: when it wants a picture, where its eyes are, and the wearer's input.
 //
 //     headset->update(now);                            // events, and a lost one comes back
 //     const auto frame = headset->begin_frame(now);    // blocks: the headset paces the program
@@ -27,7 +27,7 @@ struct FieldOfView {
     bool operator==(const FieldOfView&) const = default;
 };
 
-/// One eye for one picture. Eyes may be canted: each has its own direction.
+/// One eye for one picture. Eyes may be canted, so each has its own direction.
 struct HeadsetEye {
     Eye eye = Eye::left;
     interaction::Pose pose; ///< in the room
@@ -36,14 +36,15 @@ struct HeadsetEye {
     bool operator==(const HeadsetEye&) const = default;
 };
 
-/// Whether it can be drawn for: all finite, left of right, down below up, all within 90 degrees.
+/// Whether the eye's values can be used: all finite, left < right, down < up, all angles below 90
+/// degrees.
 bool is_drawable(const HeadsetEye& eye);
 
 /// The view of an eye: its edges fall on the edges of clip space.
 /// @param near_plane, far_plane [m] along the eye's direction, 0 < near < far
 render::View view_of(const HeadsetEye& eye, float near_plane, float far_plane);
 
-/// What an eye is to be shown: a part of a target, of the eye's size.
+/// The picture to show to an eye: a part of a target with the eye's size.
 struct HeadsetPicture {
     const render::RenderTarget* target = nullptr;
     glm::ivec2 corner{0}; ///< lower left in the target
@@ -51,45 +52,45 @@ struct HeadsetPicture {
 using HeadsetPictures = std::array<HeadsetPicture, 2>; ///< left, right
 
 enum class HeadsetState : std::uint8_t {
-    absent, ///< no runtime, or no headset: tried again by `update`
-    idle,   ///< it does not want frames now
+    absent, ///< no runtime, or no headset; `update` tries again
+    idle,   ///< wants no frames now
     running,
-    ended ///< its user has ended the program
+    ended ///< the user has ended the program through the headset
 };
 
 struct HeadsetFrame {
-    interaction::Seconds display_time{0}; ///< session time at which the picture is seen
+    interaction::Seconds display_time{0}; ///< session time at which the picture is visible
     interaction::Seconds period{0};       ///< between two frames
 };
 
-/// The devices that `poll` states are `head`, `wand` and `wand2`, and `keys` for what buttons of
-/// the hands ask for besides.
+/// `poll` gives the devices `head`, `wand` and `wand2`, and `keys` for further actions of the
+/// hands' buttons.
 class Headset : public interaction::TrackedInput {
   public:
-    /// What the context that it shows from has to be made with.
+    /// The API with which the drawing context must be made.
     virtual ContextApi context_api() const = 0;
-    /// Shows from this context, current now and in every call from now on, until `detach`; both
-    /// outlive that. @throws render::Error when the headset can never show from it
+    /// Uses this context until `detach`: it must be current now and in all further calls, and both
+    /// parameters must live until then. @throws render::Error when the headset can never use it
     virtual void attach(GlContext& drawing, const render::Gl& gl) = 0;
-    /// Lets go of everything that belongs to the context.
+    /// Releases everything that belongs to the context.
     virtual void detach() = 0;
 
     virtual HeadsetState update(interaction::Seconds now) = 0;
-    /// @return nothing when no frame has begun: then nothing has blocked either
+    /// Begins a frame; may block. @return empty if no frame has begun, without blocking
     virtual std::optional<HeadsetFrame> begin_frame(interaction::Seconds now) = 0;
-    /// Where the eyes will be when the frame is seen, left and right; empty when nothing is to be
-    /// drawn.
+    /// Where the eyes will be when the frame is visible, left and right; empty if no picture is
+    /// wanted.
     virtual std::vector<HeadsetEye> eyes() = 0;
-    /// Ends the frame that has begun, if one has.
-    /// @param pictures null: nothing is shown
-    /// @param again they are those of the frame before, which the headset still has
+    /// Ends the current frame, if there is one.
+    /// @param pictures null: show nothing
+    /// @param again the pictures are those of the previous frame, which the headset still has
     virtual void end_frame(const HeadsetPictures* pictures, bool again) = 0;
 
-    /// Lets a hand feel something, where the hand can. @param amplitude 0 to 1
+    /// Vibrates a hand's controller if it can. @param amplitude 0 to 1
     virtual void vibrate(const std::string& device, interaction::Seconds duration,
                          float amplitude) = 0;
-    /// Tells the runtime that the program ends, and takes part until it agrees or has not for a
-    /// moment.
+    /// Tells the runtime that the program ends, and continues until the runtime agrees, or a
+    /// timeout.
     virtual void leave() = 0;
 
     /// `no headset is connected`, `Monado(XRT) 25.1.0, Simulated HMD`: one line for people.

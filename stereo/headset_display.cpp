@@ -1,4 +1,4 @@
-// Drawing for a headset, and mirroring.
+// Draws for a headset, and mirrors its pictures.
 #include "stereo/headset_display.h"
 
 #include "render/gl/driver.h"
@@ -30,8 +30,8 @@ void HeadsetDisplay::draw(std::span<const HeadsetEye> eyes, const Scene& scene) 
         whole = {whole.x + eyes[i].pixels.x, glm::max(whole.y, eyes[i].pixels.y)};
     }
     draw_views(*gl_, target_, whole, options_, views, scene);
-    // Mesa 22.3's llvmpipe copies a texture of the same format without waiting until what is drawn
-    // into it is finished, once another framebuffer is bound.
+    // When another framebuffer is bound, Mesa 22.3's llvmpipe copies a texture of the same format
+    // without waiting for unfinished drawing into it.
     if (in_software_)
         gl_->Finish();
 }

@@ -1,4 +1,4 @@
-// The pictures of a headset's eyes, and what a window shows of them.
+// Draws the pictures of a headset's eyes, and mirrors them in a window.
 #pragma once
 
 #include "render/gl/image.h"
@@ -12,7 +12,7 @@
 
 namespace isochron::stereo {
 
-/// What the window beside a headset shows.
+/// Which eyes the window beside a headset shows.
 enum class Mirror : std::uint8_t { left, right, both, none };
 
 class HeadsetDisplay {
@@ -21,8 +21,9 @@ class HeadsetDisplay {
     using Scene = Display::Scene;
     using Overlay = Display::Overlay;
 
-    /// @param drawing the context that draws, current; @param window that of the mirror, which may
-    /// be the same one; all of them outlive the display
+    /// @param drawing the drawing context, which is current
+    /// @param window the mirror's context, which may be the same one
+    /// All of them outlive the display.
     HeadsetDisplay(const render::Gl& gl, GlContext& drawing, GlContext& window, Mirror mirror,
                    const DisplayOptions& options);
 
@@ -30,11 +31,11 @@ class HeadsetDisplay {
     /// @param eyes left and right
     void draw(std::span<const HeadsetEye> eyes, const Scene& scene);
 
-    /// Gives the headset what was drawn last, where the frame has eyes, and ends the frame.
-    /// @param again it has been drawn for an earlier frame
+    /// Gives the last pictures to the headset, if the frame has eyes, and ends the frame.
+    /// @param again the pictures were drawn for an earlier frame
     void submit(Headset& headset, std::span<const HeadsetEye> eyes, bool again);
 
-    /// Shows the eyes drawn last in the window, cut to its shape, with an overlay.
+    /// Draws the last pictures into the window, cropped to its shape, with an overlay.
     void mirror(const Overlay& overlay);
     void present();
 
@@ -47,7 +48,7 @@ class HeadsetDisplay {
     struct Part {
         glm::ivec2 corner{0}, size{0};
     };
-    /// Covers a part of the window with as much of an eye's picture as has its shape.
+    /// Covers a part of the window with the largest crop of an eye's picture that has its shape.
     void cover(const Part& picture, glm::ivec2 corner, glm::ivec2 size) const;
     const Part& part(Eye eye) const { return parts_[eye == Eye::right]; }
 
@@ -58,7 +59,7 @@ class HeadsetDisplay {
     DisplayOptions options_;
     Presenter presenter_;
     render::RenderTarget window_picture_;
-    std::optional<render::RenderTarget> target_; ///< both eyes side by side, once they were drawn
+    std::optional<render::RenderTarget> target_; ///< both eyes side by side; empty before `draw`
     std::array<Part, 2> parts_;
 };
 

@@ -1,4 +1,4 @@
-// Reading and writing of pictures through the module that knows their formats.
+// Reads and writes pictures through the module that handles their formats.
 #include "stereo/image_file.h"
 
 #include "index/system/module.h"
@@ -21,7 +21,7 @@ Function* module_function(const char* name) {
     return reinterpret_cast<Function*>(index::module_symbol(kModule, name));
 }
 
-/// `png` or `exr`. @throws render::Error for anything else
+/// The format of a path, `png` or `exr`. @throws render::Error for anything else
 std::string format_of(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),

@@ -1,5 +1,5 @@
-// Description of a display installation: windows, their viewports, the screens behind them, and the
-// viewers before them.
+// Description of a display installation: windows, their viewports, the screens that these show, and
+// the viewers.
 #pragma once
 
 #include "interaction/commands.h"
@@ -15,15 +15,15 @@
 
 namespace isochron::stereo {
 
-/// A wall: a rectangle given by three corners, meters. Room frame, or, when carried by the head of
-/// the viewport's viewer, that head's frame (origin between the eyes, -Z ahead).
+/// A wall: a rectangle given by three corners [m], in the room frame; or, if the head of the
+/// viewport's viewer carries it, in the head's frame (origin between the eyes, -Z ahead).
 struct Screen {
     glm::vec3 lower_left{-0.8f, 1.1f, -1.0f};
     glm::vec3 upper_left{-0.8f, 2.0f, -1.0f};
     glm::vec3 upper_right{0.8f, 2.0f, -1.0f};
     bool carried_by_head = false;
-    /// Widen or heighten the screen about its middle to the viewport's aspect (desktop windows), so
-    /// that what the screen shows stays in view.
+    /// For desktop windows: enlarge the screen around its middle, in width or height, to the
+    /// viewport's aspect.
     bool fit_aspect = false;
     /// Of the picture's width, from its left: shows what is beside the screen, which is fitted to
     /// the rest. Not configured.
@@ -36,7 +36,7 @@ struct Viewport {
     std::string name; ///< of the wall, for messages and file names; may be empty
     glm::vec2 position{0.0f};
     glm::vec2 size{1.0f};
-    std::size_t viewer = 0; ///< whose eyes see it: index into the installation's viewers
+    std::size_t viewer = 0; ///< who sees it: index into the installation's viewers
     Screen screen;
     bool operator==(const Viewport&) const = default;
 };
@@ -46,22 +46,23 @@ inline constexpr int kNextMonitor = -1;
 struct Window {
     std::string name = "window"; ///< no two windows share one
     glm::ivec2 size{1280, 720};  ///< pixels
-    glm::ivec2 position{-1};     ///< -1: wherever the desktop puts it
+    glm::ivec2 position{-1};     ///< -1: chosen by the desktop
     bool fullscreen = false;
-    /// That a fullscreen window covers, from 0; kNextMonitor: the first one free in its process.
+    /// Monitor that a fullscreen window covers, from 0; kNextMonitor: the first that no other
+    /// window of the process covers.
     int monitor = kNextMonitor;
-    int node = 0;       ///< of a cluster, whose process opens it
+    int node = 0;       ///< node of a cluster whose process opens it
     bool border = true; ///< whether the desktop may frame it
     StereoMode stereo = StereoMode::mono;
     std::vector<Viewport> viewports{Viewport{}};
     bool operator==(const Window&) const = default;
 };
 
-/// Somebody who stands in the room.
+/// A viewer in the room.
 struct Viewer {
     std::string name = "viewer";
     std::string head = "head";            ///< the device that tracks the head
-    glm::vec3 position{0.0f, 1.6f, 0.0f}; ///< of the head, until a device tells, meters
+    glm::vec3 position{0.0f, 1.6f, 0.0f}; ///< of the head until it is tracked [m]
     float eye_separation = 0.063f;        ///< meters, 0 to 0.1
     bool operator==(const Viewer&) const = default;
 };
@@ -73,14 +74,14 @@ struct Installation {
     bool operator==(const Installation&) const = default;
 };
 
-/// The stereo mode that a window shows when the live choice is `live`: windows that are configured
-/// like the first one follow the choice, others (an operator's monitor) keep their own.
+/// The stereo mode of a window when the user has chosen `live`: windows with the same configured
+/// mode as the first one follow the choice, others (an operator's monitor) keep their own mode.
 inline StereoMode mode_of(const Window& window, const Installation& installation, StereoMode live) {
     return window.stereo == installation.windows.front().stereo ? live : window.stereo;
 }
 
-/// A viewer's eye separation when the live choice, which is that of the first viewer, is `live`
-/// [m]: everyone's eyes move in proportion, so that 0 brings all of them together.
+/// A viewer's eye separation [m] when the user has chosen `live` for the first viewer: those of the
+/// other viewers change in proportion, so that 0 makes all of them 0.
 inline float eye_separation_of(const Viewer& viewer, const Installation& installation, float live) {
     const float first = installation.viewers.front().eye_separation;
     if (first == viewer.eye_separation || first <= 0.0f)

@@ -1,4 +1,4 @@
-// The word "loading", by clearing small rectangles.
+// Draws the word "loading" by clearing small rectangles.
 #include "stereo/loading_picture.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kColumns = 5, kRows = 8, kAdvance = kColumns + 1; ///< of a letter, in dots
 
-/// Rows from the top, the leftmost dot in the highest of five bits.
+/// Rows from the top; the leftmost dot is the highest of five bits.
 using DotLetter = std::array<std::uint8_t, kRows>;
 
 constexpr std::array<DotLetter, 7> kLoading{{

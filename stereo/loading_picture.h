@@ -1,5 +1,5 @@
-// What windows show before there is anything to show: the word "loading", without shaders or fonts,
-// which take longer to come than people like to wait.
+// The word "loading", which windows show at the start. It is drawn without shaders and fonts, which
+// take too long to load.
 #pragma once
 
 #include "render/gl/gl.h"
@@ -10,12 +10,12 @@
 
 namespace isochron::stereo {
 
-/// Draws the word in the middle of the framebuffer that is bound, of the current context.
+/// Draws the word in the middle of the bound framebuffer.
 /// @param size of the framebuffer, pixels
 /// @param background sRGB, around the word
 void draw_loading(const render::GlLoader& loader, glm::ivec2 size, glm::vec3 background);
 
-/// Shows it in every window there is. The context that draws is current again afterwards.
+/// Shows it in every window. The drawing context is current again afterwards.
 void show_loading(const Windows& windows, glm::vec3 background);
 
 } // namespace isochron::stereo

@@ -1,4 +1,4 @@
-// Composition of two eyes' pictures in a fragment shader.
+// Combines two eyes' pictures in a fragment shader.
 #include "stereo/multiplex.h"
 
 #include "render/gl/shader.h"

@@ -1,4 +1,4 @@
-// Which windows of an installation which process of a job opens.
+// Assigns the windows of an installation to the processes of a job.
 #include "stereo/nodes.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ bool has_windows(const Installation& installation, int node) {
                                [&](const Window& window) { return window.node == node; });
 }
 
-/// What the first viewer sees, as on a desktop.
+/// A desktop window with the first viewer's view.
 Window console_window() {
     Window console;
     console.name = kConsole;

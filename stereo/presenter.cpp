@@ -1,4 +1,4 @@
-// Copying of finished pictures into the buffers of windows.
+// Copies finished pictures into the buffers of windows.
 #include "stereo/presenter.h"
 
 namespace isochron::stereo {
@@ -24,7 +24,7 @@ void Presenter::hand_over_to(GlContext& context) const {
     if (&drawing_ == &window_)
         return;
     GLsync done = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl_.Flush(); // else the other context would wait for a fence that is never sent
+    gl_.Flush(); // without it the other context might wait forever for the fence
     context.make_current();
     gl_.WaitSync(done, 0, GL_TIMEOUT_IGNORED);
     gl_.DeleteSync(done);
@@ -33,7 +33,7 @@ void Presenter::hand_over_to(GlContext& context) const {
 void Presenter::copy(const render::RenderTarget& picture, GLenum buffer) const {
     const glm::ivec2 size = picture.size();
     gl_.NamedFramebufferTexture(source_->name(), GL_COLOR_ATTACHMENT0, picture.color_texture(), 0);
-    // Mesa 22.3 loses the window's buffers where they are chosen without being bound.
+    // Mesa 22.3 loses the window's buffers if they are chosen without being bound.
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     gl_.DrawBuffer(buffer);
     gl_.BlitNamedFramebuffer(source_->name(), 0, 0, 0, size.x, size.y, 0, 0, size.x, size.y,
@@ -50,7 +50,7 @@ void Presenter::present(const render::RenderTarget& picture, const render::Rende
         copy(picture, GL_BACK_LEFT);
         copy(*right, GL_BACK_RIGHT);
     } else {
-        copy(picture, GL_BACK); // both of them, where there are two
+        copy(picture, GL_BACK); // writes both back buffers if there are two
     }
     window_.present();
     hand_over_to(drawing_);

@@ -1,4 +1,4 @@
-// Frusta from screen corners and eye positions.
+// Computes frusta from screen corners and eye positions.
 #include "stereo/screen.h"
 
 #include <fmt/format.h>
@@ -12,8 +12,8 @@
 namespace isochron::stereo {
 namespace {
 
-/// A screen as its middle, unit axes (right, up, towards the viewer) and half sizes. Doubles, so
-/// that corners stay sharp where screens are large and eyes near.
+/// A screen as its middle, unit axes (right, up, towards the viewer) and half sizes. In doubles, so
+/// that corners are exact for large screens and near eyes.
 struct Plane {
     glm::dvec3 middle, right, up, normal;
     double half_width, half_height;
@@ -39,7 +39,7 @@ Screen in_room(Screen screen, const interaction::Pose& head) {
     return screen;
 }
 
-/// The screen as it stands in the room at the head's pose, fitted to a picture of that size.
+/// The screen in the room for a head's pose, fitted to a picture of this size.
 Plane plane_in_room(const Screen& screen, const interaction::Pose& head, glm::ivec2 pixels) {
     Plane plane = plane_of(in_room(screen, head));
     const double share = 1.0 - static_cast<double>(screen.aside); // the screen's own
@@ -56,13 +56,13 @@ Plane plane_in_room(const Screen& screen, const interaction::Pose& head, glm::iv
     return plane;
 }
 
-/// In front of the plane, at least as far as an eye may come.
+/// Moves a position in front of the plane, at least `kNearestEye` away.
 glm::dvec3 in_front(const Plane& plane, glm::dvec3 position) {
     const double distance = glm::dot(position - plane.middle, plane.normal);
     return distance < kNearestEye ? position + (kNearestEye - distance) * plane.normal : position;
 }
 
-/// As much of the room as the plane shows of what is so far from the head.
+/// Enlarges the plane to the part of the room that it shows at this distance from the head.
 Plane widened(Plane plane, const interaction::Pose& head, float distance) {
     const glm::dvec3 eyes = in_front(plane, head.position);
     const double away = glm::dot(eyes - plane.middle, plane.normal), wider = distance / away;
@@ -73,7 +73,7 @@ Plane widened(Plane plane, const interaction::Pose& head, float distance) {
     return plane;
 }
 
-/// From where all lines of sight are as good as parallel.
+/// A point from which all lines of sight are nearly parallel.
 glm::dvec3 far_from(const Plane& plane) {
     return plane.middle + static_cast<double>(kFarEye) * plane.normal;
 }
@@ -94,7 +94,7 @@ render::View view_from(const glm::dvec3& position, const Plane& plane, float nea
     return {glm::mat4(clip_from_eye), glm::mat4(eye_from_room), pixels};
 }
 
-/// From a position through a place of the plane.
+/// The ray from a position through a place in the plane.
 interaction::Pose ray_from(const glm::dvec3& position, const glm::dvec3& place,
                            const Plane& plane) {
     const glm::dvec3 back = glm::normalize(position - place);
@@ -181,7 +181,7 @@ float distance_to(const Screen& screen, const interaction::Pose& head) {
 }
 
 float vertical_field_of_view(const Screen& screen, const interaction::Pose& head) {
-    constexpr float kNearest = 0.1f; // meters: nearer heads do not aim any wider
+    constexpr float kNearest = 0.1f; // meters: nearer heads do not widen the angle
     const float distance = std::max(distance_to(screen, head), kNearest);
     return 2.0f * std::atan(0.5f * size_of(screen).y / distance);
 }
@@ -201,7 +201,7 @@ std::vector<std::string> problems(const Screen& screen, glm::vec3 viewer) {
         found.push_back(
             fmt::format("the corner at upper_left has {:.1f} degrees, expected 90", angle));
     if (std::abs(angle - 90.0) > 87.0)
-        return found; // flat as a line: it faces nowhere
+        return found; // the corners are on one line: it has no front
     if (screen.carried_by_head)
         viewer = glm::vec3(0.0f);
     if (!faces(screen, viewer))

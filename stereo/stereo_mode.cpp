@@ -1,4 +1,4 @@
-// Names of the stereo modes and the eyes each of them draws.
+// Names of the stereo modes, and the eyes that each draws.
 #include "stereo/stereo_mode.h"
 
 #include <array>
@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 11> kModeNames{"mono",
                                                       "checkerboard"};
 static_assert(kModeNames.size() == static_cast<std::size_t>(StereoMode::checkerboard) + 1);
 
-/// The bit that an inverted mode has besides its upright one.
+/// The bit by which an inverted mode differs from its upright mode.
 constexpr std::uint8_t kInverted = 0x80;
 
 std::size_t number_of(StereoMode mode) {

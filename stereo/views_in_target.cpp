@@ -1,4 +1,4 @@
-// Several views' pictures in parts of one target, drawn together.
+// Draws several views into parts of one target.
 #include "stereo/views_in_target.h"
 
 #include "render/gl/viewport.h"

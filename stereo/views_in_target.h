@@ -1,4 +1,4 @@
-// Several views' pictures in parts of one target, drawn together.
+// Draws several views into parts of one target.
 #pragma once
 
 #include "render/gl/render_target.h"
@@ -9,9 +9,9 @@
 
 namespace isochron::stereo {
 
-/// Draws the scene into a cleared target, each view within its own part of it, and resolves it.
-/// @param target made, or given the size, as needed
-/// @param size of the whole, pixels; the views' corners and sizes lie inside
+/// Draws the scene into a cleared target, each view into its part of it, and resolves the target.
+/// @param target is made or resized if needed
+/// @param size of the whole target, pixels; the views lie inside
 void draw_views(const render::Gl& gl, std::optional<render::RenderTarget>& target, glm::ivec2 size,
                 const DisplayOptions& options, std::span<const render::View> views,
                 const DrawViews& scene);

@@ -1,4 +1,4 @@
-// Opening of the windows of an installation.
+// Opens the windows of an installation.
 #include "stereo/windows.h"
 
 #include "stereo/context/swap_group.h"

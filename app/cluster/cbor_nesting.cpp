@@ -1,4 +1,4 @@
-// How deep a message nests, by counting instead of recursion.
+// Checks how deep a CBOR message nests, by counting instead of recursion.
 #include "app/cluster/cbor_nesting.h"
 
 #include "interaction/error.h"
@@ -20,7 +20,7 @@ struct CborHead {
     std::uint64_t count; ///< bytes, items or pairs
 };
 
-/// Takes a head from the front; nothing where the message ends in it.
+/// Takes a head from the front; empty if the message ends inside it.
 std::optional<CborHead> take_head(std::span<const std::byte>& left) {
     if (left.empty())
         return {};
@@ -45,7 +45,7 @@ std::optional<CborHead> take_head(std::span<const std::byte>& left) {
 } // namespace
 
 void expect_shallow_cbor(std::span<const std::byte> message) {
-    std::array<std::uint64_t, kDeepestMessage> items; // still to come, by level
+    std::array<std::uint64_t, kDeepestMessage> items; // left to read, by level
     int depth = 0;
     do {
         const auto head = take_head(message);

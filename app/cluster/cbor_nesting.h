@@ -1,4 +1,4 @@
-// How deep a message nests, found out before anything that recurses reads it.
+// Checks how deep a CBOR message nests, before the recursive parser reads it.
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,13 @@
 
 namespace isochron::app {
 
-constexpr int kDeepestMessage = 16; ///< arrays and maps in each other
+constexpr int kDeepestMessage = 16; ///< most levels of arrays and maps inside each other
 
-/// Walks over a CBOR item (RFC 8949) without recursion. What is cut off or has no meaning is left to
-/// the reader of the message to say.
-/// @throws interaction::Error when it nests deeper than `kDeepestMessage`, says that it holds more
-/// items than there are bytes, or has strings, arrays or maps without a length, or tags, none of
-/// which our messages have
+/// Walks over a CBOR item (RFC 8949) without recursion. Truncated or meaningless messages pass: the
+/// parser that reads them next reports those.
+/// @throws interaction::Error when the message nests deeper than `kDeepestMessage`, claims more
+/// items than it has bytes, or holds tags, or strings, arrays or maps without a length: our
+/// messages have none of these
 void expect_shallow_cbor(std::span<const std::byte> message);
 
 } // namespace isochron::app

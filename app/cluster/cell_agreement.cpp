@@ -1,4 +1,4 @@
-// Agreement of several processes on the cells that all of them show.
+// Agreement of the processes of a cluster on which set of cells they all show.
 #include "app/cluster/cell_agreement.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ const CellOrder& CellAgreement::decide(std::span<const CellProgress> all) {
     });
     if (!answered)
         return order_;
-    // Cells that one process lacks are shown by none.
+    // If one process cannot get the cells, no process shows them.
     const bool lacking = any([&](const CellProgress& each) { return each.failed == asked; });
     if (lacking || order_.stage == order_.show) {
         if (!lacking)
@@ -27,7 +27,7 @@ const CellOrder& CellAgreement::decide(std::span<const CellProgress> all) {
 }
 
 void SharedCells::obey(const CellOrder& order) {
-    // Sets are kept here: the extractor soon knows newer ones only.
+    // Keep these sets here: the extractor will soon hold only newer ones.
     if (order.show != order_.show)
         showing_ = staging_;
     if (order.stage != order_.stage)

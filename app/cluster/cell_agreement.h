@@ -1,9 +1,9 @@
-// Agreement of several processes on the cells that all of them show.
+// Agreement of the processes of a cluster on which set of cells they all show.
 //
-// Every process extracts and uploads for itself. A query gets a number when it is asked; the
-// numbers up to which a query may be asked, uploaded and shown go out with every frame, so that all
-// ask for the same, and another set appears in the same frame everywhere. Nobody ever waits: until
-// the last one holds a set, all show the one before.
+// Every process extracts and uploads its own cells. Queries are numbered in the order in which they
+// are asked. With every frame rank 0 sends three numbers: the query to ask, the one to upload and
+// the one to show. So all processes ask the same query and switch to a new set in the same frame.
+// No process waits: until all of them have a set on their GPUs, all show the previous one.
 #pragma once
 
 #include "index/extraction/extraction.h"
@@ -17,44 +17,44 @@ namespace isochron::app {
 
 /// Numbers of queries, from 1; 0 before the first.
 struct CellOrder {
-    std::uint64_t ask = 1;   ///< the next query gets this number, unless it has been asked already
-    std::uint64_t stage = 0; ///< is uploaded, and not shown yet
-    std::uint64_t show = 0;  ///< is shown
+    std::uint64_t ask = 1;   ///< number of the next query, unless it has been asked already
+    std::uint64_t stage = 0; ///< query whose cells are uploaded without being shown yet
+    std::uint64_t show = 0;  ///< query whose cells are shown
     bool operator==(const CellOrder&) const = default;
 };
 
-/// How far a process has got.
+/// How far a process has come, as numbers of queries.
 struct CellProgress {
-    std::uint64_t asked = 0;  ///< newest query
-    std::uint64_t found = 0;  ///< newest whose cells are there
-    std::uint64_t failed = 0; ///< newest that has no answer
-    std::uint64_t staged = 0; ///< newest of which everything is on the GPU
+    std::uint64_t asked = 0;  ///< newest query asked
+    std::uint64_t found = 0;  ///< newest query whose cells were extracted
+    std::uint64_t failed = 0; ///< newest query that failed
+    std::uint64_t staged = 0; ///< newest query whose cells are completely on the GPU
     bool operator==(const CellProgress&) const = default;
 };
 
-/// What rank 0 decides.
+/// Rank 0's side: decides what all processes ask, upload and show.
 class CellAgreement {
   public:
-    /// Once per frame. @param all of the frame before, of every process
+    /// Called once per frame. @param all progress of every process in the previous frame
     const CellOrder& decide(std::span<const CellProgress> all);
 
   private:
     CellOrder order_;
 };
 
-/// What a process does about it.
+/// Every process's side: obeys the orders and reports the progress.
 class SharedCells {
   public:
     void obey(const CellOrder& order);
 
-    /// @return the query to work on: the wanted one as soon as the order lets it be asked
+    /// @return the query to extract: `wanted` once the order allows a new query, else the last one
     const index::SurfacesQuery& ask(const index::SurfacesQuery& wanted);
-    /// Takes note of what the extractor has got.
+    /// Notes whether the extractor has found the cells of the newest query, or failed.
     void look_at(const index::Extractor& extractor);
 
-    /// The set that is to be shown; null before the first.
+    /// The set to show; null before the first one.
     const index::ExtractionPtr& to_show() const { return showing_; }
-    /// The set that is to be staged after that; null when there is none, or when it is.
+    /// The set to upload next; null if there is none or it is already on the GPU.
     index::ExtractionPtr to_stage() const;
     void staged() { progress_.staged = order_.stage; }
 

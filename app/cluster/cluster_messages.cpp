@@ -1,4 +1,4 @@
-// What the processes of a cluster say to each other in a frame, as bytes.
+// Messages that the processes of a cluster exchange in a frame, coded as CBOR.
 #include "app/cluster/cluster_messages.h"
 
 #include "app/cluster/cbor_nesting.h"

@@ -1,8 +1,7 @@
-// What the processes of a cluster say to each other in a frame, as bytes.
+// Messages that the processes of a cluster exchange in a frame, and their bytes.
 //
-// Bytes are CBOR (RFC 8949): inputs and commands are those of a recording (interaction/
-// recording_json.h), so that whatever a recording can hold reaches every process, exactly, and is
-// checked in one place.
+// The bytes are CBOR (RFC 8949). Inputs and commands are coded as in recordings
+// (interaction/recording), so that they arrive exactly and are checked in one place.
 #pragma once
 
 #include "app/cluster/cell_agreement.h"
@@ -18,8 +17,8 @@
 
 namespace isochron::app {
 
-/// Whether a frame waits for the cells it asked for: only a fixed-step replay does, so that the
-/// same recording gives the same pictures. The live loop never waits.
+/// Whether a frame waits for the cells it asked for. Only a fixed-step replay does, so that a
+/// recording always gives the same pictures; the live loop never waits.
 enum class Waiting : std::uint8_t { never, for_cells };
 
 /// From rank 0 to all, before a frame.
@@ -32,7 +31,7 @@ struct FrameOrder {
     bool operator==(const FrameOrder&) const = default;
 };
 
-/// From rank 0 to all, within a frame: what it is drawn with, once for all eyes and windows.
+/// From rank 0 to all, within a frame: how all eyes and windows are drawn.
 struct FrameChoice {
     render::Footprint footprint = render::Footprint::quad;
     QualityReason reason = QualityReason::moving;
@@ -42,14 +41,14 @@ struct FrameChoice {
     bool operator==(const FrameChoice&) const = default;
 };
 
-/// From everybody to everybody, when a frame is drawn and before it is shown.
+/// From every process to every process, when a frame is drawn and before it is shown.
 struct FrameAnswer {
     CellProgress cells;
     bool close = false;              ///< the user closes a window
-    std::string failure;             ///< why it has no cells; empty when all is well
-    DrawLoad view;                   ///< of one cell: the number of views, and their pixels
+    std::string failure;             ///< why the process has no cells; empty when all is well
+    DrawLoad view;                   ///< load of one cell: the number of views, and their pixels
     std::uint64_t surface_limit = 0; ///< cells that can be drawn as exact surfaces
-    std::vector<DrawSample> samples; ///< frames whose times have become known
+    std::vector<DrawSample> samples; ///< earlier frames whose draw times are now known
     bool operator==(const FrameAnswer&) const = default;
 };
 
@@ -58,10 +57,10 @@ using MessageBytes = std::vector<std::uint8_t>;
 MessageBytes encoded(const FrameOrder& order);
 MessageBytes encoded(const FrameChoice& choice);
 MessageBytes encoded(const FrameAnswer& answer);
-/// Says that there are no more frames: an order, empty when decoded.
+/// The order that ends the session: `decode_order` returns empty for it.
 MessageBytes encoded_end();
 
-/// Anything that is not such a message, in every part, throws interaction::Error.
+/// These check every part of the message. @throws interaction::Error when one is wrong
 std::optional<FrameOrder> decode_order(std::span<const std::byte> bytes);
 FrameChoice decode_choice(std::span<const std::byte> bytes);
 FrameAnswer decode_answer(std::span<const std::byte> bytes);

@@ -1,7 +1,7 @@
-// How a session shares its frames: with nobody, or with the other processes of a cluster.
+// How a session shares its frames: not at all, or with the other processes of a cluster.
 //
-// A session always has one of these and does not ask which: FramesAlone costs nothing and waits for
-// nobody, SharedFrames makes all processes show the same.
+// A session always has one of these and does not ask which. FramesAlone costs nothing and never
+// waits; SharedFrames makes all processes show the same.
 #pragma once
 
 #include "app/cluster/cluster_messages.h"
@@ -16,56 +16,58 @@
 
 namespace isochron::app {
 
-/// What a frame does about cells.
+/// Which sets of cells a frame shows and uploads.
 struct CellsInFrame {
-    /// The set that is shown as soon as it is on the GPU, which may be null; empty: as before.
+    /// The set to show as soon as it is on the GPU; it may be null. Empty: no change.
     std::optional<index::ExtractionPtr> show;
-    index::ExtractionPtr stage; ///< goes to the GPU without being shown; null: none
+    index::ExtractionPtr stage; ///< set to upload without showing it; null: none
 };
 
 class FrameSharing {
   public:
     virtual ~FrameSharing() = default;
 
-    /// This process reads the devices, and the operator's panel lies over its first window.
+    /// Whether this process (rank 0) reads the devices and shows the operator's panel.
     virtual bool leads() const = 0;
 
-    /// Begins a frame: the others are told, if this process leads.
-    /// @return who tells where the heads are when the views are made; may be empty
+    /// Begins a frame; rank 0 also sends its order to the others.
+    /// @return the latch to ask for the heads when the views are made; may be empty
     virtual Latch begin(const interaction::InputState& input, const interaction::Commands& commands,
                         Waiting waiting, const Latch& latch,
                         const stereo::Installation& installation) = 0;
-    /// The next frame to take part in, for a process that does not lead; empty: there are no more.
+    /// The next frame to take part in, for ranks above 0; empty: there are no more.
     virtual std::optional<FrameOrder> next() = 0;
-    /// There are no more frames, if this process leads.
+    /// Rank 0 tells the others that there are no more frames.
     virtual void end() = 0;
 
-    /// @return the query to work on where this one is wanted
+    /// @return the query to extract now, when the session wants `wanted`
     virtual index::SurfacesQuery ask(index::SurfacesQuery wanted, Waiting waiting) = 0;
-    /// @param shown the set that is drawn; may be null
+    /// @param shown set that is drawn now; may be null
     virtual CellsInFrame cells(const index::Extractor& extractor, const index::ExtractionPtr& shown,
                                Waiting waiting) = 0;
-    /// The set to stage is on the GPU.
+    /// Call when the set to stage is on the GPU.
     virtual void staged() = 0;
     /// Why a process has no cells; empty when all is well.
     virtual std::string failure(const index::Extractor& extractor) const = 0;
-    /// The newest query will not be answered.
+    /// Whether the newest query will not be answered.
     virtual bool has_no_answer(const index::Extractor& extractor) const = 0;
 
-    /// Passes on what frames of this process took.
-    /// @return frames whose times are known of all, each as the slowest took it; in their order
+    /// Passes on the draw times of this process.
+    /// @return frames whose times are known from all processes, in order, each with the slowest
+    /// process's time and the largest load
     virtual std::vector<DrawSample> samples(std::vector<DrawSample> mine) = 0;
-    /// Of one cell in every view, on the process that draws most.
+    /// The load of one cell in every view, on the process that draws most.
     virtual DrawLoad largest(const DrawLoad& mine) const = 0;
-    /// Cells that all processes can draw as exact surfaces; a process alone knows its own limit.
+    /// Most cells that all processes can draw as exact surfaces; no limit for a process alone,
+    /// which knows its own.
     virtual std::uint64_t surface_limit() const = 0;
-    /// @param mine counts where it leads @return what all draw with
+    /// @param mine used on rank 0 @return rank 0's choice, with which all processes draw
     virtual FrameChoice agree(const FrameChoice& mine) = 0;
 
-    /// Returns when all have drawn the frame.
-    /// @param mine asked for where there is somebody to tell
+    /// Returns when all processes have drawn the frame.
+    /// @param mine makes this process's answer; called only if there are other processes
     virtual void swap_barrier(const std::function<FrameAnswer()>& mine) = 0;
-    /// The user of another process wants to close a window.
+    /// Whether the user wants to close a window of some process in the cluster.
     virtual bool close_wanted() const = 0;
 };
 

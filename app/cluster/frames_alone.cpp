@@ -1,4 +1,4 @@
-// The frames of a process that shares them with nobody.
+// The frames of a process that does not share them.
 #include "app/cluster/frames_alone.h"
 
 #include <limits>

@@ -1,4 +1,4 @@
-// The frames of a process that shares them with nobody: cells are shown as soon as they come.
+// The frames of a process that does not share them: cells are shown as soon as they come.
 #pragma once
 
 #include "app/cluster/frame_sharing.h"

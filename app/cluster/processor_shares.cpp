@@ -1,4 +1,4 @@
-// Whether processes of a cluster's job stand in each other's way on one machine.
+// Warns when processes of a cluster's job compete for the processors of one machine.
 #include "app/cluster/processor_shares.h"
 
 #include <fmt/format.h>

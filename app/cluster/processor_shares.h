@@ -1,4 +1,4 @@
-// Whether processes of a cluster's job stand in each other's way on one machine.
+// Warns when processes of a cluster's job compete for the processors of one machine.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@
 
 namespace isochron::app {
 
-/// What a process draws with.
+/// The processors and threads that a process draws with.
 struct ProcessorShare {
     std::string host;
-    std::vector<int> processors; ///< that it may run on
-    std::size_t threads = 0;     ///< that draw in software; 0: a GPU draws
+    std::vector<int> processors; ///< numbers of those that it may run on
+    std::size_t threads = 0;     ///< number that draw in software; 0: a GPU draws
 };
 
 /// @param shares of all processes
-/// @return a line for each machine on which more threads draw than there are processors for them,
-/// with what to set
+/// @return a line for each machine where more threads draw than there are processors for them; it
+/// says what to set
 std::vector<std::string> shared_processors(std::span<const ProcessorShare> shares);
 
 } // namespace isochron::app

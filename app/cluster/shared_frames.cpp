@@ -1,4 +1,4 @@
-// The frames that the processes of a cluster show together, seen from one of them.
+// The frames that the processes of a cluster show together, as one of them sees it.
 #include "app/cluster/shared_frames.h"
 
 #include <fmt/format.h>
@@ -120,7 +120,7 @@ void SharedFrames::take_note_of(const DrawSample& sample) {
 }
 
 std::vector<DrawSample> SharedFrames::samples(std::vector<DrawSample> mine) {
-    constexpr std::size_t kWaiting = 64; // frames; later a frame was not drawn by all
+    constexpr std::size_t kWaiting = 64; // frames; an older one was not drawn by all
     samples_ = std::move(mine);
     for (const FrameAnswer& answer : answers_)
         for (const DrawSample& sample : answer.samples)

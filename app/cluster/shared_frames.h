@@ -1,7 +1,7 @@
-// The frames that the processes of a cluster show together, seen from one of them.
+// The frames that the processes of a cluster show together, as one of them sees it.
 //
-// A frame of rank 0 goes out as an order; the others obey it. All draw with rank 0's choice of a
-// footprint, answer how far they are, and show the frame when everybody has answered.
+// Rank 0 sends each frame as an order, which the others obey. All draw with the footprint that
+// rank 0 chose, answer how far they are, and show the frame when all have answered.
 #pragma once
 
 #include "app/cluster/frame_sharing.h"
@@ -20,28 +20,28 @@ class SharedFrames final : public FrameSharing {
     explicit SharedFrames(stereo::Cluster& cluster) : cluster_(cluster) {}
 
     bool leads() const override { return cluster_.rank() == 0; }
-    /// Rank 0 begins a frame, or ends them; the others take part in it, until there are no more.
-    /// @return on rank 0 the heads that all are told: all walls are seen from the same
+    /// Rank 0 calls `begin` for each frame and `end` at last; the others call `next` and `begin`.
+    /// @return on rank 0 a latch with the heads that were sent to all, so that all walls are drawn
+    /// for the same heads; on the others `latch`
     Latch begin(const interaction::InputState& input, const interaction::Commands& commands,
                 Waiting waiting, const Latch& latch,
                 const stereo::Installation& installation) override;
     std::optional<FrameOrder> next() override;
     void end() override;
 
-    /// A live frame asks for what all ask for, and shows what all show; on its way to the GPU is
-    /// what all will show next.
+    /// In a live frame all processes ask the same query and show the same set, and upload the set
+    /// that all will show next.
     index::SurfacesQuery ask(index::SurfacesQuery wanted, Waiting waiting) override;
     CellsInFrame cells(const index::Extractor& extractor, const index::ExtractionPtr& shown,
                        Waiting waiting) override;
     void staged() override { cells_.staged(); }
-    /// With the name of the process; alike in all.
+    /// The first failure by rank, with the process's name; the same text in all processes.
     std::string failure(const index::Extractor& extractor) const override;
     bool has_no_answer(const index::Extractor& extractor) const override;
 
     std::vector<DrawSample> samples(std::vector<DrawSample> mine) override;
     DrawLoad largest(const DrawLoad& mine) const override;
     std::uint64_t surface_limit() const override;
-    /// What rank 0 chose.
     FrameChoice agree(const FrameChoice& mine) override;
 
     /// @param mine cells and samples are filled in here
@@ -49,7 +49,7 @@ class SharedFrames final : public FrameSharing {
     bool close_wanted() const override;
 
   private:
-    /// A frame of which not all have told their times.
+    /// A frame whose times not all processes have sent yet.
     struct Sampled {
         DrawSample slowest;
         unsigned told = 0;
@@ -62,7 +62,7 @@ class SharedFrames final : public FrameSharing {
     CellAgreement agreement_;
     SharedCells cells_;
     std::vector<FrameAnswer> answers_; ///< to the last frame, by rank
-    std::vector<DrawSample> samples_;  ///< of this process, that the others have not been told of
+    std::vector<DrawSample> samples_;  ///< of this process, not yet sent to the others
     std::deque<Sampled> sampled_;
 };
 

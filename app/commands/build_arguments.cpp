@@ -1,4 +1,4 @@
-// What a user asked `isochron build` for, as options of the floor below.
+// The command line of `isochron build`, turned into the options of the index library.
 #include "app/commands/build_arguments.h"
 
 #include "app/commands/file_patterns.h"

@@ -1,4 +1,4 @@
-// What a user asked `isochron build` for, as options of the floor below.
+// The command line of `isochron build`, turned into the options of the index library.
 #pragma once
 
 #include "app/commands/subcommands.h"
@@ -25,24 +25,25 @@ struct BuildArguments {
     double timeout = 30; ///< [s]
 };
 
-/// `run.h5:/fields/rho` as run.h5 with `--array /fields/rho`. @throws UsageError for both
+/// Turns `run.h5:/fields/rho` into run.h5 with `--array /fields/rho`.
+/// @throws UsageError when `--array` is given as well
 BuildArguments with_path_within(BuildArguments arguments);
 
 index::ReadOptions read_options(const BuildArguments& arguments);
-/// Of the second array: the same files, and all that was said of them, but another array.
+/// Read options of the second array: the same files and options, but another array.
 index::ReadOptions color_options(const BuildArguments& arguments);
-/// `bricks,cells`; `none` for an index that only scans. @throws UsageError
+/// Parses `bricks,cells`, or `none` for an index that only scans. @throws UsageError
 index::TierSet tiers_of(const std::string& list);
-/// The files as the index will look for them: from its own folder.
+/// The files as the index will refer to them: relative to its own folder.
 index::Referral referral_to(const std::vector<std::filesystem::path>& files,
                             const BuildArguments& arguments);
 
-/// What was asked for; an index that is appended to stays what it is in all that was not.
+/// The arguments, with all that the user left open taken from the index that is appended to.
 BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held);
-/// Why an index cannot grow in place; empty when it can.
+/// Why an index cannot grow in place; empty if it can.
 std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOptions& options);
 
-/// The options that say how files are to be read.
+/// Adds the options that say how files are read.
 void add_reading_options(Command& command, BuildArguments& arguments);
 
 } // namespace isochron::app

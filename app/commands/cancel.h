@@ -1,4 +1,4 @@
-// Ctrl-C ends long work at its next report of progress, so that it can clean up behind itself.
+// Ctrl-C ends long work at its next report of progress, so that the work can clean up.
 #pragma once
 
 #include <stdexcept>
@@ -7,14 +7,15 @@
 
 namespace isochron::app {
 
-/// Thrown to leave the work; `main` prints its line and exits with `status`.
+/// Thrown to end the work; `run_program` prints its line and returns `status`.
 class Canceled : public std::runtime_error {
   public:
     explicit Canceled(int signal) : std::runtime_error("canceled"), status(128 + signal) {}
     int status; ///< 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of obeyed. One at a time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of obeyed. Only one may live at a
+/// time.
 class CancelOnSignal {
   public:
     CancelOnSignal();

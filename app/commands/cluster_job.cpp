@@ -1,4 +1,4 @@
-// A command run by all processes of a cluster's job.
+// A command that all processes of a cluster's job run.
 #include "app/commands/cluster_job.h"
 
 #include "app/cluster/processor_shares.h"
@@ -24,20 +24,20 @@ namespace {
 
 using nlohmann::json;
 
-/// What two facts say where they first differ.
+/// Where two facts first differ, and what each says there.
 struct FactDifference {
-    std::string field; ///< empty: of texts
+    std::string field; ///< empty if the facts are plain texts
     std::string here, there;
 };
 
-/// Long ones are cut, behind what they have in common.
+/// Cuts a long line to a part around its first difference. @param common equal characters before it
 std::string excerpt(const std::string& line, std::size_t common) {
     constexpr std::size_t kLongest = 80, kBefore = 20;
     const std::size_t from = line.size() <= kLongest || common <= kBefore ? 0 : common - kBefore;
     return (from > 0 ? "..." : "") + line.substr(from, kLongest);
 }
 
-/// The first line in which two texts differ, of each.
+/// The first line in which two texts differ, from each text.
 FactDifference difference_of_texts(const std::string& a, const std::string& b) {
     std::istringstream lines_a(a), lines_b(b);
     std::string line_a, line_b;
@@ -52,7 +52,7 @@ FactDifference difference_of_texts(const std::string& a, const std::string& b) {
             more_b ? excerpt(line_b, common) : "its end"};
 }
 
-/// Of two objects the first field that differs, with both values.
+/// The first field in which two JSON objects differ, with both values.
 FactDifference first_difference(const std::string& a, const std::string& b) {
     const json here = json::parse(a, nullptr, false), there = json::parse(b, nullptr, false);
     if (!here.is_object() || !there.is_object())
@@ -158,7 +158,7 @@ void ClusterJob::tell_shared_processors(const render::Gl& gl) {
     if (size() == 1)
         return;
     const stereo::RasterThreads mine = stereo::raster_threads();
-    // Without a thread of its own, the one that gives the commands draws.
+    // Without threads of its own, the driver draws on the thread that gives the commands.
     const std::size_t threads =
         render::draws_in_software(gl) ? std::max<std::size_t>(mine.threads, 1) : 0;
     const std::string text = json{{"processors", mine.processors}, {"threads", threads}}.dump();

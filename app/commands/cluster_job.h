@@ -1,4 +1,4 @@
-// A command run by all processes of a cluster's job: it starts, and fails, in all of them.
+// A command that all processes of a cluster's job run: it starts, and fails, in all of them.
 //
 //     run_in_cluster([&](ClusterJob& job) {
 //         job.together([&] { open_files_and_windows(); });
@@ -7,7 +7,7 @@
 //         job.finish();
 //     });
 //
-// A process that was started without mpirun is a job of one, for which none of this does anything.
+// A process that was started without mpirun is a job of one: then nothing here has an effect.
 #pragma once
 
 #include "app/session/pattern_show.h"
@@ -22,7 +22,7 @@
 
 namespace isochron::app {
 
-/// What all processes must see alike: `{"configuration", text}`.
+/// Names and values that must be the same in all processes: `{"configuration", text}`.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
 class ClusterJob {
@@ -33,33 +33,32 @@ class ClusterJob {
     int rank() const { return static_cast<int>(cluster_.rank()); }
     int size() const { return static_cast<int>(cluster_.size()); }
 
-    /// Does a process's part. When it throws in one process, all throw: rank 0 what is to be
-    /// reported, with the name of the process where it is another one, the others
-    /// ReportedElsewhere.
+    /// Runs `part` in every process. If it throws in one of them, all throw: rank 0 the error to
+    /// report, with the process's name if it was another one; the others ReportedElsewhere.
     void together(const std::function<void()>& part);
-    /// Throws, likewise, when a process has another fact than rank 0, and says which.
+    /// Throws like `together` if a fact differs between a process and rank 0; the error names it.
     void require_same(const Facts& facts);
     void set_limits(const stereo::ClusterLimits& limits) { cluster_.set_limits(limits); }
 
-    /// Shares the session's frames among the processes; the job outlives the session. With one
-    /// process there is nothing to share.
+    /// Shares the session's frames among the processes; the job outlives the session. Does nothing
+    /// with one process.
     void share_frames(Session& session);
     void share_frames(PatternShow& show);
     /// Takes part in the frames of rank 0 until it ends them.
     void follow(Session& session, const FrameDone& done = {});
     void follow(PatternShow& show, const FrameDone& done = {});
 
-    /// Says once where processes on one machine draw in software and have fewer processors there
-    /// than threads that draw. Called by all.
+    /// Notes on stderr each machine where processes draw in software with more threads than there
+    /// are processors. All processes call it; rank 0 prints.
     void tell_shared_processors(const render::Gl& gl);
 
-    /// Returns when all have come so far: then they may leave.
+    /// Returns when all processes have called it: then they may exit.
     void finish();
 
-    /// Nobody waits for anybody any more: all have failed together, or have finished.
+    /// Whether all processes have failed together or have finished: none waits for another.
     bool is_over() const { return over_; }
 
-    /// A report's file, for each process another one: `timing.json`, `timing_rank1.json`.
+    /// The name of a report's file, different in each process: `timing.json`, `timing_rank1.json`.
     std::filesystem::path own_file(const std::filesystem::path& path) const;
 
   private:
@@ -68,16 +67,18 @@ class ClusterJob {
 };
 
 /// Adds the operator's window where one is needed.
-/// @throws ConfigError when so many processes cannot show this installation
+/// @throws ConfigError when the number of processes does not fit the installation
+/// @throws UsageError when several processes are to emulate it
 void prepare_walls(Config& config, const ClusterJob& job, bool emulated);
 
-/// What must be alike before a session can start, and then its start.
+/// Facts that must agree before a session can start.
 Facts facts_of(const Config& config);
 Facts facts_of(const Config& config, const index::IndexFile& file);
+/// The session's start state, which must agree as well.
 Facts start_fact(const Session& session);
 
-/// Joins the job that this process was started in and runs its part of a command. What only this
-/// process throws, it prints, and ends the job.
+/// Joins the job that this process was started in and runs its part of a command. If only this
+/// process throws, it prints the error and ends the job.
 void run_in_cluster(const std::function<void(ClusterJob&)>& command);
 
 } // namespace isochron::app

@@ -66,7 +66,7 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
         team.together([&] {
             held = index::IndexFile::open(asked.out);
             if (const auto lost = held->lost_state())
-                throw index::Error(*lost); // appending would write over what is left of it
+                throw index::Error(*lost); // appending would overwrite what is left of it
             arguments = with_held(asked, *held);
         });
     }
@@ -115,7 +115,7 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
         fmt::print("{}{}", summary(arguments.out, *index::IndexFile::open(arguments.out)), note);
 }
 
-/// In a job, `what` is the last word: not all members know of it, so none can be waited for.
+/// Prints `what` and ends the job. Not all processes know of the error, so none can be waited for.
 void end_job(stereo::Cluster& cluster, const std::string& what, int status) {
     if (cluster.size() == 1)
         return;
@@ -126,7 +126,7 @@ void end_job(stereo::Cluster& cluster, const std::string& what, int status) {
 void run_build(const BuildArguments& arguments) {
     const CancelOnSignal signals;
     const auto team = index::join_team();
-    // A step may take as long as its disk does; only a process that shows no life is lost.
+    // A step may take as long as its disk needs; only a process that does not respond is lost.
     using Duration = stereo::ClusterLimits::Duration;
     constexpr Duration kForEver(std::numeric_limits<double>::infinity());
     stereo::Cluster cluster(*team, {.silence = Duration(arguments.timeout), .stall = kForEver});
@@ -137,7 +137,7 @@ void run_build(const BuildArguments& arguments) {
         end_job(cluster, lost.what(), 1);
         throw;
     } catch (const Canceled& canceled) {
-        // mpirun ends all processes this way when one of them has died, too.
+        // mpirun sends this signal to all processes also when one of them has died.
         if (cluster.rank() > 0)
             throw ReportedElsewhere();
         end_job(cluster, "canceled, or another process of the job has ended", canceled.status);

@@ -1,4 +1,4 @@
-// `isochron change`: the cells that become active, and those that cease to be, from one query to
+// `isochron change`: cells that become active, and cells that become inactive, from one query to
 // another.
 #include "app/commands/file_patterns.h"
 #include "app/commands/id_file.h"
@@ -38,7 +38,7 @@ index::Query checked(const ChangeArguments& arguments, const index::IndexFile& f
     return {static_cast<std::uint32_t>(step), isovalue};
 }
 
-/// What the sets of two queries do not share, ascending.
+/// The cells that only one of two sets has, ascending.
 struct Difference {
     std::vector<index::CellId> added, removed;
 };

@@ -29,8 +29,8 @@ bool asks_for_tracker(const ConfigProblem& problem) {
     return problem.key == "viewers.head";
 }
 
-/// What was imported must pass the check that it will meet. Its lines are not those of the file
-/// that it comes from, so messages leave them out.
+/// Checks an imported configuration as it will be checked when it is used. Its line numbers are not
+/// those of the imported file, so messages leave them out.
 Config sound_config(const std::string& text, const std::string& source) {
     const std::string name = "import";
     try {

@@ -86,7 +86,7 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     return state;
 }
 
-/// What a file holds already is lost only where the user says so.
+/// Refuses to overwrite an existing recording, which only --force allows.
 void refuse_to_replace(const std::string& recording) {
     for (const std::string& name : {recording, recording + ".part"})
         if (std::filesystem::exists(name))
@@ -97,7 +97,8 @@ void refuse_to_replace(const std::string& recording) {
                                                  "replayed"));
 }
 
-/// Refuses now what would fail, or destroy something, only when the session ends.
+/// Reports now the errors in output paths that would otherwise show, or destroy a file, only when
+/// the session ends.
 void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
     namespace fs = std::filesystem;
     std::error_code ignored;
@@ -110,7 +111,7 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
     if (options.record && !options.force)
         refuse_to_replace(*options.record);
     if (options.record && fs::exists(*options.record, ignored))
-        read_recording(*options.record); // only a recording may be replaced by one
+        read_recording(*options.record); // only a recording may be overwritten
     if (options.session && fs::path(*options.session).has_parent_path())
         index::make_folder(fs::path(*options.session).parent_path());
     for (const auto& out : {options.record, options.report, options.session})
@@ -118,7 +119,7 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
             index::NewFile{*out};
 }
 
-/// @param headset that the first window mirrors: it paces the frames, not that window's display
+/// @param headset mirrored by the first window; it paces the frames, not that window's display
 stereo::Windows open(const ExploreOptions& options, const Config& config, const ClusterJob& job,
                      const stereo::Headset* headset) {
     const std::string title =
@@ -160,7 +161,7 @@ std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
     return session_path(*options.data, data_hash_of(file));
 }
 
-/// Where these data have grown since, the session is kept under the hash that they had.
+/// Where the earlier session lies. If the data have grown since, its name has their earlier hash.
 std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& options,
                                                      const index::IndexFile& file) {
     const auto path = kept_in(options, file);
@@ -172,7 +173,7 @@ void print_status(const LiveLoop& live) {
         fmt::print(stderr, "{}\n", line);
 }
 
-/// Devices and windows as in a session, the pattern in the place of data.
+/// Shows the test pattern instead of data, with the devices and windows of a session.
 void show_test_pattern(const ExploreOptions& options, ClusterJob& job) {
     Config config;
     interaction::CompositeInput trackers;
@@ -206,7 +207,8 @@ void show_test_pattern(const ExploreOptions& options, ClusterJob& job) {
     job.finish();
 }
 
-/// Says what a configuration holds. @return whether that was all that was asked for
+/// Describes the configuration or its devices if the options ask for that.
+/// @return true: the options ask for nothing else
 bool only_describes(const ExploreOptions& options) {
     if (options.check_config) {
         check_config(*options.check_config);
@@ -254,9 +256,9 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
     return chosen ? std::optional(chosen->string()) : std::nullopt;
 }
 
-/// @return data that the user wants to see instead; nothing: they leave
+/// @return other data that the user wants to see; empty: the user leaves
 std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& job) {
-    // A signal ends the session as its user would: what was recorded gets its name.
+    // A signal ends the session as its user would: the recording gets its final name.
     const CancelOnSignal signals;
     if (options.test_pattern) {
         show_test_pattern(options, job);
@@ -354,7 +356,7 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
     return live.next_data()->string();
 }
 
-/// The same for other data: what was said of the first ones alone holds no longer.
+/// The options for other data, without those that were meant for the first data only.
 ExploreOptions with_data(ExploreOptions options, const std::string& data) {
     options.data = options.data_name = data;
     options.isovalue.reset();

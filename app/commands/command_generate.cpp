@@ -12,7 +12,7 @@ namespace isochron::app {
 
 namespace {
 
-/// What every series can be asked for.
+/// A series, with the options that all series have.
 template <class Series>
 struct Request {
     Series series;
@@ -21,7 +21,7 @@ struct Request {
 };
 
 /// Adds `generate NAME` with the options that every series has.
-/// @return its subcommand and request, for the options of its own
+/// @return its subcommand and request, to which the caller adds the series' own options
 template <class Series>
 std::pair<Command, std::shared_ptr<Request<Series>>> add_series(Command& generate_command,
                                                                 const std::string& description) {

@@ -1,4 +1,4 @@
-// The command line by CLI11, the only source that sees it.
+// The command line, through CLI11; the only source that includes it.
 #include "app/commands/command_line.h"
 
 #include "app/commands/cancel.h"
@@ -25,7 +25,7 @@
 namespace isochron::app {
 namespace {
 
-/// What was perhaps meant, as the end of a complaint; empty where nothing is near.
+/// `, did you mean NEAR?` as the end of a message; empty if `near` is empty.
 std::string meant(const std::string& near) {
     return near.empty() ? near : fmt::format(", did you mean {}?", near);
 }
@@ -171,7 +171,7 @@ void Command::on_run(std::function<void()> run) {
 
 namespace {
 
-/// The words of "{a,b,c}" in what the parser shows of a value; none where it lists none.
+/// The words of "{a,b,c}" in CLI11's description of a value; empty if it lists none.
 std::vector<std::string> listed_words(const std::string& shown) {
     std::vector<std::string> words;
     const std::size_t begin = shown.find('{');
@@ -224,7 +224,7 @@ int fail(const char* program, const std::string& what, int status) {
     return status;
 }
 
-/// The command that is for a file.
+/// The command that opens a file, by its suffix.
 std::string_view command_for(const std::filesystem::path& file) {
     const std::string suffix = file.extension().string();
     if (suffix == ".isochron")
@@ -234,7 +234,7 @@ std::string_view command_for(const std::filesystem::path& file) {
     return suffix == ".png" || suffix == ".exr" ? "reproduce" : "build";
 }
 
-/// What a word that is no command may have been meant for.
+/// What the user may have meant by a word that is no command.
 std::string mistaken(const std::string& word, const std::vector<std::string>& names) {
     std::error_code error;
     if (std::filesystem::exists(word, error))
@@ -246,7 +246,7 @@ std::string mistaken(const std::string& word, const std::vector<std::string>& na
                                     : meant(near));
 }
 
-/// What is said of arguments that the command does not know.
+/// The message about arguments that the command does not know.
 std::string unexpected(const CLI::App& command) {
     const std::vector<std::string> unknown = command.remaining();
     const auto option = std::ranges::find_if(
@@ -270,7 +270,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
         name += " " + command->get_name();
     }
     std::string what = error.what();
-    // Of a command that it does not know, the parser says only that one is missing.
+    // For an unknown command CLI11 says only that a command is missing.
     const std::vector<std::string> unknown = command->remaining();
     const auto known = command->get_subcommands([](const CLI::App*) { return true; });
     const bool is_option = !unknown.empty() && unknown.front().starts_with('-');
@@ -283,7 +283,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
     } else if (!unknown.empty()) {
         what = unexpected(*command);
     } else if (const std::string_view wrong = "Could not convert: "; what.starts_with(wrong)) {
-        // It says `--name = text`; all that is converted are numbers.
+        // CLI11 says `--name = text`; only numbers are converted, so only they can fail this way.
         what.erase(0, wrong.size());
         if (const std::size_t equals = what.find(" = "); equals != std::string::npos)
             what.replace(equals, 3, ": expected a number, got ");
@@ -291,7 +291,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
     return fmt::format("{} (see {} --help)", what, name);
 }
 
-/// Flags that were spelled in another way up to version 0.1, and how they are now.
+/// Flags that had another spelling up to version 0.1, and their spelling now.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOldFlags{{
     {"--colour", "--color"},
     {"--colour-component", "--color-component"},
@@ -380,8 +380,7 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
     } catch (const std::exception& error) {
         return fail(text.name, error.what(), 1);
     }
-    // What was printed must have arrived: a full disk behind a pipe or a redirection is an error
-    // too.
+    // Output that did not arrive, for example on a full disk behind a redirection, is an error.
     if (std::fflush(stdout) != 0)
         return fail(text.name, "the output cannot be written", 1);
     return status;

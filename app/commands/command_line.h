@@ -1,4 +1,4 @@
-// Subcommands and their options, so that one source alone compiles the parser's library.
+// Subcommands and their options; only command_line.cpp includes the parser's library.
 //
 //     void add_verify(Command& program) {
 //         auto path = std::make_shared<std::filesystem::path>();
@@ -31,11 +31,11 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown by a process of a job whose first process reports what went wrong: says nothing, and
-/// leaves the exit status to that one.
+/// Thrown by the other processes of a job when rank 0 reports an error: they print nothing and
+/// leave the exit status to rank 0.
 class ReportedElsewhere {};
 
-/// One option of a command, or one argument that is known by its place. Setters return the option.
+/// One option of a command, or one positional argument. Setters return the option.
 class Option {
   public:
     explicit Option(CLI::Option& option) : option_(&option) {}
@@ -45,7 +45,7 @@ class Option {
     Option& type_name(const std::string& name);
     /// The heading under which help lists the option.
     Option& group(const std::string& heading);
-    /// Refused where `other` is not given.
+    /// Refused if `other` is not given.
     Option& needs(const Option& other);
     /// Takes exactly `count` values.
     Option& values(int count);
@@ -61,12 +61,12 @@ class Option {
     Option& positive();
     Option& existing_file();
     Option& existing_folder();
-    /// `complaint` returns what is wrong with a value, empty where nothing is; `form` is what help
-    /// shows of the values that are accepted.
+    /// `complaint` returns what is wrong with a value, empty if nothing is; `form` is how help
+    /// describes the accepted values.
     Option& accepted_by(std::function<std::string(const std::string&)> complaint,
                         const std::string& form);
 
-    /// Whether the user gave it. Known once the command runs.
+    /// Whether the user gave it; known once the command runs.
     bool given() const;
 
   private:
@@ -81,16 +81,16 @@ class Command {
     Command subcommand(const std::string& name, const std::string& description);
     /// The user must name one of the subcommands.
     void require_subcommand();
-    /// `names` is `--long`, `-s,--long`, or a word for an argument that is known by its place.
-    /// `value` must live until the command has run, and says what is parsed: a path, a string, a
-    /// number, a std::optional of one, or a std::vector of them.
+    /// `names` is `--long`, `-s,--long`, or a word for a positional argument. `value` must live
+    /// until the command has run. Its type says what is parsed: a path, a string, a number, a
+    /// std::optional of one, or a std::vector of them.
     template <class T>
     Option option(const std::string& names, T& value, const std::string& help);
     Option flag(const std::string& names, bool& value, const std::string& help);
     /// Text below the options in the command's help.
     void footer(const std::string& text);
     void on_run(std::function<void()> run);
-    /// What it offers, with the commands below it that have been added so far.
+    /// Its options, and its subcommands added so far.
     CommandReference reference() const;
 
   private:

@@ -1,4 +1,5 @@
-// `isochron manual` and `isochron completion`: what is installed beside the program, made from its help.
+// `isochron manual` and `isochron completion`: manual pages and shell completions, made from the
+// program's help.
 #include "app/commands/manual_pages.h"
 #include "app/commands/shell_completion.h"
 #include "app/commands/subcommands.h"

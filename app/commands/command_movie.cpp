@@ -38,14 +38,14 @@ struct MovieOptions : ReplaySource {
     bool force = false, background = false;
 };
 
-/// One movie for the window, or one for each eye and viewport; written behind the drawing.
+/// One movie for the window, or one for each eye and viewport; written in the background.
 class Movies {
   public:
     Movies(const MovieOptions& options, const PictureNames& names, MovieNote about,
            BackgroundWork& writing)
         : options_(options), names_(names), about_(std::move(about)), writing_(writing) {}
 
-    /// What the frame drawn last shows, for so many frames of the movie.
+    /// Adds the pictures of the frame drawn last. @param times how many movie frames show them
     void add(Outputs& outputs, const PictureNote& frame, std::size_t times) {
         hurried_ = render::draws_in_software(outputs.gl());
         each_part(outputs, options_.eyes == "each", names_, frame,
@@ -54,7 +54,7 @@ class Movies {
                   });
     }
 
-    /// Completes them. @return a line for each
+    /// Completes the movies. @return a line for each
     std::vector<std::string> finish() {
         writing_.finish();
         std::vector<std::string> lines;
@@ -106,11 +106,11 @@ class Movies {
     const PictureNames& names_;
     const MovieNote about_;
     BackgroundWork& writing_;
-    bool hurried_ = false; ///< what encodes takes processors away from what draws
+    bool hurried_ = false; ///< drawing and encoding use the same processors
     std::map<fs::path, std::shared_ptr<Movie>> movies_;
 };
 
-/// How many frames of the movie show a recorded one: those whose times come before the next one.
+/// Counts the movie frames that show a recorded frame: those before the next recorded frame's time.
 class Clock {
   public:
     Clock(const interaction::Recording& recording, double rate)
@@ -131,10 +131,10 @@ class Clock {
   private:
     const interaction::Recording& recording_;
     double rate_;
-    std::uint64_t next_ = 0; ///< frame of the movie
+    std::uint64_t next_ = 0; ///< next frame of the movie
 };
 
-/// Of the recording's content.
+/// Hash of the recording's content.
 std::string hash_of(const fs::path& recording) {
     constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;
     const std::string text = index::read_text(recording, kLargest);

@@ -1,4 +1,4 @@
-// `isochron query`: the active cells of one isovalue at one step, and what finding them took.
+// `isochron query`: the active cells of one isovalue at one step, and the time to find them.
 #include "app/commands/file_patterns.h"
 #include "app/commands/id_file.h"
 #include "app/commands/open_index.h"
@@ -37,7 +37,7 @@ struct Times {
 struct Measured {
     index::CellSetPtr set;
     Times cold, warm;   ///< warm: medians; zero without repetitions
-    ProcessUsage usage; ///< after the first search
+    ProcessUsage usage; ///< of the process after the first search
 };
 
 /// Every repetition starts a new search: otherwise it would find its own last result.

@@ -1,4 +1,4 @@
-// The tree of commands as a list.
+// The tree of commands, flattened into a list.
 #include "app/commands/command_reference.h"
 
 namespace isochron::app {

@@ -1,4 +1,4 @@
-// What the command line offers, as data: manual pages and shells' completions are made from it.
+// Commands and options as data, from which manual pages and shell completions are made.
 #pragma once
 
 #include <string>
@@ -6,20 +6,19 @@
 
 namespace isochron::app {
 
-/// One option, or one argument that is known by its place.
+/// One option, or one positional argument.
 struct OptionReference {
-    std::vector<std::string> names; ///< with their dashes; empty for an argument known by its place
+    std::vector<std::string> names; ///< with their dashes; empty for a positional argument
     std::string value;              ///< what help shows for the value; empty for a flag
-    std::vector<std::string>
-        words; ///< the values that are accepted; empty where they are not listed
+    std::vector<std::string> words; ///< the accepted values; empty if they are not listed
     std::string help;
-    std::string heading; ///< under which help lists it
+    std::string heading; ///< heading under which help lists it
     bool required = false;
 };
 
 /// The program or one of its commands.
 struct CommandReference {
-    std::string name; ///< the last word of how it is called
+    std::string name; ///< its last word: `sphere` of `isochron generate sphere`
     std::string help;
     std::string footer; ///< plain text below the options
     std::vector<OptionReference> options;

@@ -28,7 +28,7 @@ struct Options : ReplaySource {
     std::string format = "png";
 };
 
-/// Writes the pictures of one frame under names that start with `stem`, and notes which.
+/// Writes the pictures of one frame under names that start with `stem`; adds them to `written`.
 void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
                     const PictureNote& frame, const std::string& stem,
                     std::vector<fs::path>& written) {
@@ -63,8 +63,8 @@ void check(const Options& options) {
         refuse_input_as_output({options.recording}, *options.report);
 }
 
-/// Of one frame, where the options ask for them.
-/// @param note what the frame shows; of a test pattern nothing is said
+/// Writes the pictures of one frame if the options ask for them.
+/// @param note describes what the frame shows; it is empty for a test pattern
 void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
                     std::size_t number, const interaction::RecordedFrame& frame,
                     const std::function<PictureNote()>& note, std::vector<fs::path>& written) {
@@ -77,7 +77,7 @@ void write_pictures(Outputs& outputs, const Options& options, const PictureNames
                            fmt::format("stamp_{:05}_{}", number, file_name(stamp)), written);
 }
 
-/// The recorded heads and hands before the test pattern; needs no data.
+/// Replays the recorded heads and hands in front of the test pattern; needs no data.
 void replay_test_pattern(const Options& options, ClusterJob& job) {
     interaction::Recording recording;
     Config config;

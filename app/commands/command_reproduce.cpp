@@ -1,4 +1,4 @@
-// `isochron reproduce`: a picture is made again from what it says of itself, and compared.
+// `isochron reproduce`: draws a picture again from the note inside it, and compares the two.
 #include "app/commands/kept_session.h"
 #include "app/commands/open_index.h"
 #include "app/commands/replay_source.h"
@@ -42,7 +42,8 @@ PictureNote note_in(const fs::path& picture) {
     }
 }
 
-/// The data that are named, or those of the picture's name for them, beside it or here.
+/// The data that the options name, else the file that the picture's note names: beside the picture
+/// or in the working directory.
 fs::path data_path(const ReproduceOptions& options, const PictureNote& note) {
     if (options.data)
         return *options.data;
@@ -85,7 +86,7 @@ stereo::Windows windows_for(const Config& config, const PictureNote& note) {
     return stereo::open_windows(config.context, config.installation, {});
 }
 
-/// Frames with the same devices, until the picture is as good as it gets.
+/// Repeats the frame with the same devices until the picture has its final quality.
 void settle(Session& session, const PictureNote& note) {
     constexpr int kMost = 100;
     interaction::InputState input = note.input;

@@ -1,4 +1,4 @@
-// Options on how cells are drawn, of all commands that draw.
+// Options that all drawing commands share: how cells are drawn.
 #pragma once
 
 #include "app/commands/command_line.h"
@@ -11,7 +11,7 @@ namespace isochron::app {
 
 /// Adds `--shape`. @param shape lives until the command has run
 void add_shape_option(Command& command, std::optional<std::string>& shape);
-/// Obeys it, where it was given.
+/// Sets the configured shape if the option was given.
 void set_shape(Config& config, const std::optional<std::string>& shape);
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// What `explore` is told on the command line.
+// The command line options of `explore`.
 #include "app/commands/explore_options.h"
 
 #include "app/commands/drawing_options.h"

@@ -1,4 +1,4 @@
-// What `explore` is told on the command line.
+// The command line options of `explore`.
 #pragma once
 
 #include "app/commands/build_arguments.h"
@@ -27,7 +27,7 @@ struct ExploreOptions {
     bool verbose = false;
 };
 
-/// Adds the options that say so, and what is said below them.
+/// Adds the options of `explore`, and the text below them in `--help`.
 /// @param options live until the command has run
 void add_explore_options(Command& command, ExploreOptions& options);
 

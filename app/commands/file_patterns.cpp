@@ -16,7 +16,7 @@ std::vector<std::filesystem::path> expand_patterns(const std::vector<std::string
     std::vector<std::filesystem::path> files;
     std::error_code ignored;
     for (const std::string& argument : arguments) {
-        // A file may well have brackets in its name: what exists is a name.
+        // A file may have brackets in its name: an existing file is a name, not a pattern.
         if (std::filesystem::exists(argument, ignored) ||
             argument.find_first_of("*?[") == std::string::npos) {
             files.emplace_back(argument);

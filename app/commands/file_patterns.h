@@ -12,9 +12,9 @@ namespace isochron::app {
 /// @throws index::Error for a pattern that matches nothing
 std::vector<std::filesystem::path> expand_patterns(const std::vector<std::string>& arguments);
 
-/// Takes the path within a file off its name: `run.h5:/fields/rho` is the array `/fields/rho` of
-/// run.h5. What exists under its whole name is left alone.
-/// @return the path, if any has one @throws index::Error when names give several
+/// Splits the path of an array off a file's name: `run.h5:/fields/rho` is the array `/fields/rho`
+/// of run.h5. An argument that is the whole name of an existing file is left alone.
+/// @return the path, if any argument has one @throws index::Error when they name different ones
 std::optional<std::string> take_path_within(std::vector<std::string>& arguments);
 
 /// @throws index::Error when `out` is one of `files`: writing it would destroy what is read

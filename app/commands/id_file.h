@@ -9,12 +9,12 @@
 
 namespace isochron::app {
 
-/// u32.
-/// @throws index::Error when it cannot be written; then no file is left
+/// Writes the ids as u32.
+/// @throws index::Error when the file cannot be written; then no file is left
 void write_ids(const std::filesystem::path& path, const std::vector<index::CellId>& ids);
 
-/// u32, or u64 where the grid has cells whose number does not fit: of these the set must have its
-/// points.
+/// Writes the ids as u32, or as u64 if the grid has too many cells for u32 ids; then they are made
+/// from `set.points`, which must be filled.
 /// @throws index::Error as above
 void write_ids(const std::filesystem::path& path, const index::CellSet& set,
                const index::Grid& grid);

@@ -25,26 +25,27 @@ double percent_of_raw(const index::IndexFile& file) {
            raw_bytes(file.info());
 }
 
-/// Of the paper's tree where there is one, else of the cells; empty without both.
+/// The time nodes of the paper's tree if the index has one, else of the cell tier; may be empty.
 std::vector<index::TimeNodeCells> time_nodes(const index::IndexFile& file) {
     if (file.tree())
         return file.tree()->nodes();
     return file.cells() ? file.cells()->nodes() : std::vector<index::TimeNodeCells>{};
 }
 
-/// In the same tree; 0 without one.
+/// Number of entries in the same tree; 0 without one.
 std::uint64_t entries_of(const index::IndexFile& file) {
     return file.tree() ? file.tree()->entries() : file.stats().cell_entries;
 }
 
-/// Entries for each cell and step.
+/// Mean number of entries per cell and step.
 double coherence(const index::IndexFile& file) {
     return static_cast<double>(entries_of(file)) /
            (static_cast<double>(file.info().grid.cell_count()) *
             static_cast<double>(file.info().steps()));
 }
 
-/// Of the cells where there are any, else of the bricks: of wide types those of the last step.
+/// The level map of the cells if the index has them, else of the bricks; for wide value types that
+/// of the last step.
 index::LevelMapPtr levels_of(const index::IndexFile& file) {
     if (file.cells())
         return std::make_shared<index::LevelMap>(file.levels());

@@ -10,10 +10,10 @@ namespace isochron::app {
 struct IndexReport {
     std::string name; ///< as the user gave it
     const index::IndexFile& file;
-    bool tree = false; ///< with the cells of every time node
+    bool tree = false; ///< report the cells of every time node as well
 };
 
-/// `4.10 MiB: volume 3.00 MiB, bricks 12 KiB, cells 1.05 MiB`.
+/// Sizes of the file and its parts: `4.10 MiB: volume 3.00 MiB, bricks 12 KiB, cells 1.05 MiB`.
 std::string sizes(const index::IndexFile& file);
 
 /// @throws index::Error when the tree is damaged

@@ -1,4 +1,4 @@
-// The session that `explore` keeps, and the one that it goes on with.
+// Saving and resuming of the session of `explore`.
 #include "app/commands/kept_session.h"
 
 #include "app/version.h"
@@ -17,7 +17,7 @@ std::string data_hash_of(const index::IndexFile& file) {
 
 namespace {
 
-/// Whether it is the hash of the data, or of those that they once were.
+/// Whether the data have this hash, or had it when they had fewer steps.
 bool is_held(const index::IndexFile& file, std::string_view hash) {
     std::uint64_t number = 0;
     const char* const end = hash.data() + hash.size();

@@ -1,4 +1,4 @@
-// The session that `explore` keeps, and the one that it goes on with.
+// Saving and resuming of the session of `explore`.
 #pragma once
 
 #include "app/session/live_loop.h"
@@ -10,25 +10,24 @@
 
 namespace isochron::app {
 
-/// As recordings and sessions name data: 16 hexadecimal digits.
+/// The content hash by which recordings and sessions name data: 16 hexadecimal digits.
 std::string data_hash_of(const index::IndexFile& file);
-/// The same of the steps that the data had when they were named `hash`, if they ever were; else of
-/// all.
+/// `hash` itself if the data have it, or had it when they had fewer steps; else their hash now.
 std::string held_hash(const index::IndexFile& file, const std::string& hash);
 
-/// Where the newest session lies that was kept, in the same folder, on these data when they had
-/// fewer steps; `path` itself where one is there, or there is none.
-/// @param path for the data as they are, see `session_path`
+/// `path` if it exists; else the newest session file in its folder that was saved when these data
+/// had fewer steps; `path` again if there is none.
+/// @param path of the session on the data as they are now, see `session_path`
 std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
                                           const index::IndexFile& file);
 
-/// The session to go on with; where `resume` does not say so, only that there is one is said.
-/// @param path where it is kept; nothing where nobody can say
-/// @throws interaction::Error where `resume` asks for what is not there
+/// The session to resume. Without `resume` it is empty, and stderr tells of an existing session.
+/// @param path of the saved session; empty if there is no place for it
+/// @throws interaction::Error when `resume` is set and there is no session
 std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,
                                             bool resume);
 
-/// Lets the loop keep the session, and begin where the earlier one ended.
+/// Makes the loop save the session to `path`, and start with the head of the earlier session.
 void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& path,
                   const std::string& data, const index::IndexFile& file, const Session& session,
                   const std::optional<SavedSession>& earlier);

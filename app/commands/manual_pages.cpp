@@ -1,4 +1,4 @@
-// What help says, as roff.
+// The help texts as roff.
 #include "app/commands/manual_pages.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace isochron::app {
 namespace {
 
-/// Text as roff takes it literally: dashes that can be copied, no line that begins with a command.
+/// Escapes text for roff: dashes that can be copied, no line that roff takes for a command.
 std::string roff(std::string_view text) {
     std::string result;
     for (const char letter : text) {
@@ -66,7 +66,7 @@ std::string synopsis(const CommandPath& path) {
     return line;
 }
 
-/// The headings in the order in which they first stand, arguments before options.
+/// The headings in the order in which they first appear, arguments before options.
 std::vector<std::string> headings(const CommandReference& command) {
     std::vector<std::string> found;
     for (const OptionReference& option : command.options)

@@ -13,7 +13,7 @@ struct ManualPage {
     std::string text; ///< roff with the macros of man(7)
 };
 
-/// A page for the program and for each command. `version` stands in their footers.
+/// A page for the program and one for each command. `version` stands in their footers.
 std::vector<ManualPage> manual_pages(const CommandReference& program, const std::string& version);
 
 } // namespace isochron::app

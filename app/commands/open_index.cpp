@@ -1,4 +1,4 @@
-// An index that a command is given.
+// Opens the index that a command is given.
 #include "app/commands/open_index.h"
 
 #include "app/text.h"

@@ -1,4 +1,4 @@
-// An index that a command is given, and what is said when something else was meant.
+// Opens the index that a command is given; helps if the file is something else.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -10,16 +10,16 @@
 namespace isochron::app {
 
 /// @param cache_bytes as IndexFile::open
-/// @throws index::Error as IndexFile::open; where the file is there and has another suffix, with
-/// how an index is made of it
+/// @throws index::Error as IndexFile::open; if the file exists but is no .isochron, the message
+/// says how to build an index of it
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
                                                    std::uint64_t cache_bytes = 0);
-/// The same for work that tells cells apart by 32 bits.
-/// @throws index::Error also where a step has more cells than that
+/// The same for commands whose cell ids have 32 bits.
+/// @throws index::Error also if the grid has 2^32 cells or more
 std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,
                                                            std::uint64_t cache_bytes = 0);
 
-/// Says on stderr when an isovalue lies beyond the data, where no surface is; the range is told.
+/// Warns on stderr if an isovalue lies outside the range of the data, where no surface is.
 void warn_beyond(double isovalue, const index::IndexFile& file);
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// What this process has taken of the machine so far.
+// Memory and storage reads of this process, from /proc.
 #include "app/commands/process_usage.h"
 
 #include <fstream>

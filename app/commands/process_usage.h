@@ -1,4 +1,4 @@
-// What this process has taken of the machine so far.
+// Memory and storage reads of this process.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 namespace isochron::app {
 
 struct ProcessUsage {
-    std::uint64_t resident_bytes = 0; ///< of its memory now, mapped files included
-    std::uint64_t read_bytes = 0;     ///< from storage, not from the page cache
+    std::uint64_t resident_bytes = 0; ///< resident now, mapped files included
+    std::uint64_t read_bytes = 0;     ///< read from storage so far, without the page cache
 };
 
-/// From /proc; 0 where the system does not say.
+/// Read from /proc; 0 if the system does not tell.
 ProcessUsage process_usage();
 
 } // namespace isochron::app

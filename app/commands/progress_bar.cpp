@@ -1,4 +1,4 @@
-// How far long work is, on the terminal.
+// Shows the progress of long work on the terminal.
 #include "app/commands/progress_bar.h"
 
 #include "app/text.h"

@@ -1,4 +1,4 @@
-// How far long work is, on the terminal.
+// Shows the progress of long work on the terminal.
 #pragma once
 
 #include "index/progress.h"
@@ -11,23 +11,23 @@
 
 namespace isochron::app {
 
-/// On a terminal one bar per phase, or one for all phases, with the remaining time, redrawn in place;
-/// elsewhere (a log) one line per phase.
+/// On a terminal: one bar per phase, or one for all phases, with the remaining time, redrawn in
+/// place. Elsewhere (a log): one line per phase.
 ///
 ///     ProgressBar bar;
 ///     index::build(..., bar.progress());
 class ProgressBar {
   public:
-    /// Whether fractions are those of a phase or of all phases together.
+    /// Whether fractions are of one phase or of all phases together.
     enum class Of : std::uint8_t { phase, all };
 
-    /// @param bytes that every phase, or all, go through, to show a rate; 0 shows none
+    /// @param bytes that each phase (or all together) processes, for the rate; 0: shows no rate
     explicit ProgressBar(std::FILE* out = stderr, double bytes = 0, Of of = Of::phase);
     ~ProgressBar(); ///< ends the line of the last phase
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// @param fraction of the phase that is done, in [0, 1]
+    /// @param fraction that is done, in [0, 1]
     void show(std::string_view phase, double fraction);
 
     /// A callback that shows on this bar; the bar must outlive it.
@@ -40,7 +40,7 @@ class ProgressBar {
     Of of_;
     std::string phase_;
     std::chrono::steady_clock::time_point start_; ///< of the phase, or of the first
-    int percent_ = -1;                            ///< what is on the screen
+    int percent_ = -1;                            ///< shown now
 };
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// What is replayed, on which data, and in what pictures.
+// The options that all replaying commands share.
 #include "app/commands/replay_source.h"
 
 #include "app/commands/drawing_options.h"
@@ -76,7 +76,7 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
     for (stereo::Window& window : config.installation.windows) {
         if (!options.size.empty() && !options.emulate)
             window.size = {options.size[0], options.size[1]};
-        window.fullscreen = false; // a replay looks on, it does not take the displays over
+        window.fullscreen = false; // a replay must not take over the displays
     }
     return config;
 }
@@ -87,8 +87,8 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
     std::string path = options.data.value_or(header.data);
     std::error_code ignored;
     if (!options.data && !fs::exists(path, ignored)) {
-        // A relative name is from where the session was started; the data may lie beside the
-        // recording.
+        // A relative path refers to the folder where the session was started; try the recording's
+        // folder too.
         path = (fs::path(options.recording).parent_path() / header.data).string();
         if (!fs::exists(path, ignored))
             throw interaction::Error(
@@ -105,8 +105,8 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
 }
 
 std::string other_data(const interaction::RecordingHeader& header, const index::IndexFile& file) {
-    // A recording without a hash is not bound to one data set: demonstrations are like that. Data
-    // may have grown since.
+    // A recording without a hash, such as a demonstration, is not bound to one data set. Data may
+    // have grown since they were recorded on.
     if (header.data_hash.empty() || held_hash(file, header.data_hash) == header.data_hash)
         return {};
     return header.data_hash;

@@ -1,4 +1,4 @@
-// What is replayed, on which data, and in what pictures: for the commands that replay a recording.
+// The options that all replaying commands share: recording, data, windows and drawing.
 #pragma once
 
 #include "app/commands/cluster_job.h"
@@ -24,14 +24,16 @@ struct ReplaySource {
     std::vector<int> size;
 };
 
-/// Adds the options that say so. @param source lives until the command has run
+/// Adds these options to a command. @param source lives until the command has run
 void add_replay_source(Command& command, ReplaySource& source);
 
-/// The recorded configuration, or the one that is given, with what the options change.
+/// The recorded configuration, or the given one, with the changes that the options make.
 /// @throws ConfigError
 Config config_of(const ReplaySource& options, const interaction::RecordingHeader& header);
 
-/// @throws index::Error, interaction::Error when they are not there, or others
+/// The index to replay on.
+/// @throws index::Error, interaction::Error when it is missing, or holds other data and
+/// `any_data` is not set
 std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                                                 const interaction::RecordingHeader& header,
                                                 const Config& config);
@@ -39,14 +41,14 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
 /// The file name of these data, without its folder.
 std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header);
 
-/// The hash that the recording names, where these data neither have it nor ever had; else empty.
+/// The recording's data hash if these data do not have it and never had; else empty.
 std::string other_data(const interaction::RecordingHeader& header, const index::IndexFile& file);
 
 /// @throws render::Error
 stereo::Windows windows_of(const ReplaySource& options, const Config& config,
                            const interaction::RecordingHeader& header, const ClusterJob& job);
 
-/// What is shown otherwise than recorded.
+/// What the options show differently from the recording.
 ReplayOptions replay_options(const ReplaySource& options);
 
 } // namespace isochron::app

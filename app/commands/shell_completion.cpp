@@ -1,4 +1,4 @@
-// Scripts that tell shells what the command line offers.
+// Completion scripts for bash, zsh and fish.
 #include "app/commands/shell_completion.h"
 
 #include <fmt/format.h>
@@ -82,7 +82,7 @@ complete -o default -F _isochron isochron
                        below, values, offers);
 }
 
-/// One specification of _arguments. Brackets and colons have a meaning there.
+/// One specification for zsh's _arguments, in which brackets and colons are escaped.
 std::string zsh_argument(const OptionReference& option, const std::string& spelling) {
     std::string help;
     for (const char letter : first_sentence(option.help)) {

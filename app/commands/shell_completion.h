@@ -8,10 +8,10 @@
 
 namespace isochron::app {
 
-/// The shells there are completions for: bash, zsh, fish.
+/// The shells that have completions: bash, zsh, fish.
 const std::vector<std::string>& completed_shells();
 
-/// The script that the shell reads; where an option takes no listed words, files are offered.
+/// The completion script for a shell; it offers files for options without a list of words.
 /// @param shell one of completed_shells()
 std::string shell_completion(const CommandReference& program, const std::string& shell);
 

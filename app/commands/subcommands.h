@@ -1,4 +1,4 @@
-// The subcommands: each adds itself to the command line and runs in its callback.
+// The subcommands: each function adds one to the command line, with the callback that runs it.
 #pragma once
 
 #include "app/commands/command_line.h"

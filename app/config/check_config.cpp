@@ -1,4 +1,4 @@
-// Lists an installation and judges it.
+// Describes an installation and finds its problems.
 #include "app/config/check_config.h"
 
 #include "app/config/check_devices.h"
@@ -20,8 +20,8 @@ namespace {
 
 constexpr float kSmallest = 0.02f, kLargest = 30.0f; ///< [m] sides of screens that people build
 constexpr float kSquare = 0.02f;    ///< pixels' width and height may differ by this fraction
-constexpr float kNeighbors = 0.10f; ///< [m] corners this near are meant to be one
-constexpr float kSeam = 0.005f;     ///< [m] and this is what a seam may take
+constexpr float kNeighbors = 0.10f; ///< [m] corners this near are meant to coincide
+constexpr float kSeam = 0.005f;     ///< [m] widest gap between them that is no problem
 constexpr float kSame = 1e-3f;      ///< [m] corners this near are the same
 constexpr float kLevel = 0.7f;      ///< cosine to an axis of the room
 constexpr const char* kScreenKey = "windows.viewports.projection";
@@ -65,8 +65,8 @@ glm::vec2 pixels_of(const PlacedViewport& place) {
     return place.viewport.size * glm::vec2(place.window.size);
 }
 
-/// A pixel on the screen [m]. An eye that has half of the window is either stretched over the whole
-/// screen or comes from a projector of its own: of both, the squarer.
+/// Size of a pixel on the screen [m]. An eye with half of the window is either stretched over the
+/// whole screen or has its own projector: takes the one with squarer pixels.
 glm::vec2 pixel_size(const PlacedViewport& place) {
     const glm::vec2 whole = stereo::size_of(place.viewport.screen) / pixels_of(place);
     glm::vec2 half = whole;
@@ -79,7 +79,8 @@ glm::vec2 pixel_size(const PlacedViewport& place) {
     return oblong(half) < oblong(whole) ? half : whole;
 }
 
-/// Of corners that somebody gave: a screen that was left out is as it always is.
+/// Whether two screens have the same corners. Screens without configured corners do not count: all
+/// have the default ones.
 bool same_place(const stereo::Screen& a, const stereo::Screen& b) {
     const stereo::Screen usual;
     const bool given = a.lower_left != usual.lower_left || a.upper_right != usual.upper_right;
@@ -88,7 +89,7 @@ bool same_place(const stereo::Screen& a, const stereo::Screen& b) {
            glm::distance(a.upper_right, b.upper_right) < kSame;
 }
 
-/// Pixels of the desktop that two windows share, where both are told where to stand.
+/// Size of the area of the desktop that two windows share, if both have a configured position.
 glm::ivec2 shared_pixels(const stereo::Window& a, const stereo::Window& b) {
     const glm::ivec2 nowhere(-1);
     if (a.fullscreen || b.fullscreen || a.position == nowhere || b.position == nowhere ||
@@ -174,7 +175,7 @@ class Judge {
             seam(a, b);
     }
 
-    /// Two projectors on one wall show an eye each.
+    /// Checks two viewports on one wall, such as two projectors that show one eye each.
     void twins(const PlacedViewport& a, const PlacedViewport& b) {
         using stereo::StereoMode;
         const StereoMode first = a.window.stereo, second = b.window.stereo;
@@ -188,7 +189,7 @@ class Judge {
                 fmt::format("{} has the same corners as {}", name_of(b), name_of(a)), false);
     }
 
-    /// Walls that meet in a corner of the room share it to the width of a seam.
+    /// Checks that walls which meet in a corner of the room leave no gap wider than a seam.
     void seam(const PlacedViewport& a, const PlacedViewport& b) {
         const interaction::Pose anywhere;
         float widest = 0;
@@ -276,7 +277,7 @@ std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer&
             : fmt::format("; pixels {:.2f} x {:.2f} mm", millimeters.x, millimeters.y));
 }
 
-/// Which windows each node opens; nothing where there is one node.
+/// The windows that each node opens; empty if there is one node.
 std::string describe_nodes(const stereo::Installation& installation) {
     std::string text;
     const int nodes = stereo::node_count(installation);

@@ -1,4 +1,4 @@
-// What a configuration describes and what is wrong with it: `isochron explore --check-config`.
+// Describes a configuration and finds its problems: `isochron explore --check-config`.
 #pragma once
 
 #include "app/config/config.h"
@@ -12,18 +12,18 @@ namespace isochron::app {
 
 std::vector<ConfigProblem> problems_of(const Config& config);
 
-/// `cave.toml:12: windows.viewports.projection: it is mirrored`; `warning:` before what may be
-/// meant.
+/// The problem as a line, with `warning:` if it may be intended:
+/// `cave.toml:12: windows.viewports.projection: it is mirrored`.
 std::string line_of(const ConfigProblem& problem, const Config& config);
 
-/// @throws ConfigError with the first problem that is wrong, in one line
+/// @throws ConfigError with the first problem that is an error, in one line
 void expect_sound(const Config& config);
 
-/// Every viewer, window, viewport, screen and device, a line each.
+/// A line for each viewer, window, viewport, screen and device.
 std::string describe(const Config& config);
 
 /// Prints the description, then every problem.
-/// @throws ConfigError when the file cannot be read or something is wrong
+/// @throws ConfigError when the file cannot be read, or a problem is an error
 void check_config(const std::filesystem::path& path);
 
 } // namespace isochron::app

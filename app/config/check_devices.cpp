@@ -1,4 +1,4 @@
-// What is wrong with the devices of a configuration.
+// Finds the problems in the devices of a configuration.
 #include "app/config/check_devices.h"
 
 #include "app/config/tracker_setup.h"
@@ -21,7 +21,7 @@ int line_in(const std::vector<int>& lines, std::size_t index) {
 struct ListedDevice {
     const interaction::DeviceOptions& options;
     std::string key;    ///< of the tracker's table
-    std::string source; ///< what it is made of; two with the same one are one thing
+    std::string source; ///< the tracked body, sensor or channel that it reads
     int line;           ///< of the tracker
 };
 
@@ -53,7 +53,7 @@ std::vector<ListedDevice> listed(const DeviceConfig& devices) {
     return all;
 }
 
-/// Whether one of two addresses takes what is sent to the other.
+/// Whether one of two addresses also receives what is sent to the other.
 bool overlap(const interaction::Endpoint& a, const interaction::Endpoint& b) {
     const auto any = [](const std::string& address) {
         return address == "0.0.0.0" || address == "::";
@@ -80,7 +80,7 @@ class DeviceJudge {
         found_.push_back({line, key, text, wrong});
     }
 
-    /// Mouse and keyboard move `head`, a headset too; any other name is a tracker's.
+    /// Mouse, keyboard and a headset provide `head`; any other name needs a tracker.
     void heads() {
         const auto& viewers = config_.installation.viewers;
         for (std::size_t i = 0; i < viewers.size(); ++i) {

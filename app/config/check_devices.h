@@ -1,4 +1,4 @@
-// What is wrong with the devices of a configuration.
+// Finds the problems in the devices of a configuration.
 #pragma once
 
 #include "app/config/config.h"
@@ -8,8 +8,8 @@
 
 namespace isochron::app {
 
-/// Heads that nobody tracks, addresses that two trackers ask for, things that two devices are made
-/// of, and trackers that this program was built without.
+/// Heads without a tracker, ports that two trackers listen on, sources that two devices use, and
+/// trackers that this program was built without.
 std::vector<ConfigProblem> problems_of_devices(const Config& config);
 
 } // namespace isochron::app

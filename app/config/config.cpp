@@ -21,7 +21,7 @@ namespace {
 
 using interaction::QualityMode;
 
-constexpr std::uint64_t kMostBytes = 16 << 20; ///< of a configuration
+constexpr std::uint64_t kMostBytes = 16 << 20; ///< largest configuration file
 constexpr const char* kAnyFootprint = "auto";
 constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::mesh,
                                         render::Footprint::surface};
@@ -243,7 +243,8 @@ std::string config_schema() {
 }
 
 Config read_config(const std::filesystem::path& path) {
-    // A name without a slash or suffix is a shipped one, whatever lies in the working directory.
+    // A shipped name means the shipped configuration, even if the working directory has such a
+    // file.
     if (const auto shipped = shipped_config(path.string()))
         return parse_config(*shipped, path.string());
     std::string text;

@@ -1,4 +1,4 @@
-// An installation and its habits, as a TOML file describes them.
+// The configuration: an installation and the program's settings, read from a TOML file.
 #pragma once
 
 #include "app/config/cluster_config.h"
@@ -20,19 +20,20 @@
 
 namespace isochron::app {
 
-/// Where surfaces of interest tend to enclose a small part of the volume: a share of all values.
+/// Quantile at which the first surface starts by default: interesting surfaces tend to enclose a
+/// small part of the volume.
 constexpr double kFirstQuantile = 0.95;
 
-/// An isosurface to start with. Where its value does not come from the data, it is a quantile.
+/// An isosurface to start with, given as an isovalue or else as a quantile of the data's values.
 struct ConfiguredSurface {
     std::optional<double> isovalue;
-    double quantile; ///< of all values, 0 to 1
+    double quantile; ///< of all values, 0 to 1; used if there is no isovalue
     glm::vec3 color; ///< sRGB
     float opacity = 1.0f;
 };
 
-/// How colors blend: `linear` as light does, `display` in display values, which is faster on
-/// software GL; `automatic` takes that there, and linear light elsewhere.
+/// How colors blend: `linear` in linear light; `display` in display values, which is faster on
+/// software GL; `automatic` means `display` on software GL and `linear` on a GPU.
 enum class Blending : std::uint8_t { automatic, linear, display };
 
 struct Config {
@@ -42,7 +43,7 @@ struct Config {
     bool vsync = true;
     float frame_rate_limit = 120.0f; ///< [1/s] where no display paces the frames
     stereo::Installation installation;
-    DisplayPlaces places; ///< where the file describes the installation's parts
+    DisplayPlaces places; ///< lines of the file that describe the installation's parts
     interaction::EmulationOptions emulation;
     DeviceConfig devices;
     ClusterConfig cluster;
@@ -52,18 +53,18 @@ struct Config {
     PanelConfig panel;
     bool grid = false; ///< floor grid shown at the start
     interaction::QualityMode quality = interaction::QualityMode::automatic;
-    /// What a settled picture is drawn with, whatever it costs; empty: the best that fits the
-    /// budget (in a fixed-step replay, which measures nothing, the best there is).
+    /// Footprint of a settled picture, whatever it costs; empty: the best one within the budget
+    /// (the best one of all in a fixed-step replay, which measures nothing).
     std::optional<render::Footprint> settled_footprint;
-    /// What quads and splats stand for.
+    /// The part of a cell that a quad or splat stands for.
     render::CellShape cell_shape = render::CellShape::plane;
-    double frame_budget_ms = 0;   ///< that drawing may take; 0: one period of the display
-    double still_budget_ms = 500; ///< likewise, once, of a picture that has come to rest
+    double frame_budget_ms = 0;   ///< [ms] for drawing a frame; 0: one period of the display
+    double still_budget_ms = 500; ///< [ms] for drawing, once, a picture that has come to rest
     PlacementOptions placement;
-    int upload_kilobytes_per_frame = 4096;        ///< cells sent to the GPU per frame at most
+    int upload_kilobytes_per_frame = 4096;        ///< most data of cells sent to the GPU per frame
     glm::vec3 background{0.055f, 0.063f, 0.078f}; ///< sRGB
     glm::vec3 surface_color{0.94f, 0.86f, 0.70f}; ///< sRGB
-    std::vector<ConfiguredSurface> surfaces;      ///< none: one of surface_color
+    std::vector<ConfiguredSurface> surfaces;      ///< empty: one surface of surface_color
     interaction::Coloring coloring;
     render::CellAppearance appearance; ///< light and material
     Blending blending = Blending::automatic;
@@ -74,9 +75,9 @@ struct Config {
     int mesh_megabytes = 192; ///< that the triangles of a set may take; 0: none are made
     bool bounding_box = true; ///< with ticks and numbers
     bool wand_ray = true;
-    bool picture_ray = false;     ///< pictures that are written show it, too
-    bool picture_caption = false; ///< and say isovalue and time
-    /// Nobody looks on: what is drawn is written, so that each picture is drawn once, as it is kept.
+    bool picture_ray = false;     ///< written pictures show the wand's ray, too
+    bool picture_caption = false; ///< written pictures show isovalue and time
+    /// No window shows the pictures: each is drawn once, directly as the picture to keep.
     bool only_kept = false;
 
     /// As IndexFile::open takes it.
@@ -86,25 +87,26 @@ struct Config {
 };
 
 /// @param name stands before the line number in messages
-/// @throws ConfigError naming file, line, key and, for an unknown one, the nearest known key
+/// @throws ConfigError naming file, line and key, and for an unknown key the nearest known one
 Config parse_config(const std::string& text, const std::string& name);
 
 /// @param path a file, or the name of a shipped configuration (`desktop`, `cave4`, ...)
 /// @throws ConfigError as above, or when the file cannot be read
 Config read_config(const std::filesystem::path& path);
 
-/// What a configuration may hold, as editors and other programs check it (JSON Schema, draft 7): the
-/// readers above tell it, so that it says what they accept. Shipped as
+/// The JSON schema (draft 7) of configuration files, for editors and other programs. It is made
+/// from the readers above, so it allows exactly what they accept. Shipped as
 /// configs/isochron.schema.json.
 std::string config_schema();
 
-/// The emulation's options with the field of view of the first window's first screen.
+/// The emulation's options, with the field of view of the first window's first screen.
 interaction::EmulationOptions emulation_for(const Config& config);
 
 /// Names as configuration files and the command line use them.
 interaction::QualityMode quality_mode_from_name(const std::string& name); ///< @throws ConfigError
 std::vector<std::string> stereo_mode_names();
-/// `auto` (empty), `gaussian`, `surface`: what a settled picture is drawn with.
+/// `auto` (empty), `gaussian`, `mesh`, `surface`: the footprint of a settled picture.
+/// @throws ConfigError for any other name
 std::optional<render::Footprint> settled_footprint_from_name(const std::string& name);
 std::vector<std::string> settled_footprint_names();
 /// `plane`, `voxel`. @throws ConfigError

@@ -1,16 +1,16 @@
-// What can be wrong with a configuration.
+// A problem that a check found in a configuration.
 #pragma once
 
 #include <string>
 
 namespace isochron::app {
 
-/// Something in a configuration that reads well and yet will not work, or only looks odd.
+/// Part of a configuration that can be read but will not work, or that only looks odd.
 struct ConfigProblem {
-    int line = 0;    ///< of the file; 0: it stands nowhere
+    int line = 0;    ///< of the file; 0: it is not in the file
     std::string key; ///< `windows.viewports.projection`
     std::string text;
-    bool wrong = true; ///< false: worth a look, but it may be meant
+    bool wrong = true; ///< an error; false: a warning, as it may be intended
 };
 
 } // namespace isochron::app

@@ -14,7 +14,7 @@ namespace {
 
 using namespace interaction;
 
-constexpr double kRoom = 1000; ///< [m] any installation lies within
+constexpr double kRoom = 1000; ///< [m] larger than any installation
 constexpr double kDegree = 0.01745329252;
 
 void milliseconds(TomlReader& reader, std::string_view key, double high, Seconds& into) {
@@ -35,7 +35,7 @@ void pose(TomlReader& reader, std::string_view position, std::string_view orient
                                           glm::length(into.position)));
 }
 
-/// `[tracking]`: what holds for every device unless it says otherwise.
+/// `[tracking]`: the defaults of every device.
 void read_filter(TomlReader& reader, PoseFilterLimits& limits, PredictionOptions& prediction) {
     double turn = limits.fastest_turn / kDegree;
     reader.number("fastest", 0.1, 1000.0, limits.fastest);
@@ -52,7 +52,7 @@ void read_filter(TomlReader& reader, PoseFilterLimits& limits, PredictionOptions
     milliseconds(reader, "smoothing_ms", 500, prediction.smoothing);
 }
 
-/// What a table of a tracker gives to all of its devices.
+/// Reads the settings that all devices of a tracker share.
 void read_tracker(TomlReader& reader, DeviceOptions& common) {
     pose(reader, "position", "orientation", common.calibration.room_from_tracker);
     reader.number("scale", 1e-6, 1e6, common.calibration.scale);
@@ -86,7 +86,7 @@ void read_device(TomlReader& reader, DeviceOptions& device) {
                                     factors.empty() ? 1.0f : static_cast<float>(factors[i])});
 }
 
-/// The devices of one tracker, each starting from what is common to them. Their names differ.
+/// Reads the devices of one tracker, each starting from the shared settings. Names must differ.
 template <typename Device>
 void read_devices_of(TomlReader& reader, const DeviceOptions& common, std::vector<Device>& into,
                      const std::function<void(TomlReader&, Device&)>& read_rest) {
@@ -111,7 +111,7 @@ void read_endpoint(TomlReader& reader, Endpoint& endpoint) {
     reader.integer("port", 1, 65535, endpoint.port);
 }
 
-/// `from`: whose datagrams count.
+/// `from`: the only sender whose datagrams are accepted.
 void read_sender(TomlReader& reader, std::optional<Endpoint>& from) {
     std::string text;
     reader.text("from", text);

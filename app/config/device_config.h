@@ -12,12 +12,12 @@
 
 namespace isochron::app {
 
-/// Lines of the file in which the trackers stand, in their order.
+/// Lines of the file that describe the trackers, in the order of the trackers.
 struct DevicePlaces {
     std::vector<int> dtrack, osc, vrpn;
 };
 
-/// Each source may appear several times.
+/// The trackers, any number of each kind.
 struct DeviceConfig {
     std::vector<interaction::DTrackOptions> dtrack;
     std::vector<interaction::OscOptions> osc;

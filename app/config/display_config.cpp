@@ -12,7 +12,7 @@ namespace isochron::app {
 namespace {
 
 constexpr int kFarthestPixel = 65536; ///< from a desktop's corner
-constexpr float kThinnest = 1e-3f;    ///< [m] a screen that is thinner is a slip
+constexpr float kThinnest = 1e-3f;    ///< [m] a narrower screen is a mistake
 
 void read_screen(TomlReader& reader, stereo::Screen& screen) {
     reader.vector("lower_left", screen.lower_left);
@@ -21,7 +21,7 @@ void read_screen(TomlReader& reader, stereo::Screen& screen) {
     reader.word("carried_by", {"room", "head"},
                 [&](const std::string& word) { screen.carried_by_head = word == "head"; });
     reader.flag("fit_aspect", screen.fit_aspect);
-    // The corners of another screen are no substitute for one that was forgotten.
+    // If some corners are given, all must be: a missing one must not keep its default.
     const std::array kCorners{"lower_left", "upper_left", "upper_right"};
     const auto given = std::count_if(kCorners.begin(), kCorners.end(),
                                      [&](const char* corner) { return reader.has(corner); });
@@ -87,8 +87,8 @@ DisplayPlaces::Window read_window(TomlReader& reader, const std::vector<std::str
     return place;
 }
 
-/// Refuses a name that one of its kind has already: names tell windows and viewers apart in
-/// messages and in the names of pictures.
+/// Refuses a name that another window (or viewer) has already: messages and picture names tell them
+/// apart by name.
 template <typename Named>
 void refuse_twin(const TomlReader& reader, const std::vector<Named>& all, const char* what) {
     const std::string& name = all.back().name;

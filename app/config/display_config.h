@@ -8,11 +8,11 @@
 
 namespace isochron::app {
 
-/// Lines of the file, in the order of what they describe; 0 for what stands in no file.
+/// Lines of the file that describe viewers, windows and viewports; 0 if none does.
 struct DisplayPlaces {
     struct Window {
         int line = 0;
-        std::vector<int> viewports; ///< of their screens, where these have a table of their own
+        std::vector<int> viewports; ///< line of a viewport's screen, if that has its own table
     };
     std::vector<int> viewers;
     std::vector<Window> windows;

@@ -1,4 +1,4 @@
-// Writing of an installation as TOML.
+// Writes an installation as TOML.
 #include "app/config/display_config_text.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ std::string quoted(const std::string& text) {
     return result + '"';
 }
 
-/// The fewest digits that read as the same number.
+/// With the fewest digits that read back as the same number.
 std::string numbers(const glm::vec2& v) {
     return fmt::format("[{}, {}]", v.x, v.y);
 }

@@ -1,4 +1,4 @@
-// Writing of an installation as the TOML that `read_displays` reads.
+// Writes an installation as the TOML that `read_displays` reads.
 #pragma once
 
 #include "stereo/installation.h"
@@ -7,7 +7,7 @@
 
 namespace isochron::app {
 
-/// A configuration that describes the installation and nothing else; read again it is the same one.
+/// A configuration that describes only the installation; reading it gives the same installation.
 std::string display_config_text(const stereo::Installation& installation);
 
 } // namespace isochron::app

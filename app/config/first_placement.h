@@ -1,4 +1,4 @@
-// Where a volume first stands in the room.
+// Where a volume stands in the room at first.
 #pragma once
 
 #include "index/volume/volume_series.h"

@@ -1,4 +1,4 @@
-// Reading and description of the `[openxr]` table, and the opening of what it asks for.
+// Reads and describes the `[openxr]` table, and opens the headset that it asks for.
 #include "app/config/openxr_config.h"
 
 #include "stereo/openxr/openxr_headset.h"
@@ -113,7 +113,7 @@ static std::unique_ptr<stereo::Headset> open_runtime(const stereo::OpenXrOptions
 std::unique_ptr<stereo::Headset> open_headset(const OpenXrConfig& config) {
     if (!config.enabled)
         return nullptr;
-    // What a missing runtime means is said here, in one line; the loader would add five.
+    // This function reports a missing runtime in one line; the loader would add five.
     if (!config.verbose)
         setenv("XR_LOADER_DEBUG", "none", 0); // NOLINT(concurrency-mt-unsafe): before threads
     stereo::OpenXrOptions options = config.options;

@@ -12,11 +12,11 @@
 
 namespace isochron::app {
 
-/// What is done at the start without a runtime.
+/// What the program does when it starts and there is no OpenXR runtime.
 enum class WithoutRuntime : std::uint8_t {
     fail,
-    window, ///< the windows are shown as configured, and no headset is looked for
-    wait    ///< the windows show the scene until there is one
+    window, ///< shows the windows as configured, and does not look for a headset
+    wait    ///< shows the scene in the windows until a runtime appears
 };
 
 struct OpenXrConfig {
@@ -30,16 +30,15 @@ struct OpenXrConfig {
 /// @throws ConfigError as TomlReader does
 void read_openxr(TomlReader& reader, OpenXrConfig& config);
 
-/// What is configured, a line each; nothing where it is not enabled.
+/// The settings in words, a line each; empty if OpenXR is not enabled.
 std::vector<std::string> describe_openxr(const OpenXrConfig& config);
 
-/// Whether this program can show through OpenXR at all.
+/// Whether this program was built with OpenXR.
 bool built_with_openxr();
 
-/// @param config whose options are complete
-/// @return null where OpenXR is not enabled, or where none answers and the fallback is configured,
-/// which is told on stderr
-/// @throws render::Error in one line when there is no runtime
+/// @return null if OpenXR is not enabled, or if there is no runtime and the fallback is `window`;
+/// then stderr tells
+/// @throws render::Error in one line when there is no runtime and the fallback is `fail`
 std::unique_ptr<stereo::Headset> open_headset(const OpenXrConfig& config);
 
 } // namespace isochron::app

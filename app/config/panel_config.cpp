@@ -1,4 +1,4 @@
-// Reading of the tables about panels.
+// Reads the tables `panel` and `console`.
 #include "app/config/panel_config.h"
 
 #include <fmt/format.h>

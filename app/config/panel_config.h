@@ -11,9 +11,9 @@ namespace isochron::app {
 struct PanelConfig {
     bool room = false;      ///< the panel stands in the room from the start
     float width = 0.46f;    ///< [m] of the panel in the room
-    float distance = 0.65f; ///< [m] from the eyes at which it appears
-    float font_scale = 1; ///< size of the panels over pictures and in windows, times the desktop's
-    /// A window that shows nothing but the panel; viewports and stereo mode count for nothing.
+    float distance = 0.65f; ///< [m] from the eyes, at which it appears
+    float font_scale = 1;   ///< size of the other panels, times the desktop's scale
+    /// A window that shows only the panel; its viewports and stereo mode are ignored.
     std::optional<stereo::Window> console;
 };
 

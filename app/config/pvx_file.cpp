@@ -1,4 +1,4 @@
-// Reading of .pvx: the only file that knows the XML library.
+// Reads .pvx files; the only source that includes the XML library.
 #include "app/config/pvx_file.h"
 
 #include "app/config/toml_reader.h"
@@ -22,13 +22,13 @@ namespace {
 using stereo::StereoMode;
 using tinyxml2::XMLElement;
 
-constexpr float kUsualSeparation = 0.065f; ///< [m] ParaView's, where the file gives none
+constexpr float kUsualSeparation = 0.065f; ///< [m] ParaView's default between the eyes
 constexpr int kMostViewers = 64;
-constexpr int kMostNode = 255;    ///< that a configuration may name
-constexpr float kFarthest = 1e6f; ///< [m] that a configuration may hold
+constexpr int kMostNode = 255;    ///< largest node number of a configuration
+constexpr float kFarthest = 1e6f; ///< [m] largest coordinate in a configuration
 
-/// ParaView's words. Its red-blue and anaglyph pictures are for the glasses of our red-cyan one;
-/// its interlaced one alternates rows, and Dresden's display columns.
+/// ParaView's names of stereo modes. Its red-blue and anaglyph pictures are for the same glasses as
+/// our red-cyan mode; `Interlaced` alternates rows, `Dresden` columns.
 constexpr std::array<std::pair<std::string_view, StereoMode>, 9> kStereoTypes{{
     {"Crystal Eyes", StereoMode::quadbuffer},
     {"Red-Blue", StereoMode::anaglyph_red_cyan},
@@ -71,7 +71,7 @@ class PvxReader {
             one_line(fmt::format("{}:{}: {}", file_, element.GetLineNum(), what)));
     }
 
-    /// The `Process` of the server, else the last one; files of newer versions have none.
+    /// The `Process` element of the server, else the last one; newer files have none.
     static const XMLElement& process_of(const XMLElement& root) {
         const XMLElement* chosen = &root;
         for (const XMLElement* each = root.FirstChildElement("Process"); each;
@@ -170,8 +170,8 @@ class PvxReader {
         return window;
     }
 
-    /// From three corners; UpperLeft is how files from before 2012 give the third one. A machine
-    /// without any shows what its viewer sees, as a window on a desktop does.
+    /// Makes a screen from three corners; files from before 2012 give UpperLeft as the third one. A
+    /// machine without corners gets a desktop screen before its viewer.
     stereo::Screen read_screen(const XMLElement& machine, const std::string& name) {
         const auto has = [&](const char* corner) { return machine.Attribute(corner) != nullptr; };
         if (!has("LowerLeft") && !has("LowerRight") && !has("UpperRight") && !has("UpperLeft")) {

@@ -1,4 +1,4 @@
-// ParaView's description of a CAVE, a .pvx file, as an installation.
+// Imports ParaView's description of a CAVE, a .pvx file, as an installation.
 #pragma once
 
 #include "stereo/installation.h"
@@ -16,17 +16,17 @@ struct PvxOptions {
 
 struct PvxImport {
     stereo::Installation installation;
-    std::vector<std::string> notes; ///< what the file says that an installation does not hold
+    std::vector<std::string> notes; ///< what of the file an installation cannot hold, a line each
 };
 
-/// A window with one viewport for each `Machine`, a viewer for each `ViewerId`, who stands at the
-/// file's origin until a tracker tells. The attributes are those of ParaView's
-/// `Remoting/Core/vtkDisplayConfiguration.cxx`.
+/// Makes a window with one viewport for each `Machine`, and a viewer for each `ViewerId`, who
+/// stands at the file's origin until a tracker gives a position. Reads the attributes that
+/// ParaView's `Remoting/Core/vtkDisplayConfiguration.cxx` reads.
 /// @param name of the file, for messages
 /// @throws ConfigError in one line, with the file and the line
 PvxImport parse_pvx(const std::string& text, const std::string& name, const PvxOptions& options);
 
-/// As above, of a file. @throws ConfigError also when it cannot be read
+/// The same for a file. @throws ConfigError also when it cannot be read
 PvxImport read_pvx(const std::filesystem::path& path, const PvxOptions& options);
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// The shipped configurations, which are found without their files.
+// The shipped configurations, compiled into the program.
 #pragma once
 
 #include <optional>

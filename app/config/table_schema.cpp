@@ -22,7 +22,7 @@ ordered_json limited(const char* type, T low, T high) {
     return schema;
 }
 
-/// @param most 0: as many as there are
+/// @param most 0: no limit
 ordered_json array_of(ordered_json items, std::size_t least, std::size_t most = 0) {
     ordered_json schema{{"type", "array"}};
     if (least > 0)

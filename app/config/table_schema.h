@@ -1,4 +1,4 @@
-// The JSON schema of a configuration, noted down while the readers of its tables run.
+// The JSON schema of a configuration, made while the readers of its tables run.
 //
 //     TableSchema schema;
 //     TomlReader reader(schema);
@@ -13,8 +13,8 @@
 
 namespace isochron::app {
 
-/// One table: which keys it may hold, and what each may be. What a reader checks beyond a key's own
-/// kind and range, such as two keys that exclude each other, is no part of it.
+/// One table: its keys, and the type and range of each. Checks that involve several keys, such as
+/// two keys that exclude each other, are not part of it.
 class TableSchema {
   public:
     TableSchema();
@@ -22,7 +22,7 @@ class TableSchema {
     TableSchema(TableSchema&&) noexcept;
     TableSchema& operator=(TableSchema&&) noexcept;
 
-    /// Each notes a key; one that is named again keeps its place and takes the new meaning.
+    /// Each adds a key. A key that is added again keeps its place and takes the new meaning.
     /// Limits that no double reaches are left out.
     void number(std::string_view key, double low, double high);
     void integer(std::string_view key, int low, int high);
@@ -37,8 +37,8 @@ class TableSchema {
     enum class Times { once, array, either };
     void table(std::string_view key, const TableSchema& inner, Times times);
 
-    /// The whole schema (JSON Schema, draft 7) of a file whose top level this is, ending in a new
-    /// line.
+    /// The whole schema (JSON Schema, draft 7) of a file with this table as its top level; ends in
+    /// a new line.
     std::string text() const;
 
   private:

@@ -43,7 +43,7 @@ std::string type_name(const toml::node& node) {
     }
 }
 
-/// Keys and words that were spelled in another way up to version 0.1, and how they are now.
+/// Keys and words that had another spelling up to version 0.1, and their spelling now.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kSpellings{{
     {"colour", "color"},
     {"surface_colour", "surface_color"},
@@ -51,7 +51,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kSpelling
     {"grey", "gray"},
 }};
 
-/// Empty where there was no other.
+/// Empty if there was no other spelling.
 std::string_view old_spelling(std::string_view now) {
     for (const auto& [old, current] : kSpellings)
         if (current == now)
@@ -68,7 +68,7 @@ std::string_view new_spelling(std::string_view word) {
 
 constexpr double kFar = 1e6; ///< meters or pixels: beyond any installation
 
-/// What a reader that describes has before it.
+/// The empty table of a reader that describes.
 const toml::table& nothing() {
     static const toml::table kNothing;
     return kNothing;
@@ -86,7 +86,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
             nearest = candidate;
         }
     }
-    // Farther than half of the word is a different word, not a slip.
+    // A distance above half of the word's length means a different word, not a typing error.
     return best <= std::max<std::size_t>(2, word.size() / 2) ? nearest : std::string();
 }
 
@@ -339,7 +339,7 @@ void TomlReader::finish() const {
         };
         if (knows(name))
             continue;
-        // An old spelling beside the new one would be left out in silence.
+        // Accept the old spelling only without the new one: else it would be ignored silently.
         const std::string_view now = new_spelling(name);
         if (now != name && knows(now) && !table_.contains(now))
             continue;

@@ -1,4 +1,5 @@
-// Checked reading of a TOML table: every key is known, typed and in range, or the error says where.
+// Checked reading of a TOML table: every key is known, typed and in range, else an error says
+// where.
 #pragma once
 
 #include "app/config/table_schema.h"
@@ -6,8 +7,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-// The parser asserts that a key begins with a character of a key, and right behind that has a clean
-// error for keys that do not: damaged files get the error in every build.
+// The parser asserts that a key begins with a valid character, right before it reports an error for
+// keys that do not. Without its assertion, damaged files give that error in every build.
 #define TOML_ASSERT(expression) static_assert(true)
 #include <toml++/toml.h>
 
@@ -26,16 +27,16 @@ class ConfigError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// One table while it is read. Each call names a key that may be present and leaves the target
-/// alone when it is absent; `finish` then refuses every key that no call named.
+/// Reads one table. Each call names a key; if the key is absent, its target stays as it is.
+/// `finish` then refuses every key that no call named.
 ///
-/// The same calls describe a table instead of reading one: then nothing is present, nothing fails,
-/// the reader of every inner table runs once, and the schema takes note of all keys.
+/// The same calls can also describe a table instead of reading one: then no key is present, nothing
+/// fails, the reader of every inner table runs once, and the schema notes all keys.
 class TomlReader {
   public:
-    /// @param where the table's name for messages: `windows.viewports`
+    /// Reads `table`. @param where the table's name for messages: `windows.viewports`
     TomlReader(const toml::table& table, std::string file, std::string where);
-    /// Describes. @param schema outlives this
+    /// Describes a table. @param schema outlives this
     explicit TomlReader(TableSchema& schema);
 
     /// Numbers must be finite and in [low, high].
@@ -53,18 +54,18 @@ class TomlReader {
               std::vector<double>& into);
     void integers(std::string_view key, int low, int high, glm::ivec2& into);
 
-    /// A word out of a closed set; `parse` returns false for a word it does not know.
+    /// One of `words`; `take` gets it. Any other word is refused.
     void word(std::string_view key, const std::vector<std::string>& words,
               const std::function<void(const std::string&)>& take);
 
-    /// A word out of those that the file itself has given, such as the names of its viewers.
+    /// One of the words that the file itself defines, such as the names of its viewers.
     void given_word(std::string_view key, const std::vector<std::string>& words,
                     const std::function<void(const std::string&)>& take);
 
     int line() const { return static_cast<int>(table_.source().begin.line); } ///< of the table
     bool has(std::string_view key) const { return find(key) != nullptr; }
 
-    /// A sub-table, or an array of tables, each read by `read` and finished after it.
+    /// A sub-table, or an array of tables. `read` reads each of them; `finish` follows.
     /// @return false when absent
     bool table(std::string_view key, const std::function<void(TomlReader&)>& read);
     bool tables(std::string_view key, const std::function<void(TomlReader&)>& read);
@@ -73,15 +74,15 @@ class TomlReader {
 
     void finish() const;
 
-    /// Throws with the place of `key`, or of the table when the key is absent; returns only where
-    /// a table is described, of which nothing is known.
+    /// Throws ConfigError with the place of `key`, or of the table if the key is absent. Returns
+    /// only while describing a table.
     void fail(std::string_view key, const std::string& message) const;
 
   private:
     [[noreturn]] void refuse(std::string_view key, const std::string& message) const;
     void describe(std::string_view key, const std::function<void(TomlReader&)>& read,
                   TableSchema::Times times);
-    /// Under its name, or under the one that older files have for it.
+    /// The value of a key under its name, or under its spelling in older files.
     const toml::node* find(std::string_view key) const;
     const toml::node* get(std::string_view key);
     double finite_number(std::string_view key, const toml::node& node, double low,
@@ -89,7 +90,7 @@ class TomlReader {
     std::vector<double> numbers(std::string_view key, const toml::node& node,
                                 std::size_t count) const;
 
-    TableSchema* schema_ = nullptr; ///< where it describes
+    TableSchema* schema_ = nullptr; ///< where the keys are noted; null: reads
     const toml::table& table_;
     std::string file_;
     std::string where_;

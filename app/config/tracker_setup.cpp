@@ -1,4 +1,4 @@
-// Opens the trackers of a configuration, and says in words what they are.
+// Opens the trackers of a configuration, and describes them in words.
 #include "app/config/tracker_setup.h"
 
 #include "interaction/recording/recording.h"
@@ -29,7 +29,7 @@ std::string in_words(const Pose& pose) {
                        tidy(up.x), tidy(up.y), tidy(up.z));
 }
 
-/// Where a tracker stands, as its devices have it.
+/// Describes where a tracker stands, from the calibration of its devices.
 void describe_place(const Calibration& calibration, std::vector<std::string>& lines) {
     lines.push_back(fmt::format("  in the room {}{}", in_words(calibration.room_from_tracker),
                                 calibration.scale == 1.0
@@ -123,7 +123,7 @@ std::string source_of(const VrpnDevice& device) {
 } // namespace
 
 void open_trackers(const Config& config, CompositeInput& input) {
-    // What cannot be opened is named with the place that asks for it.
+    // Errors name the place in the file of the tracker that cannot be opened.
     const auto open_all = [&](const char* kind, const auto& trackers, const std::vector<int>& lines,
                               auto&& open) {
         for (std::size_t i = 0; i < trackers.size(); ++i) {

@@ -1,4 +1,4 @@
-// Opens the trackers of a configuration, and says in words what they are.
+// Opens the trackers of a configuration, and describes them in words.
 #pragma once
 
 #include "app/config/config.h"
@@ -10,12 +10,12 @@
 namespace isochron::app {
 
 /// Adds every configured tracker to `input`.
-/// @throws interaction::Error naming file, line and tracker: an address that cannot be bound, or a kind that
-/// this program was built without
+/// @throws interaction::Error naming file, line and tracker: when an address cannot be bound, or
+/// the program was built without this kind of tracker
 void open_trackers(const Config& config, interaction::CompositeInput& input);
 
-/// A line for each tracker and, indented, several for each of its devices: where it comes from, how
-/// it is calibrated, when it counts as lost. Opens nothing.
+/// A line for each tracker and several indented lines for each of its devices: source, calibration,
+/// and when it counts as lost. Opens nothing.
 std::vector<std::string> describe_devices(const Config& config);
 
 /// A tracker that the configuration asks for and this program was built without.
@@ -25,7 +25,7 @@ struct MissingTracker {
 };
 std::vector<MissingTracker> missing_trackers(const Config& config);
 
-/// What is odd about the devices, one line each; empty when nothing is.
+/// Warnings about the devices, one line each; empty if there are none.
 std::vector<std::string> device_warnings(const Config& config);
 
 } // namespace isochron::app

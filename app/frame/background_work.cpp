@@ -40,7 +40,7 @@ void BackgroundWork::finish() {
 
 void BackgroundWork::work(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    // A stop ends the wait, not the work: what was asked for is still done.
+    // A stop ends only the waiting: tasks in the queue are still done.
     while (changed_.wait(lock, stop, [&] { return !tasks_.empty(); })) {
         const Task task = std::move(tasks_.front());
         tasks_.pop_front();

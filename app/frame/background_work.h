@@ -1,4 +1,4 @@
-// Work that may wait for a disk, on a thread of its own, so that no frame waits for it.
+// Work that may wait for a disk, done on its own thread so that no frame waits.
 #pragma once
 
 #include <condition_variable>
@@ -17,15 +17,15 @@ class BackgroundWork {
     using Task = std::function<std::string()>;
 
     BackgroundWork();
-    ~BackgroundWork(); ///< does what is still waiting
+    ~BackgroundWork(); ///< completes the tasks that still wait
 
-    /// Tasks are done one after another, in order. Never waits.
+    /// Adds a task and returns at once. Tasks run one after another, in order.
     void post(Task task);
 
-    /// Blocks until few tasks wait: for replays, which can draw faster than a disk writes.
+    /// Blocks until only a few tasks wait: for replays, which can draw faster than a disk writes.
     void wait_for_room();
 
-    /// What tasks returned, or why they failed, since the last call.
+    /// What the tasks returned since the last call, or why they failed.
     std::vector<std::string> messages();
 
     /// Blocks until everything is done. @throws index::Error with the first failure
@@ -40,7 +40,7 @@ class BackgroundWork {
     bool working_ = false;
     std::vector<std::string> messages_;
     std::string first_failure_;
-    std::jthread worker_; ///< last: started when all else is ready, joined before it goes
+    std::jthread worker_; ///< last member: starts after, and joins before, all the others
 };
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// Decides when a capture that was asked for may be taken.
+// Decides when a wanted capture is taken.
 #include "app/frame/capture_wait.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// How well each tracked device was followed in a frame.
+// How well each device was tracked in a frame.
 #include "app/frame/device_tracking.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// How well each tracked device was followed in a frame: for the panel and the report.
+// How well each device was tracked in a frame: for the panel and the report.
 #pragma once
 
 #include "interaction/tracked_input.h"
@@ -15,7 +15,7 @@ struct DeviceTracking {
     std::optional<interaction::Seconds> age; ///< of the measurement; empty: none has ever come
 };
 
-/// Devices that a tracker follows; what mouse and keyboard emulate is always as it should be.
+/// The devices that a tracker follows, without those that mouse and keyboard emulate.
 std::vector<DeviceTracking> tracking_of(const interaction::InputState& input);
 
 /// `head: tracked, 4 ms old`, `wand: lost for 3.2 s`, `wand: not seen yet`.

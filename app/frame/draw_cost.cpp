@@ -1,4 +1,4 @@
-// What drawing costs.
+// The cost of drawing, by weighted least squares.
 #include "app/frame/draw_cost.h"
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 namespace isochron::app {
 namespace {
 
-constexpr double kKept = 0.9;   ///< weight of a measurement against the next one
-constexpr double kRidge = 1e-3; ///< what decides where the measurements leave both parts open
+constexpr double kKept = 0.9;   ///< weight of a measurement relative to the next one
+constexpr double kRidge = 1e-3; ///< makes the fit unique if the measurements do not
 
 } // namespace
 
@@ -27,7 +27,7 @@ void DrawCost::add(const DrawLoad& load, Milliseconds time) {
 std::optional<Milliseconds> DrawCost::predict(const DrawLoad& load) const {
     if (weight_ == 0)
         return std::nullopt;
-    // In units of the mean load, so that neither part is favored by its unit.
+    // In units of the mean load, so that the units favor neither part.
     const double p = pixels_ / weight_, c = cells_ / weight_;
     if (p <= 0 && c <= 0)
         return Milliseconds(time_ / weight_);

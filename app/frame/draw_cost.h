@@ -1,4 +1,4 @@
-// What drawing costs: a forgetful model of one footprint's time by cells and pixels.
+// The cost of drawing: predicts one footprint's time from cells and pixels; forgets old frames.
 #pragma once
 
 #include "app/frame/milliseconds.h"
@@ -7,16 +7,16 @@
 
 namespace isochron::app {
 
-/// What one frame draws, of all its eyes and windows together.
+/// The amount that one frame draws, summed over all eyes and windows.
 struct DrawLoad {
     double cells = 0;  ///< each counted once per view
     double pixels = 0; ///< of the views
     bool operator==(const DrawLoad&) const = default;
 };
 
-/// `time = a * pixels + b * cells` with a, b >= 0, fitted to what was measured by weighted least
-/// squares in which every measurement weighs less than the next. Where the measurements do not tell
-/// the two parts apart (all of one load), each gets half.
+/// `time = a * pixels + b * cells` with a, b >= 0, fitted to the measurements by weighted least
+/// squares in which older ones weigh less. If the measurements cannot tell the two parts apart
+/// (all have one load), each part gets half.
 class DrawCost {
   public:
     void add(const DrawLoad& load, Milliseconds time);

@@ -1,4 +1,4 @@
-// What the frames' drawing took.
+// GPU and processor time of drawing each frame.
 #include "app/frame/draw_meter.h"
 
 #include <cassert>

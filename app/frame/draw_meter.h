@@ -1,4 +1,4 @@
-// What the frames' drawing took: GPU and processor time, brought together when both are known.
+// GPU and processor time of drawing each frame, combined when both are known.
 #pragma once
 
 #include "app/frame/draw_cost.h"
@@ -13,21 +13,21 @@
 
 namespace isochron::app {
 
-/// One frame that was drawn.
+/// One drawn frame.
 struct DrawSample {
     std::uint64_t frame = 0;
     render::Footprint footprint = render::Footprint::quad;
     DrawLoad load;
-    Milliseconds processor{0};       ///< until the last command was given
-    std::optional<Milliseconds> gpu; ///< from the first to the last command's execution
+    Milliseconds processor{0};       ///< to give all commands
+    std::optional<Milliseconds> gpu; ///< to execute them, from the first to the last
     bool operator==(const DrawSample&) const = default;
 
-    /// What the frame rate feels: both work at the same time, so the slower one counts.
+    /// The time that limits the frame rate: both work at the same time, so the slower one counts.
     Milliseconds cost() const { return std::max(processor, gpu.value_or(processor)); }
 };
 
-/// Where the driver has no timestamps that can be true, the processor's time stands alone. Software
-/// GL draws on the processor, partly while commands are given: there too the slower one counts.
+/// If the driver has no credible timestamps, only the processor's time is measured. Software GL
+/// draws on the processor, partly while commands are given: there, too, the slower time counts.
 class DrawMeter {
   public:
     explicit DrawMeter(const render::Gl& gl) : timer_(gl) {}
@@ -36,8 +36,8 @@ class DrawMeter {
     /// @param processor time of giving the commands
     void end(render::Footprint footprint, const DrawLoad& load, Milliseconds processor);
 
-    /// Frames whose times are known by now, in their order, each once. Waits for nothing; a frame
-    /// drawn while the GPU is far behind is left out.
+    /// Frames whose times have become known since the last call, in order. Does not wait; leaves
+    /// out frames that were drawn while the GPU was far behind.
     std::vector<DrawSample> finished();
 
   private:
@@ -46,7 +46,7 @@ class DrawMeter {
     std::deque<DrawSample> under_way_;
     std::vector<DrawSample> finished_;
     std::uint64_t frame_ = 0; ///< between begin and end
-    bool timed_ = false;      ///< likewise
+    bool timed_ = false;      ///< the GPU timer measures this frame
 };
 
 } // namespace isochron::app

@@ -19,7 +19,7 @@ using interaction::Field;
 static_assert(interaction::kMostIsosurfaces == index::kMostSurfaces,
               "what commands may ask for is what is searched and drawn");
 
-// Whether a state can hold a value: numbers are finite and within their field's limits.
+// Whether a value is valid: numbers are finite and within their field's limits.
 
 template <class T>
 bool holds(const Field& field, const T& value) {
@@ -56,7 +56,7 @@ bool is_place(const glm::dvec3& place) {
     return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
 }
 bool holds(const Field&, const interaction::ClipPlane& clip) {
-    constexpr double kOff = 1e-6; ///< of a unit vector's length
+    constexpr double kOff = 1e-6; ///< tolerance of a unit vector's length
     return is_place(clip.point) && std::abs(glm::length(clip.normal) - 1) < kOff;
 }
 bool holds(const Field&, const interaction::Ruler& ruler) {
@@ -67,7 +67,7 @@ bool holds(const Field& field, const interaction::Mark& mark) {
     return !mark.point || holds(field, mark.point->step);
 }
 
-// @return false when the value is refused and `kept` is as it was
+// @return false when the value is refused and `kept` unchanged
 
 template <class T>
 bool take(const Field& field, const T& given, T& kept) {

@@ -1,4 +1,4 @@
-// Everything a user can set while exploring: what commands change and recordings start from.
+// Everything that a user can set while exploring; commands change it, recordings start from it.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -11,12 +11,12 @@ namespace isochron::app {
 
 struct ExplorerState {
     std::vector<interaction::Isosurface> isosurfaces{{}}; ///< 1 to kMostIsosurfaces
-    std::uint32_t picked = 0;                             ///< the one that the isovalue moves
+    std::uint32_t picked = 0;                             ///< surface whose isovalue is moved
     interaction::Coloring coloring;
     bool bounding_box = true; ///< the box with its ticks and numbers
-    std::uint32_t steps = 0;  ///< of the series, as far as the session knows; 0: all of them
+    std::uint32_t steps = 0;  ///< number that the session shows; 0: all steps of the index
     std::uint32_t step = 0;
-    bool follow = false; ///< a new step is shown when it comes
+    bool follow = false; ///< show a new step when it comes
     interaction::PlaybackState playback;
     interaction::Similarity room_from_physical;
     interaction::QualityMode quality = interaction::QualityMode::automatic;
@@ -36,13 +36,13 @@ struct ExplorerState {
     double isovalue() const { return isosurfaces[picked].isovalue; }
     void set_isovalue(double isovalue) { isosurfaces[picked].isovalue = isovalue; }
 
-    /// Sets what the commands carry. A value that cannot be held (a step beyond the series, an
-    /// unknown stereo mode, a number that is not finite) leaves the state as it was.
-    /// @param held steps of the index
-    /// @return false when something was refused
+    /// Sets the values that the commands hold. An invalid value (a step beyond the series, an
+    /// unknown stereo mode, a number that is not finite) is refused and changes nothing.
+    /// @param held number of steps of the index
+    /// @return false when a value was refused
     bool apply(const interaction::Commands& commands, std::size_t held);
 
-    /// How many steps there are to choose from. @param held of the index
+    /// Number of steps that the user can choose from. @param held number of steps of the index
     std::size_t known_steps(std::size_t held) const {
         return steps == 0 ? held : std::min<std::size_t>(steps, held);
     }
@@ -50,15 +50,15 @@ struct ExplorerState {
     /// Commands that set every field.
     interaction::Commands as_commands() const;
 
-    /// Commands that set what differs in `target`, of the fields whose changes can be undone.
+    /// Commands that lead to `target`: they set the fields that differ and can be undone.
     interaction::Commands commands_to(const ExplorerState& target) const;
 
-    /// The step, every surface's isovalue, in the order of `isosurfaces`, and what colors them.
+    /// The query for the cells: step, isovalues in the order of `isosurfaces`, and coloring.
     index::SurfacesQuery surfaces() const;
     bool operator==(const ExplorerState&) const = default;
 };
 
-/// The value that this share of all values does not exceed, to the width of a histogram's bin.
+/// The quantile: `share` of all values are at most this one, up to a bin of the histogram.
 /// @param share 0 to 1
 double quantile(const index::IndexStats& stats, double share);
 

@@ -1,4 +1,4 @@
-// What every frame did and how long each stage took.
+// A log of all frames, and its summary as text and JSON.
 #include "app/frame/frame_log.h"
 
 #include "app/version.h"
@@ -28,7 +28,7 @@ constexpr std::array<std::pair<const char*, Stage>, 9> kStages{{
     {"total", &FrameReport::total},
     {"latency", &FrameReport::latency},
 }};
-/// Times that are not known of every frame.
+/// Times that are not known for every frame.
 using Sometimes = std::optional<Milliseconds> FrameReport::*;
 constexpr std::array<std::pair<const char*, Sometimes>, 2> kSometimes{{
     {"gpu", &FrameReport::gpu},

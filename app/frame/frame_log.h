@@ -1,4 +1,4 @@
-// What every frame did and how long each stage took: the program's own measurement.
+// A log of all frames: what each showed, and how long each of its stages took.
 #pragma once
 
 #include "app/frame/device_tracking.h"
@@ -19,7 +19,7 @@
 
 namespace isochron::app {
 
-/// One frame, stage after stage in the order of the frame.
+/// One frame; times are of its stages, in their order.
 struct FrameReport {
     interaction::Seconds time{0};              ///< session time of the frame
     index::SurfacesQuery asked{0, {0.0}};      ///< at least one isovalue
@@ -28,63 +28,63 @@ struct FrameReport {
     render::Footprint footprint = render::Footprint::quad;
     QualityReason reason = QualityReason::moving; ///< for the footprint
     bool final = false;                   ///< the picture is as good as it gets for these cells
-    Milliseconds budget{0};               ///< that drawing may take
-    std::optional<Milliseconds> expected; ///< draw cost of the footprint, by earlier frames
-    std::optional<Milliseconds> better;   ///< of a better one that does not fit
+    Milliseconds budget{0};               ///< for drawing
+    std::optional<Milliseconds> expected; ///< draw cost of the footprint, from earlier frames
+    std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
     std::optional<Milliseconds> gpu;      ///< of this frame; known some frames later
-    unsigned missed = 0;                  ///< refreshes of the display without a new frame before
+    unsigned missed = 0;                  ///< refreshes of the display missed before this frame
     bool redrawn = true;                  ///< false: nothing that the eyes see had changed
     std::uint64_t cells = 0;              ///< drawn
-    std::uint64_t candidates = 0;         ///< of the search behind them
-    std::uint64_t reused = 0;             ///< of these, taken over by incremental search
-    std::string refused;                  ///< why the newest cells are not shown; empty: they are
-    render::UploadCount uploaded;         ///< in this frame
-    Milliseconds search{0}, gather{0};    ///< on the worker, of the shown set: cells, bricks
-    Milliseconds wait{0};                 ///< for the worker; fixed-step replay only
+    std::uint64_t candidates = 0;         ///< cells that the search returned before the exact test
+    std::uint64_t reused = 0;     ///< candidates that incremental search took from the last set
+    std::string refused;          ///< why the newest cells are not shown; empty: they are
+    render::UploadCount uploaded; ///< in this frame
+    Milliseconds search{0}, gather{0}; ///< of the shown set, on the worker: cells, bricks
+    Milliseconds wait{0};              ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
     Milliseconds barrier{0}; ///< between draw and present: until all processes have drawn
-    std::optional<Milliseconds> pose_age; ///< of the oldest head's, when the views were made
-    Milliseconds latency{0};              ///< from the poll of the devices until all was submitted
+    std::optional<Milliseconds> pose_age; ///< of the oldest head pose, when the views were made
+    Milliseconds latency{0};              ///< from polling the devices until all was submitted
     interaction::ComfortState comfort;
-    std::vector<DeviceTracking> tracking; ///< empty where nothing is tracked
+    std::vector<DeviceTracking> tracking; ///< empty if no device is tracked
 };
 
-/// The middle, the 99th percentile and the largest of some times.
+/// Median, 99th percentile and largest of some times.
 struct TimeSummary {
     double median = 0, p99 = 0, worst = 0; ///< milliseconds
 };
 TimeSummary summarize(std::vector<double> milliseconds);
 
-/// Keeps the newest frames, an hour at 60 frames per second: a session may last for days.
+/// Keeps the newest frames only, an hour at 60 frames per second, as a session may last for days.
 class FrameLog {
   public:
     void add(const FrameReport& frame);
     /// Number of the next frame to be added, from 0.
     std::uint64_t next() const { return dropped_ + frames_.size(); }
-    /// Completes a frame's report, if it is still kept.
+    /// Adds the GPU time to a frame's report, if that is still kept.
     void set_gpu(std::uint64_t frame, Milliseconds time);
     const std::deque<FrameReport>& frames() const { return frames_; }
 
-    /// Times of one stage, of drawing over redrawn frames only, over the newest `count` frames (0:
-    /// all of them).
+    /// Times of one stage in the newest `count` frames (0: all); of drawing, in redrawn frames
+    /// only.
     TimeSummary stage(Milliseconds FrameReport::*stage, std::size_t count = 0) const;
 
-    /// Times of all frames of which they are known.
+    /// Times of one stage in all frames for which they are known.
     TimeSummary known(std::optional<Milliseconds> FrameReport::*time) const;
-    unsigned missed() const; ///< of all frames kept
+    unsigned missed() const; ///< sum over all kept frames
     std::uint64_t frames_with(render::Footprint footprint) const;
 
     /// Rate of the newest `count` frames, by their session times; 0 before the second frame.
     double frames_per_second(std::size_t count) const;
 
-    /// JSON with a summary per stage and a row per frame, under a temporary name, renamed.
+    /// Writes JSON with a summary per stage and a row per frame; the file appears when complete.
     /// @param context description of the GL context, for the reader
-    /// @param reading of the index, since it was opened
+    /// @param reading what was read from the index since it was opened
     /// @throws index::Error
     void write(const std::filesystem::path& path, const std::string& context,
                const index::ReadUse& reading) const;
 
-    /// Of all frames.
+    /// Sum over all kept frames.
     render::UploadCount uploaded() const;
 
     /// A few lines for a terminal.

@@ -22,7 +22,7 @@ FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
       still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
 
 void FrameQuality::set_headset_period(std::optional<Milliseconds> period) {
-    // Runtimes tell their period to the nanosecond, not always the same one.
+    // Runtimes tell their period to the nanosecond, and it varies a little.
     constexpr double kSame = 0.02;
     const Milliseconds wanted = period.value_or(configured_period_);
     if (!(wanted.count() > 0) || std::abs(wanted / period_ - 1) < kSame)
@@ -92,7 +92,7 @@ void FrameQuality::end(const FrameReport& report, const DrawLoad& of_cell, Milli
 }
 
 unsigned FrameQuality::missed(interaction::Seconds between) const {
-    // A budget longer than the display's period has allowed for missing some.
+    // With a budget longer than the display's period, that many missed refreshes are intended.
     const double periods = between / std::max(period_, steady_.budget());
     return static_cast<unsigned>(std::clamp(std::round(periods) - 1.0, 0.0, 1e9));
 }

@@ -1,4 +1,4 @@
-// The quality of a session's frames: budgets, measurement and choice brought together.
+// The quality of a session's frames: budgets, measured draw times, and the choice of footprint.
 //
 //     quality.learn(quality.collect(log));                  // every frame
 //     quality.charge(quality.view());
@@ -22,34 +22,36 @@
 
 namespace isochron::app {
 
-/// What a choice of footprint may depend on. A fixed-step replay repeats exactly: there a settled
-/// picture is drawn with what is configured, or the best there is, and nothing measured counts.
+/// What the choice of a footprint depends on: on measured times, or (`by_pace`) only on whether the
+/// picture moves. A fixed-step replay must repeat exactly, so it ignores measurements and draws a
+/// settled picture with the configured footprint, else the best one.
 enum class Choosing : std::uint8_t { by_measurement, by_pace };
 
-/// Frames that are drawn one after the other have the frame budget. A picture in which nothing has
-/// moved for a while is drawn once and then only shown: it has the still budget, the pause that may
-/// be felt when it comes to rest. Each has a controller, and both learn from all frames.
+/// Changing frames have the frame budget. A picture in which nothing has moved for a while is drawn
+/// once and then only shown: it has the larger still budget, a pause that is acceptable when a
+/// picture comes to rest. Each budget has its own controller; both learn from all frames.
 class FrameQuality {
   public:
-    /// A tracker slower than this does not look still between two of its poses.
+    /// A picture is still after this time without a change, which is longer than the time between
+    /// two poses of a slow tracker.
     static constexpr interaction::Seconds kStillAfter{0.1};
 
     /// @param refresh_rate [Hz] of the display, if it is known
     FrameQuality(const render::Gl& gl, const Config& config, std::optional<double> refresh_rate);
 
-    /// A headset's period counts in the place of display and configuration while it paces the frames.
-    /// @param period empty: it does not
+    /// While a headset paces the frames, its period replaces that of display and configuration.
+    /// @param period of the headset; empty: no headset paces the frames
     void set_headset_period(std::optional<Milliseconds> period);
 
-    /// Frames whose times are known by now, each once; completes their reports.
+    /// Frames whose times have become known since the last call; adds GPU times to their reports.
     std::vector<DrawSample> collect(FrameLog& log);
-    /// Learns from frames, in their order.
+    /// Learns from the times of frames, in order.
     void learn(std::span<const DrawSample> samples);
 
-    /// What drawing one cell in every view of the last frame comes to.
+    /// Load of one cell in every view of the last frame: the number of views, and their pixels.
     const DrawLoad& view() const { return view_; }
-    /// What the next choice counts on for that: all processes draw with the same footprint, so
-    /// it is that of the one that draws most.
+    /// Sets the load per cell for the next choice: in a cluster that of the process which draws
+    /// most, as all draw with the same footprint.
     void charge(const DrawLoad& of_cell) { charged_ = of_cell; }
 
     /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
@@ -64,24 +66,25 @@ class FrameQuality {
     /// Whether the last choice would have been a mesh if there had been one.
     bool wants_mesh() const { return wants_mesh_; }
 
-    /// Between these two, the frame is drawn.
+    /// Call before drawing the frame. @param frame its number in the log
     void begin(std::uint64_t frame);
-    /// @param of_cell what one cell in every view came to
-    /// @param processor time of giving the commands, with the upload
+    /// Call after drawing the frame.
+    /// @param of_cell load of one cell in every view
+    /// @param processor time to give the commands, including the upload
     void end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor);
 
-    /// Refreshes of the display that passed without a new frame in the time between two frames.
+    /// Number of refreshes that the display missed in the time between two frames.
     unsigned missed(interaction::Seconds between) const;
 
   private:
     const std::optional<render::Footprint> settled_;
-    const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: as the period
-    const Milliseconds configured_period_;            ///< as display and configuration allow
-    Milliseconds period_;                             ///< of frames
+    const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: the period
+    const Milliseconds configured_period_;            ///< of frames without a headset
+    Milliseconds period_;                             ///< of frames now
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
     DrawMeter meter_;
-    DrawLoad view_; ///< of one cell in the frame drawn last
+    DrawLoad view_; ///< of one cell in all views of the frame drawn last
     DrawLoad charged_;
     bool wants_mesh_ = false;
 };

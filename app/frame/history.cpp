@@ -1,4 +1,4 @@
-// Steps of undo and redo.
+// Undo and redo.
 #include "app/frame/history.h"
 
 #include "interaction/actions.h"
@@ -11,10 +11,10 @@
 namespace isochron::app {
 namespace {
 
-constexpr interaction::Seconds kPause{0.4}; ///< ends a drag that no button tells of
+constexpr interaction::Seconds kPause{0.4}; ///< without a change ends a drag without a button
 
-/// Settings in which two states differ, a bit each, and those of them that drags change. The steps
-/// that playing goes through are nobody's change.
+/// The settings in which two states differ, one bit each, and those of them that drags change. Time
+/// steps while playing do not count.
 struct Changed {
     std::uint64_t all = 0, dragged = 0;
 };
@@ -44,7 +44,7 @@ bool holds_something(const interaction::InputState& input) {
 interaction::Commands way_to(const ExplorerState& target, const ExplorerState& from) {
     interaction::Commands way = from.commands_to(target);
     if (from.playback.playing && target.playback.playing)
-        way.step.reset(); // time goes on
+        way.step.reset(); // undo does not stop time that plays
     return way;
 }
 
@@ -72,8 +72,8 @@ void History::add_change(const ExplorerState& before, const ExplorerState& after
     future_.clear();
 }
 
-/// What is taken back is what was seen: where a key has moved the emulated head as well, the data as
-/// they were to it stand before it again.
+/// The state to go back to: what the user saw. If a key has reset the emulated head as well, the
+/// data are moved along with it, so that undo puts them at the same place relative to the head.
 ExplorerState History::as_seen(ExplorerState before, const interaction::InputState& input) const {
     const interaction::DeviceState* head = input.find("head");
     const interaction::DeviceState* keys = input.find("keys");

@@ -1,4 +1,4 @@
-// What can be taken back: the states that a session was in.
+// Undo and redo: the states that a session was in.
 //
 //     history.add(before, after, commands, input);   // once a frame
 //     if (const auto* back = history.undo())         // what pressing undo leads to
@@ -15,22 +15,22 @@
 
 namespace isochron::app {
 
-/// A pure function of the frames that it is told, so that a replay undoes as the session did.
+/// Depends only on the frames that are added, so a replay undoes as the session did.
 ///
-/// Changes of the same settings that follow one another closely, or while a button is held, are one
-/// step where drags make them. The steps in time that playing goes through are none.
+/// A drag is one step: changes of the same settings by dragging count together if they follow one
+/// another closely or a button stays pressed. Time steps while playing do not count.
 class History {
   public:
-    static constexpr std::size_t kMost = 200; ///< steps; the oldest go
+    static constexpr std::size_t kMost = 200; ///< most steps kept; the oldest are dropped
 
-    /// One frame. @param commands that led from `before` to `after`
+    /// Adds one frame. @param commands led from `before` to `after`
     void add(const ExplorerState& before, const ExplorerState& after,
              const interaction::Commands& commands, const interaction::InputState& input);
 
-    /// Commands that take the newest change back, or bring it back; null where there is none.
+    /// Commands that undo the newest change, or redo the last undone one; null if there is none.
     const interaction::Commands* undo() const { return undo_ ? &*undo_ : nullptr; }
     const interaction::Commands* redo() const { return redo_ ? &*redo_ : nullptr; }
-    /// Something has changed since the session began.
+    /// Whether there is a change to undo.
     bool has_changes() const { return !past_.empty(); }
 
   private:
@@ -42,10 +42,10 @@ class History {
     std::deque<ExplorerState> past_;
     std::vector<ExplorerState> future_;
     std::optional<interaction::Commands> undo_, redo_;
-    std::uint64_t fields_ = 0; ///< of the newest change, a bit each; 0: it is complete
+    std::uint64_t fields_ = 0; ///< settings of the newest change, one bit each; 0: it is complete
     interaction::Seconds changed_{0};
-    bool held_ = false;                     ///< some button, in every frame since
-    std::optional<interaction::Pose> head_; ///< in the frame before
+    bool held_ = false;                     ///< a button was pressed in every frame since
+    std::optional<interaction::Pose> head_; ///< in the previous frame
 };
 
 } // namespace isochron::app

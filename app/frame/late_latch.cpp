@@ -1,4 +1,4 @@
-// The viewers' heads as they are right before drawing.
+// Late latching of the viewers' heads.
 #include "app/frame/late_latch.h"
 
 #include <algorithm>

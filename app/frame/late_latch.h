@@ -1,4 +1,4 @@
-// The viewers' heads as they are right before drawing, whatever they were when the frame began.
+// Late latching: the viewers' heads right before drawing, newer than at the frame's begin.
 #pragma once
 
 #include "interaction/tracked_input.h"
@@ -9,22 +9,24 @@
 
 namespace isochron::app {
 
-/// Asked once per frame, right before its views are made, for the newest poses: see
-/// `interaction::TrackedInput::latch`. Its time is that of the asking.
+/// Returns the newest poses, see `interaction::TrackedInput::latch`; their time is that of the
+/// call.
+/// Called once per frame, right before its views are made (in a cluster: when the frame begins, so
+/// that all walls get the same).
 using Latch = std::function<interaction::InputState()>;
 
-/// Of what was latched, the heads of viewers that have a pose. Only heads are taken over: hands
-/// must stay where the frame's navigation had them, or what they hold would slip.
+/// The latched heads of viewers, if they have a pose. Hands are left out: they must stay where the
+/// frame's navigation had them, else the data that they hold would slip.
 interaction::InputState viewers_heads(const interaction::InputState& latched,
                                       const stereo::Installation& installation);
 
-/// The frame's devices with these heads in their places: what the views are made of.
+/// The frame's devices with their heads replaced by these, for making the views.
 interaction::InputState with_heads(interaction::InputState input,
                                    const interaction::InputState& heads);
 
-/// How old the oldest of the viewers' poses is, nothing where no head has one. What no tracker has
-/// measured, but mouse and keyboard emulate, was measured when it was asked for.
-/// @param seen what views are made of @param made when they are, session time
+/// Age of the oldest head pose of all viewers; empty if no head has a pose. A pose that no tracker
+/// measured (mouse and keyboard emulate it) counts as measured when it was asked for.
+/// @param seen devices that the views are made from @param made session time of making the views
 std::optional<interaction::Seconds> pose_age(const interaction::InputState& seen,
                                              interaction::Seconds made,
                                              const stereo::Installation& installation);

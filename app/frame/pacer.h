@@ -1,4 +1,4 @@
-// Paces a loop that nothing else holds back.
+// Limits the rate of a loop.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 
 namespace isochron::app {
 
-/// Sleeps where no display paces the frames, so that an idle window does not burn the processor.
+/// Sleeps between frames when no display paces them, so that an idle window does not keep a
+/// processor busy.
 class Pacer {
   public:
     explicit Pacer(double frames_per_second)

@@ -1,4 +1,4 @@
-// Chooses the footprint of a frame by what drawing has cost.
+// Chooses the footprint of a frame by the measured cost of drawing.
 #include "app/frame/quality_controller.h"
 
 #include <algorithm>
@@ -12,18 +12,19 @@ using interaction::Pace;
 using interaction::QualityMode;
 using render::Footprint;
 
-constexpr double kMargin = 0.8; ///< of the budget: what does not yet run is expected below it
-constexpr double kFallen = 0.7; ///< of the cost that failed: below it another load is at hand
-constexpr double kDearest = 8;  ///< budgets that a failed trial is reckoned at, at most
-constexpr double kGrown = 1.1;  ///< of the cost that was measured: likewise above it
-constexpr double kRoom = 0.75;  ///< of the budget: what moves comes to a footprint below it,
-constexpr double kLeast = 0.95; ///< and leaves it above it
+constexpr double kMargin =
+    0.8; ///< share of the budget: most that a new footprint may be expected at
+constexpr double kFallen = 0.7; ///< share of the failed cost: below it the load counts as fallen
+constexpr double kDearest = 8;  ///< most budgets that a failed trial counts
+constexpr double kGrown = 1.1;  ///< times the measured cost: above it the load counts as grown
+constexpr double kRoom = 0.75;  ///< share of the budget below which motion takes up a footprint
+constexpr double kLeast = 0.95; ///< share of the budget above which motion leaves it again
 
-/// What footprints take at most, as a multiple of quads, until they are measured. By far more than
-/// they take on any GPU; software GL comes near.
+/// Assumed upper limits of the footprints' times, as multiples of quads, until they are measured:
+/// far above any GPU's, and close to those of software GL.
 constexpr std::array<double, render::kFootprints> kAtMost{1, 8, 5, 12};
 
-/// None of the cells' footprints is better: the best itself.
+/// The next better footprint that is available; `footprint` itself if there is none.
 constexpr Footprint next_better(Footprint footprint, const render::FootprintSet& available) {
     for (int i = static_cast<int>(footprint) + 1; i <= static_cast<int>(render::kBestFootprint);
          ++i)
@@ -31,7 +32,7 @@ constexpr Footprint next_better(Footprint footprint, const render::FootprintSet&
             return static_cast<Footprint>(i);
     return footprint;
 }
-/// Of a footprint that is not quads.
+/// The next coarser footprint that is available. @param footprint not quads
 constexpr Footprint next_coarser(Footprint footprint, const render::FootprintSet& available) {
     return available.best(static_cast<Footprint>(static_cast<int>(footprint) - 1));
 }
@@ -54,7 +55,7 @@ const char* name_of(QualityReason reason) {
 
 void QualityController::measured(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
     if (load.cells <= 0)
-        return; // what it takes to draw nothing says nothing of cells
+        return; // the cost of drawing nothing tells nothing about cells
     Candidate& candidate = of(footprint);
     const bool first = !candidate.known && !candidate.failed;
     if (std::exchange(sampled_, footprint) != footprint && (first || cost > budget_)) {
@@ -66,7 +67,7 @@ void QualityController::measured(Footprint footprint, const DrawLoad& load, Mill
     candidate.known = true;
     candidate.age = 0;
     if (footprint != current_)
-        return; // a late one of what was left since: news, but no verdict
+        return; // a late result of a footprint that was left since: only noted
     candidate.fits = cost <= budget_;
     if (candidate.fits)
         candidate.failed = false;
@@ -96,7 +97,7 @@ QualityChoice QualityController::choice_for(const QualityInput& input) {
     if (input.settled && input.pace != Pace::moving)
         return regardless(input.available.best(*input.settled), QualityReason::configured,
                           input.load);
-    if (input.load.cells <= 0) // every footprint shows the same; the next set is met as new
+    if (input.load.cells <= 0) // all footprints look the same; start anew with the next set
         return regardless(Footprint::quad, QualityReason::fits, input.load);
     if (input.mode == QualityMode::quality && !input.playing)
         return regardless(input.available.best(), QualityReason::best_mode, input.load);
@@ -124,7 +125,7 @@ QualityChoice QualityController::within_budget(const QualityInput& input) {
     if (Candidate& now = of(current_); current_ == Footprint::quad) {
         step_up(input);
     } else if (!over_ && input.pace == Pace::moving && !has_room(input)) {
-        step_down(input); // it has not failed: a picture at rest may take it up again
+        step_down(input); // not a failure: a picture at rest may use it again
     } else if (over_ || outgrown(now, input.load)) {
         if (over_)
             fail(now, over_load_, over_cost_);
@@ -147,7 +148,7 @@ void QualityController::turn_to(Footprint footprint) {
     of(footprint).lasted = 0;
 }
 
-/// To the best one that is known to fit or was never tried.
+/// Turns to the best coarser footprint that is expected to fit or, at rest, was never tried.
 void QualityController::step_down(const QualityInput& input) {
     since_down_ = 0;
     Footprint to = next_coarser(current_, input.available);
@@ -171,18 +172,18 @@ void QualityController::step_up(const QualityInput& input) {
             return turn_to(to);
 }
 
-/// Whether the present footprint leaves room for what a moving picture may bring.
+/// Whether the current footprint leaves enough of the budget for a moving picture.
 bool QualityController::has_room(const QualityInput& input) const {
     const auto expected = of(current_).cost.predict(input.load);
     const double share = was_moving_ ? kLeast : kRoom;
     return expected ? *expected <= share * budget_ : bearable(current_, input);
 }
 
-/// Whether a frame of this footprint may be drawn to learn what it takes.
+/// Whether a frame with this footprint may be drawn to measure it.
 bool QualityController::bearable(Footprint footprint, const QualityInput& input) const {
     const auto quads = of(Footprint::quad).cost.predict(input.load);
     if (!quads)
-        return false; // they are measured first
+        return false; // quads are measured first
     Milliseconds most = kAtMost[static_cast<std::size_t>(footprint)] * *quads;
     if (const auto before = of(footprint).cost.predict(input.load))
         most = std::min(most, *before);
@@ -190,7 +191,7 @@ bool QualityController::bearable(Footprint footprint, const QualityInput& input)
            (input.pace == Pace::moving ? kRoom * budget_ : std::max(budget_, kDearestTrial));
 }
 
-/// Whether the cells have changed so much that the next frame is expected over the budget.
+/// Whether the load has grown so much that the next frame is expected over the budget.
 bool QualityController::outgrown(const Candidate& candidate, const DrawLoad& load) const {
     if (!candidate.known || !candidate.sampled || load == candidate.sampled)
         return false;
@@ -198,19 +199,19 @@ bool QualityController::outgrown(const Candidate& candidate, const DrawLoad& loa
     return expected > budget_ && expected > kGrown * *candidate.cost.predict(*candidate.sampled);
 }
 
-/// Whether a better footprint than the present one may be drawn now.
+/// Whether a better footprint than the current one may be drawn now.
 bool QualityController::returns(Footprint footprint, const QualityInput& input) {
     const DrawLoad& load = input.load;
     Candidate& candidate = of(footprint);
     if (!candidate.known && !candidate.failed) {
-        // One after the other, from the fastest, so that the first frame over the budget is not
-        // that of the slowest.
+        // Try them from coarse to fine, so that the first frame over the budget is not one with the
+        // slowest footprint.
         const Footprint below = next_coarser(footprint, input.available);
         return bearable(footprint, input) &&
                (below == Footprint::quad || decided(below, input) || !bearable(below, input));
     }
     const auto expected = candidate.cost.predict(load);
-    // The bad news was of another load, and is forgotten soon.
+    // It failed at a larger load: it may return soon.
     const bool fallen = candidate.failed && expected &&
                         *expected <= kFallen * *candidate.cost.predict(candidate.failed_at);
     if (fallen) {
@@ -229,17 +230,17 @@ bool QualityController::returns(Footprint footprint, const QualityInput& input) 
     return true;
 }
 
-/// Whether it is known that the footprint fits, or that it does not.
+/// Whether it is known if the footprint fits.
 bool QualityController::decided(Footprint footprint, const QualityInput& input) const {
     const Candidate& candidate = of(footprint);
-    // The present one may be known from another picture, and not be drawn again.
+    // The current one may be known from another picture, and not be drawn again.
     return candidate.fits || candidate.failed ||
            (candidate.known &&
             (footprint == current_ || *candidate.cost.predict(input.load) > kMargin * budget_));
 }
 
 void QualityController::fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
-    // Of several loads the least, so that cells that vary are no reason to try again.
+    // Keep the least failed load, so that a varying number of cells is no reason to try again.
     if (!candidate.failed ||
         *candidate.cost.predict(load) < *candidate.cost.predict(candidate.failed_at))
         candidate.failed_at = load;
@@ -247,7 +248,8 @@ void QualityController::fail(Candidate& candidate, const DrawLoad& load, Millise
     candidate.fits = false;
     candidate.failed_cost = cost;
     candidate.age = 0;
-    // One that has lasted may have met an accident; a trial that took several budgets is dear.
+    // After lasting for a while it may have failed by accident. A failed trial that took several
+    // budgets is followed by a longer wait.
     const double dear =
         candidate.lasted < kShortestWait ? std::clamp(cost / budget_, 1.0, kDearest) : 1.0;
     candidate.wait = static_cast<unsigned>(
@@ -256,7 +258,7 @@ void QualityController::fail(Candidate& candidate, const DrawLoad& load, Millise
 
 QualityChoice QualityController::describe(const QualityInput& input) const {
     const Candidate& now = of(current_);
-    // Quads are what is left: it is enough to know what they take at some load.
+    // There is nothing coarser than quads: it is enough to know their time at some load.
     const bool measured_here = current_ == Footprint::quad
                                    ? now.cost.predict(input.load).has_value()
                                    : now.sampled == input.load;

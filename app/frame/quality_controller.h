@@ -1,4 +1,4 @@
-// Chooses the footprint of a frame, once for all its eyes and windows, by what drawing has cost.
+// Chooses the footprint of a frame, for all its eyes and windows, by the measured cost of drawing.
 //
 //     QualityController controller(Milliseconds(11.1));
 //     for (const DrawSample& sample : meter.finished())
@@ -17,16 +17,16 @@
 
 namespace isochron::app {
 
-/// What the choice depends on beside the measurements.
+/// What the choice depends on, apart from measurements.
 struct QualityInput {
     interaction::Pace pace = interaction::Pace::moving;
     interaction::QualityMode mode = interaction::QualityMode::automatic;
-    bool playing = false; ///< time runs: every frame may bring other cells
-    /// That the shown cells can be drawn with.
+    bool playing = false; ///< time plays: every frame may bring other cells
+    /// Footprints that the shown cells can be drawn with.
     render::FootprintSet available = render::FootprintSet::up_to(render::kBestFootprint);
-    /// Instead of measuring: what a settled picture is drawn with at best, whatever it costs.
+    /// Best footprint of a settled picture, whatever it costs; empty: by measurement.
     std::optional<render::Footprint> settled;
-    /// What moves is drawn in quads, whatever fits: nothing that is measured may count.
+    /// Ignore measurements: a moving picture is drawn with quads.
     bool by_pace = false;
     DrawLoad load;
 };
@@ -34,12 +34,12 @@ struct QualityInput {
 /// Why a footprint was chosen.
 enum class QualityReason : std::uint8_t {
     moving,     ///< the picture moves: the best that fits the budget with room to spare, or quads
-    fast_mode,  ///< quads are asked for
-    best_mode,  ///< the best is asked for, whatever it costs
-    paper_mode, ///< as in the paper: splats where it is settled
-    configured, ///< what a settled picture is drawn with is fixed
-    fits,       ///< the best there is, within the budget
-    trial,      ///< a better one than before, which is being measured
+    fast_mode,  ///< the mode asks for quads
+    best_mode,  ///< the mode asks for the best, whatever it costs
+    paper_mode, ///< as in the paper: splats once the picture is settled
+    configured, ///< the footprint of settled pictures is configured
+    fits,       ///< the best of all fits the budget
+    trial,      ///< a better one than before is being measured
     over_budget ///< a better one does not fit
 };
 /// `moving`, `fast mode`, `best mode`, `paper mode`, `configured`, `fits`, `trial`, `over budget`.
@@ -48,42 +48,44 @@ const char* name_of(QualityReason reason);
 struct QualityChoice {
     render::Footprint footprint = render::Footprint::quad;
     QualityReason reason = QualityReason::moving;
-    /// What the settled picture ends at, for these cells: a capture may be taken.
+    /// The settled picture of these cells has reached its final footprint: a capture may be taken.
     bool final = false;
     /// Draw this frame even if nothing in it has changed: its cost is not known yet.
     bool measure = false;
     std::optional<Milliseconds> cost; ///< expected, of `footprint` at this load
     std::optional<Milliseconds>
-        better_cost; ///< likewise of the next better one, if it does not fit
+        better_cost; ///< expected, of the next better footprint, if it does not fit
 };
 
-/// Modes: `fast` draws quads. `auto` draws the best footprint within the budget; while moving with
-/// room to spare, of those that are known to. `paper` draws quads while moving and splats once
-/// settled, and nothing else. `quality` draws the best there is; only while time plays, so that time keeps
-/// its pace, the best within the budget. No order of costs is assumed: a better footprint may be
-/// the cheaper one.
+/// Modes: `fast` draws quads. `auto` draws the best footprint within the budget; while the picture
+/// moves, only one that is expected to fit with room to spare. `paper` draws quads while moving and
+/// splats once settled. `quality` draws the best footprint of all; only while time plays, the best
+/// within the budget, so that time keeps its pace. No order of costs is assumed: a better footprint
+/// may be the cheaper one.
 ///
-/// A footprint measured over the budget, or expected over it at a new load, is left at once. It
-/// returns
-/// - when the load has fallen so that it is expected to fit with a margin, or
-/// - when the bad news is old: after 16 frames, after twice as many with every failure (times the
-///   budgets, up to 8, that a failed trial took; at most 2048), until it has lasted 256 frames.
-/// No footprint is tried that would take longer than `kDearestTrial` (while moving: than the budget)
-/// by what it took before at another load, or by what quads take where it was never drawn.
-/// Hence one load causes few frames over the budget, there are at least 16 frames from a step down
-/// to a step up, and after at most 2048 settled frames a footprint that fits is back.
+/// A footprint that is measured over the budget, or expected over it at a new load, is left at
+/// once.
+/// It may return
+/// - when the load has fallen so far that it is expected to fit with a margin, or
+/// - after a wait: 16 frames after the first failure, twice as many after each further one, times
+///   the budgets that a failed trial took (at most 8), at most 2048 frames. The wait starts anew at
+///   16 frames once the footprint has lasted 256 frames.
+/// A footprint is not tried if it may take longer than `kDearestTrial` (while moving: than the
+/// budget), judged by its earlier times at other loads, or by a multiple of the time of quads.
+/// So one load causes few frames over the budget, at least 16 frames lie between a step down and a
+/// step up, and a footprint that fits is back after at most 2048 settled frames.
 class QualityController {
   public:
     static constexpr unsigned kShortestWait = 16, kLongestWait = 2048, kProven = 256; ///< frames
-    /// What a frame may be expected to take that is drawn to learn what it takes; the budget where
-    /// that is more.
+    /// Longest expected time of a frame that is drawn to measure a footprint; the budget if that is
+    /// longer.
     static constexpr Milliseconds kDearestTrial{400};
 
     explicit QualityController(Milliseconds budget) : budget_(budget) {}
 
-    /// A frame that was drawn, in the order of the frames, soon or some frames later. The first one
-    /// after a change of footprint pays for what is done only once (compiling, sorting): it counts
-    /// only if it is within the budget all the same.
+    /// Adds the cost of a drawn frame; call in the order of the frames, possibly some frames later.
+    /// The first frame after a change of footprint includes work that is done only once (compiling,
+    /// sorting): it counts only if the footprint is known and the frame is within the budget.
     void measured(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 
     /// Advances by one frame.
@@ -98,11 +100,11 @@ class QualityController {
         DrawLoad failed_at;              ///< least load of the failures
         Milliseconds failed_cost{0};
         bool known = false;  ///< measured since it was last forgotten
-        bool fits = false;   ///< by the newest measurement
-        bool failed = false; ///< left, and not proven since
-        unsigned age = 0;    ///< frames under the budget's rule since the newest measurement
+        bool fits = false;   ///< within the budget by the newest measurement
+        bool failed = false; ///< left as too slow, and not measured within the budget since
+        unsigned age = 0;    ///< frames chosen by the budget since the newest measurement
         unsigned wait = kShortestWait / 2;
-        unsigned lasted = 0; ///< frames since it was stepped up to
+        unsigned lasted = 0; ///< frames since it became the current one
     };
     Candidate& of(render::Footprint footprint) {
         return candidates_[static_cast<std::size_t>(footprint)];
@@ -129,12 +131,12 @@ class QualityController {
     Milliseconds budget_;
     std::array<Candidate, render::kFootprints> candidates_;
     render::Footprint current_ = render::Footprint::quad;
-    bool was_moving_ = true; ///< the frame before
+    bool was_moving_ = true; ///< in the previous frame
     bool budgeted_ = false;  ///< current_ was chosen by the budget
     bool over_ = false;      ///< current_ was measured over the budget
     DrawLoad over_load_;
-    Milliseconds over_cost_{0};                ///< of that measurement
-    unsigned since_down_ = kShortestWait;      ///< frames since a step down
+    Milliseconds over_cost_{0};                ///< that was measured over the budget
+    unsigned since_down_ = kShortestWait;      ///< frames since the last step down, at most this
     std::optional<render::Footprint> sampled_; ///< footprint of the newest measurement
 };
 

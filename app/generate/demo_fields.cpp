@@ -1,4 +1,4 @@
-// The fields that the program can make by itself.
+// Generates the demo data.
 #include "app/generate/demo_fields.h"
 
 #include "app/generate/fourier_modes.h"
@@ -35,7 +35,7 @@ double part(std::size_t done, std::size_t of) {
     return static_cast<double>(done) / static_cast<double>(of);
 }
 
-/// Hands a step on, for u8 multiplied and rounded.
+/// Passes a step to the sink; for u8 its values are multiplied by `scale` and rounded.
 void send(const StepSink& sink, const std::vector<float>& values, double time,
           index::ValueType type, float scale) {
     assert(type == index::ValueType::f32 || type == index::ValueType::u8);
@@ -94,7 +94,7 @@ void make_steps(const VorticitySeries& series, const StepSink& sink,
                                                    flow.enstrophy() / series.kFirstEnstrophy));
     }
 
-    // The highest value of all steps is known at the end only: rounded steps wait for it.
+    // Rounding needs the highest value of all steps, so u8 steps are kept until the end.
     struct Step {
         std::vector<float> values;
         double time;
@@ -129,7 +129,8 @@ void make_steps(const FourierSeries& series, const StepSink& sink,
             use(static_cast<double>(step));
         }
     };
-    // Computing every step twice takes less than to keep them all until the highest is known.
+    // Computing every step twice is cheaper than keeping all steps until the highest value is
+    // known.
     float scale = 1.0F;
     if (series.type != index::ValueType::f32) {
         float highest = 0.0F;

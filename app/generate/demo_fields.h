@@ -1,4 +1,4 @@
-// The fields that the program can make by itself, to try it, to test it and to measure it.
+// The data that the program can generate: to try it out, to test it and to measure it.
 #pragma once
 
 #include "index/progress.h"
@@ -30,15 +30,16 @@ struct VorticitySeries {
     std::size_t size = 64;                         ///< vertices along each axis, 16 to 256
     std::size_t steps = 64;                        ///< at least 1
 
-    // Chosen by measurement over several seeds, at the isovalue where 3,940 cells are active on
-    // average: added and removed cells together are some 45 % of the active ones from one step to
-    // the next. Finer grids step finer, so that surfaces move by as many cells.
+    // Chosen by measurement over several seeds, at the isovalue with 3,940 active cells on average:
+    // from one step to the next, added and removed cells together are about 45 % of the active
+    // ones. Finer grids have shorter steps, so that surfaces move by the same number of cells.
     static constexpr double kPeak = 1.0;        ///< most energy in vortices as large as the cube
     static constexpr double kViscosity = 0.008; ///< the smallest eddies are just resolved at 64^3
     static constexpr std::size_t kSubsteps = 3; ///< of the integrator from one step to the next
     double substep() const { return 0.0222 * 64.0 / static_cast<double>(size); }
-    // How soon vortices stretch each other into tubes differs from seed to seed, and shows in the
-    // enstrophy: it starts below 3 and peaks near 15. The time is for cubes too coarse for that.
+    // The series starts when vortices have stretched each other into tubes. When that happens
+    // depends on the seed and shows in the enstrophy, which starts below 3 and peaks near 15. In
+    // cubes too coarse to reach kFirstEnstrophy the series starts at time kLatestStart.
     static constexpr double kFirstEnstrophy = 10.0;
     static constexpr double kLatestStart = 4.0;
 };
@@ -61,7 +62,7 @@ index::SeriesInfo describe(const SphereSeries& series);
 index::SeriesInfo describe(const VorticitySeries& series);
 index::SeriesInfo describe(const FourierSeries& series);
 
-/// Takes one step after the other: stored values [z][y][x] of the series' type, and its time.
+/// Receives the steps in order: stored values [z][y][x] of the series' type, and the step's time.
 using StepSink = std::function<void(std::span<const std::byte> values, double time)>;
 
 /// Makes all steps, in order. The same request gives the same values.

@@ -1,4 +1,4 @@
-// The series that the program can make by itself.
+// Writes the demo data as files.
 #include "app/generate/demo_series.h"
 
 #include "index/error.h"
@@ -43,7 +43,7 @@ json recipe_of(const FourierSeries& series) {
                 {"type", index::name_of(series.type)},
                 {"size", series.size},
                 {"steps", series.steps}};
-    // Only where they are not what they were when there was no choice.
+    // Only if they differ from the defaults: earlier versions had no choice and did not note them.
     if (const FourierSeries usual; series.modes != usual.modes || series.longest != usual.longest) {
         recipe["modes"] = series.modes;
         recipe["longest"] = series.longest;
@@ -51,7 +51,7 @@ json recipe_of(const FourierSeries& series) {
     return recipe;
 }
 
-/// Where a series goes, and the note beside it of how it was made.
+/// The files of a series, with the note (`recipe`) that says how it was made.
 struct Destination {
     fs::path dir;
     std::string name;
@@ -59,8 +59,9 @@ struct Destination {
 
     fs::path note() const { return dir / (name + ".json"); }
 
-    /// The .pvd appears last, so with it everything is there.
-    /// @throws Error when it is there with another recipe
+    /// Whether the series exists already. The .pvd is written last, so if it is there, all files
+    /// are.
+    /// @throws Error when it exists with another recipe
     bool complete() const {
         const fs::path pvd = dir / (name + ".pvd");
         std::error_code ignored;

@@ -1,4 +1,4 @@
-// The series that the program can make by itself, as files.
+// Writes the demo data as files.
 #pragma once
 
 #include "app/generate/demo_fields.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::app {
 
-/// Writes the series as `dir/NAME.pvd`, with its kName, and one .vti per step, and beside it how it
-/// was made, `dir/NAME.json`. The same request gives the same bytes.
+/// Writes the series as `dir/NAME.pvd` (NAME is its kName), one .vti per step, and `dir/NAME.json`,
+/// which says how it was made. The same request gives the same bytes.
 /// @return false when the folder held exactly this series already; then nothing is written
 /// @throws index::Error when the folder holds another series of that name, or cannot be written
 bool generate(const SphereSeries& series, const std::filesystem::path& dir,

@@ -25,7 +25,7 @@ Fourier::Fourier(std::size_t n) : n_(n), plans_(std::make_unique<Plans>()) {
     Field field(field_size());
     Spectrum spectrum(spectrum_size());
     const int points = static_cast<int>(n);
-    // Plans that are measured differ from run to run, and with them the last bits of the results.
+    // Measured plans would differ from run to run, and so would the last bits of the results.
     const unsigned flags = FFTW_ESTIMATE;
     plans_->forward = fftw_plan_dft_r2c_3d(points, points, points, field.data(), as_fftw(spectrum),
                                            flags | FFTW_PRESERVE_INPUT);

@@ -1,4 +1,4 @@
-// Discrete Fourier transforms of real fields in a periodic cube; the one place that knows FFTW.
+// Discrete Fourier transforms of real fields in a periodic cube, by FFTW.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace isochron::app {
 
-/// Storage as wide vector instructions like it, which halves the time of a transform.
+/// Allocates memory aligned for wide vector instructions, which halves the time of a transform.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
@@ -32,8 +32,9 @@ using Field = std::vector<double, AlignedAllocator<double>>;
 /// Its Fourier coefficients, [z][y][x] with x only in [0, n/2] (the rest are their conjugates).
 using Spectrum = std::vector<std::complex<double>, AlignedAllocator<std::complex<double>>>;
 
-/// Calls `visit(place, k, weight)` for every coefficient of a Spectrum: its place, its wave vector
-/// (k[0] along x) and how often it counts in a sum over all wave vectors, 2 with its conjugate.
+/// Calls `visit(place, k, weight)` for every coefficient of a Spectrum: its index, its wave vector
+/// (k[0] along x), and its weight in a sum over all wave vectors: 2 if it stands for its conjugate
+/// as well, else 1.
 template <class Visit>
 void for_each_wave_vector(std::size_t n, Visit visit) {
     const auto wave_number = [n](std::size_t i) {
@@ -47,8 +48,8 @@ void for_each_wave_vector(std::size_t n, Visit visit) {
                       x == 0 || 2 * x == n ? 1.0 : 2.0);
 }
 
-/// Transforms between the two, also from several threads at once. The same input gives the same
-/// bits every time on one machine.
+/// Transforms fields to spectra and back; several threads may use it at once. On one machine the
+/// same input always gives the same bits.
 class Fourier {
   public:
     /// @param n points along each axis, at least 2
@@ -59,11 +60,11 @@ class Fourier {
     std::size_t field_size() const { return n_ * n_ * n_; }
     std::size_t spectrum_size() const { return n_ * n_ * (n_ / 2 + 1); }
 
-    /// Coefficients such that the field is the sum of coefficient * exp(i k x): divided by n^3.
-    /// @param field is kept as it is
+    /// The coefficients (divided by n^3) with which the field is the sum of coefficient * exp(i k
+    /// x).
     Spectrum spectrum_of(const Field& field) const;
 
-    /// @param spectrum is spent by the transform, hence given away
+    /// @param spectrum passed by value, as the transform overwrites it
     Field field_of(Spectrum spectrum) const;
 
   private:

@@ -60,7 +60,7 @@ FourierModes::FourierModes(std::uint64_t seed, std::size_t modes, int longest)
         const double k2 = dot(mode.k, mode.k);
         const auto [a, b] = normal_pair(bits);
         const auto [c, f] = normal_pair(bits);
-        // What is left of a random direction at right angles to k.
+        // Keep the part of a random direction that is at right angles to k.
         mode.amplitude = {a, b, c};
         const double along = dot(mode.amplitude, mode.k) / k2;
         for (std::size_t i = 0; i < 3; ++i)
@@ -79,9 +79,9 @@ double FourierModes::remaining(const Mode& mode, double time) {
     return std::exp(-kDecay * dot(mode.k, mode.k) * time);
 }
 
-/// In a row of vertices every mode is a sine and a cosine of a whole wave number along x: the modes
-/// are gathered by that number first, which leaves 21 waves to add up instead of 96. Numbers that no
-/// mode has are left out.
+/// Along a row of vertices every mode is a sine and a cosine with a whole wave number in x. So the
+/// modes are first summed by that number: this leaves 21 waves to add instead of 96. Numbers
+/// without a mode are skipped.
 void FourierModes::vorticity_magnitude(std::size_t n, double time, std::span<float> out,
                                        unsigned threads) const {
     assert(out.size() == n * n * n);

@@ -28,7 +28,7 @@ NavierStokes::NavierStokes(std::size_t n, double viscosity, const VectorField& v
     const double limit = static_cast<double>(n * n) / 9.0;
     for_each_wave_vector(n, [&](std::size_t place, const std::array<double, 3>& k, double weight) {
         const double k2 = dot(k, k);
-        // The mean flow (k = 0) would only carry the whole picture along.
+        // Leave out the mean flow (k = 0), which would only move the whole picture.
         if (k2 > 0.0 && k2 < limit)
             modes_.push_back({k, k2, weight, place});
     });
@@ -38,7 +38,7 @@ NavierStokes::NavierStokes(std::size_t n, double viscosity, const VectorField& v
 
 void NavierStokes::advance(double dt) {
     const std::size_t count = modes_.size();
-    std::vector<double> half(count); // what viscosity leaves of a mode after half a step
+    std::vector<double> half(count); // decay of each mode by viscosity in half a step
     for (std::size_t m = 0; m < count; ++m)
         half[m] = std::exp(-0.5 * viscosity_ * modes_[m].k2 * dt);
 
@@ -64,7 +64,7 @@ void NavierStokes::advance(double dt) {
                dt / 6.0 * (e * e * k1[m][c] + 2.0 * e * (k2[m][c] + k3[m][c]) + k4[m][c]);
     });
     velocity_ = std::move(stage);
-    project(velocity_); // round-off must not add up
+    project(velocity_); // removes divergence by rounding before it adds up
     time_ += dt;
 }
 
@@ -153,7 +153,7 @@ void NavierStokes::project(Coefficients& coefficients) const {
 }
 
 NavierStokes::Coefficients NavierStokes::advection(const Coefficients& velocity) const {
-    // Nearly all the time goes into transforms: two processors share them.
+    // Transforms take nearly all of the time, so two processors share them.
     auto vorticity = std::async(std::launch::async, [&] { return field_of(curl(velocity)); });
     VectorField u = field_of(velocity);
     const VectorField w = vorticity.get();

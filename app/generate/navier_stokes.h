@@ -1,4 +1,4 @@
-// Incompressible flow in a periodic cube: the real turbulence behind the demo data.
+// Solves incompressible flow in a periodic cube: the turbulence of the demo data.
 #pragma once
 
 #include "app/generate/fourier.h"
@@ -11,14 +11,14 @@
 namespace isochron::app {
 
 /// Decaying flow of a viscous, incompressible fluid of density 1 in the periodic cube [0, 2 pi)^3,
-/// du/dt = u x curl u - grad(p + u^2/2) + nu laplace u, div u = 0, with nothing driving it.
+/// du/dt = u x curl u - grad(p + u^2/2) + nu laplace u, div u = 0, without a driving force.
 ///
 /// Pseudo-spectral (Orszag and Patterson, Phys. Rev. Lett. 28, 1972,
-/// doi:10.1103/PhysRevLett.28.76): products are formed at the points, derivatives and the
-/// projection that stands for the pressure on the coefficients. Only wave vectors with 3 |k| < n
-/// are kept (the 2/3 rule), so products alias into nothing that is kept, and energy is lost to
-/// viscosity alone. Time: the classical fourth-order Runge-Kutta method, with viscosity integrated
-/// exactly.
+/// doi:10.1103/PhysRevLett.28.76): products are computed at the points; derivatives, and the
+/// projection that replaces the pressure, on the coefficients. Only wave vectors with 3 |k| < n are
+/// kept (the 2/3 rule), so that products do not alias into them and only viscosity takes energy
+/// away. Time steps: the classical fourth-order Runge-Kutta method, with exact integration of
+/// viscosity.
 ///
 ///     NavierStokes flow(64, 0.01, random_velocity(...));
 ///     while (flow.time() < 2.0)
@@ -30,10 +30,10 @@ class NavierStokes {
 
     /// @param n         points along each axis, at least 4
     /// @param viscosity kinematic, at least 0
-    /// @param velocity  at time 0; its solenoidal part below the cutoff is taken
+    /// @param velocity  at time 0; only its solenoidal part below the cutoff is used
     NavierStokes(std::size_t n, double viscosity, const VectorField& velocity);
 
-    /// Goes forward by one step. Stable while dt * n/3 * (highest speed) stays below some 2.8.
+    /// Advances by one step. Stable while dt * n/3 * (highest speed) is below about 2.8.
     void advance(double dt);
 
     double time() const { return time_; }
@@ -44,14 +44,14 @@ class NavierStokes {
     Field vorticity_magnitude() const; ///< |curl u| at the points
 
   private:
-    /// One kept Fourier coefficient of a vector field, and where it lies.
+    /// One kept Fourier coefficient of a vector field.
     using Coefficient = std::array<std::complex<double>, 3>;
     using Coefficients = std::vector<Coefficient>;
     struct Mode {
         std::array<double, 3> k; ///< wave vector
         double k2;               ///< |k|^2
-        double weight;           ///< how often it counts in sums: 2 with its conjugate, else 1
-        std::size_t place;       ///< in a Spectrum
+        double weight;           ///< in sums: 2 if it stands for its conjugate as well, else 1
+        std::size_t place;       ///< index in a Spectrum
     };
 
     Coefficients kept(const VectorField& field) const;

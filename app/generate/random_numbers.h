@@ -1,4 +1,4 @@
-// Random numbers that are the same everywhere: the standard library's distributions may differ.
+// Random numbers that are the same on every platform, unlike the standard library's distributions.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace isochron::app {
 
-/// Uniform in (0, 1): neither 0, so that its logarithm exists, nor 1.
+/// Uniform in (0, 1), without 0, so that the logarithm exists, and without 1.
 inline double uniform(std::mt19937_64& bits) {
     return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53;
 }

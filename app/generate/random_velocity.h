@@ -1,4 +1,4 @@
-// Where turbulence starts from: a random velocity whose energy spectrum is given.
+// The start of turbulence: a random velocity with a given energy spectrum.
 #pragma once
 
 #include "app/generate/navier_stokes.h"
@@ -7,9 +7,9 @@
 
 namespace isochron::app {
 
-/// A random solenoidal velocity in a cube of n^3 points with one and the same energy in every shell
-/// of wave numbers for every seed, E(k) ~ k^4 exp(-2 (k / peak)^2), and a mean square of 1 in each
-/// component (Passot and Pouquet, J. Fluid Mech. 181, 1987, doi:10.1017/S0022112087002167).
+/// A random solenoidal velocity in a cube of n^3 points. Each shell of wave numbers has the energy
+/// E(k) ~ k^4 exp(-2 (k / peak)^2), whatever the seed, and each component a mean square of 1
+/// (Passot and Pouquet, J. Fluid Mech. 181, 1987, doi:10.1017/S0022112087002167).
 /// @param peak wave number at which the energy is highest
 NavierStokes::VectorField random_velocity(std::size_t n, std::uint64_t seed, double peak);
 

@@ -33,7 +33,7 @@ int picture_samples_of(const Config& config, const render::Gl& gl, glm::ivec2 wi
     check_samples("rendering.picture_samples or --samples", config.picture_samples, gl);
     if (config.picture_samples > 0)
         return config.picture_samples;
-    // Color and depth of 2^28 samples are 2 GiB. Two eyes in one window of 8K stay below.
+    // Color and depth of 2^28 samples take 2 GiB; two eyes in an 8K window need less.
     constexpr double kMost = 1 << 28;
     const double pixels = 2.0 * window.x * window.y;
     const int smooth = pixels * kSmooth <= kMost ? std::min(kSmooth, render::max_samples(gl)) : 1;

@@ -12,28 +12,29 @@
 
 namespace isochron::app {
 
-/// What displays of this configuration have alike.
-/// @throws render::Error when this GL has fewer samples than configured, or too little of anything
-/// that drawing needs (`render::expect_enough`)
+/// Options that all displays of this configuration share.
+/// @throws render::Error when this GL has fewer samples than configured, or a limit too small for
+/// drawing (`render::expect_enough`)
 stereo::DisplayOptions display_options(const render::Gl& gl, const Config& config);
 
 /// The same for a picture to keep.
-/// @param window its size, pixels
+/// @param window size of the picture's window, pixels
 /// @throws render::Error when this GL has fewer samples than configured for pictures
 stereo::DisplayOptions picture_options(const render::Gl& gl, const Config& config,
                                        glm::ivec2 window);
 
-/// One for each window; a display stays where it is made.
+/// A display for each window, in a deque as displays must not move.
 /// @throws render::Error when this GL has fewer samples than configured
 std::deque<stereo::Display> make_displays(const render::Gl& gl, const stereo::Windows& windows,
                                           const Config& config);
 
-/// The modes that a key goes through: upright ones that the windows can show.
+/// Names of the modes that a key switches through: those that the windows can show, without
+/// inverted ones.
 std::vector<std::string> live_stereo_modes(const stereo::Windows& windows);
 
-/// Where the eyes are: each viewer's head, or until it is tracked the configured place.
-/// @param eye_separation chosen live, of the first viewer [m]
-/// @param center of the data in the room, where desktop screens show them in parallel projection
+/// Where the eyes are: at each viewer's head, or at the configured position until it is tracked.
+/// @param eye_separation of the first viewer, as the user has set it [m]
+/// @param center of the data in the room, if desktop screens use parallel projection
 std::vector<stereo::ViewerPose> viewer_poses(const stereo::Installation& installation,
                                              const interaction::InputState& input,
                                              float eye_separation,

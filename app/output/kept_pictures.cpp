@@ -1,4 +1,4 @@
-// Drawing of pictures to keep.
+// Draws the pictures to keep.
 #include "app/output/kept_pictures.h"
 
 namespace isochron::app {

@@ -1,5 +1,5 @@
-// Pictures to keep, drawn apart from those on the displays: nobody waits for them, so they have
-// more samples.
+// Pictures to keep (screenshots, movies): drawn apart from those on the displays, with more
+// samples, as no viewer waits for them.
 //
 //     const KeptPictures kept{gl, windows, config, displays, room, [&](auto& display) {
 //         display.draw(viewers, mode, scene);
@@ -21,24 +21,24 @@
 
 namespace isochron::app {
 
-/// Called with the number of a window in this process and with a display that shows what the window
-/// shows, without anything laid over it; the display is gone afterwards.
+/// Called with a window's number in this process, and a display with the same picture as the window
+/// but without an overlay. The display is valid only during the call.
 using TakePicture = std::function<void(std::size_t window, const stereo::Display& display)>;
 
-/// What the windows show, drawn once more. One window is drawn at a time, so that no more memory is
-/// needed than for the largest.
+/// Draws the windows' pictures once more, one window at a time, so that memory is needed only for
+/// the largest one.
 struct KeptPictures {
     const render::Gl& gl;
     const stereo::Windows& windows;
     const Config& config;
-    std::deque<stereo::Display>& shown; ///< by window; they serve if they have as many samples
+    std::deque<stereo::Display>& shown; ///< by window; used as they are if their samples suffice
     std::optional<RoomView>& room;      ///< of an emulated installation
-    /// Draws a window once more as it was drawn last.
+    /// Draws the last frame of a window once more, into `display`.
     std::function<void(stereo::Display& display)> draw;
-    bool differ = false; ///< something is shown that they leave out
+    bool differ = false; ///< pictures to keep differ from the shown ones, by caption or aids
 
     void each(const TakePicture& take) const;
-    /// The room, with its walls. There must be one.
+    /// The picture of the emulated room, which must exist, with its walls.
     render::Image of_room() const;
 
   private:

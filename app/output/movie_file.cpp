@@ -1,4 +1,4 @@
-// Pictures through a pipe to ffmpeg.
+// Sends pictures through a pipe to ffmpeg.
 #include "app/output/movie_file.h"
 
 #include "app/output/picture_note.h"
@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the same folder, with the suffix by which ffmpeg knows the format.
+/// A temporary name in the same folder, with the same suffix, by which ffmpeg knows the format.
 fs::path temporary_of(const fs::path& path) {
     return path.parent_path() /
            fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string());
@@ -46,7 +46,7 @@ std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, dou
     };
     if (out.extension() == ".gif")
         add({"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"});
-    else // players want even sides and halved color
+    else // players want even sides and color at half resolution
         add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset",
              hurried ? "ultrafast" : "veryfast", "-crf", "16", "-pix_fmt", "yuv420p", "-movflags",
              "+faststart"});
@@ -58,7 +58,7 @@ std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, dou
 
 } // namespace
 
-/// Both ends of a pipe; those that are still open are closed.
+/// Both ends of a pipe; the destructor closes those that are still open.
 struct FfmpegPipe {
     int ends[2]{-1, -1};
     FfmpegPipe() {
@@ -89,7 +89,7 @@ struct MovieFile::State {
     State(fs::path target, glm::ivec2 pixels, double rate, std::string text, bool hurried)
         : path(std::move(target)), temporary(temporary_of(path)), size(pixels),
           note(std::move(text)) {
-        std::signal(SIGPIPE, SIG_IGN); // an ffmpeg that is gone is told as an error
+        std::signal(SIGPIPE, SIG_IGN); // so that writing reports an error when ffmpeg has ended
         std::vector<std::string> words = arguments_for(temporary, size, rate, note, hurried);
         std::vector<char*> arguments;
         for (std::string& word : words)
@@ -119,7 +119,7 @@ struct MovieFile::State {
             fs::remove(temporary, ignored);
     }
 
-    /// Waits until ffmpeg ends. @return what it said, in one line; empty: all is well
+    /// Waits until ffmpeg ends. @return its error message, one line; empty: all is well
     std::string wait() {
         pictures.close_end(1);
         std::string said;

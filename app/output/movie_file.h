@@ -1,4 +1,4 @@
-// A movie that is written picture by picture: by the program ffmpeg, or as a folder of pictures.
+// Writes a movie picture by picture: through the program ffmpeg, or as a folder of pictures.
 //
 //     MovieFile movie("walk.mp4", {1280, 720}, 30);
 //     movie.add(image);      // one for each frame of the movie
@@ -16,26 +16,29 @@
 
 namespace isochron::app {
 
-/// The file or folder appears under its name when it is whole; destroyed before that, nothing is
-/// left of it. Used by one thread at a time.
+/// A movie that is being written. `finish` gives the complete file or folder its name; without
+/// `finish` nothing is left of it. Used by one thread at a time.
 class Movie {
   public:
     virtual ~Movie() = default;
-    /// @param note kept with the picture, where each has a place for its own; ASCII, empty: none
+    /// Adds a picture.
+    /// @param note stored with the picture if the format has a note for each; ASCII, empty: none
     /// @throws index::Error when the picture has another size or cannot be written
     virtual void add(const render::Image& image, const std::string& note = {}) = 0;
     virtual std::size_t frames() const = 0; ///< added so far
-    /// @throws index::Error when it cannot be completed
+    /// Completes the movie. @throws index::Error when that fails
     virtual void finish() = 0;
 };
 
-/// What its name says that it is: `.gif`, else H.264 in what ffmpeg makes of the suffix.
+/// A movie in one file. The suffix says the format: `.gif`, else H.264 in the container that ffmpeg
+/// chooses for it.
 class MovieFile final : public Movie {
   public:
     /// @param size of every picture, pixels
     /// @param rate pictures per second
-    /// @param note kept in the file, where its format has a place for it; ASCII, empty: none
-    /// @param hurried larger files in a third of the time, where drawing needs the same processors
+    /// @param note stored in the file if its format has a place for it; ASCII, empty: none
+    /// @param hurried encodes in a third of the time into larger files: for drawing in software,
+    /// which needs the same processors
     /// @throws index::Error when ffmpeg is missing or cannot be started
     MovieFile(std::filesystem::path path, glm::ivec2 size, double rate, std::string note = {},
               bool hurried = false);
@@ -43,7 +46,7 @@ class MovieFile final : public Movie {
     MovieFile(const MovieFile&) = delete;
     MovieFile& operator=(const MovieFile&) = delete;
 
-    /// Also throws what ffmpeg complained of. The file keeps one note, that of its start.
+    /// Also throws ffmpeg's error messages. Ignores `note`: the file has one note, from the start.
     void add(const render::Image& image, const std::string& note = {}) override;
     std::size_t frames() const override;
     void finish() override;
@@ -53,11 +56,11 @@ class MovieFile final : public Movie {
     std::unique_ptr<State> state_;
 };
 
-/// `frame_00000.png` and so on in a folder.
+/// A movie as `frame_00000.png` and so on in a folder.
 class MovieFolder final : public Movie {
   public:
-    /// @param path its frames of an earlier movie are replaced when this one is whole
-    /// @throws index::Error when the folder beside it, in which it grows, cannot be made
+    /// @param path folder; when this movie is complete it replaces the frames of an earlier one
+    /// @throws index::Error when the temporary folder beside it cannot be made
     explicit MovieFolder(std::filesystem::path path);
     ~MovieFolder() override;
     MovieFolder(const MovieFolder&) = delete;
@@ -73,9 +76,9 @@ class MovieFolder final : public Movie {
     std::size_t frames_ = 0;
 };
 
-/// Whether a movie of that name is a folder: it has no suffix.
+/// Whether a movie with this name is a folder: the name has no suffix.
 bool is_movie_folder(const std::filesystem::path& path);
-/// Whether something is there that a movie of that name would replace.
+/// Whether a movie with this name would replace an existing file, or frames in a folder.
 bool holds_movie(const std::filesystem::path& path);
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// Movies as pictures in a folder.
+// Writes movies as pictures in a folder.
 #include "app/output/movie_file.h"
 #include "index/error.h"
 #include "index/system/new_file.h"

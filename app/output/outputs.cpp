@@ -1,4 +1,4 @@
-// Drawing, presenting and keeping of pictures in windows, in an emulated room, or in a headset.
+// Draws, presents and keeps pictures in windows, in an emulated room, or in a headset.
 #include "app/output/outputs.h"
 
 #include "app/output/picture_names.h"
@@ -28,7 +28,8 @@ Outputs::Outputs(const Config& config, stereo::Windows windows,
     }
     if (windows_.room())
         room_.emplace(gl_, *windows_.room(), config_.installation);
-    picture_options(gl_, config_, {1, 1}); // wrong ones are told now, not when the first is taken
+    picture_options(gl_, config_,
+                    {1, 1}); // report wrong options now, not with the first screenshot
 }
 
 Outputs::~Outputs() {
@@ -73,13 +74,13 @@ void Outputs::show_aside(float share) {
         displays_.front().show_aside(share);
 }
 
-/// How a window shows what is drawn.
+/// The stereo mode of a window in the last frame.
 stereo::StereoMode Outputs::mode_in(const stereo::Window& window) const {
     const stereo::StereoMode mode = mode_of(window, config_.installation, drawn_.audience.stereo);
     return room_ ? RoomView::shown(mode) : mode;
 }
 
-/// One picture carries it: the room's, or else the first window's.
+/// Only one picture has the overlay: the room's, else the first window's.
 Outputs::Overlay Outputs::overlay_of(std::size_t window, const Overlay& overlay) const {
     return window == 0 && !room_ ? overlay : Overlay();
 }
@@ -159,7 +160,7 @@ KeptPictures Outputs::kept_pictures() {
     return {gl_, windows_, config_, displays_, room_, draw, kept_differ()};
 }
 
-/// What the window beside the headset shows.
+/// The picture to keep of the headset's mirror.
 render::Image Outputs::headset_picture() {
     const std::vector<stereo::HeadsetEye>& eyes = drawn_.audience.eyes;
     const stereo::DisplayOptions options =

@@ -1,5 +1,4 @@
-// What pictures are shown in: windows, the emulated room around them, or a headset; they are drawn,
-// presented and kept.
+// Draws, presents and keeps pictures in windows, in the emulated room around them, or in a headset.
 //
 //     Outputs outputs(config, std::move(windows));
 //     outputs.draw(audience, scene, panel);      // or draw_again, when only the panel has changed
@@ -30,7 +29,7 @@
 
 namespace isochron::app {
 
-/// Who looks in one frame, how, and what of theirs stands in the room.
+/// The viewers of one frame, how they look, and their things that stand in the room.
 struct Audience {
     std::vector<stereo::ViewerPose> viewers; ///< by number
     std::vector<stereo::HeadsetEye> eyes;    ///< of a headset that wants a picture
@@ -43,27 +42,27 @@ struct Audience {
     bool operator==(const Audience&) const = default;
 };
 
-/// Where the views lie that a scene is drawn for.
+/// Which window and viewport a scene is drawn for.
 struct ScenePlace {
     const stereo::Window* window = nullptr; ///< of the installation; null: a headset
     std::size_t viewport = 0;               ///< of the window
     stereo::StereoMode mode{};              ///< of the window
-    bool kept = false;                      ///< for a picture that is written
+    bool kept = false;                      ///< for a picture to keep
 };
 
 class Outputs {
   public:
-    /// Draws the eyes of one viewport, or of a headset, into what is bound.
+    /// Draws the eyes of one viewport, or of a headset, into the bound framebuffer.
     using Scene = std::function<void(const ScenePlace&, std::span<const render::View>)>;
     using Overlay = stereo::Display::Overlay;
 
     /// @param config outlives the outputs
-    /// @param windows those of the configured installation, or a context for its only one that
-    /// outlives the outputs; the one that draws is current on this thread
-    /// @param headset that is drawn for in place of the installation's windows, the first of which
-    /// mirrors it; null: none
-    /// @throws render::Error when this GL has fewer samples than configured, for displays or for
-    /// pictures, or the headset cannot show from it
+    /// @param windows of the configured installation, or a context for its only window that
+    /// outlives the outputs; the drawing context is current on this thread
+    /// @param headset to draw for instead of the installation's windows, the first of which mirrors
+    /// it; null: none
+    /// @throws render::Error when this GL has fewer samples than configured for displays or for
+    /// pictures, or the headset cannot use it
     Outputs(const Config& config, stereo::Windows windows,
             std::unique_ptr<stereo::Headset> headset = nullptr);
     ~Outputs();
@@ -71,55 +70,56 @@ class Outputs {
     const render::Gl& gl() const { return gl_; }
     const stereo::Windows& windows() const { return windows_; }
     std::vector<glm::ivec2> window_sizes() const; ///< pixels, by window of this process
-    /// Names of the modes that a key goes through.
+    /// Names of the stereo modes that a key switches through.
     const std::vector<std::string>& stereo_modes() const { return stereo_modes_; }
 
-    /// What a window of this process shows; `windows().number(i)` tells which it is. Beside a headset
-    /// windows show it while the headset does not; there is none where it is the only display.
+    /// The display of a window of this process; `windows().number(i)` is its number in the
+    /// installation. Beside a headset, windows show it only while the headset shows nothing. There
+    /// is none if the headset is the only display.
     const stereo::Display& display(std::size_t window = 0) const { return displays_[window]; }
     std::size_t displays() const { return displays_.size(); }
-    /// The room of an emulated installation; null where its windows are real.
+    /// The room of an emulated installation; null if its windows are real.
     const RoomView* room() const { return room_ ? &*room_ : nullptr; }
-    /// Whose events and frames the caller sees to; null where there is none.
+    /// The headset, whose events and frames the caller handles; null: none.
     stereo::Headset* headset() const { return headset_.get(); }
-    /// The pictures of the headset's eyes; null where there is none.
+    /// The pictures of the headset's eyes; null: no headset.
     const stereo::HeadsetDisplay* headset_display() const {
         return headset_display_ ? &*headset_display_ : nullptr;
     }
-    /// Where a headset's eyes will be; empty where there is none, or when it wants no picture.
+    /// Where the headset's eyes will be; empty without a headset, or if it wants no picture.
     std::vector<stereo::HeadsetEye> headset_eyes() const;
-    /// False while a headset that is shown wants no picture.
+    /// Whether anything has to be drawn: false if only a headset is shown, and it wants no picture.
     bool want(const Audience& audience) const {
         return !headset_ || !audience.eyes.empty() || shows_windows(audience);
     }
-    /// Whether the windows show what somebody sees, and no headset's mirror.
+    /// Whether the windows show their own views, rather than a headset's mirror.
     bool shows_windows(const Audience& audience) const {
         return !headset_ || (audience.in_windows && !displays_.empty());
     }
     bool shows_windows() const { return shows_windows(drawn_.audience); } ///< in the last frame
 
-    /// The eye's ray under the cursor in a window as drawn last; nothing in a headset or an
-    /// emulated room.
-    /// @param viewers where they are now
+    /// The ray from the eye through the cursor, in a window as it was drawn last; empty in a
+    /// headset or an emulated room.
+    /// @param viewers where the viewers are now
     std::optional<interaction::Pose> ray_at(const interaction::MouseMoveEvent& cursor,
                                             std::span<const stereo::ViewerPose> viewers) const;
 
-    /// Leaves the left of the first window to the panel that lies over it, where its screens take
-    /// on the shape of what is left. @param pixels of each eye's part
+    /// Keeps the left side of the first window free for the panel over it, if all of its screens
+    /// adapt to the shape of the rest. @param pixels width in each eye's part
     void leave_free(int pixels);
     /// Shows what is at the left of the first window's screens, in the same case.
     /// @param share of the width of each eye's part
     void show_aside(float share);
 
-    /// Draws what each eye sees.
-    /// @param scene the same until the next call, for pictures to keep
-    /// @param overlay over one of them: the first window, or a headset's mirror; empty: none
-    /// @return what one cell in every view comes to
+    /// Draws each eye's picture.
+    /// @param scene draws the same until the next call: pictures to keep call it again
+    /// @param overlay drawn over the first window, or over a headset's mirror; empty: none
+    /// @return load of one cell in every view: the number of views, and their pixels
     DrawLoad draw(const Audience& audience, Scene scene, const Overlay& overlay);
-    /// Shows each eye what it saw last, with a new overlay.
+    /// Keeps each eye's last picture, and draws a new overlay.
     void draw_again(const Audience& audience, const Overlay& overlay);
-    /// Then the emulated room with all of that, where there is one; there the overlay is over it.
-    /// @param input holds the room's camera
+    /// Draws the emulated room around these pictures, if there is one, and the overlay over it.
+    /// @param input holds the pose of the room's camera
     void draw_room(const interaction::InputState& input, const Overlay& overlay);
     void present();
     const Audience& audience() const { return drawn_.audience; } ///< of the last frame
@@ -127,21 +127,21 @@ class Outputs {
     /// The last frame's pictures, drawn once more to be kept.
     KeptPictures kept_pictures();
     /// Where screenshots go. They are called `isochron_0001.png`, of several windows
-    /// `isochron_0001_front.png`, and are counted on from those that are there now: all processes of
-    /// a cluster must ask for the folder before the first screenshot.
+    /// `isochron_0001_front.png`, and are counted on from those that are there now: all processes
+    /// of a cluster must ask for the folder before the first screenshot.
     void set_screenshots(const std::filesystem::path& folder);
-    /// Of the room, of the headset's mirror, or of every window of this process.
-    /// @param frame what the last frame shows
+    /// Writes a picture of the room, of the headset's mirror, or of every window of this process.
+    /// @param frame note about the last frame, from which each picture's own note is made
     void take_screenshots(const PictureNote& frame);
-    /// Writes a picture under its name, in the background. @param note goes into the file; empty: none
+    /// Writes a picture in the background. @param note stored in the file; empty: none
     void write_image(render::Image image, const std::filesystem::path& path,
                      const std::string& note = {});
-    /// What a picture of a frame says of itself.
+    /// The note of one picture of a frame: `frame` with the part and how it is drawn.
     PictureNote noted(PictureNote frame, const PicturePart& part) const;
-    BackgroundWork& pictures() { return pictures_; } ///< that are written
+    BackgroundWork& pictures() { return pictures_; } ///< writes pictures
 
   private:
-    /// What the eyes saw last.
+    /// The last frame.
     struct Drawn {
         Audience audience;
         Scene scene;
@@ -154,7 +154,7 @@ class Outputs {
                      bool kept = false) const;
     void end_headset_frame(bool again);
     render::Image headset_picture();
-    bool kept_differ() const; ///< from those that are shown
+    bool kept_differ() const; ///< pictures to keep differ from the shown ones
 
     const Config& config_;
     stereo::Windows windows_;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kScreenshot = "isochron_";
 
-/// Makes names into suffixes that differ, whatever is left of the names.
+/// Makes suffixes from names; adds numbers where names have become equal.
 class Suffixes {
   public:
     std::string next(const std::string& name) {

@@ -9,7 +9,8 @@
 
 namespace isochron::app {
 
-/// A name as part of a file name: letters, digits, `-` and `_` stay, the rest becomes `_`.
+/// Makes a name usable as part of a file name: letters, digits, `-` and `_` stay, all else becomes
+/// `_`.
 std::string file_name(std::string name);
 
 /// `isochron_0001` for the first screenshot in a folder.
@@ -17,12 +18,12 @@ std::string screenshot_name(int number);
 /// The highest number of the screenshots in a folder; 0 where there are none, or no folder.
 int last_screenshot(const std::filesystem::path& folder);
 
-/// What the names of pictures of each window, and of each of its viewports, are told apart by:
-/// `_front`, `_front_upper`. Empty where there is but one. No two are the same.
+/// The suffixes of all windows and viewports: `_front`, `_front_upper`. All differ. An only window
+/// has none, and an only viewport has its window's.
 struct PictureNames {
     struct Window {
         std::string suffix;
-        std::vector<std::string> viewports; ///< with the window's
+        std::vector<std::string> viewports; ///< beginning with the window's suffix
     };
     std::vector<Window> windows;
 };

@@ -1,4 +1,4 @@
-// Notes in pictures as text, and back.
+// Converts the notes in pictures to text and back.
 #include "app/output/picture_note.h"
 
 #include "index/error.h"
@@ -22,7 +22,7 @@ using nlohmann::json;
 
 constexpr const char* kNoteFormat = "isochron picture";
 constexpr std::uint64_t kNoteVersion = 1, kLargestWindow = 1 << 20, kMostParts = 1 << 16;
-/// Before and after the text in files whose structure is not followed.
+/// Marks around the text in files whose structure is not parsed.
 constexpr std::string_view kBegin = "<isochron-picture>", kEnd = "</isochron-picture>";
 
 json part_json(const PicturePart& part) {
@@ -87,7 +87,7 @@ PictureNote note_from_json(const json& value) {
     return note;
 }
 
-/// A GIF's last comment, whose text lies in blocks of at most 255 bytes.
+/// The text of a GIF's last comment, which is stored in blocks of at most 255 bytes.
 std::string last_comment(const std::string& bytes) {
     const std::string intro{'\x21', '\xfe'};
     for (std::size_t at = bytes.rfind(intro); at != std::string::npos && at > 0;

@@ -1,5 +1,5 @@
-// What a written picture says of itself: what it shows, of which data, and everything that it was
-// drawn by, so that it can be made again.
+// The note inside a written picture: what it shows, of which data, and all settings that are needed
+// to draw it again.
 #pragma once
 
 #include "interaction/recording/recorded_frame.h"
@@ -15,15 +15,15 @@ namespace isochron::app {
 
 /// Which picture of a frame it is.
 struct PicturePart {
-    /// `window` as its stereo mode composes it, its `right_buffer`, the `left`, `right` or `center`
-    /// eye's own picture, the emulated `room`, or a `headset`'s mirror.
+    /// `window`: as its stereo mode composes it; `right_buffer` of a window; `left`, `right` or
+    /// `center`: the picture of one eye; `room`: the emulated room; `headset`: a headset's mirror.
     std::string shows = "window";
     std::size_t window = 0;   ///< of the installation
     std::size_t viewport = 0; ///< of the window, for an eye's own picture
     bool operator==(const PicturePart&) const = default;
 };
 
-/// How a movie goes on from the frame that its note describes.
+/// How a movie continues after its first frame, which the note describes.
 struct MovieNote {
     double rate = 0;       ///< pictures per second
     std::string recording; ///< content hash of the recording
@@ -36,32 +36,32 @@ struct PictureNote {
     std::string configuration; ///< the whole text of the configuration file
     std::string data;          ///< file name of the index, without its folder
     std::string data_hash;     ///< hexadecimal content hash
-    std::string recorded_on{}; ///< hash of the recording's own data, where these are others
+    std::string recorded_on{}; ///< hash of the recording's data, if those are others
     PicturePart part;
     glm::ivec2 size{0};    ///< of the window or room, pixels
     int samples = 1;       ///< of each pixel
     std::string footprint; ///< that cells are drawn with
     std::string shape;     ///< of quads and splats
-    bool ray = false;      ///< wand's ray and what is under the cursor are shown
+    bool ray = false;      ///< shows the wand's ray and the mark under the cursor
     bool caption = false;
-    interaction::Commands state;      ///< everything that commands can set, set
+    interaction::Commands state;      ///< sets everything that commands can set
     interaction::InputState input;    ///< devices
-    interaction::InputState latched;  ///< heads for the views; no devices: as in `input`
+    interaction::InputState latched;  ///< heads for the views; without devices: those in `input`
     std::optional<MovieNote> movie{}; ///< empty: a single picture
     bool operator==(const PictureNote&) const = default;
 };
 
-/// One line of ASCII.
+/// The note as one line of ASCII.
 std::string text_of(const PictureNote& note);
-/// @throws interaction::Error without the file's name
+/// Parses such a line. @throws interaction::Error, which does not name the file
 PictureNote note_from(const std::string& text);
 
-/// The text of the note in a picture or movie; empty where there is none.
+/// The text of the note in a picture or movie; empty if it has none.
 /// @throws index::Error, render::Error naming the file
 std::string note_text_in(const std::filesystem::path& path);
 
-/// Puts a note into a GIF, whose writer does not.
-/// @throws index::Error when it is none
+/// Puts a note into a GIF file, as ffmpeg does not.
+/// @throws index::Error when the file is no GIF
 void add_note_to_gif(const std::filesystem::path& path, const std::string& text);
 
 } // namespace isochron::app

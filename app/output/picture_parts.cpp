@@ -1,4 +1,4 @@
-// The pictures of a frame that can be written.
+// The pictures of a frame to write.
 #include "app/output/picture_parts.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,8 @@ void each_part(Outputs& outputs, bool each_eye, const PictureNames& names, const
         return take(outputs.noted(frame, {.shows = "room"}), "", outputs.kept_pictures().of_room());
     outputs.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
         const std::size_t number = outputs.windows().number(i);
-        if (number >= names.windows.size()) // the operator's window is no wall
+        if (number >=
+            names.windows.size()) // the operator's window, which is not part of the installation
             return;
         const PictureNames::Window& named = names.windows[number];
         const auto take_part = [&](const std::string& shows, std::size_t viewport,

@@ -1,4 +1,4 @@
-// The pictures of a frame that can be written: one for each window, or one for each eye.
+// The pictures of a frame to write: one for each window, or one for each eye.
 #pragma once
 
 #include "app/output/outputs.h"
@@ -10,14 +10,15 @@
 
 namespace isochron::app {
 
-/// @param suffix of its file's name: `_front_left`
+/// Receives one picture. @param suffix of its file name: `_front_left`
 using TakePart =
     std::function<void(const PictureNote& note, const std::string& suffix, render::Image image)>;
 
-/// Draws the pictures of the last frame once more, to be kept.
-/// @param each_eye one for each eye and viewport; else as the windows' modes compose them
-/// @param names of the installation; windows beyond them, such as the operator's, are left out
-/// @param frame what the frame shows; each picture's note adds what it is
+/// Draws the pictures to keep of the last frame.
+/// @param each_eye one picture for each eye and viewport; else one for each window, as its stereo
+/// mode composes it
+/// @param names of the installation; windows without one, such as the operator's, are left out
+/// @param frame note about the frame; each picture's note adds which part it is
 void each_part(Outputs& outputs, bool each_eye, const PictureNames& names, const PictureNote& frame,
                const TakePart& take);
 

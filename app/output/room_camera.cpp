@@ -1,4 +1,4 @@
-// Orbiting of the room's camera.
+// Moves the room's camera.
 #include "app/output/room_camera.h"
 
 #include "stereo/screen.h"
@@ -97,7 +97,7 @@ void RoomCamera::drag(glm::vec2 by) {
         pitch_ = std::clamp(pitch_ + kTurn * by.y, -kSteepest, kSteepest);
         return;
     }
-    const float meters = 2.0f * distance_ * std::tan(kRoomView / 2); // per window height
+    const float meters = 2.0f * distance_ * std::tan(kRoomView / 2); // for one window height
     center_ += pose().orientation * glm::vec3(-by.x * meters, by.y * meters, 0.0f);
 }
 

@@ -1,4 +1,4 @@
-// The triangles and lines of an emulated room's furniture.
+// Models for the picture of an emulated room.
 #include "app/output/room_models.h"
 
 #include <cmath>
@@ -7,7 +7,7 @@ namespace isochron::app {
 namespace {
 
 constexpr float kGridSpacing = 0.5f;  ///< [m]
-constexpr float kGridHeight = -0.01f; ///< [m] under a floor that is a screen
+constexpr float kGridHeight = -0.01f; ///< [m] just below a screen on the floor
 constexpr glm::vec4 kGrid(0.45f, 0.48f, 0.52f, 0.6f);
 constexpr glm::vec3 kEyeWhite(0.95f), kPupil(0.1f), kWand(0.85f, 0.62f, 0.25f);
 

@@ -1,4 +1,4 @@
-// Models of what stands in an emulated room: heads with noses, wands, the floor.
+// Models for the picture of an emulated room: heads with noses, wands, the floor.
 #pragma once
 
 #include "render/passes/line_pass.h"

@@ -1,4 +1,4 @@
-// Drawing of a room from outside.
+// Draws an emulated room from outside.
 #include "app/output/room_view.h"
 
 #include "app/output/room_models.h"
@@ -15,13 +15,13 @@ namespace {
 
 constexpr float kNear = 0.05f, kFar = 200.0f; ///< [m]
 constexpr float kGlass = 0.3f;                ///< opacity of a wall that is seen from behind
-constexpr float kBeforeWall = 1e-2f;          ///< of the distance from the eye
+constexpr float kBeforeWall = 1e-2f;          ///< share of the distance to the eye
 constexpr float kFloorMargin = 0.5f;          ///< [m] that the floor reaches beyond the walls
 constexpr float kWandRay = 1.2f;              ///< [m]
 constexpr glm::vec3 kBackground(0.13f, 0.14f, 0.16f);
 constexpr glm::vec4 kFrame(0.85f, 0.87f, 0.90f, 0.9f), kRay(1.0f, 0.77f, 0.36f, 0.9f);
 
-/// Colors of the viewers and of what they see; the fifth viewer has the first one's.
+/// Colors of the viewers and of the lines to their screens; the fifth viewer has the first color.
 constexpr std::array<glm::vec3, 4> kViewers{
     {{0.93f, 0.76f, 0.62f}, {0.55f, 0.77f, 0.95f}, {0.65f, 0.90f, 0.62f}, {0.92f, 0.62f, 0.85f}}};
 
@@ -32,7 +32,7 @@ glm::vec3 color_of(std::size_t viewer) {
 constexpr stereo::DisplayOptions kOptions{
     .near_plane = kNear, .far_plane = kFar, .background = kBackground};
 
-/// A window on the room: a screen that the camera carries and that takes the window's shape.
+/// A window with one screen that moves with the camera and adapts to the window's shape.
 stereo::Window room_window() {
     const float half = std::tan(kRoomView / 2);
     stereo::Window window;
@@ -113,7 +113,7 @@ std::vector<RoomView::Wall> RoomView::walls_of(const std::deque<stereo::Display>
     for (const stereo::Display& display : displays)
         for (std::size_t i = 0; i < display.window().viewports.size(); ++i) {
             const stereo::Viewport& viewport = display.window().viewports[i];
-            // The only eye of a mode in `shown`, which has the target to itself.
+            // A mode from `shown` has one eye, which has the whole picture.
             const stereo::EyePicture picture =
                 display.eye_picture(stereo::eyes_of(display.mode()).front(), i);
             walls.push_back(
@@ -130,7 +130,7 @@ void RoomView::draw_walls(const render::View& view, std::span<const Wall> walls,
     for (const Wall& wall : walls)
         if (seen_from_front(wall.corners, eye) == from_front)
             drawn.push_back(wall);
-    // Glass blends back to front.
+    // Walls like glass blend from back to front.
     std::ranges::sort(drawn, std::greater(),
                       [&](const Wall& wall) { return glm::distance(eye, middle(wall.corners)); });
     for (const Wall& wall : drawn)
@@ -147,7 +147,7 @@ void RoomView::draw_room(const render::View& view, std::span<const Wall> walls,
     const glm::vec3 eye = view.eye_in_room();
     for (const Wall& wall : walls)
         for (std::size_t i = 0; i < 4; ++i) {
-            // Nearer to the eye, at the same place of the picture: frames are not lost in walls.
+            // Move the frame towards the eye, so that the wall does not cover it.
             const auto before = [&](const glm::vec3& corner) {
                 return glm::mix(corner, eye, kBeforeWall);
             };

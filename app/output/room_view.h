@@ -1,4 +1,4 @@
-// The picture of an emulated installation: the room from outside, with what every wall shows.
+// The picture of an emulated installation: the room from outside, with the pictures on its walls.
 #pragma once
 
 #include "app/output/room_camera.h"
@@ -24,29 +24,29 @@ class RoomView {
     RoomView(const render::Gl& gl, stereo::GlContext& window,
              const stereo::Installation& installation);
 
-    /// The mode of which a wall shows one picture: the left eye's, or the only one.
+    /// The mode in which walls are drawn: as one picture, the left eye's or the only one.
     static stereo::StereoMode shown(stereo::StereoMode mode);
 
-    /// The panel that stands in the room from now on, if any.
+    /// Sets the panel that stands in the room; empty: none.
     void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }
 
-    /// Draws the room around the displays as they are: walls with the picture of one eye,
-    /// clear from the front and as if of glass from behind; the lines from each viewer to the
-    /// corners of what they see; heads, wand and floor. Then the overlay.
-    /// @param input holds the camera; where it does not, the camera stands where it starts
+    /// Draws the room around the displays: walls with the picture of one eye, opaque from the front
+    /// and like glass from behind; lines from each viewer to the corners of their screens; heads,
+    /// wand and floor. Then the overlay.
+    /// @param input holds the camera's pose; without it the camera is at its start
     void draw(const std::deque<stereo::Display>& displays,
               std::span<const stereo::ViewerPose> viewers,
               const std::optional<interaction::Pose>& wand, const interaction::InputState& input,
               const stereo::Display::Overlay& overlay);
     void present() { display_.present(); }
     render::Image read() const { return display_.read_window(); }
-    glm::ivec2 size() const { return display_.size(); } ///< drawn last, pixels
-    /// What was drawn last, without the overlay, drawn once more.
-    /// @param displays that show what they showed then
+    glm::ivec2 size() const { return display_.size(); } ///< of the last picture, pixels
+    /// Draws the last picture once more, without the overlay.
+    /// @param displays with the same contents as then
     render::Image picture(const std::deque<stereo::Display>& displays, int samples);
 
   private:
-    /// A screen as it stands in the room in this frame.
+    /// A screen in the room, in this frame.
     struct Wall {
         std::array<glm::vec3, 4> corners;
         GLuint picture;
@@ -59,7 +59,7 @@ class RoomView {
                    const std::optional<interaction::Pose>& wand);
     void draw_walls(const render::View& view, std::span<const Wall> walls, bool from_front) const;
 
-    /// What was drawn last, beside the displays.
+    /// The last picture, apart from the displays.
     struct Drawn {
         interaction::Pose camera;
         std::vector<stereo::ViewerPose> viewers;

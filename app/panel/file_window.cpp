@@ -1,4 +1,4 @@
-// Chooses data to open.
+// The window for choosing data to open.
 #include "app/panel/file_window.h"
 
 #include "app/panel/panel_words.h"
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostListed = 5000; ///< names of a folder
+constexpr std::size_t kMostListed = 5000; ///< most names listed of a folder
 
 } // namespace
 

@@ -1,4 +1,4 @@
-// Chooses data to open: those that were open lately, and what lies in the folders.
+// The window for choosing data to open: recent data, and folders.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,14 @@ namespace isochron::app {
 
 class FileWindow {
   public:
-    /// Opens the window. @param recent the newest first; its folder is the first to be shown
+    /// Opens the window. @param recent recently opened data, newest first; it begins in the folder
+    /// of the first one
     void open(std::vector<std::filesystem::path> recent);
     void close() { shown_ = false; }
     bool is_open() const { return shown_; }
 
-    /// Lays it out in the current Dear ImGui frame, in the middle of the picture.
-    /// @return the index that the user has chosen, with which the window closes
+    /// Lays the window out in the current Dear ImGui frame, in the middle of the picture.
+    /// @return the index that the user has chosen; then the window closes
     std::optional<std::filesystem::path> draw();
 
   private:
@@ -26,8 +27,8 @@ class FileWindow {
     bool shown_ = false;
     std::vector<std::filesystem::path> recent_;
     std::filesystem::path folder_;
-    std::vector<std::string> folders_, files_; ///< in it: names, in order
-    std::string complaint_;                    ///< why it cannot be listed
+    std::vector<std::string> folders_, files_; ///< sorted names in folder_
+    std::string complaint_;                    ///< why folder_ cannot be listed
 };
 
 } // namespace isochron::app

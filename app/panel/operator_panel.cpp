@@ -1,4 +1,4 @@
-// Events, drawing and presenting of the operator's panel, wherever it is.
+// Events, drawing and presenting of the operator's panel.
 #include "app/panel/operator_panel.h"
 
 #include <utility>
@@ -28,7 +28,7 @@ interaction::Commands OperatorPanel::draw_over(glm::ivec2 picture, glm::ivec2 pl
                                                const Model& model, interaction::Seconds time) {
     if (!first_.has_window() || console_)
         return {};
-    // The right buffer of a quad-buffered window shows what was laid out for the left one.
+    // The right buffer of a quad-buffered window shows the layout that was made for the left one.
     interaction::Commands commands;
     const glm::ivec2 part = picture / places;
     over_.repeat(places);

@@ -14,16 +14,16 @@ namespace isochron::app {
 
 class OperatorPanel {
   public:
-    /// What the panel shows in such a place; asked for only where it is laid out.
+    /// Makes what the panel shows in a place; called only if the panel is laid out there.
     using Model = std::function<PanelModel(PanelPlace)>;
 
-    /// @param gl outlives the panel, as do the windows' contexts
-    /// @param font_scale its size, times what the desktop asks for
+    /// @param gl outlives the panel, and so do the windows' contexts
+    /// @param font_scale size of the panel, times the desktop's scale
     OperatorPanel(const render::Gl& gl, const stereo::Windows& windows, float font_scale = 1);
 
-    /// The first four lines stand over the first window until somebody has begun.
+    /// Shows the four lines of introduction over the first window until the user begins.
     void introduce() { over_.introduce(); }
-    bool introduced() { return over_.introduced(); } ///< they have gone, told once
+    bool introduced() { return over_.introduced(); } ///< true once, when those lines have gone
     /// See PanelLayer.
     void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
         over_.offer_files(std::move(recent));
@@ -32,25 +32,25 @@ class OperatorPanel {
 
     std::optional<MovieWish> take_wanted_movie();
 
-    /// Passes window events to the panel. @param shown it lies over the first window
-    /// @return those that it has no use for
+    /// Passes window events to the panel. @param shown the panel lies over the first window
+    /// @return the events that it does not use
     std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,
                                                bool shown);
 
     /// Draws the panel over the first window's picture, which is bound; lays it out once a frame.
-    /// Nothing where the panel has a window of its own, or the picture has none.
+    /// Does nothing if the panel has its own window, or there is no first window.
     /// @param picture its size, pixels @param time of the session
-    /// @param places eyes that have a part of the picture each, beside and above one another: the
-    /// panel stands in every part
-    /// @return what the operator did
+    /// @param places number of eyes side by side (x) and above each other (y) that each have a part
+    /// of the picture: the panel appears in every part
+    /// @return commands of the operator
     interaction::Commands draw_over(glm::ivec2 picture, glm::ivec2 places, const Model& model,
                                     interaction::Seconds time);
-    /// Draws it in its own window, where it has one. @return what the operator did
+    /// Draws it in its own window, if it has one. @return commands of the operator
     interaction::Commands draw_alone(const Model& model, interaction::Seconds time);
-    /// Shows its own window, where it has one, and ends the frame.
+    /// Shows its own window, if it has one, and ends the frame.
     void present();
-    /// Pixels of a picture's width, from its left, that the panel over it covers; 0 where it is folded,
-    /// or would cover more than half. @param width of the part of the picture that an eye has
+    /// Width in pixels that the panel covers at the left of the picture; 0 if the panel is folded,
+    /// or would cover more than half. @param width of the part of the picture that one eye has
     int covered(int width) const;
     /// Whether the panel over the picture is under the cursor.
     bool covers(const interaction::MouseMoveEvent& cursor) const;
@@ -59,7 +59,7 @@ class OperatorPanel {
     stereo::GlContext& first_; ///< window
     const float font_scale_;
     PanelLayer over_;
-    bool laid_out_ = false; ///< in this frame, over one buffer of its window
+    bool laid_out_ = false; ///< in this frame, for the first buffer of its window
     std::optional<Console> console_;
 };
 

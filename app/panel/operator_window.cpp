@@ -7,7 +7,7 @@
 namespace isochron::app {
 namespace {
 
-/// A minimized window has none.
+/// At least one pixel: a minimized window has none.
 glm::ivec2 drawable(glm::ivec2 size) {
     return glm::max(size, glm::ivec2(1));
 }

@@ -31,12 +31,12 @@ constexpr ImU32 kAskedColor = IM_COL32(255, 196, 92, 255);
 constexpr ImU32 kShownColor = IM_COL32(120, 220, 160, 255);
 const ImVec4 kPaper(0.115f, 0.125f, 0.145f, 1.0f);
 
-/// The picked surface among those shown, which may have been fewer.
+/// The picked surface as one of the shown ones, of which there may be fewer.
 std::size_t shown_surface(const PanelModel& model) {
     return std::min<std::size_t>(model.asked.picked, model.frame.shown->isovalues.size() - 1);
 }
 
-/// Histogram of all values on a logarithmic scale; pressing or dragging picks an isovalue.
+/// Histogram of all values with logarithmic counts; pressing or dragging picks an isovalue.
 void histogram(const PanelModel& model, Commands& commands) {
     const auto& bins = model.stats.histogram;
     const ImVec2 size(ImGui::GetContentRegionAvail().x, 64.0f);
@@ -75,7 +75,7 @@ void histogram(const PanelModel& model, Commands& commands) {
         ImGui::SetTooltip("%s", with_unit(pointed, model.info.value_unit).c_str());
 }
 
-/// A number with its unit as ImGui's sliders want it: a format, in which the unit is only text.
+/// The format of a number with its unit for ImGui's sliders, with the unit's percent signs escaped.
 std::string slider_format(const std::string& unit) {
     std::string format = unit.empty() ? "%.6g" : "%.6g ";
     for (char c : unit)
@@ -83,12 +83,12 @@ std::string slider_format(const std::string& unit) {
     return format;
 }
 
-/// Lines are broken, and words left out.
+/// Whether the panel is so narrow that lines are broken and words left out.
 bool is_narrow() {
     return ImGui::GetWindowWidth() < 340.0f;
 }
 
-/// What is asked for, and what is shown of it. @param what it is
+/// A line with the value asked for and the value shown. @param what their name
 void asked_and_shown(const char* what, const std::string& asked, const std::string& shown) {
     state_note(fmt::format("{}asked {}{}shown {}", is_narrow() ? "" : fmt::format("{}: ", what),
                            asked, is_narrow() ? " " : "   ", shown),
@@ -179,7 +179,7 @@ void time_section(const PanelModel& model, Commands& commands) {
     const int last = static_cast<int>(model.asked.known_steps(times.size())) - 1;
     ImGui::SetNextItemWidth(-1.0f);
     ImGui::BeginDisabled(last == 0);
-    // Said as people count.
+    // Steps are numbered from 1 for people.
     const std::string format = fmt::format("step {} of {}", step + 1, last + 1);
     if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
         commands.step = static_cast<std::uint32_t>(step);
@@ -222,7 +222,7 @@ void view_section(const PanelModel& model, Commands& commands) {
     const bool settled = model.frame.pace == interaction::Pace::settled;
     if (model.place == PanelPlace::in_room)
         ImGui::SameLine();
-    // The footprint follows from what is drawn, and in the room the panel is a part of that.
+    // The footprint depends on what is drawn, such as the panel in the room, which cannot name it.
     state_note(model.place == PanelPlace::in_room ? name_of(model.frame.pace)
                                                   : quality_line(model.frame),
                settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
@@ -241,7 +241,7 @@ void view_section(const PanelModel& model, Commands& commands) {
         }
         ImGui::EndCombo();
     }
-    // In the room the data are walked around, and the panel has no line to spare.
+    // In the room users walk around the data, and the panel has no line to spare.
     if (model.place != PanelPlace::in_room)
         view_buttons(model, commands);
     float millimeters = model.asked.eye_separation * 1000.0f;
@@ -252,7 +252,7 @@ void view_section(const PanelModel& model, Commands& commands) {
     tip("distance between the eyes ( [ and ] )");
 }
 
-/// The place that somebody picked, and what to do with it.
+/// The place that the user picked, with a button to remove it.
 void mark_section(const PanelModel& model, Commands& commands) {
     const auto& point = model.asked.mark.point;
     if (!point)
@@ -282,7 +282,7 @@ void page_buttons(PanelPages& pages) {
 } // namespace
 
 std::string quality_line(const FrameReport& frame) {
-    // In fast mode quads are drawn whether anything moves or not.
+    // Fast mode draws quads in motion and at rest.
     const bool fast = frame.reason == QualityReason::fast_mode;
     std::string line =
         fmt::format("{}: {}", fast ? "fast" : name_of(frame.pace), name_of(frame.footprint));
@@ -290,7 +290,7 @@ std::string quality_line(const FrameReport& frame) {
         line += fmt::format(", {:.1f} of {:.1f} ms", frame.expected->count(), frame.budget.count());
     if (frame.reason == QualityReason::over_budget && frame.better)
         line += fmt::format(" (better takes {:.1f})", frame.better->count());
-    // That it moves or fits is said by the line already.
+    // The line already tells that the picture moves or fits.
     else if (!fast && frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
         line += fmt::format(" ({})", name_of(frame.reason));
     return line;
@@ -306,7 +306,7 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
         ImGui::SetNextWindowSize(
             {std::min({kDocked, std::max(kLeast, 0.45f * picture.x), 0.9f * picture.x}),
              picture.y});
-        // It would hide the data.
+        // In a narrow picture it begins folded, as it would hide the data.
         const bool narrow = picture.x < 1.5f * kLeast;
         if (std::exchange(area.narrow, narrow) != narrow)
             ImGui::SetNextWindowCollapsed(narrow);
@@ -339,7 +339,7 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
     time_section(model, commands);
     ImGui::Separator();
     mark_section(model, commands);
-    // In the room it begins folded, so that nothing has to be scrolled to.
+    // In the room this section begins folded, so that users need not scroll.
     const bool in_room = model.place == PanelPlace::in_room;
     if (ImGui::CollapsingHeader("tools", in_room ? 0 : ImGuiTreeNodeFlags_DefaultOpen))
         tools_section(model, commands);
@@ -356,7 +356,7 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
     }
     if (in_room && ImGui::CollapsingHeader("hands"))
         controls_of(std::array{interaction::DeviceKind::hands}, model.controls);
-    if (model.place == PanelPlace::in_room) // below all controls, which it must not move
+    if (model.place == PanelPlace::in_room) // below all controls, so that it does not move them
         complaints(model);
     const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     area = {.left = corner.x,

@@ -1,4 +1,4 @@
-// The control panel: shows what is asked for and what is shown, and turns clicks into commands.
+// The control panel: shows what the user asked for and what is shown; turns clicks into commands.
 #pragma once
 
 #include "app/panel/panel_model.h"
@@ -9,7 +9,7 @@
 
 namespace isochron::app {
 
-/// The rectangle that the panel covers: its own pixels from the top left.
+/// The rectangle that the panel covers, in panel pixels from the top left.
 struct PanelArea {
     float left = 0, top = 0, right = 0, bottom = 0;
     float title = 0;     ///< height of its title
@@ -19,14 +19,14 @@ struct PanelArea {
     }
 };
 
-/// What the panel's buttons open beside it.
+/// The pages that the panel's buttons open beside it.
 struct PanelPages {
-    bool offers_files = false;        ///< other data can be opened
-    bool files = false, help = false; ///< asked for in this frame
+    bool offers_files = false;        ///< the user can open other data
+    bool files = false, help = false; ///< opened in this frame
     std::optional<MovieWish> movie{}; ///< likewise
 };
 
-/// Lays the panel out in the current Dear ImGui frame. @return what the user did to it
+/// Lays the panel out in the current Dear ImGui frame. @return commands of the user
 interaction::Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages);
 
 /// How the picture is drawn, and why: `settled: surface, 7.2 of 11.1 ms`.

@@ -1,4 +1,4 @@
-// The panel's sections on surfaces and on what their colors mean.
+// The panel's sections on surfaces and on coloring.
 #include "app/panel/panel_colors.h"
 
 #include "app/panel/panel_words.h"
@@ -16,7 +16,8 @@ namespace {
 using interaction::Commands;
 using interaction::Isosurface;
 
-/// A color that no other surface has, and an isovalue between the picked one and the far end.
+/// A new surface: with a color that no other has, and an isovalue between the picked one's and the
+/// farther end of the range.
 Isosurface another(const PanelModel& model) {
     const auto& surfaces = model.asked.isosurfaces;
     const auto& palette = render::surface_palette();
@@ -28,7 +29,7 @@ Isosurface another(const PanelModel& model) {
     return {picked / 2 + end / 2, free == palette.end() ? palette.front() : *free, 1.0f};
 }
 
-/// One line of the list. @return true when it is to be removed
+/// One line of the list. @return true: remove this surface
 bool surface_line(const PanelModel& model, std::uint32_t i, std::vector<Isosurface>& surfaces,
                   Commands& commands) {
     Isosurface& surface = surfaces[i];
@@ -95,7 +96,7 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
         tip("one more isovalue beside these; all become half transparent");
     if (added) {
         commands.picked = static_cast<std::uint32_t>(surfaces.size());
-        // Seen at once: through those that may lie around it.
+        // Make all surfaces translucent, so that the new one shows even inside others.
         constexpr float kSeenThrough = 0.45f;
         for (Isosurface& surface : surfaces)
             surface.opacity = std::min(surface.opacity, kSeenThrough);

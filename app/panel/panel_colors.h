@@ -1,4 +1,4 @@
-// The panel's sections on surfaces and on what their colors mean.
+// The panel's sections on surfaces and on coloring.
 #pragma once
 
 #include "app/panel/panel_model.h"
@@ -6,10 +6,10 @@
 
 namespace isochron::app {
 
-/// The list of isosurfaces: picks, colors, adds and removes them.
+/// The list of isosurfaces: the user picks, colors, adds and removes them.
 void surfaces_section(const PanelModel& model, interaction::Commands& commands);
 
-/// What surfaces are colored by, the map and its range, and the box.
+/// The choice of what colors the surfaces, the color map and its range, and the box.
 void coloring_section(const PanelModel& model, interaction::Commands& commands);
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// What the devices at hand do, on a page of its own, and the first four lines that anybody needs.
+// The help page on the connected devices, and the four lines of introduction.
 #include "app/panel/panel_help.h"
 
 #include "app/panel/panel_words.h"
@@ -10,7 +10,7 @@
 namespace isochron::app {
 namespace {
 
-/// In two columns: the control, and behind the run of spaces that pads it, its effect.
+/// A table with two columns, made from lines of a control, spaces, and its effect.
 void table_of(const interaction::ControlGroup& group) {
     if (!ImGui::BeginTable(words_of(group.device).data(), 2))
         return;

@@ -1,4 +1,4 @@
-// What the devices at hand do, on a page of its own, and the first four lines that anybody needs.
+// The help page on the connected devices, and the four lines of introduction.
 #pragma once
 
 #include "app/panel/panel_model.h"
@@ -7,15 +7,15 @@
 
 namespace isochron::app {
 
-/// The lines of some kinds of devices, a heading before each kind's.
+/// Lists the controls of some kinds of devices, with a heading for each kind.
 void controls_of(std::span<const interaction::DeviceKind> kinds,
                  std::span<const interaction::ControlGroup> groups);
 
-/// All of them at hand, in the middle of the picture. @return false: the user closed it
+/// The help page, in the middle of the picture. @return false: the user closed it
 bool help_window(const PanelModel& model);
 
-/// What somebody needs who sees the program for the first time. It takes no input.
-/// @param left pixels of the picture that the panel covers
+/// The introduction for new users. It takes no input.
+/// @param left width at the left of the picture that the panel covers, pixels
 void first_use_window(float left);
 
 } // namespace isochron::app

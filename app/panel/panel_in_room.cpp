@@ -12,8 +12,7 @@ using interaction::Commands;
 using interaction::RoomPanel;
 using interaction::Seconds;
 
-/// Pixels of the picture for each of these: from 0.65 m the picture is then as fine as a headset
-/// with 25 pixels for each degree.
+/// Picture pixels per panel pixel: at 0.65 m this matches a headset with 25 pixels per degree.
 constexpr float kScale = 2.5f;
 constexpr double kScroll = 12.0; ///< [notch/s] of the wheel, with the stick pushed all the way
 const interaction::HapticPulse kTick{"wand", 0.01, 0.25f}, kClick{"wand", 0.02, 0.6f};
@@ -68,7 +67,7 @@ void PanelInRoom::lay_out(const PanelModel& model, Seconds time) {
     std::optional<glm::vec2> at;
     if (touch.hit)
         at = kPixels * touch.hit->at;
-    // While it is carried nothing on it is pressed.
+    // While the hand carries the panel it does not press its widgets.
     const bool pressed = touch.pressed && !pointer_.carried();
     layer_.point(at, pressed,
                  static_cast<float>(touch.notches + touch.scroll * kScroll * elapsed.count()));

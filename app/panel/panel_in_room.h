@@ -1,5 +1,4 @@
-// The panel that stands in the room: laid out once a frame, operated by the wand's ray, seen by
-// every eye.
+// The panel in the room: laid out once a frame, operated by the wand's ray, visible to every eye.
 //
 //     const auto wand = panel.outcome(input, state.room_panel);   // before the frame
 //     const auto commands = commands_of(wand.rest, wand.commands);
@@ -18,38 +17,39 @@
 
 namespace isochron::app {
 
-/// A layer of its own, beside the operator's panel: its mouse is the wand, which a recording holds,
-/// so that devices alone explain what it does. What one frame lays out, the next one's commands
-/// hold.
+/// It has its own PanelLayer, apart from the operator's panel, with the wand as its mouse.
+/// Recordings hold the wand, so a replay repeats what this panel does. Commands from the layout of
+/// one frame belong to the next frame.
 class PanelInRoom {
   public:
-    static constexpr glm::vec2 kPixels{400.0f, 540.0f}; ///< of the panel's own, width and height
+    static constexpr glm::vec2 kPixels{400.0f, 540.0f}; ///< width and height in panel pixels
 
     PanelInRoom(const render::Gl& gl, const PanelConfig& config);
 
     interaction::PanelSize size() const { return size_; }
-    float distance() const { return distance_; } ///< [m] from the eyes at which it appears
+    float distance() const { return distance_; } ///< [m] from the eyes, at which it appears
 
     struct Outcome {
-        interaction::InputState rest;   ///< of the input, for everything but the panel
-        bool touched = false;           ///< the wand's ray ends on it
-        interaction::Commands commands; ///< of the frame before, and where the panel is carried
+        interaction::InputState rest;   ///< input that the panel does not use
+        bool touched = false;           ///< the wand's ray ends on the panel
+        interaction::Commands commands; ///< of the last layout, and the move of a carried panel
     };
-    /// What devices lead to; hands the commands out once.
+    /// What the input means for the panel. Returns the commands of a layout once.
     Outcome outcome(const interaction::InputState& input, const interaction::RoomPanel& panel);
 
-    /// Once a frame, with the panel as it stood in the frame before.
-    /// @return what is left of the input
+    /// Called once a frame, with the panel's pose in the previous frame.
+    /// @return the input that the panel does not use
     interaction::InputState update(const interaction::InputState& input,
                                    const interaction::RoomPanel& panel);
-    /// Then one of these: draws its picture where it has changed, or does without.
+    /// Then one of these: `lay_out` draws the panel's picture if it has changed; `leave_out` if the
+    /// panel is not shown.
     void lay_out(const PanelModel& model, interaction::Seconds time);
     void leave_out();
 
-    /// The wand's ray ended on it in the frame that was laid out last.
+    /// Whether the wand's ray ended on the panel in the last `update`.
     bool touched() const { return pointer_.touch().hit.has_value(); }
 
-    /// Nothing where it does not stand.
+    /// The panel as the eyes see it; empty if it is not shown.
     std::optional<ShownPanel> shown(const interaction::RoomPanel& panel) const;
 
   private:
@@ -64,8 +64,8 @@ class PanelInRoom {
     interaction::PanelPointer pointer_;
     interaction::Commands pending_;
     std::optional<interaction::Seconds> laid_out_;
-    std::size_t digest_ = 0;               ///< of what the picture holds
-    std::uint32_t hovered_ = 0, held_ = 0; ///< widgets that the hand has felt
+    std::size_t digest_ = 0;               ///< of the picture's contents
+    std::uint32_t hovered_ = 0, held_ = 0; ///< widgets for which the hand has felt a pulse
 };
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
+// Runs Dear ImGui inside the program: feeds it events and draws its triangles.
 #include "app/panel/panel_layer.h"
 
 #include "app/panel/panel_tools.h"
@@ -24,7 +24,7 @@ namespace {
 
 using namespace interaction;
 
-/// Keys that ImGui's text fields and sliders understand, with ours.
+/// Keys that ImGui's text fields and sliders understand, and our names of them.
 constexpr std::pair<ImGuiKey_, Key> kKeys[]{
     {ImGuiKey_Tab, Key::tab},
     {ImGuiKey_LeftArrow, Key::left},
@@ -48,28 +48,29 @@ bool is_read(Key key) {
     return std::ranges::any_of(kKeys, [key](const auto& each) { return each.second == key; });
 }
 
-/// A place of the window as a place of one of the panel's. Beyond the window it stays beyond.
+/// Converts a place in the window to one in the panel's part of it. A place outside the window
+/// stays outside.
 glm::vec2 folded(glm::vec2 at, glm::ivec2 places) {
     const glm::vec2 shown = at * glm::vec2(places);
     return shown - glm::clamp(glm::floor(shown), glm::vec2(0.0f), glm::vec2(places - 1));
 }
 
-/// One event taken into ImGui's state. @return whether the panel has use for it
+/// Takes one event into ImGui's state. The call returns whether the panel uses the event.
 struct Taker {
     ImGuiIO& io;
     const PanelArea& area;
     std::uint32_t& late_releases;
     std::optional<glm::vec2>& cursor;
-    glm::ivec2 places;   ///< of the panel in its window
-    bool popups = false; ///< something is open over the panel, which Escape closes
+    glm::ivec2 places;   ///< number of panels in the window, see `repeat`
+    bool popups = false; ///< a popup or page is open, which Escape closes
     bool& closes_popup;
-    bool& begun;               ///< somebody uses the program
+    bool& begun;               ///< the user has begun
     std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
     bool clicked = false;      ///< one of them on the panel
-    bool typed = false;        ///< characters came
-    std::set<Key> changed{};   ///< keys that ImGui reads
+    bool typed = false;        ///< characters came among these events
+    std::set<Key> changed{};   ///< keys, of those that ImGui reads, with events among these
 
-    /// Whether ImGui would mistake the event for something else in this frame.
+    /// Whether ImGui would misread the event together with the earlier ones of this frame.
     bool must_wait(const WindowEvent& event) const {
         if (const auto* key = std::get_if<KeyEvent>(&event))
             return clicked || (io.WantTextInput && is_read(key->key) &&
@@ -79,7 +80,8 @@ struct Taker {
         return false;
     }
 
-    /// ImGui's own answer is from the last frame; a quick hand moves and presses within one.
+    /// Whether the panel takes mouse events. ImGui's own answer is from the last frame, but a quick
+    /// user moves and presses within one frame.
     bool captures_mouse() const {
         return io.WantCaptureMouse || area.contains(io.MousePos.x, io.MousePos.y);
     }
@@ -107,7 +109,7 @@ struct Taker {
     bool operator()(const MouseButtonEvent& event) {
         const auto button = static_cast<std::size_t>(event.button);
         const std::uint32_t bit = 1u << button;
-        // ImGui sees levels, once per frame: a click within one frame lasts until the next.
+        // ImGui sees the state once per frame: delay the release of a click within one frame.
         begun = begun || event.down;
         if (event.down)
             pressed |= bit;
@@ -249,12 +251,12 @@ void PanelLayer::point(const std::optional<glm::vec2>& at, bool pressed, float n
 }
 
 void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
-    constexpr double kShortest = 1e-4, kLongest = 0.1; // ImGui wants time to pass
+    constexpr double kShortest = 1e-4, kLongest = 0.1; // ImGui requires a time above 0
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(picture.x) / scale_,
                       static_cast<float>(picture.y) / scale_};
-    if (cursor_) // it may have come before there was a size, or before another
+    if (cursor_) // it may have come before the current size was known
         io.MousePos = {cursor_->x * io.DisplaySize.x, cursor_->y * io.DisplaySize.y};
     const Seconds elapsed = time - std::exchange(laid_out_, time);
     io.DeltaTime = static_cast<float>(std::clamp(elapsed.count(), kShortest, kLongest));
@@ -268,7 +270,7 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     Commands commands;
     PanelPages pages{.offers_files = static_cast<bool>(recent_)};
     area_ = {.narrow = area_.narrow};
-    // The panel in the room stands for the one over the picture.
+    // The panel in the room replaces the one over the picture.
     if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
         commands = draw_panel(model, area_, pages);
     if (pages.files)

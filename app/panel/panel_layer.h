@@ -1,4 +1,4 @@
-// Dear ImGui inside the program: its events, its frame, and its triangles through our own GL table.
+// Runs Dear ImGui inside the program: feeds it events and draws its triangles.
 #pragma once
 
 #include "app/panel/file_window.h"
@@ -24,51 +24,52 @@ namespace isochron::app {
 
 class PanelLayer {
   public:
-    static constexpr float kFontPixels = 15.0f; ///< height of a line, in the panel's own pixels
+    static constexpr float kFontPixels = 15.0f; ///< height of a line, in panel pixels
 
-    /// @param scale pixels of what is drawn on for each of the panel's own, see `set_scale`
+    /// @param scale target pixels per panel pixel, see `set_scale`
     explicit PanelLayer(const render::Gl& gl, float scale = 1.0f);
     ~PanelLayer();
     PanelLayer(const PanelLayer&) = delete;
     PanelLayer& operator=(const PanelLayer&) = delete;
 
-    /// Draws the panel larger or smaller from the next frame on, with letters as sharp.
-    /// @param scale pixels of what is drawn on for each of the panel's own
+    /// Draws the panel larger or smaller from the next frame on, with equally sharp letters.
+    /// @param scale target pixels per panel pixel
     void set_scale(float scale);
     float scale() const { return scale_; }
-    /// From now on the first four lines stand in the picture, until somebody has begun to use it.
+    /// Shows the four lines of introduction from now on, until the user begins.
     void introduce() { newcomer_ = true; }
-    /// Whether they have gone, once.
+    /// Whether those lines have gone since the last call.
     bool introduced() { return std::exchange(introduced_, false); }
 
-    /// Lets the user open other data. @param recent asked for those that were open lately
+    /// Lets the user open other data. @param recent returns the recently opened data
     void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
         recent_ = std::move(recent);
     }
     /// Opens the page on which they choose.
     void open_files() { files_.open(recent_()); }
-    /// What they have chosen, once.
+    /// The data that the user has chosen; returned once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
 
     /// What movie they want to be made, or no longer, once.
     std::optional<MovieWish> take_wanted_movie() { return std::exchange(wanted_movie_, {}); }
 
-    /// Takes events into account. Dear ImGui sees levels, once a frame: what it could not tell
-    /// apart, such as a key that goes down twice, or Enter before a digit, waits for the next
-    /// frame, and all that comes after it. @return those that the panel has no use for; releases
-    /// always pass, so that nothing sticks
+    /// Passes events to Dear ImGui, which sees the state of keys and buttons once per frame. An
+    /// event that it could not tell apart within one frame (a key that goes down twice, or Enter
+    /// before a digit) waits for the next frame, with all events after it.
+    /// @param shown the panel is visible
+    /// @return the events that the panel does not use, and all releases, so that nothing sticks
     std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,
                                                bool shown);
 
-    /// The mouse of a panel that gets no events.
-    /// @param at the panel's own pixels from the top left; nothing: away from it
-    /// @param notches of the wheel, up positive
+    /// Sets the mouse of a panel that gets no events.
+    /// @param at panel pixels from the top left; empty: away from the panel
+    /// @param notches that the wheel has turned, up positive
     void point(const std::optional<glm::vec2>& at, bool pressed, float notches);
 
-    /// One frame of the panel.
-    /// @param picture size of what it will be drawn on, pixels
+    /// Lays out one frame of the panel.
+    /// @param picture size of the target, pixels
     /// @param time of the session
-    /// @return what the user did
+    /// @return commands of the user
     interaction::Commands lay_out(glm::ivec2 picture, const PanelModel& model,
                                   interaction::Seconds time);
 
@@ -76,23 +77,24 @@ class PanelLayer {
     /// @param complaint shown below it; empty: none
     void lay_out_files(glm::ivec2 picture, const std::string& complaint, interaction::Seconds time);
 
-    /// Draws what was laid out last onto a part of the bound framebuffer, of the size that it was
-    /// laid out for. @param corner lower left, pixels
+    /// Draws the last layout onto a part of the bound framebuffer, which has the size of the
+    /// layout.
+    /// @param corner lower left, pixels
     void draw(glm::ivec2 picture, glm::ivec2 corner = glm::ivec2(0));
 
-    /// How many times the panel stands beside and above itself in its window: in each eye's half
-    /// the cursor means the same.
+    /// Sets how many times the panel appears in its window side by side (x) and above each other
+    /// (y), such as in each eye's half: the cursor works in all of them.
     void repeat(glm::ivec2 places) { places_ = places; }
 
-    /// Of all that `draw` would draw: a panel that looks the same has the same one.
+    /// A hash of all that `draw` would draw: panels that look the same have the same one.
     std::size_t digest() const;
     /// A page lies over the picture, which Escape closes.
     bool has_page() const { return help_ || files_.is_open(); }
-    const PanelArea& area() const { return area_; } ///< the panel's own pixels
-    /// Whether the panel, or what it has opened, is there. @param at fractions of the picture from
-    /// the top left
+    const PanelArea& area() const { return area_; } ///< panel pixels
+    /// Whether the panel, or a page that it has opened, covers a place.
+    /// @param at fractions of the picture from the top left
     bool covers(glm::vec2 at) const;
-    /// What is under the pointer, and what is held; 0: nothing.
+    /// The widget under the pointer, and the one that is pressed; 0: none.
     std::uint32_t hovered() const;
     std::uint32_t held() const;
 
@@ -107,21 +109,22 @@ class PanelLayer {
     ImGuiContext* imgui_;
     float scale_;
     interaction::Seconds laid_out_{0}; ///< session time
-    PanelArea area_;                   ///< of the panel when it was laid out last
-    std::uint32_t late_releases_ = 0;  ///< mouse buttons, by bit, that go up with the next events
-    std::optional<glm::vec2> cursor_;  ///< of the window, fractions from the top left
+    PanelArea area_;                   ///< of the panel in the last layout
+    std::uint32_t late_releases_ = 0;  ///< mouse buttons, by bit, to release in the next `feed`
+    std::optional<glm::vec2> cursor_;  ///< in the panel's picture, fractions from the top left
     std::deque<interaction::WindowEvent> waiting_; ///< for the next frame, see `feed`
     glm::ivec2 places_{1};
-    std::size_t messages_ = 0;        ///< said so far
+    std::size_t messages_ = 0;        ///< number so far
     interaction::Seconds said_{-1e9}; ///< when the newest one came
     bool closes_popup_ = false;       ///< Escape was pressed
-    bool help_ = false;               ///< its page is open
+    bool help_ = false;               ///< the help page is open
     FileWindow files_;
-    std::function<std::vector<std::filesystem::path>()> recent_; ///< empty: no data are offered
+    std::function<std::vector<std::filesystem::path>()>
+        recent_; ///< empty: the user cannot open other data
     std::optional<std::filesystem::path> chosen_;
     std::optional<MovieWish> wanted_movie_;
     bool newcomer_ = false, begun_ = false, introduced_ = false;
-    std::optional<interaction::Seconds> introduced_at_; ///< when the first four lines came
+    std::optional<interaction::Seconds> introduced_at_; ///< when the introduction appeared
     render::Program program_;
     render::VertexArray vertex_array_;
     render::Buffer vertices_, elements_;

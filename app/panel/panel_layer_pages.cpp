@@ -56,7 +56,7 @@ bool PanelLayer::has_popup() const {
     return imgui_->OpenPopupStack.Size > 0;
 }
 
-/// What lies over the picture beside the panel.
+/// Lays out the pages over the picture: help, files and introduction.
 void PanelLayer::lay_out_pages(const PanelModel& model, Seconds time) {
     if (help_ && model.place != PanelPlace::in_room)
         help_ = help_window(model);

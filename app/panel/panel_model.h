@@ -17,9 +17,9 @@ namespace isochron::app {
 
 /// Where a panel is laid out.
 enum class PanelPlace : std::uint8_t {
-    over,   ///< a picture, as a window that can be moved
-    whole,  ///< a window of its own, which it fills
-    in_room ///< likewise; it says only what is the same on every wall and in every replay
+    over,   ///< over a picture
+    whole,  ///< in its own window, which it fills
+    in_room ///< in the room; it shows only what is the same on every wall and in every replay
 };
 
 /// What the panel can have a movie made of, and what becomes of the one that is being made.
@@ -35,27 +35,27 @@ struct MovieState {
     std::optional<float> progress{}; ///< of the one that is being made, 0 to 1
 };
 
-/// What the panel shows in one frame; nothing in it is changed by showing it.
+/// What the panel shows in one frame. The panel changes none of it.
 struct PanelModel {
     const index::SeriesInfo& info;
     const index::IndexStats& stats;
     const ExplorerState& asked;
-    bool second_array = false;           ///< there is one to color by
-    std::array<double, 2> whole_range{}; ///< of what is colored by
+    bool second_array = false;           ///< the index has one to color by
+    std::array<double, 2> whole_range{}; ///< of the values that color the surfaces
     const FrameReport& frame;
     TimeSummary frame_times; ///< of the last frames
     double frames_per_second = 0;
     index::ReadUse reading{};                   ///< of the index, since it was opened
-    std::vector<std::uint32_t> at_hand_steps{}; ///< that are shown without a search
+    std::vector<std::uint32_t> at_hand_steps{}; ///< steps that can be shown without a search
     bool searching = false;                     ///< the worker has not answered yet
     bool recording = false;
     MovieState movies{};
     std::string failure;      ///< of the worker; empty when all is well
     std::string message;      ///< newest note, such as a saved screenshot
-    std::size_t messages = 0; ///< how many there were
-    std::string standing;     ///< stands in the picture for as long as it is true
+    std::size_t messages = 0; ///< number of notes so far
+    std::string standing;     ///< note that stays in the picture as long as it is true
     const std::vector<interaction::ControlGroup>& controls;
-    std::vector<interaction::DeviceKind> at_hand; ///< which of them there are
+    std::vector<interaction::DeviceKind> at_hand; ///< connected kinds of devices
     PanelPlace place = PanelPlace::over;
     const interaction::Commands* undo = nullptr; ///< null: there is nothing to undo
     const interaction::Commands* redo = nullptr;

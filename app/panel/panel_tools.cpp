@@ -26,7 +26,7 @@ void step_button(const char* words, const char* effect, const Commands* change,
     tip(effect);
 }
 
-/// @return whether another one was chosen
+/// @return whether the user chose another tool
 bool tool_choice(const char* hand, ToolKind& tool) {
     const auto& table = interaction::tool_table();
     const ToolKind before = tool;
@@ -65,7 +65,7 @@ void clip_buttons(const PanelModel& model, Commands& commands) {
 } // namespace
 
 void mark_steps_at_hand(const PanelModel& model, int last) {
-    // What is at hand differs from wall to wall, and one step is nothing to tell.
+    // The marks may differ from wall to wall, and a single step needs none.
     if (model.place == PanelPlace::in_room || model.at_hand_steps.size() < 2)
         return;
     constexpr float kHeight = 3.0f;

@@ -12,19 +12,19 @@ namespace isochron::app {
 
 /// Undo and redo.
 void history_section(const PanelModel& model, interaction::Commands& commands);
-/// The tools of mouse and hands, and what they have made.
+/// The tools of mouse and hands, and their results.
 void tools_section(const PanelModel& model, interaction::Commands& commands);
-/// Says which steps are shown without a search, below the slider that has just been laid out.
+/// Marks the steps that can be shown without a search, below the slider that was laid out last.
 /// @param last step
 void mark_steps_at_hand(const PanelModel& model, int last);
 /// Buttons that have movies made, and how far the one is that is being made.
 /// @return what the user wants
 std::optional<MovieWish> movie_section(const PanelModel& model);
-/// What stands in the picture as long as it is true, and the newest message for a while, at its
-/// bottom. @param age of the message
+/// At the bottom of the picture: the standing note, and the newest message for a while.
+/// @param age of the message
 void message_window(const std::string& standing, const std::string& message,
                     interaction::Seconds age);
-/// The question whether to leave, in the middle of the picture.
+/// The question whether to leave the program, in the middle of the picture.
 void leaving_window(const PanelModel& model, interaction::Commands& commands);
 
 } // namespace isochron::app

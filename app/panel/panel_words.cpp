@@ -1,4 +1,4 @@
-// Lines of text in the panel, and what is said of its controls.
+// Lines of text in the panel, and tips on its controls.
 #include "app/panel/panel_words.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Lines of text in the panel, and what is said of its controls.
+// Lines of text in the panel, and tips on its controls.
 #pragma once
 
 #include <imgui.h>
@@ -10,15 +10,14 @@ namespace isochron::app {
 inline const ImVec4 kDim(0.62f, 0.65f, 0.70f, 1.0f);
 inline const ImVec4 kWarning(1.0f, 0.55f, 0.40f, 1.0f);
 
-/// A line as it is.
+/// One line, as it is.
 void text(const std::string& line);
-/// As many lines as it takes.
+/// Text that is wrapped to several lines.
 void note(const std::string& line, const ImVec4& color);
-/// On what changes by itself. It never takes another line, which would move the controls below it
-/// away from the hand; in the room a replay must find them where the wand found them. All of it
-/// is shown under the mouse.
+/// A note on something that changes by itself. It always takes one line, so that the controls below
+/// stay in place for the user's hand and for a replay. A tip under the mouse shows all of it.
 void state_note(const std::string& line, const ImVec4& color);
-/// Shown under the mouse: what the control before it does, and its key.
+/// A tip under the mouse on the control that was laid out last: what it does, and its key.
 void tip(const char* words);
 
 } // namespace isochron::app

@@ -17,9 +17,9 @@ namespace {
 
 constexpr glm::vec4 kTickColor(0.72f, 0.76f, 0.82f, 0.9f);
 constexpr glm::vec4 kTextColor(0.86f, 0.89f, 0.93f, 1.0f);
-constexpr float kTickLength = 0.02f; ///< of the longest side
+constexpr float kTickLength = 0.02f; ///< share of the longest side
 constexpr int kMostTicks = 6;        ///< along the longest side
-constexpr float kLeftness = 0.35f;   ///< how much being left counts beside being low
+constexpr float kLeftness = 0.35f;   ///< weight of being left, relative to being low
 
 glm::vec3 in_room(const render::Placement& placement, const glm::vec3& at) {
     return glm::vec3(placement.room_from_index * glm::vec4(at, 1.0f));
@@ -43,7 +43,8 @@ glm::vec3 side_lengths(const render::Placement& placement) {
     return lengths;
 }
 
-/// Where the box ends on the viewer's own axes: labels lean away from it.
+/// A direction in the viewer's picture (x right, y up), of length 1; labels lean that way, away
+/// from the box.
 glm::vec2 on_view(const glm::vec3& direction, const interaction::Pose& head) {
     const glm::vec3 seen = glm::inverse(head.orientation) * direction;
     const float length = glm::length(glm::vec2(seen));

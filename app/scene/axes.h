@@ -15,39 +15,40 @@
 
 namespace isochron::app {
 
-/// What runs along one edge: physical coordinates where the edge is parallel to a physical axis,
-/// else the distance from the first vertex.
+/// The scale along one edge: physical coordinates if the edge is parallel to a physical axis, else
+/// the distance from the first vertex.
 struct AxisScale {
     std::string title;        ///< `x [mm]`; an oblique axis has its index letter: `i [mm]`
-    double low = 0, high = 0; ///< at the axis' first and last vertex
+    double low = 0, high = 0; ///< values at the axis' first and last vertex
 };
 AxisScale axis_scale(const index::SeriesInfo& info, int axis);
 
-/// One of the four edges along an axis: the sides (false: at 0, true: at the far end) of the two
-/// other axes, `(axis + 1) % 3` first.
+/// One of the four edges along an axis, by its side (false: at 0, true: at the far end) on each of
+/// the two other axes, `(axis + 1) % 3` first.
 using EdgeSides = std::array<bool, 2>;
 
-/// The edge that carries an axis' numbers: of those at the outline of the box, where a face that
-/// faces the viewer meets one that does not, the one lowest and, less so, furthest left as the
-/// viewer holds the head. Hence it is the same for both eyes, and nothing of the box hides it.
-/// Nothing when the viewer is inside the box.
+/// The edge that carries an axis' numbers. Candidates lie on the outline of the box, where a face
+/// towards the viewer meets one that faces away, so that the box does not hide them. Of these it is
+/// the lowest and, with less weight, leftmost one for the viewer's head, so it is the same for both
+/// eyes. Empty if the viewer is inside the box.
 std::optional<EdgeSides> labeled_edge(int axis, const render::Placement& placement,
                                       const interaction::Pose& head);
 
-/// What is written along one edge, in vertex index coordinates.
+/// The texts along one edge, in vertex index coordinates.
 struct AxisLabels {
     struct Number {
         render::Label label;
-        std::int64_t multiple; ///< of the step between ticks
+        std::int64_t multiple; ///< the number, in steps between ticks
     };
     render::Label title;
     std::vector<Number> numbers; ///< ascending
 };
 
-/// In vertex index coordinates. Not all labels have room in every view: see axis_labels.h.
+/// Ticks and labels of all axes, in vertex index coordinates. Not all labels have room in every
+/// view: see axis_labels.h.
 struct Axes {
     std::vector<render::Line> ticks;
-    std::vector<AxisLabels> labels; ///< of each axis that has an edge to carry them
+    std::vector<AxisLabels> labels; ///< of each axis that has a labeled edge
 };
 Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
               const interaction::Pose& head);

@@ -1,4 +1,4 @@
-// Which of the labels along the box are shown.
+// Chooses the labels along the box that are shown.
 #include "app/scene/axis_labels.h"
 
 #include "app/scene/legend.h"
@@ -10,12 +10,12 @@
 namespace isochron::app {
 namespace {
 
-// Heights of the text.
-constexpr float kAside = 0.1f;   ///< at least, between the sides of two texts
-constexpr float kInLine = 0.6f;  ///< of two that stand in line, which would read as one
-constexpr float kOneLine = 0.5f; ///< in line are those whose heights overlap by more
+// Distances in heights of the text.
+constexpr float kAside = 0.1f;   ///< least gap between two texts that are partly side by side
+constexpr float kInLine = 0.6f;  ///< least gap between two texts on one line
+constexpr float kOneLine = 0.5f; ///< texts are on one line if their heights overlap by more
 
-/// What a label covers in each view.
+/// The rectangle that a label covers in each view.
 using Covered = std::vector<std::optional<TextRectangle>>;
 
 class Room {
@@ -46,7 +46,7 @@ class Room {
         return false;
     }
 
-    /// Keeps a label where there is room for it.
+    /// Keeps a label if there is room for it.
     void take(const render::Label& label) {
         Covered here = covered(label);
         if (std::ranges::any_of(taken_, [&](const Covered& other) { return touch(here, other); }))
@@ -64,7 +64,7 @@ class Room {
     std::vector<render::Label> labels_;
 };
 
-/// Every n-th number such that neighbors do not touch.
+/// Every n-th number, with the smallest n for which neighbors do not touch.
 std::vector<render::Label> thinned(const std::vector<AxisLabels::Number>& numbers,
                                    const Room& room) {
     std::vector<render::Label> kept;

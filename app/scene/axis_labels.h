@@ -1,4 +1,4 @@
-// Which of the labels along the box are shown, so that none covers another one.
+// Chooses the labels along the box that are shown, so that no label covers another one.
 #pragma once
 
 #include "app/scene/axes.h"
@@ -20,16 +20,17 @@ struct TextRectangle {
     bool operator==(const TextRectangle&) const = default;
 };
 
-/// What a line of text covers. Nothing where it is fastened to a place behind the eye.
+/// The part of a picture that a line of text covers; empty if its place is behind the eye.
 /// @param height of the text, pixels
 std::optional<TextRectangle> covered_by(const render::Label& label, float height,
                                         const render::GlyphAtlas& atlas,
                                         const glm::mat4& clip_from_model, glm::ivec2 picture);
 
-/// The labels to draw into all of the views, which are one viewer's eyes: what one eye misses the
-/// other must not see. Titles go first. An axis on which numbers would touch shows every second,
-/// fifth or tenth of them, counted from zero; where two axes meet, the first one has its number.
-/// @param clip_from_model of each view, model space being that of the labels
+/// The labels to draw into all of the views, which are the eyes of one viewer: both must see the
+/// same labels. Titles take precedence. An axis on which numbers would touch shows every second,
+/// fifth or tenth of them, counted from zero; where two axes meet, only the first one's number is
+/// shown.
+/// @param room_from_model from the labels' coordinates to the room
 std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             const render::GlyphAtlas& atlas,
                                             const glm::mat4& room_from_model,

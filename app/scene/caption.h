@@ -1,4 +1,4 @@
-// What a picture says of itself in words: isovalues and time.
+// Captions of pictures: isovalues and time in words.
 #pragma once
 
 #include "index/volume/query.h"
@@ -13,7 +13,8 @@ namespace isochron::app {
 /// `heart rate, isovalue 8, 12 K, at 0.5 s (step 2 of 6)`.
 std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info);
 
-/// On its paper in the upper left corner, for a picture of that size: for `render::pixel_view`.
+/// The caption on its background in the upper left corner, for `render::pixel_view`.
+/// @param picture its size, pixels
 std::vector<render::ScreenQuad>
 caption_quads(const std::string& words, const render::TextPass& text, const glm::ivec2& picture);
 

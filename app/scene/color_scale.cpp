@@ -1,4 +1,4 @@
-// What the colors on the surfaces stand for.
+// The color scale of the surfaces.
 #include "app/scene/color_scale.h"
 
 #include <fmt/format.h>

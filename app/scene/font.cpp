@@ -14,10 +14,10 @@ namespace isochron::app {
 namespace {
 
 constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr std::uint64_t kMostBytes = 64 << 20; ///< of a font file
+constexpr std::uint64_t kMostBytes = 64 << 20; ///< largest font file
 
-/// A glyph whose rectangle reaches a little beyond it, so that its edge is filtered and lies where
-/// it should, at any place between pixels.
+/// A glyph with a margin around it, so that its edges are filtered correctly at any position
+/// between pixels.
 render::Glyph with_margin(const ImFontGlyph& glyph, float line) {
     render::Glyph result{.advance = glyph.AdvanceX / line};
     if (!glyph.Visible || !(glyph.X1 > glyph.X0) || !(glyph.Y1 > glyph.Y0))
@@ -39,7 +39,7 @@ void add_font(ImFontAtlas& fonts, float pixels) {
     // Latin, Greek, punctuation and superscripts, letter-like signs, mathematics: what units need.
     static constexpr ImWchar kGlyphs[]{0x20,   0xff,   0x370,  0x3ff,  0x2010, 0x209f,
                                        0x2100, 0x214f, 0x2190, 0x22ff, 0};
-    // The built-in bitmap font is readable but small; a desktop nearly always has this one.
+    // Nearly every desktop has this font; the built-in bitmap font is readable but small.
     std::error_code ignored;
     if (!std::filesystem::exists(kFontFile, ignored)) {
         fonts.AddFontDefault();

@@ -7,11 +7,11 @@ struct ImFontAtlas;
 
 namespace isochron::app {
 
-/// Adds the font with the characters that units need, `pixels` high: DejaVu Sans, or where it is
-/// not installed the small bitmap font that Dear ImGui carries.
+/// Adds the font with the characters that units need, `pixels` high: DejaVu Sans, or if that is not
+/// installed, the small bitmap font of Dear ImGui.
 void add_font(ImFontAtlas& fonts, float pixels);
 
-/// The font for text in the room, rasterized once, `pixels` high.
+/// Rasterizes the font for text in the room, `pixels` high.
 render::GlyphAtlas room_font(float pixels);
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// What helps a viewer to stand in the room.
+// The grid on the floor, and the target of a teleport.
 #include "app/scene/guides.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ constexpr glm::vec4 kFloorColor(0.36f, 0.42f, 0.50f, 0.6f);
 constexpr glm::vec4 kTargetColor(0.47f, 0.86f, 0.63f, 0.9f);
 constexpr int kHalfFloor = 5; ///< [m] from the origin to an edge
 constexpr float kRing = 0.2f; ///< [m] radius
-constexpr int kCorners = 24;  ///< of the ring
+constexpr int kCorners = 24;  ///< number of the ring's corners
 constexpr float kTwoPi = 6.28318531f;
 
 void add_floor(std::vector<render::Line>& lines) {

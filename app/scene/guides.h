@@ -1,4 +1,5 @@
-// What helps a viewer to stand in the room: a grid on the floor, the place that a teleport aims at.
+// Lines that help viewers with their position in the room: a grid on the floor, and the target of a
+// teleport.
 #pragma once
 
 #include "render/passes/line_pass.h"
@@ -14,8 +15,8 @@ struct Guides {
     bool operator==(const Guides&) const = default;
 };
 
-/// Lines in the room frame: every meter of 10 m x 10 m of floor about the origin, and a ring with a
-/// cross around the target.
+/// Lines in the room frame: a grid with a line every meter on 10 m x 10 m of floor around the
+/// origin, and a ring with a cross at the target.
 std::vector<render::Line> lines_of(const Guides& guides);
 
 } // namespace isochron::app

@@ -15,7 +15,7 @@ namespace {
 
 constexpr glm::vec4 kLegendPaper(0.05f, 0.06f, 0.07f, 0.72f);
 constexpr glm::vec4 kLegendInk(0.90f, 0.92f, 0.95f, 1.0f);
-constexpr int kPatches = 64; ///< of which the bar is made
+constexpr int kPatches = 64; ///< number of patches in the bar
 constexpr int kMostLegendTicks = 6;
 constexpr float kBarHeight = 11.0f, kBarWidth = 1.0f, kMargin = 1.0f; ///< heights of the text
 
@@ -35,7 +35,7 @@ class Layout {
         top_ = std::max(top_, at.y + 0.5f);
     }
 
-    /// Moves all to its corner of the picture, on paper.
+    /// Moves the legend to its corner of the picture, on its background.
     std::vector<render::ScreenQuad> finish() {
         const glm::vec2 size = height_ * (glm::vec2(right_, top_) + kMargin);
         const glm::vec2 corner =
@@ -46,7 +46,7 @@ class Layout {
         text_.fill({}, glm::vec2(-0.5f * kMargin * height_), size - 0.5f * kMargin * height_,
                    kLegendPaper, all);
         all.insert(all.end(), quads_.begin(), quads_.end());
-        // Whole pixels: a legend has no depth to lose.
+        // Whole pixels keep it sharp; a legend has no depth that this would change.
         const glm::vec2 origin = glm::floor(corner + 0.5f * kMargin * height_);
         for (render::ScreenQuad& quad : all)
             quad.at = glm::vec3(origin, 0.0f);

@@ -1,4 +1,5 @@
-// What the colors mean, written into every eye's picture: so captures and walls have it too.
+// The legend of the colors. It is drawn into every eye's picture, so captures and walls have it
+// too.
 #pragma once
 
 #include "app/scene/color_scale.h"
@@ -15,16 +16,16 @@
 namespace isochron::app {
 
 struct Legend {
-    std::span<const interaction::Isosurface> surfaces; ///< listed when there are several
+    std::span<const interaction::Isosurface> surfaces; ///< listed if there are several
     std::string value_unit;                            ///< of their isovalues
-    std::optional<ColorScale> scale;                   ///< what stands for the surfaces' colors
+    std::optional<ColorScale> scale;                   ///< of colored surfaces; empty: none
 };
 
-/// Height of text in a picture: a fortieth of it, as long as that can be read.
+/// Height of text in a picture [pixel]: a fortieth of the picture's height, from 11 to 40.
 float text_height(const glm::ivec2& picture);
 
-/// Rectangles for `pixel_view`, at the lower right of the picture; none when there is nothing to
-/// explain or no room for it.
+/// Rectangles for `pixel_view`, at the lower right of the picture; empty if there is nothing to
+/// explain, or no room.
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
                                              const glm::ivec2& picture);
 

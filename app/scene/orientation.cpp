@@ -1,4 +1,4 @@
-// The data's axes in a corner of the picture, and a bar of a round length.
+// The data's axes in a corner of the picture, and a scale bar.
 #include "app/scene/orientation.h"
 
 #include "app/config/first_placement.h"
@@ -22,7 +22,7 @@ constexpr float kAxisLength = 2.6f; ///< heights of the text
 
 struct SeenAxis {
     int axis;
-    glm::vec3 way; ///< in the eye's frame, of length 1
+    glm::vec3 way; ///< direction in the eye's frame, of length 1
 };
 
 std::array<SeenAxis, 3> seen_axes(const render::View& view, const glm::dquat& turn) {
@@ -47,7 +47,7 @@ std::optional<ScaleBar> scale_bar(const render::View& view,
     const glm::dvec4 clip = glm::dmat4(view.clip_from_eye) * glm::dmat4(view.eye_from_room) * at;
     if (!(clip.w > 0))
         return std::nullopt;
-    // Pixels for a meter across the view, at the center's depth.
+    // Pixels per meter across the view, at the center's depth.
     const double meter = 0.5 * view.size.x * static_cast<double>(view.clip_from_eye[0][0]) / clip.w;
     const double unit = meter * room_from_physical.scale;
     const double most = kMostOfWidth * view.size.x / unit;

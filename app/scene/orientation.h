@@ -1,4 +1,4 @@
-// Where one is: the data's axes in a corner of the picture, and a bar of a round length.
+// Orientation for the viewer: the data's axes in a corner of the picture, and a scale bar.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -13,19 +13,19 @@
 
 namespace isochron::app {
 
-/// What stands in the lower left corner, for `render::pixel_view`.
+/// The contents of the lower left corner, for `render::pixel_view`.
 struct Orientation {
     std::vector<render::Line> lines;       ///< farther ones first
     std::vector<render::ScreenQuad> quads; ///< letters, the bar and its length
 };
 
-/// A bar of a round length in the data's units, as long as it is seen at the data's center.
+/// A scale bar of a round length in the data's units, valid at the data's center.
 struct ScaleBar {
-    double length = 0; ///< physical
-    float pixels = 0;
+    double length = 0; ///< physical units
+    float pixels = 0;  ///< length in the picture
 };
-/// The largest of 1, 2 or 5 times a power of ten that takes at most a fifth of the picture's width;
-/// nothing where the center is behind the eye.
+/// Its length is the largest 1, 2 or 5 times a power of ten that takes at most a fifth of the
+/// picture's width. Empty if the center is behind the eye.
 /// @param center of the data, physical space
 std::optional<ScaleBar> scale_bar(const render::View& view,
                                   const interaction::Similarity& room_from_physical,

@@ -1,4 +1,4 @@
-// What the eyes see: the cells, the volume's box, the legend, the wand and what lies on the floor.
+// Draws what the eyes see: the cells, the volume's box, the legend, the wand and the floor.
 #include "app/scene/scene.h"
 
 #include "app/scene/axis_labels.h"
@@ -24,7 +24,7 @@ constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
 constexpr float kToolLine = 2.0f;               ///< [pixel]
 constexpr glm::vec4 kBoxColor(0.45f, 0.50f, 0.56f, 0.55f);
 constexpr glm::vec4 kWandColor(1.0f, 0.77f, 0.36f, 0.9f);
-constexpr float kFontPixels = 32.0f; ///< of glyphs, which are shown smaller
+constexpr float kFontPixels = 32.0f; ///< height of rasterized glyphs, which are drawn smaller
 
 bool blends_light(const render::Gl& gl, Blending blending) {
     return blending == Blending::automatic ? !render::draws_in_software(gl)
@@ -41,7 +41,7 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       cell_pass_(gl, {.shape = config.cell_shape}), line_pass_(gl),
       text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), veil_pass_(gl) {
     appearance_.linear_light = blends_light(gl, config.blending);
-    // How values are held depends on their type only, not on their range.
+    // The storage of values depends only on their type, not on their range.
     cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
 }
 
@@ -113,7 +113,7 @@ void Scene::set_near_fade(const interaction::ComfortOptions& comfort,
         heads_.push_back(viewer.head.position);
 }
 
-/// That of the viewer whose eye it is: between two eyes is less room than between two heads.
+/// The head of the viewer whose eye this is: the nearest one, as eyes are closer than heads.
 glm::vec3 Scene::head_of(const render::View& view) const {
     const glm::vec3 eye = view.eye_in_room();
     return *std::ranges::min_element(
@@ -133,7 +133,7 @@ std::optional<glm::vec4> Scene::cut_in(const interaction::Similarity& room_from_
     return glm::vec4(glm::dvec4(normal, -glm::dot(normal, at)));
 }
 
-/// Over the cells: who stands among them reads it, with both eyes alike.
+/// Drawn over the cells, so that viewers who stand among them can read it with both eyes.
 void Scene::draw_panel(const render::View& view) {
     if (!panel_)
         return;
@@ -142,7 +142,7 @@ void Scene::draw_panel(const render::View& view) {
     gl_.DepthRange(0.0, 1.0);
 }
 
-/// Over the cells: a distance is measured through them.
+/// Drawn over the cells, as distances are measured through them.
 void Scene::draw_tools(const render::View& view,
                        const interaction::Similarity& room_from_physical) {
     if (tools_.lines.empty() && tools_.labels.empty())
@@ -181,14 +181,14 @@ void Scene::draw_orientation(const render::View& view,
                              const interaction::Similarity& room_from_physical) {
     const Orientation shown = orientation_in(view, room_from_physical, info_, text_pass_);
     const render::View pixels = render::pixel_view(view);
-    gl_.DepthRange(0.0, 0.0); // before all that has been drawn
+    gl_.DepthRange(0.0, 0.0); // nearer than all that has been drawn
     for (const render::Line& line : shown.lines)
         line_pass_.draw(pixels, glm::mat4(1.0f), std::span(&line, 1), 2.5f);
     gl_.DepthRange(0.0, 1.0);
     text_pass_.draw(pixels, glm::mat4(1.0f), shown.quads, render::TextPass::Depth::none);
 }
 
-/// Over the surface that it lies on, but not over the panel.
+/// Drawn over the surface that it lies on, but not over the panel.
 void Scene::draw_mark(const render::View& view, const interaction::Similarity& room_from_physical) {
     const glm::vec3 at(interaction::transform(room_from_physical, mark_.point->position));
     if (hidden_by_panel(view, at))
@@ -202,17 +202,17 @@ void Scene::draw(std::span<const render::View> views,
                  const interaction::Similarity& room_from_physical, render::Footprint footprint,
                  const std::optional<interaction::Pose>& wand) {
     const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
-    // Another process of a cluster may have chosen what is not there yet.
+    // Rank 0 may have chosen a footprint that these cells do not have here yet.
     footprint = footprints().best(footprint);
-    // Soft edges blend with what is drawn before them. What splats may hide must come before these
-    // all the same, since they write no depth.
+    // Lines with soft edges blend with what was drawn before them, so they follow the cells. But
+    // splats write no depth, so what they may hide must be drawn before them.
     appearance_.cut = cut_in(room_from_physical);
     const bool depth = writes_depth(footprint);
     if (!depth)
         draw_among_cells(views, placement, room_from_physical, wand);
     if (footprint == render::Footprint::surface)
         cells_.compute_corners();
-    if (appearance_.near_fade && !views.empty()) // of one viewer, all of them
+    if (appearance_.near_fade && !views.empty()) // all views are of one viewer
         appearance_.near_fade->between_eyes = head_of(views.front());
     cell_pass_.draw(views, placement, cells_, footprint, appearance_);
     if (depth)
@@ -222,7 +222,7 @@ void Scene::draw(std::span<const render::View> views,
         draw_over_cells(view, room_from_physical);
 }
 
-/// Whether the cells hide what is drawn after them and lies behind.
+/// Whether the cells write depth, so that they hide things behind them that are drawn later.
 bool Scene::writes_depth(render::Footprint footprint) const {
     return footprint == render::Footprint::quad ||
            (render::has_layers(footprint) &&
@@ -248,8 +248,8 @@ void Scene::draw_among_cells(std::span<const render::View> views,
     }
 }
 
-/// The edges of the box that no cell hides. The numbers stand at its outline, where there is no
-/// cell before them, nor behind.
+/// The edges of the box in front, which no cell hides. The numbers are on its outline, where no
+/// cell is in front of them or behind.
 void Scene::draw_before_cells(std::span<const render::View> views,
                               const render::Placement& placement) {
     if (!box_)
@@ -267,7 +267,7 @@ void Scene::draw_before_cells(std::span<const render::View> views,
     }
 }
 
-/// To the place under the cursor, or to the panel, or ahead.
+/// The wand's ray: to the place that it points at, else to the panel, else straight ahead.
 render::Line Scene::wand_ray(const interaction::Similarity& room_from_physical,
                              const interaction::Pose& wand) const {
     const float length = panel_ && panel_->ray ? *panel_->ray : kWandLength;

@@ -1,5 +1,5 @@
-// What the eyes see: the cells, the volume's box with its numbers, the legend, the wand and the
-// floor.
+// Draws what the eyes see: the cells, the volume's box with its numbers, the legend, the wand and
+// the floor.
 #pragma once
 
 #include "app/config/config.h"
@@ -30,56 +30,58 @@ class Scene {
   public:
     Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config);
 
-    /// Moves the newest set to the GPU, at most the configured bytes per call.
+    /// Uploads the newest set to the GPU, at most the configured number of bytes per call; shows it
+    /// when it is complete.
     void upload(const index::ExtractionPtr& newest,
                 render::SendVolume volume = render::SendVolume::with_cells);
-    /// The same without showing it: the next `upload` of it does. @return true when it is there
+    /// Uploads a set without showing it; a later `upload` of the same set shows it.
+    /// @return true when it is completely on the GPU
     bool stage(const index::ExtractionPtr& set) { return cells_.stage(set, upload_bytes_); }
     const index::ExtractionPtr& shown() const { return cells_.shown(); }
-    /// Whether the shown cells have all that they can: their volume, unless it is too large.
+    /// Whether nothing more is uploaded for the shown cells: their volume is there, or too large.
     bool is_complete() const { return !cells_.wants_volume(); }
-    /// Why this set is not shown, and never will be; empty where it is not so.
+    /// Why this set cannot be shown; empty if it can.
     std::string refusal(const index::ExtractionPtr& set) const {
         return set && set == cells_.refused() ? cells_.refusal() : std::string();
     }
 
     const render::UploadCount& uploaded() const { return cells_.count(); }
 
-    /// That the shown cells can be drawn with: a very large set has no room for its surface, and
-    /// where a GPU draws cells come without a mesh.
+    /// The footprints that the shown cells can be drawn with: a very large set has no room for its
+    /// surface, and on a GPU cells have no mesh.
     render::FootprintSet footprints() const;
     /// That they could be drawn with if a mesh came with them, which they may be asked for with.
     render::FootprintSet possible_footprints() const;
     std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
 
-    /// What the driver promises but was found not to do, a line each.
+    /// The driver's features that do not work as promised and are not used, a line each.
     std::vector<std::string> given_up() const;
 
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
     void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }
     void set_pointed(const std::optional<interaction::Pointed>& pointed) { pointed_ = pointed; }
-    /// What is drawn for tools, and the plane that cuts the surfaces.
+    /// Sets what is drawn for tools, and the plane that cuts the surfaces.
     void set_tools(const interaction::ToolDrawing& drawing, const interaction::ClipPlane& clip);
-    /// The data's axes and a bar of a round length stand in a corner.
+    /// Shows the data's axes and a scale bar in a corner.
     void set_orientation(bool shown) { orientation_ = shown; }
-    /// Words in the corner of the picture; empty: none.
+    /// Sets the caption in the corner of the picture; empty: none.
     void set_caption(const std::string& words) { caption_ = words; }
     void set_veil(const render::Veil& veil) { veil_ = veil; }
 
-    /// Where what comes near to somebody fades, and who is there.
+    /// Sets the distance at which cells near a viewer fade, and where the viewers are.
     void set_near_fade(const interaction::ComfortOptions& comfort,
                        std::span<const stereo::ViewerPose> viewers);
 
-    /// What is the same for all eyes of the frames to come: colors, and the edges of the box that
+    /// Sets what is the same for all eyes in the next frames: colors, and the edges of the box that
     /// carry numbers.
-    /// @param head whose view they are chosen for
-    /// @param scale of the values that colors stand for; nothing when they tell surfaces apart
+    /// @param head viewer for whom these edges are chosen
+    /// @param scale of the values that colors stand for; empty: colors tell surfaces apart
     void look(const ExplorerState& state, const interaction::Pose& head,
               const std::optional<ColorScale>& scale);
 
-    /// Draws into the views' viewports of the bound framebuffer, the cells of two views in one pass
-    /// where the driver can.
-    /// @param wand drawn as a ray when given
+    /// Draws into the views' viewports of the bound framebuffer; the cells of two views in one pass
+    /// if the driver can.
+    /// @param wand drawn as a ray; empty: none
     void draw(std::span<const render::View> views,
               const interaction::Similarity& room_from_physical, render::Footprint footprint,
               const std::optional<interaction::Pose>& wand);
@@ -122,7 +124,7 @@ class Scene {
     Axes axes_;
     std::vector<interaction::Isosurface> surfaces_;
     std::optional<ColorScale> scale_;
-    std::optional<render::Texture> map_; ///< the last that was needed
+    std::optional<render::Texture> map_; ///< color map that was used last
     render::CellAppearance appearance_;
     render::CellBuffers cells_;
     render::CellPass cell_pass_;
@@ -131,7 +133,7 @@ class Scene {
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;
     std::optional<ShownPanel> panel_;
-    std::vector<glm::vec3> heads_; ///< of viewers before whom cells fade
+    std::vector<glm::vec3> heads_; ///< of viewers near whom cells fade
     interaction::Mark mark_;
     std::optional<interaction::Pointed> pointed_;
     std::string caption_;

@@ -10,8 +10,8 @@ namespace isochron::app {
 
 struct ShownPanel {
     render::PanelQuad quad;
-    std::size_t digest = 0;   ///< of what the texture holds
-    std::optional<float> ray; ///< [m] where the wand's ray ends on it
+    std::size_t digest = 0;   ///< hash of the texture's contents
+    std::optional<float> ray; ///< [m] length of the wand's ray if it ends on the panel
     bool operator==(const ShownPanel&) const = default;
 };
 

@@ -24,12 +24,13 @@ constexpr float kPatternFontPixels = 48.0f;
 constexpr glm::vec4 kWhite(1.0f), kGrid(0.35f, 0.41f, 0.48f, 0.8f),
     kFrame(0.55f, 0.80f, 1.0f, 1.0f), kText(0.78f, 0.84f, 0.92f, 1.0f),
     kCross(1.0f, 0.80f, 0.10f, 1.0f);
-constexpr float kLetterHeight = 0.26f; ///< of the wall's
-constexpr float kCrossArm = 0.06f;     ///< of the wall's height
+constexpr float kLetterHeight = 0.26f; ///< share of the wall's height
+constexpr float kCrossArm = 0.06f;     ///< share of the wall's height
 constexpr float kAxis = 0.1f;          ///< [m]
-constexpr float kBehind = 0.002f;      ///< [m] of the grid, so that it runs behind the letters
+constexpr float kBehind = 0.002f;      ///< [m] distance of the grid behind the letters
 constexpr int kMostGridLines = 9;      ///< between two edges
-/// Axes of the wall's own viewer, in the head's frame [m]: in sight, and below what is looked at.
+/// Place of the axes of the wall's own viewer, in the head's frame [m]: visible, but below the line
+/// of sight.
 constexpr glm::vec3 kAhead(-0.25f, -0.22f, -0.8f);
 
 glm::vec3 on_wall(const PatternWall& wall, glm::vec2 place) {
@@ -37,7 +38,7 @@ glm::vec3 on_wall(const PatternWall& wall, glm::vec2 place) {
            place.y * (wall.corners[1] - wall.corners[0]);
 }
 
-/// Meters.
+/// Width and height [m].
 glm::vec2 size_of(const PatternWall& wall) {
     return {glm::distance(wall.corners[0], wall.corners[3]),
             glm::distance(wall.corners[0], wall.corners[1])};
@@ -48,7 +49,7 @@ glm::vec3 normal_of(const PatternWall& wall) {
         glm::cross(wall.corners[3] - wall.corners[0], wall.corners[1] - wall.corners[0]));
 }
 
-/// The largest of 1, 2 or 5 times a power of ten that is not above.
+/// The largest 1, 2 or 5 times a power of ten that is at most `length`.
 float nice_below(float length) {
     const float power = std::pow(10.0f, std::floor(std::log10(length)));
     for (const float factor : {5.0f, 2.0f})
@@ -76,7 +77,7 @@ void add_grid(const PatternWall& wall, std::vector<Line>& lines) {
     }
 }
 
-/// Strokes in a box one high, from its lower left; pen down between the places.
+/// The strokes of a letter of height 1, as lines of points from its lower left.
 std::vector<std::vector<glm::vec2>> strokes_of(Eye eye) {
     switch (eye) {
     case Eye::left: return {{{0.0f, 1.0f}, {0.0f, 0.0f}, {0.6f, 0.0f}}};
@@ -88,7 +89,7 @@ std::vector<std::vector<glm::vec2>> strokes_of(Eye eye) {
     return {{{0.6f, 1.0f}, {0.0f, 1.0f}, {0.0f, 0.0f}, {0.6f, 0.0f}}};
 }
 
-/// @param half of a stroke's width, of the letter's height, by which ends reach beyond corners
+/// @param half half of a stroke's width, in heights of the letter; strokes extend by it at corners
 void add_letter(const PatternWall& wall, Eye eye, float half, std::vector<Line>& lines) {
     const glm::vec2 size = size_of(wall);
     const glm::vec2 unit = kLetterHeight * glm::vec2(size.y / size.x, 1.0f); // round on the wall
@@ -126,12 +127,12 @@ std::vector<render::Label> wall_labels(const PatternWall& wall, Eye eye, glm::iv
         {.text = fmt::format("{} eye", name_of(eye)), .at = on_wall(wall, under), .color = kText},
         {.text =
              fmt::format("{:g} m before the wall, {:.0f} mm apart on it", wall.cross_depth, apart),
-         .at = on_wall(wall, {0.5f, 0.3f}), // to be read without glasses, too
+         .at = on_wall(wall, {0.5f, 0.3f}), // readable without glasses, too
 
          .color = kCross}};
 }
 
-/// Of every device with a pose; where its axes are seen and what they are called.
+/// Adds the axes of every device with a pose, and the device's name.
 void add_axes(const PatternWall& wall, const interaction::InputState& input,
               std::vector<Line>& lines, std::vector<render::Label>& labels) {
     constexpr std::array<glm::vec4, 3> kColors{
@@ -176,7 +177,7 @@ PatternWall pattern_wall(const stereo::Window& window, std::size_t viewport,
         name += " / " + shown.name;
     else if (window.viewports.size() > 1)
         name += fmt::format(" / {}", viewport + 1);
-    // By where the viewer is configured to stand: the cross must not move with the head.
+    // Uses the viewer's configured position, so that the cross does not move with the head.
     const float distance = distance_to(shown.screen, {viewer.position, {1, 0, 0, 0}});
     constexpr float kNearest = 0.1f; // meters
     return {.name = name,
@@ -228,7 +229,7 @@ void TestPattern::draw(std::span<const render::View> views, std::span<const Eye>
         std::vector<Line> letter;
         add_letter(wall, eyes[i], 0.5f * kStroke, letter);
         lines_.draw(view, room, thin);
-        lines_.draw(view, room, frame, 0.5f * text); // of which one half is seen
+        lines_.draw(view, room, frame, 0.5f * text); // only one half of it is visible
         lines_.draw(view, room, axes, 0.25f * text);
         lines_.draw(view, room, cross, 0.25f * text);
         lines_.draw(view, room, letter, kStroke * kLetterHeight * static_cast<float>(view.size.y));

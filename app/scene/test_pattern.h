@@ -1,4 +1,4 @@
-// What a lab shows to see whether eyes, walls and trackers are what they should be.
+// The test pattern, with which a lab checks its eyes, walls and trackers.
 #pragma once
 
 #include "interaction/tracked_input.h"
@@ -18,38 +18,38 @@
 
 namespace isochron::app {
 
-/// One wall as it stands in a frame.
+/// One wall in a frame.
 struct PatternWall {
     std::string name;
     std::array<glm::vec3, 4> corners; ///< room: lower left, upper left, upper right, lower right
     std::string head_device;          ///< of the viewer who sees it
     interaction::Pose head;
     float eye_separation = 0.0f; ///< [m]
-    float cross_depth = 0.5f;    ///< [m] of the cross before the wall
+    float cross_depth = 0.5f;    ///< [m] distance of the cross in front of the wall
 };
 
 /// The wall that a viewport shows.
-/// @param pixels of the picture of an eye
+/// @param pixels size of one eye's picture
 PatternWall pattern_wall(const stereo::Window& window, std::size_t viewport,
                          const stereo::Viewer& viewer, const interaction::Pose& head,
                          float eye_separation, glm::ivec2 pixels);
 
-/// Where the cross hangs: before the middle of the wall, room.
+/// Place of the cross in the room: in front of the middle of the wall.
 glm::vec3 cross_of(const PatternWall& wall);
 
-/// How far apart on the wall both eyes see a point [m]: positive where the right eye's image lies
-/// to the left of the left one's, as it does before the wall.
+/// Distance between a point's images for both eyes on the wall [m]: positive if the right eye's
+/// image is to the left of the left eye's, as for points in front of the wall.
 float disparity_on(const PatternWall& wall, const glm::vec3& point);
 
-/// Where the middle of an eye's letter is on its wall, fractions from the lower left. L and R stand
-/// in different places, so that whoever sees both sees two letters.
+/// Place of the middle of an eye's letter on the wall, fractions from the lower left. L and R are
+/// in different places, so that an eye that sees both pictures sees two letters.
 glm::vec2 letter_place(stereo::Eye eye);
 
-/// On the wall, at zero parallax: its frame, a grid about its middle, its name and sizes, and in
-/// each eye's picture that eye's letter: L, R, or C midway. Before it a cross at a known depth,
-/// labeled with what both eyes must see of it. In the room the floor and the axes of every device
-/// that has a pose: x red, y green, z blue; those of the wall's own viewer are carried ahead of the
-/// head.
+/// On the wall, at zero parallax: its frame, a grid around its middle, its name and sizes, and each
+/// eye's letter in that eye's picture: L, R, or C for the center. In front of it: a cross at a
+/// known depth, labeled with the disparity that both eyes must see. In the room: the floor, and the
+/// axes of every device with a pose (x red, y green, z blue); the axes of the wall's own viewer are
+/// drawn ahead of the head, where they can be seen.
 class TestPattern {
   public:
     /// @throws render::Error when a shader does not compile

@@ -9,7 +9,7 @@
 namespace isochron::app {
 namespace {
 
-/// The least 1, 2 or 5 times a power of ten that is not below.
+/// The smallest 1, 2 or 5 times a power of ten that is at least `number`.
 double nice_above(double number) {
     const double decade = std::pow(10.0, std::floor(std::log10(number)));
     constexpr double kRounding = 1.0 + 1e-9;
@@ -26,10 +26,10 @@ Ticks nice_ticks(double low, double high, int most) {
     if (!(span > 0) || !std::isfinite(span) || !std::isfinite(1 / span))
         return {};
     Ticks ticks;
-    // A step may not be told apart from none next to numbers that are very large.
+    // Next to very large numbers, a smaller step would vanish by rounding.
     const double finest = 4e-16 * std::max(std::abs(low), std::abs(high));
     ticks.step = nice_above(std::max(span / std::max(most, 2), finest));
-    const double inside = 1e-9; // of a step: ends that rounding has moved are still ends
+    const double inside = 1e-9; // share of a step by which rounding may move the ends
     for (;;) {
         const double first = std::ceil(low / ticks.step - inside);
         const double last = std::floor(high / ticks.step + inside);

@@ -12,8 +12,8 @@ struct Ticks {
     std::vector<double> values; ///< ascending, within the range
 };
 
-/// As many ticks as fit into [low, high], at most `most` (at least 2), after P. Heckbert, "Nice
-/// numbers for graph labels", Graphics Gems, 1990; none for an empty or infinite range.
+/// Ticks in [low, high], at most `most` (which is at least 2), after P. Heckbert, "Nice numbers for
+/// graph labels", Graphics Gems, 1990; none for an empty or infinite range.
 Ticks nice_ticks(double low, double high, int most);
 
 /// The number with the digits that its neighbors need: `0.2`, `1500`, `2.5e-07`; never `-0`.

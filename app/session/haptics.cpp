@@ -1,4 +1,4 @@
-// Which presses of buttons are felt.
+// Haptic pulses for presses of buttons.
 #include "app/session/haptics.h"
 
 namespace isochron::app {

@@ -1,4 +1,4 @@
-// What a hand feels when it takes hold of something.
+// Haptic pulses for what a hand does.
 #pragma once
 
 #include "interaction/commands.h"
@@ -8,8 +8,8 @@
 
 namespace isochron::app {
 
-/// A tracked hand feels its grab begin and the spot that it teleports to; what it picks and presses
-/// comes with the commands.
+/// A tracked hand feels when a grab begins and when it teleports. Pulses for picking and pressing
+/// come with the commands instead.
 class Haptics {
   public:
     /// Pulses of this frame.

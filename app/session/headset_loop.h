@@ -1,4 +1,4 @@
-// A headset's part in the live loop: its frames, its devices, what hands feel, and its end.
+// A headset's part in the live loop: its frames, its devices, haptic pulses, and its end.
 #pragma once
 
 #include "app/session/haptics.h"
@@ -10,19 +10,19 @@
 
 namespace isochron::app {
 
-/// Does nothing where there is no headset.
+/// Does nothing without a headset.
 class HeadsetLoop {
   public:
     /// @param headset attached, outlives the loop; or null
     explicit HeadsetLoop(stereo::Headset* headset) : headset_(headset) {}
 
-    /// Follows the runtime and begins a frame, for which it may block. What becomes of the headset
-    /// is told on stderr, a line for each change.
-    /// @return whether the headset has paced the program
+    /// Handles the runtime's events and begins a frame; this may block. Prints a line on stderr for
+    /// each change of the headset's state.
+    /// @return whether the headset paces the program
     bool begin_frame(interaction::Seconds now);
-    /// Between two pictures, while the headset paces the program.
+    /// Time between two pictures while the headset paces the program; else empty.
     std::optional<interaction::Seconds> period() const { return period_; }
-    /// The headset's devices before all others; lets hands feel what they do.
+    /// Puts the headset's devices before all others, and sends haptic pulses for them.
     interaction::InputState with_devices(interaction::InputState others, interaction::Seconds now);
     void feel(const std::vector<interaction::HapticPulse>& pulses);
     bool ended() const { return state_ == stereo::HeadsetState::ended; }

@@ -1,4 +1,4 @@
-// From devices to frames, live.
+// The live loop, from devices to frames.
 #include "app/session/live_loop.h"
 
 #include "app/frame/pacer.h"
@@ -52,7 +52,7 @@ void LiveLoop::watch(const std::filesystem::path& path,
     watch_.emplace(path, std::move(file));
 }
 
-/// What has grown is told as commands: a recording has them, and so do all processes of a cluster.
+/// Reports new steps as commands, so that recordings and all processes of a cluster get them.
 void LiveLoop::take_new_steps(Session& session, Commands& asked) {
     auto newer = watch_ ? watch_->take() : nullptr;
     if (!newer)
@@ -94,7 +94,7 @@ void LiveLoop::make_movies(Session& session) {
     session.set_movies({true, recorder_ != nullptr, movies_->progress()});
 }
 
-/// Data that were chosen, or dropped onto a window.
+/// Takes other data that the user has chosen, or dropped onto a window.
 void LiveLoop::take_next_data(Session& session) {
     std::optional<std::filesystem::path> wanted = session.panel().take_chosen();
     for (const std::filesystem::path& dropped : session.outputs().windows().first().take_dropped())
@@ -118,7 +118,7 @@ InputState LiveLoop::poll(std::span<const interaction::WindowEvent> events) {
     const Seconds now = clock_();
     InputState input = trackers_.poll(now);
     InputState emulated = emulation_.poll(now);
-    // The cursor's ray is that of the emulated eye: somebody who is tracked points with the wand.
+    // The cursor's ray begins at the emulated eye. With a tracked head or wand, the wand points.
     if (input.find("head") || input.find("wand"))
         std::erase_if(emulated.devices,
                       [](const interaction::DeviceState& each) { return each.name == "pointer"; });
@@ -140,8 +140,8 @@ void LiveLoop::record(interaction::RecordedFrame frame) {
     });
 }
 
-/// Whether a window that is closed ends the loop. Where somebody would lose something, they are
-/// asked first; whoever closes it again means it.
+/// Whether a closed window ends the loop. If the user has made changes, asks first; closing a
+/// window again while the question is open ends the loop.
 bool LiveLoop::closes(const Session& session, Commands& asked) const {
     if (!session.should_close())
         return false;
@@ -169,7 +169,8 @@ void LiveLoop::run(Session& session) {
         const auto events = session.panel_events(session.outputs().windows().poll_events());
         if (is_pressed(interaction::Key::f11, events))
             session.outputs().windows().first().toggle_fullscreen();
-        if (config_.devices.empty() && !session.outputs().headset()) // a tracked wand points itself
+        if (config_.devices.empty() &&
+            !session.outputs().headset()) // a tracked wand points instead
             emulation_.set_panel(session.state().room_panel, session.room_panel_size());
         const InputState input = poll(events);
         session.set_headset_period(headset_.period());

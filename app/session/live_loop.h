@@ -1,4 +1,4 @@
-// The live loop: what devices state becomes frames, at the pace of what shows them, until the user
+// The live loop: makes frames from the state of the devices, at the display's pace, until the user
 // leaves.
 //
 //     LiveLoop live(config, std::move(trackers), {}, session.outputs().headset());
@@ -33,54 +33,57 @@
 namespace isochron::app {
 
 struct LiveOptions {
-    bool emulated = false; ///< the room is shown from outside: mouse and keys move its camera, too
-    std::optional<interaction::Seconds> length; ///< the loop ends after this long; empty: never
-    std::function<bool()> ended = [] { return false; }; ///< asked in each frame: the loop ends
-    /// What keeps other data from being opened in the place of these, in one line; empty: nothing
-    /// does, and the loop ends for it. None where these are all there will be.
+    bool emulated = false; ///< the room is shown from outside: mouse and keys also move its camera
+    std::optional<interaction::Seconds> length; ///< time after which the loop ends; empty: never
+    std::function<bool()> ended = [] {
+        return false;
+    }; ///< called in each frame; true: ends the loop
+    /// Returns in one line why the given data cannot be opened instead of these; empty: they can,
+    /// and the loop ends. A null function: the user cannot open other data.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
 };
 
-/// Session time starts with it, at 0.
+/// Session time starts at 0 when the loop is constructed.
 class LiveLoop {
   public:
     /// @param config outlives the loop
-    /// @param trackers go before what mouse and keyboard emulate
+    /// @param trackers take precedence over devices that mouse and keyboard emulate
     /// @param headset attached, outlives the loop; or null
     LiveLoop(const Config& config, interaction::CompositeInput trackers, const LiveOptions& options,
              stereo::Headset* headset = nullptr);
 
-    /// Session time as it goes on.
+    /// A function that returns the session time.
     std::function<interaction::Seconds()> clock() const;
 
-    /// Records the frames to come, in the background: a slow disk delays the recording, not the
-    /// picture. @throws interaction::Error when the file cannot be created
+    /// Records all further frames in the background, so that a slow disk does not delay pictures.
+    /// @throws interaction::Error when the file cannot be created
     void record(const std::filesystem::path& path, const interaction::RecordingHeader& header);
 
-    /// Shows new steps of the index when they come. @param path of the index that is open
+    /// Shows new steps of the index when they come. @param path of the open index
     void watch(const std::filesystem::path& path, std::shared_ptr<const index::IndexFile> file);
 
     /// Lets the user have movies made.
     void offer_movies(MovieOrders orders) { movies_.emplace(std::move(orders)); }
 
-    /// Keeps what the user comes to, to go on from there. @param resumed what this session began as
+    /// Saves the session to a file, from which it can be resumed. @param start the session as it
+    /// begins @param resumed it was itself resumed from that file
     void keep_session(const std::filesystem::path& path, const SavedSession& start, bool resumed);
-    /// Where the emulated head is.
+    /// Where the emulated head stands.
     interaction::StandingPlace standing() const { return emulation_.standing(); }
     void stand(const interaction::StandingPlace& place) { emulation_.stand(place); }
 
-    /// What the user wants to see instead; nothing: they leave.
+    /// Other data that the user wants to see; empty: the user leaves.
     const std::optional<std::filesystem::path>& next_data() const { return next_data_; }
 
-    /// Until the user closes a window, leaves by a device or ends the headset's program, or the
-    /// time is over; a headset is left then.
+    /// Runs until the user closes a window, leaves by a device or through the headset's runtime, or
+    /// the time is over; then leaves the headset.
     void run(Session& session);
     void run(PatternShow& show);
 
-    /// Completes the recording, if there is one, and keeps the session.
+    /// Completes the recording, if there is one, and saves the session.
     /// @throws index::Error, interaction::Error when it cannot be written
     void finish(const ExplorerState& state);
-    /// What trackers and headset say of themselves: a line each.
+    /// Status of the trackers and the headset, a line each.
     std::vector<std::string> status() const;
 
   private:
@@ -99,12 +102,12 @@ class LiveLoop {
     interaction::DesktopEmulation emulation_;
     RoomCamera camera_;
     HeadsetLoop headset_;
-    bool paced_ = false; ///< by the headset, in this frame
+    bool paced_ = false; ///< the headset paces this frame
     std::optional<SessionKeeper> keeper_;
     std::optional<index::IndexWatch> watch_;
     std::optional<std::filesystem::path> next_data_;
     BackgroundWork recording_;
-    /// Lives on the thread that writes.
+    /// Used only on the thread of `recording_`.
     std::shared_ptr<interaction::RecordingWriter> recorder_;
     std::optional<MovieMaker> movies_;
     std::vector<std::string> last_words_; ///< what became of the last movie when the loop had ended

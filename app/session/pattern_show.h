@@ -15,30 +15,30 @@ namespace isochron::app {
 
 class PatternShow {
   public:
-    /// @param windows those of the configured installation
+    /// @param windows of the configured installation
     /// @throws render::Error as Outputs
     PatternShow(Config config, stereo::Windows windows);
 
-    /// Of the commands that devices lead to or a recording holds, those that matter to a pattern.
+    /// Obeys those commands, from devices or a recording, that matter to the pattern.
     void obey(const interaction::Commands& commands);
     void set_stereo(stereo::StereoMode mode) { mode_ = mode; }
     stereo::StereoMode stereo() const { return mode_; }
 
-    /// What the devices lead to: another stereo mode, wider eyes, the end.
+    /// Commands from the devices: another stereo mode or eye separation, or the end.
     interaction::Commands commands_from(const interaction::InputState& input);
 
-    /// Draws and presents every window, and obeys the commands.
-    /// @param latch tells where the heads are now
+    /// Obeys the commands, then draws and presents every window.
+    /// @param latch returns where the heads are when the views are made; empty: as in `input`
     void frame(const interaction::InputState& input, const interaction::Commands& commands = {},
                const Latch& latch = {});
 
     /// From now on the processes of a cluster show each frame together.
     void share_frames(std::unique_ptr<FrameSharing> sharing) { frames_ = std::move(sharing); }
     FrameSharing& frames() { return *frames_; }
-    /// A window of this or of another process is closed.
+    /// Whether a window of this or of another process is closed.
     bool should_close() const;
 
-    Outputs& outputs() { return outputs_; } ///< what it is shown in
+    Outputs& outputs() { return outputs_; } ///< the windows that show it
 
   private:
     void draw(const ScenePlace& place, std::span<const render::View> views);

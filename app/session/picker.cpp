@@ -1,4 +1,4 @@
-// Rays through what is shown, and reading of data.
+// Picking by rays, and reading of data.
 #include "app/session/picker.h"
 
 #include "index/extraction/cell_ray.h"
@@ -31,14 +31,14 @@ std::uint32_t visible(const ExplorerState& state) {
     return bits;
 }
 
-constexpr double kOnPlane = 1e-9; ///< of a place's distance from the origin, by rounding
+constexpr double kOnPlane = 1e-9; ///< rounding error, relative to the distance from the origin
 
-/// Distance on the side that is cut away.
+/// Distance from the plane, positive on the side that is cut away.
 double beyond(const ClipPlane& clip, const glm::dvec3& at) {
     return glm::dot(at - clip.point, clip.normal);
 }
 
-/// The part of a ray that is not cut away begins here; nothing where there is none.
+/// The ray from where it leaves the side that is cut away; empty if it never does.
 std::optional<index::Ray> uncut(index::Ray ray, const ClipPlane& clip) {
     const double start = clip.shown ? beyond(clip, ray.origin) : 0.0;
     if (!(start > 0))
@@ -75,8 +75,8 @@ std::optional<Pointed> Picker::pointed(const InputState& input, bool aims,
     return ray && aims ? hit_by(*ray, state, shown) : std::nullopt;
 }
 
-/// Along the cursor's ray the first surface, or else where the ray enters the data; the tip of a
-/// wand.
+/// The place whose data are read. For the cursor: where its ray meets the first surface, else where
+/// it enters the data. For a wand: its tip.
 std::optional<glm::dvec3> Picker::place_to_read(const InputState& input, const ExplorerState& state,
                                                 const index::ExtractionPtr& shown) const {
     const Reading now(input);
@@ -117,7 +117,7 @@ Commands Picker::update(const InputState& input, const ExplorerState& state,
             notes_.emplace_back("no data there");
     }
     {
-        const std::lock_guard lock(read_->mutex); // held by the reader for one assignment
+        const std::lock_guard lock(read_->mutex); // the reader holds it only for one assignment
         if (const auto read = std::exchange(read_->mark, std::nullopt))
             commands.mark = *read;
     }

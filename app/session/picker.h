@@ -1,4 +1,4 @@
-// What a ray meets among what is shown, and the data at a place.
+// Picking: the shown surface that a ray meets, and the data at a place.
 #pragma once
 
 #include "app/frame/background_work.h"
@@ -15,40 +15,40 @@
 
 namespace isochron::app {
 
-/// A ray is followed through the cells that are shown, at once: the eye's under the cursor where
-/// mouse and keyboard emulate head and wand, else the wand's. Data at a place are read by a thread
-/// of its own, which may wait for a disk. Both depend on what had come from a disk by then,
-/// so a recording keeps what was found beside what the panel did, and a replay obeys it.
+/// Follows a ray through the shown cells at once: the ray from the eye through the cursor if mouse
+/// and keyboard emulate head and wand, else the wand's. A background thread, which may wait for a
+/// disk, reads the data at a place. Both results depend on what the disk has delivered by then, so
+/// recordings hold them, like the commands of the operator's panel, and a replay obeys them.
 class Picker {
   public:
     explicit Picker(std::shared_ptr<const index::IndexFile> file);
 
-    /// The same data with more steps.
+    /// Continues with the same data that have more steps.
     void set_file(std::shared_ptr<const index::IndexFile> file) { file_ = std::move(file); }
 
-    /// Once a frame.
-    /// @param input what the panel in the room has left of it
+    /// Called once a frame.
+    /// @param input that the panel in the room does not use
     /// @param shown cells that are drawn; may be null
-    /// @return what has been read
+    /// @return commands with the mark, if data were read
     interaction::Commands update(const interaction::InputState& input, const ExplorerState& state,
                                  const index::ExtractionPtr& shown);
 
-    /// Where a ray first meets a surface that is shown and not cut away.
+    /// Where a ray first meets a visible surface that is not cut away; empty if it meets none.
     std::optional<interaction::Pointed> hit_by(const interaction::Pose& ray,
                                                const ExplorerState& state,
                                                const index::ExtractionPtr& shown) const;
 
-    /// What is under the cursor, without a click. Nothing for a wand, whose ray is followed only
-    /// when its button says so.
+    /// The place under the cursor, without a click; empty for a wand, whose ray is followed only
+    /// when its button is pressed. @param aims the panel in the room is not in the way
     std::optional<interaction::Pointed> pointed(const interaction::InputState& input, bool aims,
                                                 const ExplorerState& state,
                                                 const index::ExtractionPtr& shown) const;
 
-    /// What was not found, and why something could not be read, since the last call.
+    /// Messages since the last call: places without data, and errors of reading.
     std::vector<std::string> messages();
 
   private:
-    /// What the thread that reads leaves for the thread that draws.
+    /// Passes results from the reading thread to the drawing thread.
     struct Slot {
         std::mutex mutex;
         std::optional<interaction::Mark> mark;

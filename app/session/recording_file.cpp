@@ -1,4 +1,4 @@
-// Recordings in files.
+// Reads recordings from files.
 #include "app/session/recording_file.h"
 
 #include "index/system/input_file.h"

@@ -1,4 +1,4 @@
-// Recordings in files.
+// Reads recordings from files.
 #pragma once
 
 #include "interaction/recording/recording.h"

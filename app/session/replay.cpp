@@ -1,4 +1,4 @@
-// Replaying a recording.
+// Replays a recording.
 #include "app/session/replay.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@ namespace {
 
 using interaction::Commands;
 
-/// What of a frame's commands a replay obeys: overridden switches stay as they were set.
+/// The commands of a frame that a replay obeys: not those for settings that the options override.
 Commands obeyed(Commands commands, const ReplayOptions& options) {
     if (options.stereo)
         commands.stereo.reset();
@@ -21,7 +21,7 @@ Commands obeyed(Commands commands, const ReplayOptions& options) {
     return commands;
 }
 
-/// Views as they were recorded.
+/// A latch with the recorded heads; empty if none were recorded.
 Latch latch_of(const interaction::RecordedFrame& frame) {
     if (frame.latched.devices.empty())
         return {};

@@ -1,5 +1,4 @@
-// Replaying a recording: obeys its commands and says when they are no longer what its devices lead
-// to.
+// Replays a recording: obeys its commands, and can report where its devices would lead to others.
 #pragma once
 
 #include "app/session/pattern_show.h"
@@ -21,22 +20,23 @@ struct ReplayOptions {
 /// Called after each frame, with its number from 0.
 using FrameDone = std::function<void(std::size_t number, const interaction::RecordedFrame& frame)>;
 
-/// Fixed-step: each recorded frame once, at its recorded time, each waiting for its cells.
-/// @return one line per frame whose recomputed commands differ (empty unless `from_devices`)
+/// Replays with fixed steps: each recorded frame once, at its recorded time; each waits for its
+/// cells.
+/// @return one line per frame whose recomputed commands differ (none without `from_devices`)
 std::vector<std::string> replay_fixed_step(Session& session,
                                            const interaction::Recording& recording,
                                            const ReplayOptions& options, const FrameDone& done);
 
-/// The test pattern before the recorded heads and hands, each frame once.
+/// Replays the recorded heads and hands in front of the test pattern, each frame once.
 void replay_pattern(PatternShow& show, const interaction::Recording& recording,
                     const ReplayOptions& options, const FrameDone& done);
 
-/// On the wall clock, dropping no command; frames come as fast as the display takes them.
+/// Replays in real time: obeys every command, and draws frames as fast as the display takes them.
 /// Ends with the recording or when the window closes.
 void replay_live(Session& session, const interaction::Recording& recording,
                  const ReplayOptions& options);
 
-/// The start state that a header holds. @throws interaction::Error when it cannot be held
+/// The start state in a header. @throws interaction::Error when it is not valid for these data
 ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,
                        std::size_t steps, const ReplayOptions& options);
 

@@ -1,4 +1,4 @@
-// One session: the data, the worker, the eyes, and the story of one frame.
+// One session: brings data, search, devices and displays together, frame by frame.
 #include "app/session/session.h"
 
 #include "app/session/start_state.h"
@@ -14,7 +14,7 @@ namespace {
 
 using interaction::Commands;
 
-/// Times stages that follow one another.
+/// Measures the times of consecutive stages.
 class StopWatch {
   public:
     /// Time since the last lap, or since the start.
@@ -45,7 +45,7 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       scene_(outputs_.gl(), file_->info(), config_),
       panel_(outputs_.gl(), outputs_.windows(), config_.panel.font_scale),
       room_panel_(outputs_.gl(), config_.panel), picker_(file_),
-      // A headset has its own rate, which the configuration tells.
+      // Beside a headset the window's refresh rate does not count.
       quality_(outputs_.gl(), config_,
                outputs_.headset() ? std::nullopt : outputs_.windows().first().refresh_rate()) {}
 
@@ -105,7 +105,7 @@ interaction::ControlContext Session::control_context() const {
     return context;
 }
 
-/// What leads back to the start. Displays, viewpoints and tools stay as they were chosen.
+/// Commands that lead back to the start state, except for displays, viewpoints and tools.
 Commands Session::way_to_start() const {
     Commands way = state_.commands_to(home_);
     way.quality.reset();
@@ -121,11 +121,12 @@ Commands Session::commands_from(const interaction::InputState& input) {
     start_ = way_to_start();
     PanelInRoom::Outcome panel = room_panel_.outcome(input, state_.room_panel);
     interaction::ControlContext context = control_context();
-    if (panel.touched) // the wand points at what is nearer than the data
+    if (panel.touched) // the wand points at the panel, which is in front of the data
         context.find_surface = {};
     Commands commands = controls_.update(panel.rest, context);
     interaction::merge(commands, panel.commands);
-    // What is found depends on what is shown: recorded with what the operator's panel leads to.
+    // What is found depends on what is shown, so it is recorded like the operator's panel's
+    // commands.
     interaction::merge(panel_commands_, controls_.found());
     interaction::merge(panel_commands_, picker_.update(panel.rest, state_, scene_.shown()));
     show_messages(controls_.notes());
@@ -157,7 +158,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
     if (cells.show)
         scene_.upload(*cells.show, volume);
-    // A replay shows what was asked for, however many upload budgets that takes.
+    // A replay uploads all cells that were asked for in one frame, whatever the upload budget.
     while (waiting == Waiting::for_cells && *cells.show && scene_.shown() != *cells.show) {
         scene_.upload(*cells.show);
         if (const std::string refusal = scene_.refusal(*cells.show); !refusal.empty())
@@ -181,7 +182,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     }
 }
 
-/// A set that is too large is left out with a line, once.
+/// Says once, in one line, that a set is too large to be shown.
 void Session::say_refused(const index::ExtractionPtr& set, FrameReport& report) {
     report.refused = scene_.refusal(set);
     if (!report.refused.empty() && report.refused != refused_)
@@ -189,8 +190,8 @@ void Session::say_refused(const index::ExtractionPtr& set, FrameReport& report) 
     refused_ = report.refused;
 }
 
-/// Nothing as long as the cells that are drawn are not colored by what they are to be: their
-/// coordinates would say something else.
+/// The color scale of the drawn cells. Empty until the drawn cells have the current coloring:
+/// before that, their color coordinates have another meaning.
 std::optional<ColorScale> Session::shown_scale() const {
     const index::ExtractionPtr& shown = scene_.shown();
     if (!shown || shown->query.coloring != state_.surfaces().coloring)
@@ -202,7 +203,7 @@ void Session::set_headset_period(std::optional<interaction::Seconds> period) {
     quality_.set_headset_period(period ? std::optional(Milliseconds(*period)) : std::nullopt);
 }
 
-/// With the footprint that was drawn last.
+/// The picture of this frame, with the footprint of the last one.
 Session::Picture Session::picture(const interaction::InputState& input, const FrameReport& report) {
     const bool in_windows = this->in_windows(report);
     const Aids all = aids(input), none;
@@ -238,7 +239,7 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
         .aside = stands_beside(interaction::Reading(input).viewer()) ? kPanelShare : 0.0f};
 }
 
-/// The devices that the views are made of, asked for as late as can be.
+/// The devices that the views are made from, polled as late as possible.
 interaction::InputState Session::seen(const interaction::InputState& input, const Latch& latch,
                                       FrameReport& report) {
     const interaction::InputState newest =
@@ -249,13 +250,13 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
     return seen;
 }
 
-/// The slowest process counts: all draw with one footprint.
+/// Learns the draw costs of the slowest process, as all draw with the same footprint.
 void Session::learn_costs() {
     quality_.learn(frames_->samples(quality_.collect(log_)));
     quality_.charge(frames_->largest(quality_.view()));
 }
 
-/// The leader's choice counts. @return whether it wants this frame measured
+/// Takes over rank 0's choice. @return whether rank 0 wants this frame measured
 bool Session::agree(bool measure, FrameReport& report) {
     const FrameChoice choice = frames_->agree(
         {report.footprint, report.reason, report.final, measure, quality_.wants_mesh()});
@@ -290,7 +291,7 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
             agree(quality_.choose(state_, changed, how, footprints, footprints, report), report);
     }
     now.footprint = report.footprint;
-    // While a headset wants no picture, there is nothing to draw and nothing to learn from it.
+    // While a headset wants no picture, there is nothing to draw or to measure.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure);
 }
 
@@ -325,9 +326,9 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     outputs_.draw_room(input, panel);
 }
 
-/// What others are told before a frame is shown.
+/// The answer that other processes get before a frame is shown.
 FrameAnswer Session::answer() const {
-    outputs_.gl().Finish(); // what is drawn yet would be shown later
+    outputs_.gl().Finish(); // a frame that is still being drawn would be shown late
     FrameAnswer answer;
     answer.close = outputs_.windows().should_close();
     answer.failure = extractor_.failure().value_or("");
@@ -358,7 +359,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     FrameReport report;
     report.time = input.time;
     report.tracking = tracking_of(input);
-    panel_commands_ = {}; // a replay takes none
+    panel_commands_ = {}; // nobody takes them in a replay
     const interaction::InputState rest = room_panel_.update(input, state_.room_panel);
     const ExplorerState before = state_;
     grow_with(commands);

@@ -1,4 +1,4 @@
-// One session: the data, the worker, the eyes, and the story of one frame.
+// One session: brings data, search, devices and displays together, frame by frame.
 //
 //     app::Session session(config, file, *context);
 //     while (!session.should_close()) {
@@ -35,65 +35,66 @@ namespace isochron::app {
 
 class Session {
   public:
-    /// @param windows those of the configured installation, or a context for its only one that
-    /// outlives the session; the one that draws is current on this thread
-    /// @param extract replaces the extraction from `file`, for tests; empty: the extraction itself
-    /// @param headset that is drawn for in place of the installation's windows, the first of which
-    /// mirrors it; null: none
+    /// @param windows of the configured installation, or a context for its only window that
+    /// outlives the session; the drawing context is current on this thread
+    /// @param extract replaces the extraction from `file`, for tests; empty: the real one
+    /// @param headset to draw for instead of the installation's windows, the first of which mirrors
+    /// it; null: none
     /// @throws render::Error as Outputs, or when a shader does not compile
     Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::Windows windows,
             index::Extract extract = {}, std::unique_ptr<stereo::Headset> headset = nullptr);
 
-    /// How every frame from now on is shared; a session starts alone. @param frames not null
+    /// Sets how all further frames are shared; a session starts alone. @param frames not null
     void share_frames(std::unique_ptr<FrameSharing> frames) { frames_ = std::move(frames); }
     FrameSharing& frames() { return *frames_; }
-    /// This process or another one has a window that the user wants to close.
+    /// Whether the user wants to close a window of this process or of another one.
     bool should_close() const;
 
     const ExplorerState& state() const { return state_; }
     void set_state(const ExplorerState& state) { state_ = state; }
     const ExplorerState& home() const { return home_; }
-    /// Goes on with the same data that have more steps. The command `steps` lets them be seen.
+    /// Continues with the same data that have more steps. The command `steps` makes them visible.
     void grow(std::shared_ptr<const index::IndexFile> file);
     const History& history() const { return history_; }
 
-    /// What the devices lead to in this frame; advances the controls, changes nothing else.
+    /// The commands that the devices lead to in this frame. Advances the controls; changes nothing
+    /// else.
     interaction::Commands commands_from(const interaction::InputState& input);
 
-    /// The eye's ray under the cursor, for a head that mouse and keyboard emulate; nothing where
-    /// the operator's panel is under it.
+    /// The ray from the eye through the cursor, for a head that mouse and keyboard emulate; empty
+    /// if the cursor is over the operator's panel.
     std::optional<interaction::Pose> ray_at(const interaction::MouseMoveEvent& cursor,
                                             const interaction::Pose& head) const;
 
-    /// The panel in the room, for those who emulate a wand.
+    /// Size of the panel in the room, for the emulation of a wand.
     interaction::PanelSize room_panel_size() const { return room_panel_.size(); }
 
-    /// What no device alone explains: what the user did to the operator's panel while the last
-    /// frame was drawn, and what picking found among what was shown. Handed out once, before the
-    /// next frame.
+    /// Commands that a replay could not compute from the devices: those of the operator's panel
+    /// during the last frame, and what picking found in the shown picture. Take them once, before
+    /// the next frame.
     interaction::Commands take_panel_commands();
 
     OperatorPanel& panel() { return panel_; }
 
-    /// Passes window events to the panel. @return those that it has no use for
+    /// Passes window events to the panel. @return the events that it does not use
     std::vector<interaction::WindowEvent>
     panel_events(std::span<const interaction::WindowEvent> events);
 
-    /// One frame, from commands to presented picture.
-    /// @param latch tells where the heads are when the views are made; empty: as in `input`
+    /// Makes one frame, from commands to the presented picture.
+    /// @param latch returns where the heads are when the views are made; empty: as in `input`
     const FrameReport& frame(const interaction::InputState& input,
                              const interaction::Commands& commands, Waiting waiting,
                              const Latch& latch = {});
-    /// The heads that the last frame's latch stated, for its recording; may hold none.
+    /// The heads from the last frame's latch, for its recording; may be none.
     const interaction::InputState& latched() const { return latched_; }
-    /// Session time as it goes on, for the latency from input to picture. Without it a frame's
-    /// input counts as polled when the frame begins.
+    /// Sets the function that returns session time, to measure the latency from input to picture.
+    /// Without it a frame's input counts as polled when the frame begins.
     void set_clock(std::function<interaction::Seconds()> clock) { clock_ = std::move(clock); }
 
-    /// Time between two pictures of a headset that paces the frames; empty: none does.
+    /// Sets the time between two pictures of a headset that paces the frames; empty: none does.
     void set_headset_period(std::optional<interaction::Seconds> period);
 
-    /// The panel shows the last of these until there is a newer one.
+    /// Shows the last of these on the panel until there is a newer one.
     void show_messages(std::vector<std::string> messages);
     void say_refused(const index::ExtractionPtr& set, FrameReport& report);
     void set_recording(bool recording) { recording_ = recording; }
@@ -102,24 +103,24 @@ class Session {
     /// Of the steps that are known.
     std::span<const double> times() const { return times_; }
 
-    /// The file name of the data, for pictures that say what they show.
-    /// @param recorded_on hash of the recording's data, where these are others
+    /// Sets the file name of the data, for the notes in pictures.
+    /// @param recorded_on hash of the recording's data, if those are others
     void set_data_name(const std::string& name, const std::string& recorded_on = {}) {
         data_name_ = name;
         recorded_on_ = recorded_on;
     }
-    /// What the last frame shows.
+    /// Note about the last frame.
     PictureNote note() const;
 
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const;
-    /// What the frames are shown in, and what keeps their pictures.
+    /// The windows or headset that show the frames, and write pictures.
     Outputs& outputs() { return outputs_; }
     const Outputs& outputs() const { return outputs_; }
     const FrameLog& log() const { return log_; }
-    /// The context and its driver, and what that was found not to do, for reports; one line.
+    /// The context, its driver, and the driver's features that do not work; one line for reports.
     std::string drawing() const;
-    /// What reading the index has come to.
+    /// What has been read from the index since it was opened.
     index::ReadUse reading() const { return file_->reading(); }
 
   private:
@@ -179,9 +180,9 @@ class Session {
     OperatorPanel::Model panel_models(const FrameReport& report) const;
     glm::ivec2 panel_places() const;
     bool on_desktop() const;
-    /// Of the data in the room, while they are shown in parallel projection.
+    /// Center of the data in the room while they are shown in parallel projection; else empty.
     std::optional<glm::dvec3> parallel_center() const;
-    bool flat_panel() const; ///< shown over the first window
+    bool flat_panel() const; ///< the operator's panel is shown over the first window
     bool head_is_emulated() const;
     std::optional<interaction::Pose> panel_place() const;
     bool stands_beside(const interaction::Pose& head) const;
@@ -189,18 +190,18 @@ class Session {
 
     Config config_;
     std::shared_ptr<const index::IndexFile> file_;
-    std::shared_ptr<index::NewestIndex> newest_; ///< the same for the worker
-    std::vector<double> times_;                  ///< of the steps that are known
+    std::shared_ptr<index::NewestIndex> newest_; ///< the same file, for the worker
+    std::vector<double> times_;                  ///< of the known steps
     Outputs outputs_;
     ExplorerState state_;
     ExplorerState home_;
-    interaction::Commands start_; ///< what leads back to it
+    interaction::Commands start_; ///< commands that lead back to home_
     interaction::Controls controls_;
     interaction::MotionGate gate_;
     interaction::Comfort comfort_;
     index::Extractor extractor_;
     Scene scene_;
-    std::optional<Picture> drawn_; ///< what the eyes saw last
+    std::optional<Picture> drawn_; ///< last picture
     Aids over_;                    ///< drawn over it, where that is done
     OperatorPanel panel_;
     PanelInRoom room_panel_;
@@ -222,7 +223,7 @@ class Session {
     bool recording_ = false;
     MovieState movies_;
     std::string message_;
-    std::string refused_; ///< why the newest set is not shown; empty where it is
+    std::string refused_; ///< why the newest set is not shown; empty if it is
     std::size_t messages_ = 0;
 };
 

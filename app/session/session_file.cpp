@@ -1,4 +1,4 @@
-// Saving and reading of sessions.
+// Saves and reads sessions.
 #include "app/session/session_file.h"
 
 #include "app/session/user_memory.h"
@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "isochron session";
 constexpr std::uint64_t kVersion = 1;
-constexpr std::uint64_t kLargest = 1 << 20; ///< [byte]
+constexpr std::uint64_t kLargest = 1 << 20; ///< largest file [byte]
 
 json place_json(const interaction::StandingPlace& head) {
     return {{"position", {head.position.x, head.position.y, head.position.z}},

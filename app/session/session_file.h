@@ -1,4 +1,4 @@
-// A session kept in a file: what its user had come to, to go on from there.
+// A session saved in a file, from which it can be resumed.
 //
 //     save_session(path, {"isochron", data, hash, session.state().as_commands(), head});
 //     const SavedSession saved = read_session(path);   // throws where it is none
@@ -18,11 +18,11 @@ struct SavedSession {
     std::string program;             ///< that wrote it
     std::string data;                ///< path of the index
     std::string data_hash;           ///< 16 hexadecimal digits
-    interaction::Commands state;     ///< all settings
-    interaction::StandingPlace head; ///< that mouse and keyboard emulate
+    interaction::Commands state;     ///< sets all settings
+    interaction::StandingPlace head; ///< of the emulation by mouse and keyboard
 };
 
-/// JSON, for people to read as well. It appears whole under its name, or not at all.
+/// Writes readable JSON. The file appears under its name when complete, or not at all.
 /// @throws index::Error when it cannot be written
 void save_session(const std::filesystem::path& path, const SavedSession& session);
 
@@ -30,15 +30,17 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
 /// @throws interaction::Error naming the file: not a session, a newer version, ...
 SavedSession read_session(const std::filesystem::path& path);
 
-/// The state that a session comes back to: what it holds, over `fallback`.
-/// @param data_hash of the data that are open
-/// @throws interaction::Error when it is of other data, or does not fit them
+/// The state of a saved session; what it does not hold is taken from `fallback`.
+/// @param data_hash of the open data
+/// @param steps number of steps of the open data
+/// @param name of the session, for messages
+/// @throws interaction::Error when it was saved on other data, or does not fit them
 ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,
                        const std::string& data_hash, std::size_t steps, const std::string& name);
 
-/// Where the sessions on these data are kept where nobody says otherwise: in the user's folder for
-/// what programs remember ($XDG_STATE_HOME, else ~/.local/state), by the data's name and hash.
-/// Nothing where there is no home.
+/// The default file for sessions on these data: in the user's folder for state of programs
+/// ($XDG_STATE_HOME, else ~/.local/state), named after the data's name and hash. Empty if there is
+/// no home folder.
 std::optional<std::filesystem::path> session_path(const std::filesystem::path& data,
                                                   const std::string& data_hash);
 

@@ -1,4 +1,4 @@
-// A session goes on with data that grow.
+// Continues a session when its data have grown.
 #include "app/session/session.h"
 
 #include "index/file/index_watch.h"
@@ -11,10 +11,10 @@ void Session::grow(std::shared_ptr<const index::IndexFile> file) {
     file_ = std::move(file);
     newest_->set(file_);
     picker_.set_file(file_);
-    extractor_.forget(); // colors run over all times, and over all values of the second array
+    extractor_.forget(); // color coordinates span all times, or all values of the second array
 }
 
-/// In a cluster the first process tells that there are more steps, and the others look for them.
+/// In a cluster rank 0 reports that there are more steps, and the other processes look for them.
 void Session::grow_with(const interaction::Commands& commands) {
     if (!commands.steps || *commands.steps <= file_->info().steps())
         return;

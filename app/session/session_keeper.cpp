@@ -1,4 +1,4 @@
-// When a session is saved.
+// Saves a session at intervals and at its end.
 #include "app/session/session_keeper.h"
 
 #include <utility>
@@ -9,7 +9,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void save(const fs::path& path, const SavedSession& session, bool moves_earlier) {
-    std::error_code error; // a folder that is not there is told when the file cannot be made
+    std::error_code error; // save_session reports a folder that cannot be made
     fs::create_directories(path.parent_path(), error);
     if (moves_earlier && fs::is_regular_file(path))
         fs::rename(path, path.string() + ".before", error);

@@ -1,4 +1,4 @@
-// Saves a session while it goes on, so that nothing is lost when it ends, however it ends.
+// Saves a session while it runs, so that nothing is lost however it ends.
 #pragma once
 
 #include "app/frame/background_work.h"
@@ -12,24 +12,24 @@
 
 namespace isochron::app {
 
-/// Writes in the background, every 30 s in which something has changed, and at the end. What an
-/// earlier session left under the name, and this one did not resume, is kept beside it, as
-/// `NAME.before`.
+/// Writes in the background every 30 s, and at the end, if something has changed. An earlier
+/// session under the same name that was not resumed is renamed to `NAME.before`.
 class SessionKeeper {
   public:
     static constexpr interaction::Seconds kInterval{30.0};
 
-    /// @param kept what is not saved: the session as it began
+    /// @param kept the session as it began, which needs no saving
+    /// @param resumed it was resumed from the file `path`, which may be replaced
     SessionKeeper(std::filesystem::path path, SavedSession kept, bool resumed);
 
-    /// Once a frame.
+    /// Called once a frame.
     void update(const ExplorerState& state, const interaction::StandingPlace& head,
                 interaction::Seconds now);
-    /// Saves what has changed since. @throws index::Error when it cannot be written
+    /// Saves the session if it has changed since. @throws index::Error when it cannot be written
     void finish(const ExplorerState& state, const interaction::StandingPlace& head);
 
     const std::filesystem::path& path() const { return path_; }
-    /// Since the last call; for people.
+    /// Errors of saving since the last call, for the user.
     std::vector<std::string> messages() { return writing_.messages(); }
 
   private:
@@ -38,7 +38,7 @@ class SessionKeeper {
 
     std::filesystem::path path_;
     SavedSession kept_;
-    bool moves_earlier_; ///< aside, before the first save
+    bool moves_earlier_; ///< rename an earlier session before the first save
     interaction::Seconds next_ = kInterval;
     BackgroundWork writing_;
 };

@@ -1,4 +1,4 @@
-// A session's panels: what they are told, what they lead to, and where they lie.
+// A session's panels: their contents, their commands and their places.
 #include "app/session/session.h"
 
 #include "interaction/navigation.h"
@@ -52,7 +52,7 @@ bool Session::stands_beside(const interaction::Pose& head) const {
            !interaction::called(state_.room_panel, head, room_panel_.distance(), place).shown;
 }
 
-/// The one in the room replaces it.
+/// The panel in the room replaces it.
 bool Session::flat_panel() const {
     return state_.panel && !state_.room_panel.shown;
 }
@@ -123,7 +123,7 @@ OperatorPanel::Model Session::panel_models(const FrameReport& report) const {
     return [this, &report](PanelPlace place) { return panel_model(place, report); };
 }
 
-/// Each eye that has a half of the window sees the panel there.
+/// How many times the panel appears in the window (x, y): once in each eye's part.
 glm::ivec2 Session::panel_places() const {
     const stereo::StereoMode mode = stereo::upright(state_.stereo);
     if (outputs_.room() || !outputs_.shows_windows())

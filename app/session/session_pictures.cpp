@@ -1,4 +1,4 @@
-// What a session's pictures show, and what they say of themselves.
+// The contents of a session's pictures, and their notes.
 #include "app/session/session.h"
 
 #include "app/scene/caption.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::app {
 
-/// Whether the windows show the scene themselves: always, but beside a headset only once it has
-/// wanted no picture for a moment.
+/// Whether the windows show the scene themselves: always without a headset; beside a headset only
+/// after it has wanted no picture for a moment.
 bool Session::in_windows(const FrameReport& report) {
     constexpr interaction::Seconds kMoment{0.5};
     if (!outputs_.headset_eyes().empty())
@@ -53,7 +53,7 @@ void Session::draw_aids() {
         scene_.draw_aids(view, drawn_->room_from_physical, over_.wand, over_.pointed);
 }
 
-/// In windows that stand for no wall: there people ask where they are.
+/// Whether the windows are on a desktop rather than walls: there users need help with orientation.
 bool Session::on_desktop() const {
     const auto& screens = config_.installation.windows.front().viewports;
     return outputs_.windows().first().has_window() && outputs_.shows_windows() &&
@@ -67,7 +67,7 @@ PictureNote Session::note() const {
     note.data_hash = fmt::format("{:016x}", file_->content_hash());
     note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
     ExplorerState state = state_;
-    if (const index::ExtractionPtr& shown = scene_.shown()) { // while time plays, it may lag
+    if (const index::ExtractionPtr& shown = scene_.shown()) { // may lag behind while time plays
         state.step = shown->query.step;
         for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
              ++i)

@@ -1,4 +1,4 @@
-// What a session starts with.
+// The start state of a session.
 #include "app/session/start_state.h"
 
 #include <vector>

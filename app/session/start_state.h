@@ -1,4 +1,4 @@
-// What a session starts with: the configuration's wishes, and the data's first isovalue and place.
+// The start state of a session, from the configuration and the data.
 #pragma once
 
 #include "app/config/config.h"
@@ -7,7 +7,7 @@
 
 namespace isochron::app {
 
-/// Where the configuration leaves an isovalue open, it is a quantile of all values.
+/// An isovalue that the configuration does not give is a quantile of all values.
 ExplorerState start_state(const Config& config, const index::IndexFile& file);
 
 } // namespace isochron::app

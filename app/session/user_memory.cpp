@@ -1,4 +1,4 @@
-// Small files in the user's folder.
+// Remembers in small files in the user's folder.
 #include "app/session/user_memory.h"
 
 #include "index/error.h"
@@ -21,7 +21,7 @@ void write_text(const fs::path& path, const std::string& text) {
         index::NewFile file(path);
         file.write_at(0, std::as_bytes(std::span(text)));
         file.commit();
-    } catch (const index::Error&) { // a folder that takes nothing remembers nothing
+    } catch (const index::Error&) { // then nothing is remembered
     }
 }
 
@@ -57,7 +57,7 @@ std::vector<fs::path> UserMemory::recent() const {
                 paths.push_back(path);
             at = end + 1;
         }
-    } catch (const index::Error&) { // it is not needed
+    } catch (const index::Error&) { // then nothing is remembered
     }
     return paths;
 }

@@ -1,4 +1,4 @@
-// What the program remembers of its user between sessions, in their folder for such things.
+// What the program remembers between sessions, in the user's folder for state of programs.
 #pragma once
 
 #include <filesystem>
@@ -7,22 +7,22 @@
 
 namespace isochron::app {
 
-/// $XDG_STATE_HOME/isochron, else ~/.local/state/isochron. Nothing where there is no home.
+/// $XDG_STATE_HOME/isochron, else ~/.local/state/isochron. Empty if there is no home folder.
 std::optional<std::filesystem::path> user_state_folder();
 
-/// Nothing that it cannot read or write is an error: it then remembers nothing.
+/// Files that it cannot read or write are no error: then it remembers nothing.
 class UserMemory {
   public:
-    static constexpr std::size_t kMost = 10; ///< data that are remembered
+    static constexpr std::size_t kMost = 10; ///< most data that are remembered
 
-    /// @param folder made where it is missing; nothing: remembers nothing
+    /// @param folder is made if it is missing; empty: remembers nothing
     explicit UserMemory(std::optional<std::filesystem::path> folder);
 
-    /// Data that were open lately and are still there, the newest first.
+    /// Recently opened data that still exist, newest first.
     std::vector<std::filesystem::path> recent() const;
     void remember(const std::filesystem::path& data);
 
-    /// Whether the user has seen the first lines. Where nothing can be remembered they have.
+    /// Whether the user has seen the introduction; also true if nothing can be remembered.
     bool introduced() const;
     void set_introduced();
 

@@ -1,4 +1,4 @@
-// Slots of bricks, and what has to be sent.
+// Assigns slots to volume bricks, and sends those that are missing.
 #include "render/cells/brick_pool.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace isochron::render {
 namespace {
 
 constexpr std::size_t kFirstCapacity = 64; ///< bricks
-/// Bricks looked at in one call, so that a frame never stalls on a large set.
+/// Most bricks handled in one call, so that a large set does not delay a frame.
 constexpr std::size_t kLookedAt = 1 << 16;
 
 struct Format {
@@ -78,7 +78,7 @@ std::uint32_t BrickPool::take_slot() {
     return slot;
 }
 
-/// Finds a slot for the next brick. @return whether the brick has to be sent there
+/// Finds a slot for the next brick. @return whether the brick must be sent
 bool BrickPool::place_next() {
     const std::size_t next = arriving_.size();
     const index::BrickId brick = bricks_->ids[next];

@@ -22,20 +22,20 @@ inline bool is_translucent(const SurfaceAppearance& surface) {
     return surface.opacity < 1.0f;
 }
 
-/// Colors by value: cells carry the value's place in its whole range (`index::CellPoint`).
+/// Colors by value: cells hold the value as a fraction of its whole range (`index::CellPoint`).
 struct ValueColors {
     GLuint map = 0;                       ///< GL_TEXTURE_1D in linear light, from low to high
     float low = 0.0f, high = 1.0f;        ///< ends of the map, as fractions of the whole range
-    glm::vec3 no_value{0.5f, 0.5f, 0.5f}; ///< sRGB, where there is none
+    glm::vec3 no_value{0.5f, 0.5f, 0.5f}; ///< color of cells without a value, sRGB
 };
 
-/// What comes near to a viewer is left out little by little, so that nobody stands in a wall of it:
-/// splats and blended surfaces by opacity, quads and opaque surfaces by ever fewer cells and grains
-/// of them, chosen in the volume. Distances are from the middle between the eyes, so that both see
-/// the same.
+/// Fades cells near a viewer, so that they do not fill the view: splats and blended surfaces lose
+/// opacity; quads lose whole cells, and opaque surfaces small grains, which are chosen by their
+/// place in the volume. Distances are measured from the middle between the eyes, so that both eyes
+/// see the same.
 struct NearFade {
     float gone = 0.15f,
-          whole = 0.35f; ///< [m] nearer than the one nothing is drawn, beyond the other all
+          whole = 0.35f; ///< [m] nothing is drawn nearer than `gone`, everything beyond `whole`
     glm::vec3 between_eyes{0.0f}; ///< room
 };
 
@@ -45,20 +45,20 @@ struct CellAppearance {
 
     float ambient = 0.15f;
     float head_light = 0.50f;                   ///< from the eye
-    float key_light = 0.50f;                    ///< from a direction that stands still in the room
+    float key_light = 0.50f;                    ///< from a fixed direction in the room
     glm::vec3 key_direction{-0.5f, 0.8f, 0.6f}; ///< towards the key light, room frame, any length
-    float ground = 0.5f;       ///< ambient light from below, as a share of that from above
-    float reflectance = 0.04f; ///< mirrored at normal incidence: 0.04 is that of most non-metals
+    float ground = 0.5f;       ///< ambient light from below, relative to the light from above
+    float reflectance = 0.04f; ///< at normal incidence; most non-metals have 0.04
     float shininess = 40.0f;   ///< exponent of the highlight
     float outline = 0.35f;     ///< how much darker the surface is where it turns away, 0 to 1
     /// How much darker the far end of the volume is than its near end, 0 to 1.
     float depth_cue = 0.45f;
     std::optional<NearFade> near_fade;
-    /// A plane in the room, normal and offset: what lies above it is cut away, cells whole with
-    /// quads and splats, exactly with surfaces.
+    /// A plane in the room (normal, offset) above which everything is cut away: whole cells with
+    /// quads and splats, exactly at the plane with surfaces.
     std::optional<glm::vec4> cut;
-    /// Splats blend as light does. Without it they blend in display values, which on software GL
-    /// takes two thirds of the time. Opaque quads look the same either way.
+    /// Splats blend in linear light; else in display values, which takes two thirds of the time on
+    /// software GL. Opaque quads look the same either way.
     bool linear_light = true;
 };
 

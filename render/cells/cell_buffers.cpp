@@ -1,4 +1,4 @@
-// The way of a set to the GPU: what changes, bricks, message, and then all of it at once.
+// Uploads a set to the GPU: finds what changes, sends bricks and cells, then applies all at once.
 #include "render/cells/cell_buffers.h"
 
 #include "render/gl/driver.h"
@@ -14,11 +14,11 @@
 namespace isochron::render {
 namespace {
 
-/// Cells looked at in one call, so that a frame never stalls on a large set: some 1 ms.
+/// Most cells handled in one call (about 1 ms), so that a large set does not delay a frame.
 constexpr std::size_t kIdsLookedAt = 1 << 18;
 constexpr std::size_t kWord = sizeof(std::uint32_t);
 
-/// Where one set of buffers is gone, another may lie at its address.
+/// Unique among all buffers: the address alone would not do, as new buffers may reuse it.
 std::uint64_t next_version() {
     static std::atomic<std::uint64_t> last{0};
     return ++last;
@@ -94,13 +94,13 @@ bool CellBuffers::stage(const index::ExtractionPtr& set, std::size_t byte_budget
     return complete;
 }
 
-/// Whether the shown set lacks its volume and could have it.
+/// Whether the shown set's volume is missing and could be sent.
 bool CellBuffers::wants_volume() const {
     return !has_volume() && shown_->bricks.ids.size() <= bricks_->values().limit();
 }
 
-/// Makes sure that something is on its way, if there is anything to send.
-/// @return whether that is a set
+/// Begins to send a new set, or the volume of the shown one, if there is anything to send.
+/// @return whether a set is arriving
 bool CellBuffers::take_up(const index::ExtractionPtr& newest, SendVolume volume, std::size_t bytes,
                           std::size_t& sent) {
     if (arriving_)
@@ -113,7 +113,8 @@ bool CellBuffers::take_up(const index::ExtractionPtr& newest, SendVolume volume,
     return begin(newest, volume);
 }
 
-/// Gives up the bricks of the shown set where both do not fit. @return false when these do not
+/// Drops the bricks of the shown set if both do not fit together.
+/// @return false when these bricks alone do not fit
 bool CellBuffers::make_room_for(const index::VolumeBricks& bricks) {
     if (bricks.ids.size() > bricks_->values().limit())
         return false;
@@ -161,7 +162,7 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     return true;
 }
 
-/// Goes on with the set on its way. @return whether all of it is on the GPU
+/// Sends more of the arriving set. @return whether all of it is on the GPU
 bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
     merged_ = merged_ || (ranked_ ? ranked_->copy(kIdsLookedAt) : plan_->merge(kIdsLookedAt));
     if (!merged_)
@@ -173,7 +174,7 @@ bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
     return ranked_ || (send_message(bytes, sent) && send_styles(bytes, sent));
 }
 
-/// @return whether all are there
+/// @return whether all bricks are on the GPU
 bool CellBuffers::send_bricks(std::size_t bytes, std::size_t& sent) {
     if (!bricks_->complete()) {
         const std::size_t part = bricks_->send(ring_, bytes - sent);
@@ -183,7 +184,7 @@ bool CellBuffers::send_bricks(std::size_t bytes, std::size_t& sent) {
     return bricks_->complete();
 }
 
-/// @return whether all of it is there
+/// @return whether the whole mesh is on the GPU
 bool CellBuffers::send_mesh(std::size_t bytes, std::size_t& sent) {
     if (!mesh_.complete() && sent < bytes) {
         const std::size_t part = mesh_.send(bytes - sent);
@@ -193,7 +194,7 @@ bool CellBuffers::send_mesh(std::size_t bytes, std::size_t& sent) {
     return mesh_.complete();
 }
 
-/// Like a set, what has begun is finished before a newer set is taken.
+/// Like a set, a volume whose transfer has begun is completed before a newer set begins.
 void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
     if (!shown_ || has_volume())
         return;
@@ -231,7 +232,7 @@ bool CellBuffers::send_message(std::size_t bytes, std::size_t& sent) {
     return plan_->done();
 }
 
-/// Styles of cells that stay change, too: they are sent whole, in the order of slots.
+/// Styles also change in cells that stay, so they are sent for all cells, in the order of slots.
 bool CellBuffers::send_styles(std::size_t bytes, std::size_t& sent) {
     constexpr std::size_t kStyle = sizeof(CellPlace::style);
     if (arriving_->colors.empty())
@@ -278,7 +279,7 @@ void CellBuffers::show() {
     }
 }
 
-/// @return where they are
+/// Writes the points of the arriving set to the GPU. @return their slots
 Slots CellBuffers::write_points() {
     const std::span<const index::CellPoint> points = ranked_->points();
     gl_->NamedBufferSubData(points_.buffer(), 0, static_cast<GLsizeiptr>(points.size_bytes()),
@@ -288,7 +289,7 @@ Slots CellBuffers::write_points() {
     return ranked_->take();
 }
 
-/// What the message says. @return where they are
+/// Applies the message of the arriving set. @return the new slots
 Slots CellBuffers::place_cells() {
     compute_->place_cells(*plan_, *arriving_, message_, points_);
     if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))

@@ -16,7 +16,7 @@
 namespace isochron::render {
 namespace {
 
-constexpr std::size_t kMostBytes = 64; ///< of a cell in a part of a buffer: its gradients
+constexpr std::size_t kMostBytes = 64; ///< largest data of a cell in a buffer range: its gradients
 
 /// The uniform block of volume_bricks.glsl, in std140 layout.
 struct VolumeBlock {
@@ -39,8 +39,8 @@ std::string_view sampler_of(index::ValueType held) {
     }
 }
 
-/// Rows of the matrix that makes vectors towards lower values, in physical space, of differences of
-/// values: gradients are covectors. Scaled to a largest entry of 1.
+/// Rows of the matrix from differences of values along the axes to gradients (covectors) in
+/// physical space, towards lower values. Scaled so that the largest entry is 1.
 std::array<glm::vec4, 3> from_difference(const index::Grid& grid) {
     const glm::dmat3 matrix = glm::inverse(glm::dmat3(grid.physical_from_index())); // its transpose
     double largest = 0;
@@ -53,10 +53,11 @@ std::array<glm::vec4, 3> from_difference(const index::Grid& grid) {
     return rows;
 }
 
-/// Such that the steepest difference of the data set comes to half of what a half holds, whose
-/// digits then reach down to some 1e-9 of it.
+/// Scales the steepest possible difference of the data set to half of a half's range; then halves
+/// resolve differences down to about 1e-9 of it.
 float gradient_scale(float range) {
-    constexpr float kHalfRange = 32768.0f / 1.7320508f; // sqrt(3): of three differences together
+    constexpr float kHalfRange =
+        32768.0f / 1.7320508f; // sqrt(3): of three differences at right angles
     return kHalfRange / range;
 }
 
@@ -104,7 +105,7 @@ void CellCompute::run(const Program& program, std::size_t count, Work work,
     static_assert(sizeof(Work) == 32 + 4 * index::kMostSurfaces && index::kMostSurfaces % 4 == 0);
     gl_->UseProgram(program.name());
     std::size_t begin = 0;
-    do { // once for nothing, too: drivers compile what runs
+    do { // runs also for no items: drivers compile programs when they first run
         const std::size_t end = std::min(begin + at_once_, count);
         work.begin = static_cast<std::uint32_t>(begin);
         work.end = static_cast<std::uint32_t>(end);
@@ -160,7 +161,8 @@ void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& br
     use_volume(set, bricks);
     bind(0, points);
     run(corners_, set.cells(), {}, [&](std::size_t begin, std::size_t end) {
-        const std::size_t cells = std::max(end - begin, std::size_t{1}); // no range is empty
+        const std::size_t cells =
+            std::max(end - begin, std::size_t{1}); // a range must not be empty
         bind(1, values, begin, cells);
         bind(2, gradients, begin, cells);
     });

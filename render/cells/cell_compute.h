@@ -1,4 +1,4 @@
-// What the GPU computes for a new set: places, planes, and values and gradients at the vertices.
+// Compute passes for a new set: cell positions, planes, and values and gradients at the vertices.
 #pragma once
 
 #include "index/extraction/extraction.h"
@@ -11,27 +11,28 @@
 
 namespace isochron::render {
 
-/// The compute passes of one volume, all over slots 0 to n - 1.
+/// The compute passes of one volume; each covers slots 0 to n - 1.
 class CellCompute {
   public:
     /// @param held type of the values in bricks
-    /// @throws Error when a shader does not compile, or the driver can do too little at once
+    /// @throws Error when a shader does not compile, or the driver's limits are too small
     CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType held);
 
-    /// Enters the pages of the new set into the pool's table.
+    /// Applies the changes of the new set to the pool's page table.
     void enter_pages(const BrickPool& bricks) const;
 
-    /// Puts the cells of a slot plan's message into `points` (three words a slot, see
-    /// index::CellPoint); planes follow.
+    /// Writes the cells of a slot plan's message into `points` (three words per slot, see
+    /// index::CellPoint), without their planes.
     void place_cells(const SlotPlan& plan, const index::Extraction& set, const DeviceArray& message,
                      const DeviceArray& points) const;
 
-    /// Gives every point of the set its style. @param styles by slot, two to a word; without
-    /// colors in the set they are not read, and what points had before is taken away
+    /// Gives every point of the set its style.
+    /// @param styles by slot, two per word. If the set has no colors, `styles` is not read and all
+    /// color coordinates become 0.
     void set_styles(const index::Extraction& set, const DeviceArray& styles,
                     const DeviceArray& points) const;
 
-    /// Writes the planes of all points. @param set whose bricks the pool holds
+    /// Writes the planes of all points. @param set its bricks are in the pool
     void fill_planes(const index::Extraction& set, const BrickPool& bricks,
                      const DeviceArray& points) const;
 
@@ -52,14 +53,14 @@ class CellCompute {
         std::array<std::uint32_t, 2> padding{};
         std::array<std::uint32_t, index::kMostSurfaces> surface_ends{};
     };
-    /// Runs a program for `count` things, so many at once that `prepare(begin, end)` can bind what
-    /// belongs to them. @param work of which the range is filled in here
+    /// Runs a program for items 0 to `count` - 1, in ranges that one dispatch can do;
+    /// `prepare(begin, end)` binds the data of each range. @param work its range is filled in here
     template <class Prepare>
     void run(const Program& program, std::size_t count, Work work, Prepare&& prepare) const;
 
     const Gl* gl_;
     index::Grid grid_;
-    std::size_t at_once_; ///< things that one dispatch does
+    std::size_t at_once_; ///< most items in one dispatch
     Program pages_, places_, styles_, planes_, corners_;
     Buffer volume_, work_;
 };

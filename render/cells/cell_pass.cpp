@@ -66,7 +66,7 @@ bool CellPass::is_round(Footprint footprint) const {
     return footprint == Footprint::gaussian || shapes_.shape == CellShape::plane;
 }
 
-/// log2 of a splat's opacity on its outline, where it is 1 in the middle.
+/// log2 of a splat's opacity on its outline, relative to its middle.
 float CellPass::gaussian_falloff() const {
     const float sigmas = shapes_.radius_of(Footprint::gaussian) / shapes_.sigma();
     return -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
@@ -80,7 +80,7 @@ void CellPass::draw(std::span<const View> views, const Placement& placement,
     assert(footprint != Footprint::mesh || cells.has_mesh());
     const bool apart = !two_views_at_once_ || (!has_layers(footprint) && seen_only_);
     for (const Layer& layer : layers_of(cells, footprint, appearance)) {
-        const bool in_order = footprint == Footprint::mesh && layer.blended; // of each view
+        const bool in_order = footprint == Footprint::mesh && layer.blended; // sorted for each view
         const std::size_t at_once = apart || in_order ? 1 : 2;
         for (std::size_t first = 0; first < views.size(); first += at_once)
             draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)), placement,
@@ -111,7 +111,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         frame.eyes[i] = eye_block(views[i], placement, appearance);
         set_viewport(*gl_, views[i], static_cast<GLuint>(i));
         sequence = sequence_of(views[i], placement, cells, footprint, blended, appearance);
-        // A shader that may read a sequence needs one of its type bound, also where it reads none.
+        // The shader needs a texture of this type bound even if it reads no sequence.
         gl_->BindTextureUnit(static_cast<GLuint>(1 + i),
                              sequence.texture != 0 ? sequence.texture : cells.texture());
     }
@@ -119,7 +119,8 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         gl_->BindTextureUnit(2, cells.texture());
     frame.order_begin = sequence.begin;
     frame.order_step = sequence.step;
-    // Of many pixels with a light of their own the target converts faster than the shader.
+    // Meshes have a color of their own in each pixel: the target converts these faster to display
+    // values than the shader.
     if (footprint == Footprint::mesh && !blended)
         frame.linear_light = 1;
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
@@ -127,14 +128,14 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     gl_->BindTextureUnit(0, cells.texture());
     if (appearance.values)
         gl_->BindTextureUnit(kColorMapUnit, appearance.values->map);
-    // Display values go into the target as they are.
+    // Without linear light the shader writes display values, which the target must not convert.
     if (!frame.linear_light)
         gl_->Disable(GL_FRAMEBUFFER_SRGB);
 
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_LESS);
     gl_->DepthMask(blended ? GL_FALSE : GL_TRUE);
-    gl_->Disable(GL_CULL_FACE); // a mirrored volume turns every quad over
+    gl_->Disable(GL_CULL_FACE); // a mirrored volume reverses the winding of every quad
     if (blended) {
         blend_over(*gl_);
     } else {
@@ -156,7 +157,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
 CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& placement,
                                  Footprint footprint) const {
     const bool flat = shapes_.shape == CellShape::plane;
-    // Ellipsoids on planes lie up to a cell's half diagonal beside the cell's middle.
+    // Ellipsoids on planes may be half of a cell's diagonal away from the cell's middle.
     const float radius = shapes_.radius_of(footprint);
     const float reach = flat                           ? 1.0f + kFarthestPlane / radius
                         : footprint == Footprint::quad ? kReachOfRectangle
@@ -179,7 +180,8 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
     if ((!blended && !nearest_first) || footprint == Footprint::mesh)
         return {.cells = cells.size()};
     const TraversalKey key = key_of(view, placement);
-    // In linear light less than a step of the display's values shows where these are dark.
+    // Splats are not culled in linear light: there, even a contribution below a step of the
+    // display's values shows in dark places.
     const bool leaves_out =
         seen_only_ && !all_cells_ && !has_layers(footprint) &&
         !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&

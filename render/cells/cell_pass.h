@@ -31,11 +31,11 @@ class CellPass {
     /// @throws Error when a shader does not compile
     explicit CellPass(const Gl& gl, const FootprintShapes& shapes = {});
 
-    /// Draws the cells into the views' viewports of the bound framebuffer, two views in one pass
-    /// where the driver can; nothing where there are none. Quads and opaque surfaces test and write
-    /// depth; splats and surfaces of less opacity test it only, and blend over what is there with
-    /// pre-multiplied alpha. Surfaces are drawn from the corners that the cells have computed, and
-    /// meshes where the cells have them.
+    /// Draws the cells into the views' viewports of the bound framebuffer, two views in one pass if
+    /// the driver can; does nothing without cells. Quads and opaque surfaces test and write depth.
+    /// Splats and translucent surfaces only test depth, and blend over the target with
+    /// pre-multiplied alpha. Exact surfaces need `CellBuffers::compute_corners` before, and meshes
+    /// need `CellBuffers::has_mesh`.
     /// Leaves depth test, depth writes and GL_FRAMEBUFFER_SRGB on, blending and culling off, and
     /// the viewport undefined.
     void draw(std::span<const View> views, const Placement& placement, const CellBuffers& cells,
@@ -47,12 +47,12 @@ class CellPass {
 
     /// Whether two views are drawn in one pass: the vertex shader can choose the viewport.
     bool draws_two_views_at_once() const { return two_views_at_once_; }
-    /// For comparisons: two passes although the driver could do with one.
+    /// For comparisons: uses two passes even if the driver can draw two views in one.
     void draw_views_apart() { two_views_at_once_ = false; }
-    /// For comparisons: on software GL, too, quads and splats that nobody sees behind others or
-    /// beside the view.
+    /// For comparisons: also draws occluded and out-of-view quads and splats on software GL, which
+    /// are culled otherwise.
     void draw_hidden_cells() { all_cells_ = true; }
-    /// For comparisons: quads also where points would show the same faster.
+    /// For comparisons: draws quads even where points would show the same faster.
     void draw_without_points() { largest_point_ = 0.0f; }
 
     const OrderCache& orders() const { return orders_; }
@@ -63,7 +63,7 @@ class CellPass {
         Program one;
         std::optional<Program> two;
     };
-    /// The same footprint drawn as quads, as points, and as points that are all footprint.
+    /// Programs for the same footprint drawn as quads, as points, and as points that it fills.
     struct FootprintPrograms {
         Programs quads, points;
         std::optional<Programs> squares;
@@ -72,10 +72,10 @@ class CellPass {
     FootprintPrograms footprint_programs(std::string_view fragment_shader, bool round) const;
     /// Whether cells are ellipses rather than the rectangles around them.
     bool is_round(Footprint footprint) const;
-    /// What footprints are drawn as, from the most general to the fastest.
+    /// How footprints are drawn, from the most general to the fastest form.
     enum class Form : std::uint8_t { quads, points, squares };
-    /// Which cells a view draws, and in which order: the n-th is the one that the texel
-    /// `begin + n * step` names, or in slot n where there is no texture.
+    /// Which cells a view draws, and in which order: cell n is in the slot that texel
+    /// `begin + n * step` holds; without a texture, in slot n.
     struct Sequence {
         std::size_t cells = 0;
         GLuint texture = 0;
@@ -84,22 +84,22 @@ class CellPass {
 
     /// Surfaces that are drawn together.
     struct Layer {
-        std::int32_t surfaces = 0; ///< a bit for each
+        std::int32_t surfaces = 0; ///< one bit for each
         bool blended = false;
     };
 
-    /// Opaque surfaces before those that let them be seen: where both pass through one cell, no
-    /// order of cells would do.
+    /// Opaque surfaces come before translucent ones: if both pass through one cell, no order of
+    /// cells would be right.
     static std::vector<Layer> layers_of(const CellBuffers& cells, Footprint footprint,
                                         const CellAppearance& appearance);
-    /// At most two, of which the second needs `Programs::two`.
+    /// Draws one or two views in one pass; two need `Programs::two`.
     void draw_at_once(std::span<const View> views, const Placement& placement,
                       const CellBuffers& cells, Footprint footprint, const Layer& layer,
                       const CellAppearance& appearance);
-    /// The fastest that shows the same in all views.
+    /// The fastest form that shows the same picture in all views.
     Form form_of(std::span<const View> views, const Placement& placement,
                  Footprint footprint) const;
-    /// Of one of the views that are drawn at once; `Sequence::cells` is the same in all of them.
+    /// The sequence of one view; `Sequence::cells` is the same in all views that are drawn at once.
     Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
                          Footprint footprint, bool blended, const CellAppearance& appearance);
     void draw_mesh(std::span<const View> views, const Placement& placement,
@@ -111,11 +111,11 @@ class CellPass {
     const Gl* gl_;
     FootprintShapes shapes_;
     bool two_views_at_once_;
-    /// On software GL what is seen, nearest first: it saves far more than finding it takes. A GPU
-    /// draws all quads in any order in less.
+    /// Whether to cull occluded cells, and draw quads nearest first: on software GL this saves far
+    /// more time than it takes. A GPU is faster with all quads in any order.
     bool seen_only_;
-    bool all_cells_ = false; ///< nearest first nevertheless
-    float largest_point_;    ///< pixels; 0: no points
+    bool all_cells_ = false; ///< no culling, but still nearest first
+    float largest_point_;    ///< pixels; 0: draw no points
     FootprintPrograms quad_programs_, gaussian_programs_;
     MeshPass mesh_;
     SurfacePass surface_;

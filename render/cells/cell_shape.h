@@ -1,4 +1,4 @@
-// What quads and splats of cells stand for.
+// The shape that a cell's quad or splat stands for.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 namespace isochron::render {
 
 enum class CellShape : std::uint8_t {
-    plane, ///< a flat ellipsoid on the surface: the plane that cuts the cell as the surface does
-    voxel  ///< a sphere about the cell's middle, the paper's
+    plane, ///< a flat ellipsoid on the plane that approximates the surface in the cell
+    voxel  ///< a sphere around the cell's middle, as in the paper
 };
 
 /// `plane`, `voxel`.
@@ -16,12 +16,12 @@ const char* name_of(CellShape shape);
 /// The ellipsoids of plane.glsl, or the spheres.
 struct SplatShape {
     CellShape shape = CellShape::plane;
-    /// Of the sphere, or in its plane of the largest ellipsoid [voxels].
+    /// Radius of the sphere, or of the largest ellipsoid in its plane [voxels].
     float radius = 0.8f;
 
-    static constexpr float kThickness = 0.125f; ///< along the normal, as a share of the radius
-    static constexpr float kLeastWidth = 0.15f; ///< in the plane, likewise
-    static constexpr float kLengthwise = 1.3f;  ///< lengthwise over the part in the cell
+    static constexpr float kThickness = 0.125f; ///< half axis along the normal, in radii
+    static constexpr float kLeastWidth = 0.15f; ///< least half axis in the plane, in radii
+    static constexpr float kLengthwise = 1.3f;  ///< length relative to the plane's part in the cell
 };
 
 } // namespace isochron::render

@@ -1,5 +1,5 @@
-// Projection of cells as the vertex shader does it; compiled once for each SIMD target and chosen
-// at run time.
+// Projects cells as the vertex shader does; compiled once for each SIMD target and chosen at run
+// time.
 #include "render/cells/cell_squares.h"
 
 #include "index/extraction/cell_plane.h"
@@ -15,7 +15,7 @@
 #define ISOCHRON_CELL_SQUARES_TYPES
 namespace isochron::render {
 
-/// What is the same for all cells.
+/// The data that all cells share.
 struct SquareProjection {
     glm::vec4 row_x, row_y, row_z, row_w; ///< from index to clip space, x and y in pixels
     glm::vec2 middle;                     ///< of the viewport, pixels
@@ -46,11 +46,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, CellSquares::kBlock>;
 using V = hn::Vec<Floats>;
 
-/// As in cell.vert: the quad of an ellipse is upright up to this (a^2 - b^2) / (a^2 + b^2) of its
-/// half axes.
+/// As in cell.vert: an ellipse with half axes a, b has an upright quad if
+/// (a^2 - b^2) / (a^2 + b^2) is at most this.
 constexpr float kRound = 0.1f;
-constexpr float kClipped = 1.0f - 1e-6f; ///< what the frustum's ends may cut hides nothing
-/// As kLeastDepth, of an eye that is two radii away: from there on nothing of a splat fades.
+constexpr float kClipped =
+    1.0f - 1e-6f; ///< cells at a larger |z| may be clipped: they hide nothing
+/// Like kLeastDepth, but for an eye two radii away: splats farther away do not fade.
 constexpr float kWholeDepth = 0.75f;
 constexpr float kFar = 1e9f; ///< beyond any view and before any depth
 
@@ -71,7 +72,7 @@ HWY_INLINE V at(const glm::vec4& row, const V3& center) {
     return hn::Add(dot(set(row), center), hn::Set(Floats(), row.w));
 }
 
-/// Middles of the cells of the next words.
+/// Middles of the next cells, from their words.
 HWY_INLINE V3 centers(const std::uint32_t* words) {
     const Floats d;
     const hn::RebindToUnsigned<Floats> du;
@@ -96,7 +97,7 @@ struct Spheres {
 /// As plane.glsl has it: `Splat` and `form`.
 struct Ellipsoids {
     V3 normal, lengthwise;
-    V across2, normal2, lengthwise2; ///< square half axes; two less the first
+    V across2, normal2, lengthwise2; ///< square half axes; the last two minus the first
     HWY_INLINE V form(const V3& u, const V3& v) const {
         const V flat = hn::Mul(normal2, hn::Mul(dot(u, normal), dot(v, normal)));
         const V length = hn::Mul(lengthwise2, hn::Mul(dot(u, lengthwise), dot(v, lengthwise)));
@@ -115,7 +116,8 @@ HWY_INLINE V3 select(M which, const V3& yes, const V3& no) {
             hn::IfThenElse(which, yes.z, no.z)};
 }
 
-/// The ellipsoids on the planes of the next words. @param center of the cells; moved
+/// The ellipsoids on the planes of the next cells.
+/// @param center middles of the cells; becomes those of the ellipsoids
 HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t* words,
                                  V3& center) {
     const Floats d;
@@ -187,7 +189,7 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
     return {normal, lengthwise, across2, hn::Sub(thickness2, across2), hn::Sub(length2, across2)};
 }
 
-/// @param Shape of the cells: `form`
+/// @tparam Shape of the cells, with a function `form`
 template <bool kEllipses, class Shape>
 HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, const V3& center,
                               std::size_t i, const SquareArrays& out) {
@@ -217,13 +219,13 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, con
     const V xx = hn::MulAdd(shift_x, shift_x, hn::Mul(k, cells.form(a, a)));
     const V xy = hn::MulAdd(shift_x, shift_y, hn::Mul(k, cells.form(a, b)));
     const V yy = hn::MulAdd(shift_y, shift_y, hn::Mul(k, cells.form(b, b)));
-    // Of a nearly round ellipse the quad is the image of a square under the symmetric root of its
-    // shape, (s + sqrt(det s)) / sqrt(trace s + 2 sqrt(det s)).
+    // The quad of a nearly round ellipse with shape s is the image of a square under the symmetric
+    // root of s, which is (s + sqrt(det s)) / sqrt(trace s + 2 sqrt(det s)).
     const V det = hn::Sqrt(hn::Max(hn::NegMulAdd(xy, xy, hn::Mul(xx, yy)), zero));
     const V trace = hn::Add(xx, yy), apart = hn::Sub(xx, yy);
     const V most = hn::Div(hn::Add(hn::Max(xx, yy), hn::Add(det, hn::Abs(xy))),
                            hn::Sqrt(hn::MulAdd(two, det, trace)));
-    // Times the mean: of its half axes.
+    // a^2 - b^2 of its half axes; `trace` is a^2 + b^2.
     const V uneven = hn::Sqrt(hn::MulAdd(apart, apart, hn::Mul(hn::Set(d, 4.0f), hn::Mul(xy, xy))));
     const auto round = hn::Lt(uneven, hn::Mul(hn::Set(d, kRound), trace));
     const auto hides = hn::And(round, hn::Lt(hn::Abs(z), hn::Set(d, kClipped)));
@@ -258,8 +260,8 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, con
     store(everywhere, major, out.outer_disc);
 }
 
-/// What is known of the cells of the next words, to index `i` of the arrays.
-/// @param planes null where the cells are spheres
+/// Projects the next cells and stores the results from index `i` of the arrays.
+/// @param planes null if the cells are spheres
 HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* words,
                              const std::uint32_t* planes, std::size_t i, const SquareArrays& out) {
     V3 center = centers(words);

@@ -1,4 +1,4 @@
-// Where cells' quads lie in a view, many cells at a time.
+// Projects cells' quads to a view, many cells at a time.
 #pragma once
 
 #include "render/cells/cell_shape.h"
@@ -13,17 +13,17 @@
 
 namespace isochron::render {
 
-/// For each cell two upright squares about the middle of its quad, as cell.vert makes it: one that
-/// the quad holds and one that holds the quad; and two such discs of its ellipse. What is beside or
-/// behind the view is far away; for what is too near to say so the outer ones are as large as
-/// everything. Of ellipsoids on planes, which are drawn as ellipses, there are the ellipses
+/// For each cell: two upright squares around the middle of its quad (as cell.vert makes it), one
+/// inside the quad and one around it; and two discs, one inside its ellipse and one around it.
+/// Cells behind the eye lie far outside the view. For cells too near to the eye the outer shapes
+/// cover everything. Ellipsoids on planes, which are drawn as ellipses, have the ellipses
 /// themselves instead of the squares.
 class CellSquares {
   public:
-    static constexpr std::size_t kBlock = 16; ///< the arrays go on to whole blocks
+    static constexpr std::size_t kBlock = 16; ///< the arrays are padded to whole blocks
 
-    /// @param slots with their planes, where the shape is one
-    /// @param back_to_front slots
+    /// @param slots with planes if the shape is `CellShape::plane`
+    /// @param back_to_front slots in this order
     void project(const View& view, const Placement& placement, const SplatShape& shape,
                  const Slots& slots, std::span<const std::uint32_t> back_to_front);
 
@@ -32,14 +32,15 @@ class CellSquares {
     const float* x() const { return x_.data(); } ///< of the middle [pixel of the viewport]
     const float* y() const { return y_.data(); }
     const float* z() const { return z_.data(); } ///< clip depth
-    /// Half a side [pixel]; 0 where no such square is known, or where it hides nothing.
+    /// Half the length of a side [pixel]; `inner` is 0 if no inner square is known, or it hides
+    /// nothing.
     const float* inner() const { return inner_.data(); }
     const float* outer() const { return outer_.data(); }
-    /// Radii [pixel]. The inner one is 0 also where the vertex shader fades what is near the eye.
+    /// Radii [pixel]. The inner one is 0 also if the vertex shader fades the cell near the eye.
     const float* inner_disc() const { return inner_disc_.data(); }
     const float* outer_disc() const { return outer_disc_.data(); }
-    /// Of ellipsoids on planes: the ellipse's shape F F^T, with its half axes as the columns of F
-    /// [square pixels].
+    /// For ellipsoids on planes: the ellipse's shape F F^T [square pixels], where the columns of F
+    /// are its half axes.
     const float* xx() const { return xx_.data(); }
     const float* xy() const { return xy_.data(); }
     const float* yy() const { return yy_.data(); }

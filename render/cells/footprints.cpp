@@ -1,4 +1,4 @@
-// Names and sizes of footprints.
+// Names and radii of footprints.
 #include "render/cells/footprints.h"
 
 namespace isochron::render {

@@ -1,4 +1,4 @@
-// What cells can be drawn as, and how large.
+// Footprints: the ways to draw a cell, and their sizes.
 #pragma once
 
 #include "render/cells/cell_shape.h"
@@ -8,12 +8,12 @@
 
 namespace isochron::render {
 
-/// What a cell looks like on the screen, from the coarsest to the best, in no order of their costs;
-/// all share the cells.
+/// What a cell looks like on the screen, from the coarsest to the best. Better ones need not cost
+/// more. All use the same cells.
 enum class Footprint : std::uint8_t {
     quad,     ///< flat and opaque, in any order: for motion
     gaussian, ///< blended back to front: for a settled view
-    mesh,     ///< triangles through the surface's cuts of the cells' edges, where they come with it
+    mesh,     ///< triangles between the surface's cuts of cell edges; only if the set has a mesh
     surface   ///< the exact trilinear isosurface, crisp at any distance: for a settled view
 };
 inline constexpr std::size_t kFootprints = 4;
@@ -24,20 +24,20 @@ inline constexpr Footprint kBestFootprint = Footprint::surface;
 /// `quad`, `gaussian`, `mesh`, `surface`: as configuration files and reports call them.
 const char* name_of(Footprint footprint);
 
-/// Footprints that some cells can be drawn with: quads always.
+/// A set of footprints; it always contains quads.
 class FootprintSet {
   public:
     constexpr void add(Footprint footprint) { bits_ |= bit(footprint); }
     constexpr void remove(Footprint footprint) { bits_ &= ~bit(footprint) | bit(Footprint::quad); }
     constexpr bool has(Footprint footprint) const { return (bits_ & bit(footprint)) != 0; }
-    /// The best one that is no better than this.
+    /// The best footprint in the set that is at most `limit`.
     constexpr Footprint best(Footprint limit = kBestFootprint) const {
         auto footprint = static_cast<int>(limit);
         while (!has(static_cast<Footprint>(footprint)))
             --footprint;
         return static_cast<Footprint>(footprint);
     }
-    /// All that are no better than this.
+    /// The set of all footprints up to `limit`.
     static constexpr FootprintSet up_to(Footprint limit) {
         FootprintSet set;
         for (int i = 0; i <= static_cast<int>(limit); ++i)
@@ -53,29 +53,29 @@ class FootprintSet {
     unsigned bits_ = bit(Footprint::quad);
 };
 
-/// Whether the footprint is the surface itself, in layers that are opaque or blended each, rather
-/// than what stands for it in a cell.
+/// Whether the footprint shows the surface itself, in opaque or blended layers, rather than a quad
+/// or splat in its place.
 constexpr bool has_layers(Footprint footprint) {
     return footprint >= Footprint::mesh;
 }
 
-/// Sizes in voxels: lengths in vertex index coordinates, so anisotropic spacing stretches them.
-/// Those of the Gaussian are of the authors' own later code, which had quads of 1.6 voxels. But
-/// discs of sqrt(2) cover the middles of a layer of cells seen face-on without a gap, and the other
-/// views of a surface crowd its cells: nothing shows through that does not through 1.6, and a fifth
-/// fewer pixels are drawn.
+/// Sizes in voxels (lengths in vertex index coordinates, so anisotropic spacing stretches them).
+/// The Gaussian's sizes are those of the authors' later code. That code had quads of 1.6; here they
+/// are sqrt(2), with which discs cover a layer of cells seen face-on without a gap. In oblique
+/// views the cells are denser, so quads of sqrt(2) leave no more gaps than quads of 1.6, and draw a
+/// fifth fewer pixels.
 struct FootprintShapes {
     CellShape shape = CellShape::plane;
-    // Of spheres:
+    // Spheres:
     float quad_diameter = 1.41421356f;
-    float gaussian_diameter = 4.0f; ///< where the Gaussian is cut off
+    float gaussian_diameter = 4.0f; ///< at which the Gaussian is cut off
     float gaussian_sigma = 0.7f;
-    // Of ellipsoids on planes that pass near the middles of their cells:
+    // Ellipsoids on planes that pass near the middles of their cells:
     float plane_radius = 0.8f;
-    float plane_gaussian_radius = 1.45f; ///< where the Gaussian is cut off
+    float plane_gaussian_radius = 1.45f; ///< at which the Gaussian is cut off
     float plane_sigma = 0.5075f;
 
-    /// Half of the diameter with this footprint and shape.
+    /// Radius of this footprint with the current shape [voxels].
     float radius_of(Footprint footprint) const;
     float sigma() const { return shape == CellShape::plane ? plane_sigma : gaussian_sigma; }
 };

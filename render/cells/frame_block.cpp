@@ -1,4 +1,4 @@
-// The uniforms of a draw of cells.
+// The uniform block for drawing cells.
 #include "render/cells/frame_block.h"
 
 #include "render/cells/splat_opacity.h"
@@ -28,7 +28,7 @@ glm::vec4 depth_cue(const glm::mat4& eye_from_index, const glm::vec3& extent, fl
     return {near, 1.0f / std::max(far - near, 1e-6f), strength, 0.0f};
 }
 
-/// w = 0 where the view is parallel: the direction towards the eye.
+/// The eye's position (w = 1), or in a parallel view the direction towards the eye (w = 0).
 glm::vec4 eye_in_index(const View& view, const Placement& placement) {
     return glm::inverse(view.eye_from_room * placement.room_from_index) *
            (view.is_parallel() ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0, 0, 1));
@@ -36,7 +36,7 @@ glm::vec4 eye_in_index(const View& view, const Placement& placement) {
 
 /// @param spacing of the voxels in the room [m]
 glm::vec4 near_fade_of(const NearFade& fade, const glm::vec3& spacing) {
-    constexpr float kGrain = 0.0012f; // [m]: from 0.2 m a third of a degree
+    constexpr float kGrain = 0.0012f; // [m], a third of a degree at 0.2 m
     const float voxel = std::cbrt(spacing.x * spacing.y * spacing.z);
     return {fade.gone, 1.0f / std::max(fade.whole - fade.gone, 1e-4f),
             std::clamp(voxel / kGrain, 1.0f, 1024.0f), 0.0f};
@@ -59,7 +59,7 @@ EyeBlock eye_block(const View& view, const Placement& placement, const CellAppea
     pixel_from_clip[1][1] = half_size.y;
     const glm::mat4 pixel_from_index = pixel_from_clip * view.clip_from_eye * eye_from_index;
     const glm::dmat4 index_from_pixel = glm::inverse(glm::dmat4(pixel_from_index));
-    // A pixel's ray is the points (x w, y w, z, w), z being linear in w.
+    // The ray of pixel (x, y) is all points (x w, y w, z, w), where z is linear in w.
     const glm::dmat4 clip(view.clip_from_eye);
     const double ahead_z = parallel ? 1.0 : clip[2][2] / clip[2][3];
     const glm::dvec4 ahead = index_from_pixel * glm::dvec4(0, 0, ahead_z, parallel ? 0.0 : 1.0);
@@ -106,7 +106,7 @@ FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, F
         .no_value = {},
         .light = {look.ambient, look.head_light, look.key_light, 0.0f},
         .material = {look.reflectance, look.shininess, look.ground, look.outline},
-        .near_fade = {-1.0f, 1.0f, 0.0f, 0.0f}, // all is whole at any distance
+        .near_fade = {-1.0f, 1.0f, 0.0f, 0.0f}, // no fading at any distance
         .color_range = {},
         .colored = look.values.has_value(),
         .linear_light = blended && look.linear_light,

@@ -1,4 +1,4 @@
-// What a draw of cells tells its shaders: see frame.glsl.
+// The uniform block for drawing cells: see frame.glsl.
 #pragma once
 
 #include "render/cells/cell_appearance.h"
@@ -17,7 +17,7 @@
 
 namespace isochron::render {
 
-/// An eye of frame.glsl, in std140 layout.
+/// `Eye` of frame.glsl, in std140 layout.
 struct EyeBlock {
     glm::mat4 rows;
     glm::vec4 ray_right, ray_up, ray_ahead;
@@ -32,7 +32,7 @@ struct EyeBlock {
     glm::vec4 between_eyes;
     glm::vec4 cut;
 };
-/// The uniform block likewise.
+/// The uniform block `Frame` of frame.glsl, in std140 layout.
 struct FrameBlock {
     std::array<EyeBlock, 2> eyes;
     std::array<glm::vec4, index::kMostSurfaces> surfaces;
@@ -58,14 +58,14 @@ static_assert(sizeof(FrameBlock) <= kUniformBlockBytes);
 EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance);
 
 /// The part of the block that is the same for every eye.
-/// @param surfaces a bit for each that is drawn
+/// @param surfaces one bit for each drawn surface
 FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
                     std::int32_t surfaces, bool blended, const Placement& placement);
 
-/// Of the order in which this view's cells are drawn.
+/// Key of the back-to-front order of this view.
 TraversalKey key_of(const View& view, const Placement& placement);
 
-/// Whether all quads are drawn whole: none is left out, which others would be seen through.
+/// Whether all cells are drawn opaque and whole, so that they hide those behind them.
 bool hides_what_is_behind(const CellAppearance& look, const Placement& placement);
 
 } // namespace isochron::render

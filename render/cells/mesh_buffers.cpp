@@ -1,4 +1,4 @@
-// The way of meshes to the GPU, in portions.
+// Sends meshes to the GPU in portions.
 #include "render/cells/mesh_buffers.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace isochron::render {
 namespace {
 
-/// By half as much again, so that meshes that grow little by little rarely move.
+/// Allocates half as much more than needed, so that slowly growing meshes rarely need a new buffer.
 void fit(const Gl& gl, const Buffer& buffer, std::size_t bytes, std::size_t& room) {
     if (bytes <= room)
         return;

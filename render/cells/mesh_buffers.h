@@ -1,4 +1,4 @@
-// The meshes of a set's surfaces on the GPU: the shown ones, and those on their way.
+// The meshes of a set's surfaces on the GPU: the shown ones, and the arriving ones.
 #pragma once
 
 #include "index/extraction/extraction.h"
@@ -11,18 +11,18 @@
 
 namespace isochron::render {
 
-/// Vertices of all surfaces one after the other, index::MeshVertex each, and likewise triangles,
-/// whose vertices are counted from the surface's first one.
+/// One buffer with the vertices (index::MeshVertex) of all surfaces in turn, and one with their
+/// triangles, whose vertex indices count from the surface's first vertex.
 class MeshBuffers {
   public:
     explicit MeshBuffers(const Gl& gl);
 
     /// Begins with the meshes of a set that is meshed, which lives until `show`; what was on its way is dropped.
     void begin(const index::Extraction& set);
-    /// Sends at most so many bytes of them. @return bytes sent
+    /// Sends at most `bytes`. @return bytes sent
     std::size_t send(std::size_t bytes);
     bool complete() const { return sent_ == arriving_.bytes(); }
-    /// What has been sent is what is drawn from now on.
+    /// Makes the new meshes the shown ones.
     void show();
 
     struct Surface {

@@ -1,4 +1,4 @@
-// The programs and GL state of a draw of triangles.
+// Programs, buffers and GL state for drawing meshes.
 #include "render/cells/mesh_pass.h"
 
 #include "index/extraction/mesh_cases.h"
@@ -22,7 +22,7 @@ MeshPass::MeshPass(const Gl& gl, bool two_views_at_once)
 }
 
 MeshPass::Programs MeshPass::make_programs(Kind kind, bool near, bool two_views_at_once) const {
-    // What blends is always asked how near it is.
+    // Blended programs always test how near a fragment is.
     if (kind == Kind::blended && near)
         return {};
     const std::string prelude = std::string(kind == Kind::plain ? "" : "#define STYLES\n") +
@@ -41,14 +41,15 @@ GLuint MeshPass::program(Kind kind, bool near, std::size_t views) const {
     return programs_[static_cast<std::size_t>(kind)][asked][views - 1]->name();
 }
 
-/// Styles and places of the shown set's triangles.
+/// Finds the style of each triangle of the shown set, and the first triangle of each cell.
 void MeshPass::find_styles(const CellBuffers& cells) {
     if (cells_version_ == cells.version())
         return;
     cells_version_ = cells.version();
     style_of_triangle_.clear();
     first_of_cell_.clear();
-    const std::span<const CellPlace> places = cells.slots().places; // in ranks
+    const std::span<const CellPlace> places =
+        cells.slots().places; // slots are ranks in sets with meshes
     for (const index::CellSet& surface : cells.shown()->surfaces)
         for (std::size_t i = 0; i < surface.ids.size(); ++i) {
             const std::size_t count = index::mesh_cases()[surface.mesh->cases[i]].triangles;

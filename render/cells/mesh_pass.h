@@ -1,4 +1,4 @@
-// Draws the triangles of a set of cells, which come with it.
+// Draws the meshes that come with a set of cells.
 #pragma once
 
 #include "render/cells/cell_buffers.h"
@@ -20,19 +20,19 @@ class MeshPass {
     /// @throws Error when a shader does not compile
     MeshPass(const Gl& gl, bool two_views_at_once);
 
-    /// How triangles are drawn beside their order.
+    /// How triangles are drawn, apart from their order.
     struct Look {
-        std::int32_t surfaces = 0;         ///< a bit for each that is drawn
+        std::int32_t surfaces = 0;         ///< one bit for each drawn surface
         std::span<const glm::vec4> colors; ///< of each surface, linear light
-        bool colored = false;              ///< by the cells' coordinates
-        bool near = false;                 ///< some may be cut away or fade, as they are near
+        bool colored = false;              ///< by the cells' color coordinates
+        bool near = false;                 ///< some may be cut away, or fade near the viewer
     };
 
-    /// Draw with the frame and viewports that CellPass has bound, and its depth and blend state.
-    /// @param cells whose mesh is there
+    /// Draws with the frame and viewports that CellPass has bound, and its depth and blend state.
+    /// @param cells with a mesh, see `CellBuffers::has_mesh`
     /// @param views 1 or 2
     void draw(const CellBuffers& cells, const Look& look, std::size_t views);
-    /// Blended, cell after cell. @param back_to_front slots of the cells
+    /// Draws blended triangles, cell by cell in this order. @param back_to_front slots of the cells
     void draw_blended(const CellBuffers& cells, const Look& look,
                       std::span<const std::uint32_t> back_to_front);
 
@@ -49,10 +49,10 @@ class MeshPass {
     const Gl* gl_;
     std::array<std::array<Programs, 2>, 3> programs_; ///< [kind][near]
     VertexArray vertex_array_;
-    Buffer styles_, order_; ///< by triangle; indices
+    Buffer styles_, order_; ///< styles by triangle; sorted vertex indices
     Texture styles_texture_;
-    std::vector<std::uint16_t> style_of_triangle_; ///< of the set that styles_ is for
-    std::vector<std::uint32_t> first_of_cell_;     ///< triangle, by slot
+    std::vector<std::uint16_t> style_of_triangle_; ///< of the set with cells_version_
+    std::vector<std::uint32_t> first_of_cell_;     ///< first triangle of each cell, by slot
     std::uint64_t styles_version_ = 0, cells_version_ = 0;
 };
 

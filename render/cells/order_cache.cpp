@@ -1,4 +1,4 @@
-// Look-up and replacement of orders.
+// Looks up and replaces orders.
 #include "render/cells/order_cache.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ OrderCache::Entry& OrderCache::entry(const CellBuffers& cells, const TraversalKe
 GLuint OrderCache::texture(const CellBuffers& cells, const TraversalKey& key) {
     Entry& wanted = entry(cells, key);
     if (!wanted.sent) {
-        // Fresh storage: the GPU may still be drawing in the order that gives way.
+        // Use fresh storage: the GPU may still draw with the replaced order.
         gl_->NamedBufferData(wanted.buffer.name(), wanted.order.size() * sizeof(wanted.order[0]),
                              wanted.order.data(), GL_STREAM_DRAW);
         gl_->TextureBuffer(wanted.texture.name(), GL_R32UI, wanted.buffer.name());

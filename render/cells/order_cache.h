@@ -1,4 +1,4 @@
-// Orders on the GPU, kept as long as they hold: a standing viewer sorts nothing.
+// Cache of back-to-front orders on the GPU: while a viewer stands still, nothing is sorted.
 #pragma once
 
 #include "render/cells/cell_buffers.h"
@@ -11,20 +11,20 @@
 
 namespace isochron::render {
 
-/// A few orders by set and key, the least recently used one gives way: both eyes on every screen
-/// find theirs again in the next frame, and eyes with the same key share one.
+/// Holds a few orders by set and key, and replaces the least recently used one. So each eye on each
+/// screen finds its order again in the next frame; eyes with the same key share one.
 class OrderCache {
   public:
     explicit OrderCache(const Gl& gl);
 
-    /// Slots, back to front; until the next call.
+    /// Slots, back to front; valid until the next call.
     std::span<const std::uint32_t> order(const CellBuffers& cells, const TraversalKey& key) {
         return entry(cells, key).order;
     }
-    /// The same as a GL_TEXTURE_BUFFER, one R32UI texel per cell.
+    /// The same order as a GL_TEXTURE_BUFFER, one R32UI texel per cell.
     GLuint texture(const CellBuffers& cells, const TraversalKey& key);
 
-    /// How many orders were made so far.
+    /// Number of orders sorted so far.
     std::uint64_t sorts() const { return sorts_; }
 
   private:

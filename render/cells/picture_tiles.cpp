@@ -1,4 +1,4 @@
-// The choice of tiles.
+// Chooses the size of tiles.
 #include "render/cells/picture_tiles.h"
 
 #include <limits>
@@ -7,7 +7,7 @@ namespace isochron::render {
 
 void PictureTiles::lay_out(const View& view, std::span<const float> sizes, float across,
                            int most_bits, float number) {
-    constexpr std::size_t kEvery = 16; // are enough to know their mean
+    constexpr std::size_t kEvery = 16; // every 16th size is enough for their mean
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < sizes.size(); i += kEvery)
         if (sizes[i] > 0.0f) {

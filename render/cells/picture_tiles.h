@@ -1,4 +1,4 @@
-// A picture as square tiles of a few pixels, with a number for each.
+// Divides a picture into square tiles of a few pixels, with a number for each.
 #pragma once
 
 #include "render/gl/view.h"
@@ -9,9 +9,9 @@
 
 namespace isochron::render {
 
-/// Tiles as code for one kind of processor goes through them.
+/// The tiles as plain data, for SIMD code.
 struct TileNumbers {
-    static constexpr std::size_t kSlack = 16; ///< numbers behind the last that are written, too
+    static constexpr std::size_t kSlack = 16; ///< numbers behind the last tile that may be written
     float* numbers;                           ///< row by row
     int bits;                                 ///< tiles have 1 << bits pixels across and up
     int columns, rows;
@@ -19,12 +19,12 @@ struct TileNumbers {
 
 class PictureTiles {
   public:
-    /// Fills all tiles with a number. Smaller tiles find more that is hidden, larger ones take less
-    /// time.
-    /// @param sizes of what hides [pixel]; some of them are looked at, and none that are 0. Where
-    /// there are no others, tiles are as large as may be
-    /// @param across so many tiles, and less than twice as many, lie across the mean of the sizes,
-    /// unless they had less than a pixel or more than 1 << most_bits
+    /// Chooses the tiles' size and fills all tiles with `number`. With smaller tiles more is found
+    /// to be hidden; larger ones take less time.
+    /// @param sizes of the occluders [pixel]; every 16th is sampled, zeros are skipped. If all are
+    /// 0, tiles have 1 << most_bits pixels
+    /// @param across number of tiles across an occluder of mean size: at least this, less than
+    /// twice this, if tiles of 1 to 1 << most_bits pixels allow it
     void lay_out(const View& view, std::span<const float> sizes, float across, int most_bits,
                  float number);
 

@@ -1,4 +1,4 @@
-// Composition of a grid's geometry with its place in the room.
+// Combines a grid's geometry with its place in the room.
 #include "render/cells/placement.h"
 
 namespace isochron::render {

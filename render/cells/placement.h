@@ -13,21 +13,21 @@ namespace isochron::render {
 
 struct Placement {
     glm::mat4 room_from_index{1.0f};    ///< affine, from vertex index coordinates; may mirror
-    glm::mat3 room_from_physical{1.0f}; ///< the linear part, for normals: rotation times scale
+    glm::mat3 room_from_physical{1.0f}; ///< linear part, for normals: rotation times scale
     glm::vec3 extent{1.0f};             ///< the volume spans [0, extent] in index coordinates
 
-    /// Of the voxels in the room [m].
+    /// Size of the voxels in the room [m].
     glm::vec3 spacing() const {
         const glm::mat3 axes(room_from_index);
         return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
     }
 
-    /// Of planes' normals, of any length, from physical to index space: covectors.
+    /// Transforms planes' normals (covectors, of any length) from physical to index space.
     glm::mat3 index_from_normal() const {
         return glm::transpose(glm::inverse(room_from_physical) * glm::mat3(room_from_index));
     }
 
-    /// Multiplied in double: physical origins may be far away.
+    /// Multiplies in double precision, as physical origins may be far away.
     /// @param room_from_physical rotation, uniform scale and translation
     static Placement of(const index::Grid& grid, const glm::dmat4& room_from_physical);
 };

@@ -1,4 +1,4 @@
-// Bounds over all cells that a volume could have.
+// Bounds on the footprints of all cells that a volume could have.
 #include "render/cells/point_sprites.h"
 
 #include <glm/geometric.hpp>
@@ -14,10 +14,10 @@ namespace isochron::render {
 
 namespace {
 
-/// Beyond it the square around an ellipse is mostly empty.
+/// Most uneven spacing: beyond it the square around an ellipse is mostly empty.
 constexpr float kMostUneven = 2.0f;
-/// [pixels] that a square may differ from the rectangle that it stands for, on every side, at the
-/// corners of the volume. Within it the difference is less but for the bend of z^3/2.
+/// Largest difference [pixels] on each side between a square and the rectangle that it replaces, at
+/// the corners of the volume. Inside the volume it is smaller, apart from the curvature of z^3/2.
 constexpr float kSquareError = 0.75f;
 
 bool nearly_even(const glm::vec3& spacing) {
@@ -33,7 +33,7 @@ bool points_serve(const View& view, const Placement& placement, float radius, fl
         return false;
     const glm::mat4 clip_from_index =
         view.clip_from_eye * view.eye_from_room * placement.room_from_index;
-    // The frustum is convex: where the corners of a box are inside, all of it is.
+    // The frustum is convex: if the corners of a box are inside, the whole box is.
     const glm::vec3 low(0.5f - reach * radius);
     const glm::vec3 high = placement.extent - low;
     float nearest = std::numeric_limits<float>::max();
@@ -45,7 +45,7 @@ bool points_serve(const View& view, const Placement& placement, float radius, fl
             return false;
         nearest = std::min(nearest, p.w);
     }
-    // The bounds of cell.vert's terms, for the nearest cell in any direction of the view.
+    // Bounds of the terms in cell.vert, for the nearest cell in any direction of the view.
     const auto row = [&](int i) {
         return glm::length(
             glm::vec3(clip_from_index[0][i], clip_from_index[1][i], clip_from_index[2][i]));
@@ -63,12 +63,12 @@ bool points_serve(const View& view, const Placement& placement, float radius, fl
 }
 
 bool footprints_are_squares(const View& view, const Placement& placement, float radius) {
-    // What turns a cube of the room into something else, however it is turned: the matrix times
-    // its transpose would be a multiple of the identity.
+    // How far voxels are from cubes in the room: for rotated cubes the transpose times the matrix
+    // would be a multiple of the identity.
     const glm::mat3 axes(view.eye_from_room * placement.room_from_index);
     const glm::mat3 square = glm::transpose(axes) * axes;
     const float voxel2 = (square[0][0] + square[1][1] + square[2][2]) / 3.0f;
-    float uneven = 0.0f; // bound of what is missing to 1 of the ratio of squared half axes
+    float uneven = 0.0f; // bound of the difference between 1 and the ratio of squared half axes
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             uneven += std::abs(square[i][j] / voxel2 - (i == j ? 1.0f : 0.0f));

@@ -1,5 +1,4 @@
-// Tiles that quads cover, and quads whose tiles are covered; compiled once for each SIMD target and
-// chosen at run time.
+// Occlusion culling of quads by tiles; compiled once for each SIMD target and chosen at run time.
 #include "render/cells/quad_culling.h"
 
 #include <algorithm>
@@ -19,29 +18,29 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// [pixels] by which GL's quads may be larger or smaller than ours: it rounds to 1/256.
+/// [pixels] by which GL's quads may be larger or smaller than ours, as GL rounds to 1/256.
 constexpr float kMargin = 1.0f / 16.0f;
-/// Of clip depth: rounded otherwise on the way through GL, what is as good as level hides nothing.
+/// Least difference of clip depths at which the nearer quad hides the other: GL rounds depths
+/// differently.
 constexpr float kLevel = 1e-6f;
 
 using Floats = hn::CappedTag<float, CellSquares::kBlock>;
 using Ints = hn::RebindToSigned<Floats>;
 using Row = hn::CappedTag<float, TileNumbers::kSlack>;
 
-/// Inclusive ranges of tiles along one axis for a block of cells; empty where `last` is less than
-/// `first`.
+/// Inclusive ranges of tiles along one axis for a block of cells; empty if `last` < `first`.
 struct Tiles {
     std::array<std::int32_t, CellSquares::kBlock> first, last;
 };
 
-/// The pixel that a place is in; far beyond any view somewhere there.
+/// The pixel at a place; places far outside any view are clamped.
 HWY_INLINE hn::Vec<Ints> pixel_at(hn::Vec<Floats> at) {
     const Floats d;
     const auto near = hn::Clamp(at, hn::Set(d, -65536.0f), hn::Set(d, 65536.0f));
     return hn::ConvertTo(Ints(), hn::Floor(near));
 }
 
-/// Tiles of which the quad may draw the middle of a pixel.
+/// Tiles in which the quad may cover the middle of a pixel.
 HWY_INLINE void touched(const TileNumbers& tiles, const float* middle, const float* half, int count,
                         Tiles& out) {
     const Floats d;
@@ -56,7 +55,7 @@ HWY_INLINE void touched(const TileNumbers& tiles, const float* middle, const flo
     }
 }
 
-/// Tiles of which the quad surely draws the middles of all pixels.
+/// Tiles in which the quad certainly covers the middles of all pixels.
 HWY_INLINE void covered(const TileNumbers& tiles, const float* middle, const float* half, int count,
                         Tiles& out) {
     const Floats d;
@@ -74,7 +73,8 @@ HWY_INLINE void covered(const TileNumbers& tiles, const float* middle, const flo
     }
 }
 
-/// A row's tiles from one to another, as whole vectors: `each(tiles, which)` until it is false.
+/// Visits the tiles of a row from `first` to `last`, a vector at a time: calls `each(tiles, which)`
+/// until it returns false.
 template <class Each>
 HWY_INLINE bool all_of_row(float* row, int first, int last, Each&& each) {
     const Row d;
@@ -114,7 +114,7 @@ HWY_INLINE void cover(const TileNumbers& tiles, const Tiles& across, const Tiles
                   across.last[i], z);
 }
 
-/// Larger ellipses neither hide nor are hidden: they are few.
+/// Most rows of tiles of an ellipse. Larger ellipses are few: they are drawn, and hide nothing.
 constexpr int kMostRows = 64;
 constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
 
@@ -144,7 +144,7 @@ class TiledEllipse {
     float* row(int i) const {
         return tiles_.numbers + static_cast<std::size_t>(first_ + i) * tiles_.columns;
     }
-    /// The tile of its middle, null where that is beside the view.
+    /// The tile of its middle; null if that is outside the view.
     const float* middle() const {
         const int column = tile_at(x_), at = tile_at(y_);
         if (column < 0 || column >= tiles_.columns || at < 0 || at >= tiles_.rows)
@@ -152,7 +152,7 @@ class TiledEllipse {
         return tiles_.numbers + static_cast<std::size_t>(at) * tiles_.columns + column;
     }
 
-    /// Tiles of which it may draw the middle of a pixel.
+    /// Tiles in which it may cover the middle of a pixel.
     HWY_INLINE void touched(float xx, float xy, Ranges& out) const {
         const float rightmost = xy / std::sqrt(xx); // height of the point farthest to the right
         each_rows([&](int i, SpanV low, SpanV high) HWY_ATTR {
@@ -169,7 +169,7 @@ class TiledEllipse {
         });
     }
 
-    /// Tiles of which it surely draws the middles of all pixels.
+    /// Tiles in which it certainly covers the middles of all pixels.
     HWY_INLINE void covered(Ranges& out) const {
         const float size = static_cast<float>(1 << tiles_.bits);
         each_rows([&](int i, SpanV low, SpanV high) HWY_ATTR {
@@ -212,7 +212,7 @@ class TiledEllipse {
     HWY_INLINE SpanV left_at(SpanV at) const {
         return hn::Sub(hn::MulAdd(set(lean_), at, set(x_)), reach(at));
     }
-    /// The lower and upper ends of the rows above its middle, some rows at a time.
+    /// Calls `each` with some rows at a time: their lower and upper ends relative to its middle.
     template <class Each>
     HWY_INLINE void each_rows(Each&& each) const {
         const auto size = static_cast<float>(1 << tiles_.bits);
@@ -242,7 +242,7 @@ HWY_INLINE bool hidden(const TiledEllipse& ellipse, const TiledEllipse::Ranges& 
 
 } // namespace
 
-/// The same of ellipses.
+/// The same as `find`, for ellipses.
 std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles,
                           std::uint32_t* seen) {
     TiledEllipse::Ranges ranges;
@@ -253,7 +253,7 @@ std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles,
         if (ellipse.rows() < 1)
             continue;
         const bool large = ellipse.rows() > kMostRows;
-        // Most that are seen are so in the middle.
+        // Most visible ellipses are visible in the middle, so test that first.
         const float* const middle = ellipse.middle();
         if (!large && !(middle && *middle >= z - kLevel)) {
             ellipse.touched(ellipses.xx()[n], ellipses.xy()[n], ranges);
@@ -270,8 +270,9 @@ std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles,
     return count;
 }
 
-/// @param seen numbers of cells in the order of the squares: room for all of them
-/// @return how many
+/// Finds the visible cells.
+/// @param seen takes their numbers in the order of the squares; has room for all cells
+/// @return their number
 std::size_t find(const CellSquares& squares, const TileNumbers& tiles, std::uint32_t* seen) {
     Tiles across, up, whole_across, whole_up;
     std::size_t count = 0;
@@ -305,7 +306,8 @@ std::span<const std::uint32_t> SeenCells::find(const View& view, const Placement
                                                const SplatShape& shape, const Slots& slots,
                                                std::span<const std::uint32_t> back_to_front) {
     squares_.project(view, placement, shape, slots, back_to_front);
-    // Most quads cover some tiles. Ellipses take longer for each row.
+    // With these sizes most quads cover some tiles. Ellipses need larger tiles, as each row takes
+    // longer.
     const bool ellipses = shape.shape == CellShape::plane;
     const float tiles_across = ellipses ? 1.0f : 1.5f; // half of a quad
     constexpr int kMostTileBits = 4;

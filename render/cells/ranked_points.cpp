@@ -1,4 +1,4 @@
-// Copying of points, with styles.
+// Copies the points of a set, with their styles.
 #include "render/cells/ranked_points.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The points of a set that comes with its normals, as they go to the GPU: whole, in ranks.
+// The points of a set that comes with its normals: sent to the GPU as a whole, in order of rank.
 #pragma once
 
 #include "index/extraction/extraction.h"
@@ -11,8 +11,8 @@
 
 namespace isochron::render {
 
-/// Every cell's slot is its rank. Normals change from step to step even where cells stay, so that
-/// nothing would be gained by keeping slots.
+/// Every cell's slot is its rank. Normals change from step to step even in cells that stay, so
+/// keeping slots would save nothing.
 class RankedPoints {
   public:
     /// @param set lives as long as this
@@ -27,7 +27,7 @@ class RankedPoints {
 
   private:
     const index::Extraction* set_;
-    std::size_t surface_ = 0, at_ = 0; ///< where the copy goes on
+    std::size_t surface_ = 0, at_ = 0; ///< next cell to copy
     std::vector<index::CellPoint> points_;
     Slots slots_;
 };

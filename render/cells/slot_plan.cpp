@@ -1,4 +1,4 @@
-// Merging of sorted ids, and assignment of slots.
+// Merges sorted ids and assigns slots.
 #include "render/cells/slot_plan.h"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ std::size_t SlotPlan::message(std::span<std::uint32_t> out, std::size_t& cells) 
     for (; surface_ < to_->surfaces.size(); next_surface())
         for (const auto ids = ids_of(to_); new_at_ < ids.size(); ++new_at_, ++new_rank_) {
             std::uint32_t& slot = next_.slot_of_rank[new_rank_];
-            const bool sent = whole() || slot >= slots; // kNoSlot, or behind the new end
+            const bool sent = whole() || slot >= slots; // kNoSlot, or beyond the new end
             if (cells == 0 || (sent && out.size() - written < words_each))
                 return written;
             --cells;

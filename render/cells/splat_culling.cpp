@@ -1,5 +1,4 @@
-// Light that splats let through, tile by tile; compiled once for each SIMD target and chosen at run
-// time.
+// Occlusion culling of splats by tiles; compiled once for each SIMD target and chosen at run time.
 #include "render/cells/splat_culling.h"
 
 #include <algorithm>
@@ -20,24 +19,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Row = hn::CappedTag<float, TileNumbers::kSlack>;
 
-/// Below this, all that lies behind changes no byte by more than its rounding.
+/// If less light than this comes through, nothing behind changes a byte by more than its rounding.
 constexpr float kDark = 1.0f / 512.0f;
-/// [pixels] by which GL may place a splat otherwise.
+/// [pixels] by which GL's position of a splat may differ.
 constexpr float kMargin = 1.0f / 16.0f;
-/// [pixels] from the middle of a pixel to its farthest sample: along an outline, some of them may
-/// be left out.
+/// [pixels] from the middle of a pixel to its farthest sample: along an outline, a splat may cover
+/// only some samples.
 constexpr float kToSample = 0.75f;
-/// Larger splats neither hide nor are hidden: they are few, and take long to look at.
+/// Most tiles along an axis of a splat. Larger splats are few, and testing them takes long: they
+/// are drawn, and hide nothing.
 constexpr int kMostTiles = 96;
 constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
 
 using Floats = std::array<float, kMostTiles + TileNumbers::kSlack>;
 using Ints = std::array<std::int32_t, kMostTiles + TileNumbers::kSlack>;
 
-/// Along one axis: which tiles a splat touches, and its factor of the Gaussian in each, at the
-/// sample that is farthest from the splat's middle; 0 behind the last.
+/// The tiles that a splat touches along one axis. For each, its factor of the Gaussian at the
+/// sample farthest from the splat's middle; 0 after the last tile.
 struct Profile {
-    int first = 0, count = 0; ///< a count below 1: beside the view
+    int first = 0, count = 0; ///< count below 1: outside the view
     Floats gaussian;
     Floats nearest; ///< distance of the nearest sample
 };
@@ -47,7 +47,7 @@ struct Spans {
     Ints first, end;
 };
 
-/// Never above 2^x for x <= 0, near it where it counts: (1 + x ln 2 / 256)^256.
+/// A lower bound of 2^x for x <= 0, close for small |x|: (1 + x ln 2 / 256)^256.
 HWY_INLINE hn::Vec<Row> below_exp2(hn::Vec<Row> x) {
     const Row d;
     constexpr int kSquarings = 8;
@@ -62,7 +62,7 @@ HWY_INLINE int tile_of(const TileNumbers& tiles, float at) {
     return static_cast<int>(std::floor(std::clamp(at, -kFarthest, kFarthest))) >> tiles.bits;
 }
 
-/// @param middle, reach of the splat [pixel]
+/// @param middle, reach middle and radius of the splat [pixel]
 /// @param falloff per square pixel
 /// @return false when there are too many tiles
 HWY_INLINE bool make_profile(const TileNumbers& tiles, float middle, float reach, float falloff,
@@ -89,7 +89,7 @@ HWY_INLINE bool make_profile(const TileNumbers& tiles, float middle, float reach
     return true;
 }
 
-/// Of a disc of this radius, in the rows of `up`.
+/// Finds the spans of a disc with this radius in the rows of `up`.
 HWY_INLINE void find_spans(const TileNumbers& tiles, const Profile& across, const Profile& up,
                            float middle, float radius, Spans& out) {
     const Row d;
@@ -122,7 +122,8 @@ HWY_INLINE bool is_dark(const float* light, int count) {
     return true;
 }
 
-/// @param least opacity that the splat surely has where it counts
+/// Reduces the light in a row of tiles by the splat's opacity.
+/// @param least smaller opacities are ignored: some samples there may not be covered
 HWY_INLINE void dim(float* light, const float* gaussian, int count, float of_row, float least) {
     const Row d;
     for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
@@ -136,9 +137,10 @@ HWY_INLINE void dim(float* light, const float* gaussian, int count, float of_row
 
 } // namespace
 
+/// Finds the visible splats.
 /// @param falloff log2 of the opacity on the outline
-/// @param seen numbers of splats in the order of the squares: room for all of them
-/// @return how many
+/// @param seen takes their numbers in the order of the squares; has room for all splats
+/// @return their number
 std::size_t find(const CellSquares& splats, float falloff, const TileNumbers& tiles,
                  std::uint32_t* seen) {
     Profile across, up;
@@ -168,7 +170,7 @@ std::size_t find(const CellSquares& splats, float falloff, const TileNumbers& ti
         seen[count++] = static_cast<std::uint32_t>(n);
         if (!(inner > kToSample))
             continue;
-        const float whole = (inner - kToSample) / inner; // as far as all samples are covered
+        const float whole = (inner - kToSample) / inner; // up to here all samples are covered
         const float least = std::exp2(falloff * whole * whole);
         for (int i = 0; i < up.count; ++i)
             if (up.gaussian[i] >= least)

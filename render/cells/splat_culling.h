@@ -1,5 +1,4 @@
-// Which splats of a view are worth drawing where the processor draws: what is behind opaque ones is
-// not.
+// Occlusion culling of splats, for software GL: leaves out splats behind opaque ones.
 #pragma once
 
 #include "render/cells/cell_squares.h"
@@ -14,24 +13,24 @@
 
 namespace isochron::render {
 
-/// Finds splats that nobody sees through those before them. The picture is held as tiles of a pixel
-/// or a few with a bound of the light that the nearer splats let through: where it is below half of
-/// an eighth bit's step in all tiles that a splat may touch, what the splat adds, together with all
-/// that lies behind it, does not show in a picture of eight bits.
+/// Culls splats that are hidden by those in front of them. Each tile of one or a few pixels has an
+/// upper bound of the light that the nearer splats let through. If this is below half a step of an
+/// 8-bit picture in all tiles that a splat may touch, then the splat and everything behind it do
+/// not show.
 class SeenSplats {
   public:
-    /// Of opaque splats.
-    /// @param falloff log2 of the opacity on the footprint's outline, negative; 1 in the middle
-    /// @param slots with their planes, where the shape is one
-    /// @param back_to_front slots
-    /// @return the slots of the others, back to front; until the next call
+    /// @param falloff log2 of the opacity on the footprint's outline, negative; opacity is 1 in the
+    /// middle
+    /// @param slots with planes if the shape is `CellShape::plane`
+    /// @param back_to_front slots in this order
+    /// @return slots of the visible splats, back to front; valid until the next call
     std::span<const std::uint32_t> find(const View& view, const Placement& placement,
                                         const SplatShape& shape, float falloff, const Slots& slots,
                                         std::span<const std::uint32_t> back_to_front);
 
   private:
     CellSquares squares_;
-    PictureTiles tiles_; ///< with a bound of the light that comes through
+    PictureTiles tiles_; ///< upper bound of the light that comes through
     std::vector<std::uint32_t> seen_;
 };
 

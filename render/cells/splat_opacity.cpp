@@ -1,4 +1,4 @@
-// The optical depth of overlapping splats, and which splats have it.
+// The optical depth of overlapping splats, and its inverse.
 #include "render/cells/splat_opacity.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace isochron::render {
 
 namespace {
 
-/// The dilogarithm of 0 to 1, for the larger half by Euler's reflection.
+/// The dilogarithm for x in [0, 1]; the upper half by Euler's reflection formula.
 float dilogarithm(float x) {
     constexpr float kOfOne = std::numbers::pi_v<float> * std::numbers::pi_v<float> / 6.0f;
     if (x >= 1.0f)

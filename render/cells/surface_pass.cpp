@@ -1,4 +1,4 @@
-// The programs and GL state of a draw of ray-cast cells.
+// Programs and GL state for drawing cells by ray casting.
 #include "render/cells/surface_pass.h"
 
 #include "render/gl/shader.h"

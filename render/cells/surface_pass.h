@@ -1,4 +1,4 @@
-// Draws the exact trilinear isosurface of a set of cells, by casting a ray per pixel into each.
+// Draws the exact trilinear isosurface of a set of cells, by casting rays into each cell.
 #pragma once
 
 #include "render/cells/cell_buffers.h"
@@ -17,11 +17,11 @@ class SurfacePass {
     SurfacePass(const Gl& gl, bool two_views_at_once);
 
     /// Draws with the frame, cells, orders and viewports that CellPass has bound, and its depth and
-    /// blend state. Writes the depth of the surface, whatever GL's depth range makes of its box.
-    /// In a multisampled target every sample has a ray of its own: no side of a triangle is an edge
-    /// of the surface, which only the rays tell.
-    /// @param blended several layers within a cell are blended far to near, pre-multiplied
-    /// @param cells whose corners are computed
+    /// blend state. The fragment shader writes the surface's own depth; glDepthRange has no effect.
+    /// In a multisampled target every sample has its own ray: the edges of the surface are found
+    /// only by rays, not by edges of triangles.
+    /// @param blended several layers within a cell are blended from far to near, pre-multiplied
+    /// @param cells after `CellBuffers::compute_corners`
     /// @param views 1 or 2
     void draw(const QuadIndices& quads, const CellBuffers& cells, bool blended,
               std::size_t views) const;
@@ -31,7 +31,7 @@ class SurfacePass {
     using Programs = std::array<std::array<std::optional<Program>, 2>, 2>;
 
     const Gl* gl_;
-    std::array<Programs, 2> programs_; ///< for a ray each pixel, and each sample
+    std::array<Programs, 2> programs_; ///< one ray per pixel; one ray per sample
 };
 
 } // namespace isochron::render

@@ -1,4 +1,4 @@
-// Distances from tables per axis, and a radix sort of them.
+// Computes distances by tables per axis, and sorts them by radix sort.
 #include "render/cells/traversal_order.h"
 
 #include <glm/common.hpp>
@@ -16,15 +16,15 @@ namespace isochron::render {
 namespace {
 
 constexpr int kWeightOne = 1 << kWeightBits;
-constexpr float kHeaviest = 1 << 14;  // a spacing a hundred times the smallest: 1e4 squared
-constexpr double kFarthest = 1 << 20; // [cells]; from farther off only the direction counts
-/// References are the middles of quarter cells, in eighths of a cell: never half way between the
-/// middles of two cells, so that of these the one that the eye is in stays the nearer.
+constexpr float kHeaviest = 1 << 14;  // enough for spacings up to 100 times the smallest (squared)
+constexpr double kFarthest = 1 << 20; // [cells]; beyond this only the direction counts
+/// References are middles of quarter cells, in eighths of a cell. They are never half way between
+/// the middles of two cells, so that the cell of the eye is always the nearer one.
 constexpr int kPart = 2, kCell = 8, kMiddle = 4, kPartsOfCell = kCell / kPart;
-constexpr double kSnapsPerRadian = 512; // of a reference beyond the grid
+constexpr double kSnapsPerRadian = 512; // of a reference outside the grid
 
-/// Fixed point, relative to the smallest of them. A weight of at least one keeps cells apart that
-/// are a whole cell apart, and rounding to whole units of it keeps their order.
+/// Weights as fixed point numbers, relative to the smallest. A weight of at least 1 keeps cells
+/// apart that are a whole cell apart, and rounding to its units keeps their order.
 glm::ivec3 fixed_point(const glm::vec3& weights) {
     const float smallest =
         std::max({std::min({weights.x, weights.y, weights.z}),
@@ -33,12 +33,12 @@ glm::ivec3 fixed_point(const glm::vec3& weights) {
                                  static_cast<float>(kWeightOne)));
 }
 
-/// How far a coordinate lies beyond [0, cells], negative below.
+/// How far a coordinate is outside [0, cells]; negative below 0.
 double beyond(double eye, int cells) {
     return eye < 0.0 ? eye : eye > cells ? eye - cells : 0.0;
 }
 
-/// @param snap in parts of a cell, used beyond the grid
+/// @param snap step of the reference outside the grid, in parts of a cell
 int reference_along(double eye, int cells, std::int64_t snap) {
     const double inside = std::clamp(eye, 0.0, std::nextafter(cells, 0.0));
     const auto part = static_cast<std::int64_t>(inside * kPartsOfCell);
@@ -53,12 +53,12 @@ int reference_along(double eye, int cells, std::int64_t snap) {
 
 using AxisTable = std::vector<std::uint64_t>;
 
-/// Per axis and coordinate its part of the distance, and their largest sum.
+/// Each axis's part of the distance, by coordinate.
 struct Distances {
     std::array<AxisTable, 3> along;
-    /// Of a distance: as coarse as keeps cells apart of which one may hide the other.
+    /// Bits of a distance that are dropped; cells of which one may hide the other stay apart.
     int unit_bits = 0;
-    std::uint64_t largest = 0;
+    std::uint64_t largest = 0; ///< largest possible distance
 
     std::uint64_t of(const CellPlace& place) const {
         return (along[0][place.x] + along[1][place.y] + along[2][place.z]) >> unit_bits;
@@ -73,7 +73,7 @@ Distances distances(std::span<const CellPlace> places, const TraversalKey& key) 
         high = glm::max(high, at);
     }
     Distances result;
-    // Squares differ by a quarter of a cell at least: (5/8)^2 - (3/8)^2, at the eye's own cell.
+    // Squared distances differ by at least 1/4: (5/8)^2 - (3/8)^2, at the eye's own cell.
     result.unit_bits =
         kWeightBits + (key.reference.w != 0 ? std::countr_zero(kCell * kCell / 4u) : 0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -90,7 +90,7 @@ Distances distances(std::span<const CellPlace> places, const TraversalKey& key) 
             most = std::max(most, table[at]);
             least = std::min(least, table[at]);
         }
-        // Only differences count; small numbers are sorted in fewer passes.
+        // Only differences count, and small numbers are sorted in fewer passes.
         for (int at = low[axis]; at <= high[axis]; ++at)
             table[at] -= least;
         result.largest += most - least;
@@ -99,7 +99,8 @@ Distances distances(std::span<const CellPlace> places, const TraversalKey& key) 
     return result;
 }
 
-/// A slot with its cell's nearness, 0 for the farthest. Most fit into one word, which moves faster.
+/// A slot with its cell's nearness, 0 for the farthest. Usually both fit into one word, which moves
+/// faster.
 struct Narrow {
     std::uint64_t word;
     Narrow() = default;
@@ -123,7 +124,7 @@ std::size_t digit(const Entry& entry, int shift) {
     return entry.nearness() >> shift & ((1u << kDigitBits) - 1);
 }
 
-/// One stable pass over a digit.
+/// One stable pass of the radix sort, over one digit.
 template <class Entry>
 void sort_by_digit(const std::vector<Entry>& from, std::vector<Entry>& to, int shift) {
     std::array<std::uint32_t, 1 << kDigitBits> begin{};
@@ -157,7 +158,7 @@ TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells,
                            const glm::vec3& spacing) {
     TraversalKey key;
     if (eye.w == 0.0f) {
-        // Any direction within the same octant is right; this one has the same proportions.
+        // Any direction in the same octant is right; this one keeps the eye's proportions.
         const glm::vec3 towards = glm::abs(glm::vec3(eye)) * spacing * spacing;
         for (int axis = 0; axis < 3; ++axis)
             key.reference[axis] = eye[axis] < 0.0f ? -1 : 1;

@@ -1,4 +1,4 @@
-// What was sent to the GPU, and what it would have been without sending differences only.
+// Counts what was sent to the GPU, and how much whole sets would have been instead of differences.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@ namespace isochron::render {
 
 struct UploadCount {
     std::uint64_t sets = 0;        ///< shown
-    std::uint64_t ids = 0;         ///< sent for them
-    std::uint64_t whole_ids = 0;   ///< that they have: to send them whole
-    std::uint64_t id_bytes = 0;    ///< ids, with their slots where differences are sent
-    std::uint64_t brick_bytes = 0; ///< bricks of the volume with their pages
+    std::uint64_t ids = 0;         ///< sent for these sets
+    std::uint64_t whole_ids = 0;   ///< that these sets have
+    std::uint64_t id_bytes = 0;    ///< ids (in differences with slots), or points with normals
+    std::uint64_t brick_bytes = 0; ///< volume bricks, with their pages
     std::uint64_t color_bytes = 0; ///< color coordinates
     std::uint64_t mesh_bytes = 0;  ///< vertices and triangles
 
@@ -24,7 +24,7 @@ struct UploadCount {
         mesh_bytes += other.mesh_bytes;
         return *this;
     }
-    /// @param before an earlier count of the same
+    /// What was added since. @param before an earlier value of this count
     UploadCount since(const UploadCount& before) const {
         return {sets - before.sets,
                 ids - before.ids,

@@ -1,4 +1,4 @@
-// Growth of GPU memory.
+// A growing array on the GPU.
 #include "render/gl/device_array.h"
 
 #include "render/gl/limits.h"
@@ -18,7 +18,7 @@ DeviceArray::DeviceArray(const Gl& gl, const char* what, GLenum format, std::siz
     limit_ = limits.buffer_texels / texels_;
     if (storage == Storage::whole)
         limit_ = std::min(limit_, limits.storage_block_bytes / element_bytes());
-    reserve(1, Contents::dropped); // never without memory behind the texture
+    reserve(1, Contents::dropped); // so that the texture always has memory
 }
 
 void DeviceArray::reserve(std::size_t elements, Contents contents) {
@@ -26,7 +26,7 @@ void DeviceArray::reserve(std::size_t elements, Contents contents) {
         return;
     if (elements > limit_)
         throw Error(fmt::format("{} {}: this GL holds at most {}", elements, what_, limit_));
-    // By half as much again, so that sets that grow little by little rarely move.
+    // Grow by at least half, so that slowly growing sets rarely need a new buffer.
     const std::size_t capacity = std::min(std::max(elements, capacity_ + capacity_ / 2), limit_);
     Buffer larger(*gl_);
     gl_->NamedBufferData(larger.name(), static_cast<GLsizeiptr>(capacity * element_bytes()),

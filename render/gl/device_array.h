@@ -1,4 +1,4 @@
-// GPU memory that grows, seen as a buffer and as a buffer texture.
+// A growing array on the GPU, as a buffer and as a buffer texture.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -10,22 +10,22 @@ namespace isochron::render {
 /// Elements of one texel format.
 class DeviceArray {
   public:
-    /// Whether shaders write to it as one storage block, or a texture is all that it is.
+    /// Whether shaders also write to all of it as one storage block, or only read it as a texture.
     enum class Storage : bool { none, whole };
 
     /// @param what it holds, for the error: "cells"
-    /// @param texels of each element
+    /// @param texels number of texels in an element
     DeviceArray(const Gl& gl, const char* what, GLenum format, std::size_t texel_bytes,
                 std::size_t texels, Storage storage);
 
     enum class Contents : bool { dropped, kept };
-    /// Room for at least so many elements. What is kept is copied by the GPU; what is dropped
-    /// leaves the GPU free to draw from the old memory while the new one is written.
-    /// @throws Error when they are more than `limit()`
+    /// Makes room for at least `elements`. To keep the contents the GPU copies them; if they are
+    /// dropped, the GPU may still draw from the old memory while the new one is written.
+    /// @throws Error when `elements` is more than `limit()`
     void reserve(std::size_t elements, Contents contents);
 
     std::size_t capacity() const { return capacity_; }
-    /// Elements that the driver's buffer textures, and storage blocks, can hold.
+    /// Most elements that the driver's buffer textures and storage blocks can hold.
     std::size_t limit() const { return limit_; }
     std::size_t element_bytes() const { return texels_ * texel_bytes_; }
     GLuint buffer() const { return buffer_.name(); }

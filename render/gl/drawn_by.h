@@ -1,11 +1,11 @@
-// Who draws: the ways of drawing that pay on a GPU are not those that pay on a processor.
+// Whether to draw as suits a GPU or as suits a processor: what is fast on one is slow on the other.
 #pragma once
 
 #include <cstdint>
 
 namespace isochron::render {
 
-/// `automatic`: by what the driver says of itself.
+/// `automatic`: decided by the name of the driver's renderer.
 enum class DrawnBy : std::uint8_t { automatic, gpu, processor };
 
 } // namespace isochron::render

@@ -1,4 +1,4 @@
-// What the driver says of itself.
+// Properties of the driver, from what it tells.
 #include "render/gl/driver.h"
 
 #include <algorithm>

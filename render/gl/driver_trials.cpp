@@ -1,4 +1,4 @@
-// Trials of what drivers promise.
+// Tests of the drivers' promises.
 #include "render/gl/driver_trials.h"
 
 #include "render/gl/render_target.h"
@@ -32,7 +32,7 @@ bool draws_to_two_viewports(const Gl& gl) {
     gl.UseProgram(0);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     const Image picture = target.read();
-    // Only the second program, which shares its fragments' color with nobody, writes green.
+    // Only the second program, with two viewports, writes green.
     return picture.at(0, 0)[1] > 127 && picture.at(1, 0)[1] > 127;
 }
 

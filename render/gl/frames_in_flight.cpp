@@ -1,4 +1,4 @@
-// One fence for each frame.
+// Limits the frames in flight by a fence for each.
 #include "render/gl/frames_in_flight.h"
 
 #include "render/gl/driver_trials.h"
@@ -19,9 +19,9 @@ void FramesInFlight::end_frame() {
     frames_.push_back(gl_->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
     while (!frames_.empty()) {
         const bool wait = frames_.size() > kMost;
-        const GLenum state = gl_->ClientWaitSync(frames_.front(), GL_SYNC_FLUSH_COMMANDS_BIT,
-                                                 wait ? kLongest : 0);
-        // One that hangs is not waited for again.
+        const GLenum state =
+            gl_->ClientWaitSync(frames_.front(), GL_SYNC_FLUSH_COMMANDS_BIT, wait ? kLongest : 0);
+        // After a timeout the fence is dropped, and not waited for again.
         if (state == GL_TIMEOUT_EXPIRED && !wait)
             return;
         gl_->DeleteSync(frames_.front());

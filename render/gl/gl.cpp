@@ -1,4 +1,4 @@
-// Loading of the GL entry points.
+// Loads the GL entry points.
 #include "render/gl/gl.h"
 
 #include <fmt/format.h>

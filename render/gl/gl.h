@@ -1,5 +1,5 @@
-// The table of GL entry points, loaded from the current context; a counting fake can stand in for
-// it.
+// The table of GL entry points, loaded from the current context; tests can replace entries by
+// fakes.
 //
 //     const render::Gl gl(context.loader());
 //     gl.Clear(GL_COLOR_BUFFER_BIT);
@@ -14,14 +14,14 @@
 
 namespace isochron::render {
 
-/// The one exception type of the render and stereo floors: what, where, expected, got, in one line
-/// (a shader's log may follow on more lines).
+/// The only exception type of `render` and `stereo`. One line says what failed, where, what was
+/// expected and what was got; a shader's log may follow on more lines.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Address of a GL entry point by its full name (`glClear`), null where there is none.
+/// Returns the address of a GL entry point by its full name (`glClear`), or null.
 using GlLoader = std::function<void*(const char*)>;
 
 // clang-format off
@@ -215,7 +215,7 @@ struct Gl {
     ISOCHRON_GL_ENTRY_POINTS(ISOCHRON_GL_MEMBER)
 #undef ISOCHRON_GL_MEMBER
 
-    /// Whose ways passes take, see `takes_processor_ways`.
+    /// Whether passes draw as suits a GPU or a processor, see `takes_processor_ways`.
     DrawnBy drawn_by;
 };
 

@@ -1,4 +1,4 @@
-// Owners of GL objects: each deletes its object when it goes, and can be moved but not copied.
+// Owners of GL objects: each deletes its object when destroyed; it can be moved but not copied.
 #pragma once
 
 #include "render/gl/gl.h"
@@ -36,8 +36,8 @@ struct QueryKind {
     static void destroy(const Gl& gl, GLuint name);
 };
 
-/// Owns one GL object of the table's context, which must be current when the owner is made and
-/// when it goes. A moved-from owner holds name 0.
+/// Owns one GL object of the table's context, which must be current when the owner is constructed
+/// and destroyed. A moved-from owner holds name 0.
 template <class Kind>
 class GlObject {
   public:

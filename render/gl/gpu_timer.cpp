@@ -61,7 +61,7 @@ std::optional<std::chrono::nanoseconds> GpuTimer::read(const Slot& slot,
     const GLuint64 start = stamp_of(*gl_, slot.start), end = stamp_of(*gl_, slot.end);
     if (start == 0 || end < start)
         return std::nullopt;
-    // The clocks of the two processors need not run alike to the last digit.
+    // The clocks of the GPU and the processor may run slightly differently.
     const auto passed = now - slot.begun;
     const auto most = std::chrono::duration_cast<std::chrono::nanoseconds>(passed) + passed / 10 +
                       std::chrono::milliseconds(1);

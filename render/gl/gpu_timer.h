@@ -1,4 +1,4 @@
-// Measures how long the GPU works on a part of each frame, and never waits for it.
+// Measures how long the GPU works on a part of each frame, without waiting for it.
 //
 //     timer.begin(frame, Clock::now());
 //     draw();
@@ -17,10 +17,10 @@
 
 namespace isochron::render {
 
-/// A ring of pairs of GL_TIMESTAMP queries, read only once their results are there. Timestamps and
-/// not GL_TIME_ELAPSED: they nest with other measurements, and llvmpipe's first elapsed time is the
-/// time since the machine started. On llvmpipe the span is true wall-clock time of vertex and
-/// fragment work, from the first command's execution to the last one's.
+/// A ring of pairs of GL_TIMESTAMP queries, which are read when their results are available. Uses
+/// timestamps rather than GL_TIME_ELAPSED because they can be nested, and because llvmpipe's first
+/// elapsed time is the time since the machine started. On llvmpipe the span is the wall-clock time
+/// of vertex and fragment work, from the first command's execution to the last one's.
 class GpuTimer {
   public:
     using Clock = std::chrono::steady_clock;
@@ -33,18 +33,18 @@ class GpuTimer {
 
     explicit GpuTimer(const Gl& gl);
 
-    /// Opens the span that `end` closes.
-    /// @param tag comes back with the result
-    /// @return false, and nothing is measured, when the timer does not work or the GPU is further
-    /// behind than the ring is long
+    /// Begins the span that `end` ends.
+    /// @param tag returned with the result
+    /// @return false if nothing is measured: the timer does not work, or all slots of the ring
+    /// still wait for the GPU
     bool begin(std::uint64_t tag, Clock::time_point now);
     void end(); ///< does nothing unless `begin` returned true
 
-    /// The oldest span whose result is there, each once.
+    /// The oldest span with a result; returns each span once.
     std::optional<Span> take(Clock::time_point now);
 
-    /// False where the driver has no timestamps, or too many answers in a row could not be true:
-    /// a stamp of zero, an end before its beginning, a span longer than the time that has passed.
+    /// False if the driver has no timestamps, or gave too many impossible answers in a row: a stamp
+    /// of zero, an end before its beginning, a span longer than the time that has passed.
     bool works() const { return works_; }
 
   private:
@@ -54,17 +54,17 @@ class GpuTimer {
         std::uint64_t tag = 0;
         Clock::time_point begun;
     };
-    static constexpr std::size_t kSlots = 6; ///< frames that a driver may be behind
+    static constexpr std::size_t kSlots = 6; ///< most frames that the GPU may be behind
 
     std::optional<std::chrono::nanoseconds> read(const Slot& slot, Clock::time_point now) const;
 
     const Gl* gl_;
     std::array<Slot, kSlots> slots_;
-    std::size_t next_ = 0;    ///< to be begun
-    std::size_t waiting_ = 0; ///< closed spans whose results are not taken, the slots before next_
+    std::size_t next_ = 0;    ///< slot to begin next
+    std::size_t waiting_ = 0; ///< ended spans without a taken result, in the slots before next_
     bool open_ = false;
     bool works_ = false;
-    int impossible_ = 0; ///< answers in a row
+    int impossible_ = 0; ///< impossible answers in a row
 };
 
 } // namespace isochron::render

@@ -1,4 +1,4 @@
-// A picture in memory, as it is read back from the GPU and written to files.
+// A picture in memory, read back from the GPU or written to a file.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Questions to the driver, and what the program needs of it.
+// Asks for the driver's limits, and compares them with the program's needs.
 #include "render/gl/limits.h"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ struct Need {
 // clang-format off
 #define NEED(limit, needed) Need{#limit, limit, needed}
 // clang-format on
-/// By what the shaders and passes hold; GL 4.5 core promises all of it.
+/// The needs of the shaders and passes; GL 4.5 core guarantees all of them.
 constexpr std::array kNeeds{
     // surface.vert: cells, two orders, values and gradients at corners, the color map in unit 7.
     NEED(GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS, 6),
@@ -111,7 +111,7 @@ void expect_texture(const Limits& limits, const char* what, glm::ivec2 size) {
 }
 
 std::size_t work_at_once(const Limits& limits, std::size_t bytes) {
-    // Whatever a thing's bytes, so many things take whole multiples of the alignment.
+    // Any multiple of `unit` items takes a multiple of the alignment, whatever the bytes per item.
     const std::size_t unit = std::lcm(kWorkGroup, limits.storage_alignment);
     const std::size_t most =
         std::min(limits.work_groups * kWorkGroup, limits.storage_block_bytes / bytes);

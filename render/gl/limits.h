@@ -1,8 +1,8 @@
-// How much the driver can do: asked for before it matters, never assumed.
+// The driver's limits: asked for, never assumed.
 //
-// GL promises little: 65,536 texels of a buffer texture, where drivers have 2^27 and more. What
-// grows with the data is held against `Limits` where it grows and then fails with one line, or is
-// split; what never changes is held against `expect_enough` once, at the start.
+// GL guarantees little, such as buffer textures of 65,536 texels, while drivers have 2^27 and more.
+// Code whose needs grow with the data checks `Limits`, and then fails with one line or splits the
+// work. Fixed needs are checked once at the start, by `expect_enough`.
 #pragma once
 
 #include "render/gl/gl.h"
@@ -17,32 +17,33 @@ struct Limits {
     /// Asks the driver of the current context.
     explicit Limits(const Gl& gl);
 
-    glm::ivec2 target;         ///< pixels of what is drawn into: texture, renderbuffer and viewport
-    int texture_side;          ///< pixels
-    float largest_point;       ///< pixels
-    std::size_t buffer_texels; ///< of a buffer texture
-    std::size_t storage_block_bytes; ///< that a shader sees of a buffer
-    std::size_t storage_alignment;   ///< bytes: where such a part of a buffer may begin
-    std::size_t work_groups;         ///< of a dispatch, along x
+    glm::ivec2 target;         ///< largest texture, renderbuffer and viewport to draw into [pixel]
+    int texture_side;          ///< largest side of a texture [pixel]
+    float largest_point;       ///< [pixel]
+    std::size_t buffer_texels; ///< most texels of a buffer texture
+    std::size_t storage_block_bytes; ///< most bytes of a storage block
+    std::size_t storage_alignment;   ///< bytes: storage blocks begin at multiples of this
+    std::size_t work_groups;         ///< most work groups of a dispatch, along x
 };
 
-/// Bytes of the largest uniform block.
+/// Bytes of the largest uniform block that shaders use.
 inline constexpr std::size_t kUniformBlockBytes = 1024;
-/// Invocations of a work group, all along x: local_size_x of work.glsl.
+/// Invocations in a work group, all along x: local_size_x of work.glsl.
 inline constexpr std::size_t kWorkGroup = 64;
 
-/// @throws Error naming what the driver has too little of: what, needed, got
+/// @throws Error when a limit of the driver is too small; it names the limit, the need and the
+/// value
 void expect_enough(const Gl& gl);
 
-/// @param what is drawn into: "render target"
-/// @throws Error where it is empty or larger than `limits.target`
+/// Checks the size of a target to draw into. @param what its name for the error: "render target"
+/// @throws Error when it is empty or larger than `limits.target`
 void expect_target(const Limits& limits, const char* what, glm::ivec2 size);
-/// The same for what is only looked at: `limits.texture_side`.
+/// The same for a texture that is only read, with `limits.texture_side`.
 void expect_texture(const Limits& limits, const char* what, glm::ivec2 size);
 
-/// How many things one dispatch may do, one each invocation, where each has `bytes` of its own in a
-/// storage block: such that the parts of the buffers for the next dispatch begin where they may.
-/// @throws Error where not even a group's fit
+/// Most items for one dispatch (one per invocation), if each has `bytes` in a storage block. It is
+/// a multiple at which the next dispatch's range of the buffer is aligned.
+/// @throws Error when not even one work group's items fit
 std::size_t work_at_once(const Limits& limits, std::size_t bytes);
 
 } // namespace isochron::render

@@ -1,4 +1,4 @@
-// One small index pattern, drawn again and again with another base vertex.
+// Draws many quads by one small index buffer, with another base vertex each time.
 #include "render/gl/quad_indices.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace isochron::render {
 
-constexpr std::size_t kQuadsPerDraw = 16384; // as many as 16-bit indices reach
+constexpr std::size_t kQuadsPerDraw = 16384; // limit of 16-bit indices
 
 QuadIndices::QuadIndices(const Gl& gl) : gl_(&gl), vertex_array_(gl), indices_(gl) {
     constexpr std::array<std::uint16_t, 6> kCorners{0, 1, 2, 0, 2, 3};

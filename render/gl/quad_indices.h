@@ -1,4 +1,4 @@
-// The indices of many quads, shared by passes whose vertex shader places vertex 4 q + corner.
+// Indices for drawing many quads, shared by passes whose vertex shader places vertex 4 q + corner.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -7,18 +7,18 @@
 
 namespace isochron::render {
 
-/// No vertex is stored: the shader finds what it draws from gl_VertexID. A draw of plain vertices,
-/// since software GL runs those many at a time and instances one by one.
+/// No vertices are stored: the shader finds its data by gl_VertexID. Quads are drawn as plain
+/// vertices, because software GL processes many of those at a time, but one instance at a time.
 class QuadIndices {
   public:
     explicit QuadIndices(const Gl& gl);
 
     /// Draws `quads` quads with the current program; corners go counter-clockwise from the lower
     /// left: (-1,-1), (1,-1), (1,1), (-1,1).
-    /// @param instances of every quad; those of one instance keep their order
+    /// @param instances of each quad; within an instance the quads keep their order
     void draw(std::size_t quads, int instances = 1) const;
 
-    /// The same for shaders that place one point for each.
+    /// The same for shaders that place one point per vertex.
     void draw_points(std::size_t points, int instances = 1) const;
 
   private:

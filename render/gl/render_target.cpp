@@ -1,4 +1,4 @@
-// Allocation, clearing and reading of an offscreen target.
+// Allocates, clears and reads an offscreen target.
 #include "render/gl/render_target.h"
 
 #include "render/gl/driver.h"
@@ -24,7 +24,7 @@ void RenderTarget::resize(glm::ivec2 size) {
     if (size == size_)
         return;
     size_ = size;
-    // Immutable storage cannot change its size, so the textures are made anew.
+    // Immutable storage cannot change its size, so make new textures.
     color_ = Texture(*gl_, GL_TEXTURE_2D);
     depth_ = Texture(*gl_, GL_TEXTURE_2D);
     allocate();

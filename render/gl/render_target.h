@@ -1,4 +1,4 @@
-// An offscreen picture with depth that passes draw into and captures read from.
+// An offscreen target with color and depth, which passes draw into and captures read.
 //
 //     RenderTarget target(gl, {1024, 1024}, 4);
 //     target.clear({0, 0, 0, 1});
@@ -18,9 +18,10 @@
 
 namespace isochron::render {
 
-/// Color SRGB8_ALPHA8 and depth 32F. What is stored are display values; GL_FRAMEBUFFER_SRGB, on
-/// from `bind` and `clear` on, has the GL convert: shaders write light and read light, and blending
-/// and resolving average light. Passes that write display values switch it off meanwhile.
+/// Color SRGB8_ALPHA8 and depth 32F. It stores display values. `bind` and `clear` enable
+/// GL_FRAMEBUFFER_SRGB, with which the GL converts: shaders write and read linear light, and
+/// blending and resolving work in linear light. Passes that write display values disable it
+/// meanwhile.
 class RenderTarget {
   public:
     /// @param size pixels, each at least 1
@@ -30,32 +31,32 @@ class RenderTarget {
 
     glm::ivec2 size() const { return size_; }
     int samples() const { return samples_; }
-    /// With several samples these hold what was resolved last.
+    /// With several samples these hold the last resolved picture.
     GLuint framebuffer() const { return framebuffer_.name(); }
     GLuint color_texture() const { return color_.name(); }
-    /// What is drawn into: color and depth of every sample.
+    /// The framebuffer to draw into: color and depth of every sample.
     GLuint drawn_framebuffer() const { return many_ ? many_->framebuffer.name() : framebuffer(); }
 
-    /// Does nothing when the size is the same already; otherwise the contents become undefined.
+    /// Does nothing if the size is the same; else the contents become undefined.
     void resize(glm::ivec2 size);
 
     /// Draws go here from now on, with the viewport set to the whole target.
     void bind() const;
 
-    /// Fills color, and depth with 1, whatever masks and scissor are set.
+    /// Fills color, and sets depth to 1, whatever masks and scissor are set.
     /// @param color sRGB, with its opacity
     void clear(glm::vec4 color) const;
 
-    /// Averages the samples; with one sample there is nothing to do.
+    /// Averages the samples; does nothing with one sample.
     void resolve() const;
 
-    /// Waits for the GPU and reads the display values that were resolved last.
+    /// Waits for the GPU and reads the display values of the last resolved picture.
     Image read() const { return read({0, 0}, size_); }
-    /// A part of them. @param corner its lower left, pixels
+    /// Reads a part of it. @param corner lower left of the part, pixels
     Image read(glm::ivec2 corner, glm::ivec2 size) const;
 
   private:
-    /// What is drawn into where pixels have several samples.
+    /// The target with several samples per pixel.
     struct Samples {
         explicit Samples(const Gl& gl) : color(gl), depth(gl), framebuffer(gl) {}
         Renderbuffer color, depth;

@@ -1,4 +1,4 @@
-// Compiling and linking of shader files.
+// Compiles and links shader files.
 #include "render/gl/shader.h"
 
 #include "index/volume/query.h"
@@ -35,7 +35,7 @@ const Stage& stage_of(std::string_view name) {
     throw Error(fmt::format("{}: unknown kind of shader, expected .vert, .frag or .comp", name));
 }
 
-/// What #line calls a file, since GLSL names files by numbers.
+/// The number of a file for #line, as GLSL names files by numbers.
 std::size_t number_of(std::string_view name) {
     const auto named = [&](const ShaderSource& file) { return file.name == name; };
     return static_cast<std::size_t>(std::ranges::find_if(shader_files(), named) -
@@ -46,9 +46,9 @@ std::string line_of(int line, const ShaderSource& source) {
     return fmt::format("#line {} {}\n", line, number_of(source.name));
 }
 
-/// The text with every included file in place of its #include line; lines are counted as in the
-/// files themselves, so that the driver's messages name the right ones.
-/// @param included gets the names of those files
+/// The text with every #include line replaced by the file's text. #line directives keep the line
+/// numbers of the files, so that the driver's messages name the right lines.
+/// @param included takes the names of these files
 std::string with_includes(const ShaderSource& source, std::vector<std::string_view>& included) {
     constexpr std::string_view kInclude = "#include \"";
     std::string result;
@@ -69,7 +69,7 @@ std::string with_includes(const ShaderSource& source, std::vector<std::string_vi
     return result;
 }
 
-/// `#version` stays the first line.
+/// The complete text for the driver, with `#version` as its first line.
 std::string complete_text(const ShaderSource& source, std::string_view prelude,
                           std::string_view definition, std::vector<std::string_view>& included) {
     const std::string text = with_includes(source, included);
@@ -79,7 +79,7 @@ std::string complete_text(const ShaderSource& source, std::string_view prelude,
                        line_of(2, source), text.substr(version_end));
 }
 
-/// What the numbers in the driver's messages mean.
+/// Explains the numbers of files in the driver's messages.
 std::string numbers_of(const ShaderSource& source, const std::vector<std::string_view>& included) {
     std::string text = fmt::format("{} is {}", number_of(source.name), source.name);
     for (const std::string_view name : included)

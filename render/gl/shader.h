@@ -1,9 +1,9 @@
-// Programs from the shader files in render/shaders, whose text is part of the library.
+// Programs from the shader files in render/shaders, whose text is compiled into the library.
 //
-// A line `#include "name.glsl"` is replaced by that file's text; in the driver's messages a file is
-// its number among `shader_files()`. VERTEX_STAGE, FRAGMENT_STAGE or COMPUTE_STAGE is defined, so that
-// stages can include the same declarations, and MOST_SURFACES, how many isosurfaces are shown
-// together at most.
+// A line `#include "name.glsl"` is replaced by that file's text. The driver's messages name files
+// by their number in `shader_files()`. VERTEX_STAGE, FRAGMENT_STAGE or COMPUTE_STAGE is defined, so
+// that stages can share declarations, and MOST_SURFACES, the largest number of isosurfaces shown
+// together.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -24,7 +24,7 @@ const std::vector<ShaderSource>& shader_files();
 /// The file of that name. @throws Error when there is none
 const ShaderSource& shader_file(std::string_view name);
 
-/// What the program needs that draws two views in one pass.
+/// The extension that programs need to draw two views in one pass.
 inline constexpr std::string_view kTwoEyesExtension = "GL_ARB_shader_viewport_layer_array";
 
 /// Prelude of programs that draw two views in one pass, see frame.glsl.
@@ -33,7 +33,7 @@ inline constexpr std::string_view kTwoEyes =
     "#define TWO_EYES\n";
 
 /// Compiles and links.
-/// @param prelude lines behind #version in every stage: extensions and definitions
+/// @param prelude lines after #version in every stage: extensions and definitions
 /// @throws Error with the file's name and the driver's log
 Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
                      std::string_view prelude = {});

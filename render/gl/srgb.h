@@ -1,4 +1,4 @@
-// The transfer curve of sRGB: what a display is given, and the light that it sends out.
+// The transfer curve of sRGB: between a display's values and the light that it emits.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,7 +7,7 @@
 
 namespace isochron::render {
 
-/// Light of an sRGB value, both 0 to 1 (IEC 61966-2-1).
+/// Linear light of an sRGB value, both 0 to 1 (IEC 61966-2-1).
 inline float linear_from_srgb(float value) {
     return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
@@ -15,7 +15,7 @@ inline glm::vec3 linear_from_srgb(const glm::vec3& v) {
     return {linear_from_srgb(v.x), linear_from_srgb(v.y), linear_from_srgb(v.z)};
 }
 
-/// The sRGB value that shows this light, both 0 to 1.
+/// The sRGB value for linear light, both 0 to 1.
 inline float srgb_from_linear(float light) {
     return light <= 0.0031308f ? light * 12.92f : 1.055f * std::pow(light, 1.0f / 2.4f) - 0.055f;
 }

@@ -1,4 +1,4 @@
-// Room, copies and fences of the staging ring.
+// Manages room, copies and fences of the staging ring.
 #include "render/gl/staging_ring.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ StagingRing::~StagingRing() {
 void StagingRing::land() {
     while (!flights_.empty()) {
         const Flight& flight = flights_.front();
-        // Flushed, so that the fence is on its way even where nothing else is drawn.
+        // Flush, so that the GPU gets the fence even if nothing else is drawn.
         const GLenum state = gl_->ClientWaitSync(flight.fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
         if (state != GL_ALREADY_SIGNALED && state != GL_CONDITION_SATISFIED)
             return;
@@ -64,7 +64,7 @@ std::size_t StagingRing::send(std::span<const std::byte> bytes, std::size_t most
     const std::span<std::byte> place = room(count);
     count = std::min(count, place.size());
     if (count < bytes.size())
-        count = count / kUnit * kUnit; // the next part starts on a unit, too
+        count = count / kUnit * kUnit; // so that the next part also starts at a unit
     if (count > 0) {
         std::memcpy(place.data(), bytes.data(), count);
         copy(count, buffer, offset);

@@ -1,4 +1,4 @@
-// Writing of a draw's texels.
+// Writes the texels of a draw.
 #include "render/gl/texel_buffer.h"
 
 #include "render/gl/limits.h"

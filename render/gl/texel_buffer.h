@@ -1,4 +1,4 @@
-// What one draw reads from a buffer texture: a few numbers for each line, character or triangle.
+// A buffer texture with the data of one draw: a few numbers for each line, character or triangle.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -8,14 +8,15 @@
 
 namespace isochron::render {
 
-/// Texels of four floats, all written anew for every draw.
+/// Texels of four floats, which are replaced for every draw.
 class TexelBuffer {
   public:
     /// @param what it holds, for the error: "lines"
-    /// @param texels of each of these
+    /// @param texels number of texels of each element
     TexelBuffer(const Gl& gl, const char* what, std::size_t texels);
 
-    /// @throws Error where they are more than the driver's buffer textures hold
+    /// Replaces the contents. @throws Error when they are too large for the driver's buffer
+    /// textures
     void set(std::span<const std::byte> bytes);
     GLuint texture() const { return texture_.name(); }
 

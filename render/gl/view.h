@@ -1,4 +1,4 @@
-// One eye's camera: everything a pass needs to know about where it draws from and to.
+// One eye's camera and viewport, as passes need them.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -9,7 +9,7 @@ namespace isochron::render {
 
 struct View {
     glm::mat4 clip_from_eye{1.0f}; ///< off-axis perspective (or orthographic), GL clip space
-    glm::mat4 eye_from_room{1.0f}; ///< rigid
+    glm::mat4 eye_from_room{1.0f}; ///< rotation and translation only
     glm::ivec2 size{0};            ///< of the viewport, pixels
     glm::ivec2 corner{0};          ///< lower left of the viewport in the target, pixels
 

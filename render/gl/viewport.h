@@ -1,4 +1,4 @@
-// Leads draws to where a view lies in its target.
+// Sets the viewport of a view.
 #pragma once
 
 #include "render/gl/gl.h"
@@ -6,8 +6,8 @@
 
 namespace isochron::render {
 
-/// Draws go to the view's viewport from now on and, where the scissor test is on, nowhere else.
-/// @param index of the viewport, where vertex shaders choose one; without a choice it is 0
+/// Sets the GL viewport, and the scissor rectangle for the scissor test, to those of the view.
+/// @param index of the viewport, for vertex shaders that choose one; others use 0
 inline void set_viewport(const Gl& gl, const View& view, GLuint index = 0) {
     const glm::vec2 corner(view.corner), size(view.size);
     gl.ViewportIndexedf(index, corner.x, corner.y, size.x, size.y);

@@ -12,15 +12,15 @@
 namespace isochron::render {
 namespace {
 
-/// A curve through L*a*b* in cylindrical coordinates, straight in lightness and hue.
+/// A curve through L*a*b* in cylindrical coordinates, linear in lightness and hue.
 struct Curve {
     float lightness_low, lightness_high;
     float hue_low, hue_high; ///< degrees
-    float chroma;            ///< at most, and where a display can show it
-    float fades_from;        ///< from here on, 0 to 1, chroma falls to none at the light end
+    float chroma;            ///< most chroma; less if a display cannot show it
+    float fades_from;        ///< from here (0 to 1) to the light end, chroma decreases to 0
 };
-// None starts darker than this: shading darkens a surface further, and next to a dark background
-// nothing would be left of the low end's shape, nor of its hue.
+// No map starts darker than this: shading darkens a surface further, and on a dark background the
+// shape and hue of the low end would be lost.
 constexpr float kDarkest = 32;
 constexpr Curve kDusk{kDarkest, 94, 303, 455, 60, 0.65f};
 constexpr Curve kLagoon{kDarkest, 93, 300, 108, 50, 0.65f};
@@ -40,7 +40,7 @@ glm::vec3 lab(float lightness, float chroma, float hue) {
     return {lightness, chroma * std::cos(glm::radians(hue)), chroma * std::sin(glm::radians(hue))};
 }
 
-/// The point of the curve, with less chroma where no display shows it.
+/// A point of the curve, with less chroma if a display cannot show it.
 glm::vec3 point(const Curve& curve, float t) {
     const float lightness = glm::mix(curve.lightness_low, curve.lightness_high, t);
     const float hue = glm::mix(curve.hue_low, curve.hue_high, t);

@@ -1,4 +1,4 @@
-// Pictures of characters in one texture: what a text needs of them.
+// Finds the glyphs of a text, and its width.
 #include "render/passes/glyph_atlas.h"
 
 namespace isochron::render {

@@ -1,4 +1,4 @@
-// Pictures of characters in one texture, and where each of them is.
+// Pictures of characters in one texture, and their places.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,29 +10,28 @@
 
 namespace isochron::render {
 
-/// Sizes in heights of a line, so that they hold for every size of text; y goes down from the top
-/// of the line.
+/// Sizes are in heights of a line, for any size of text; y goes down from the top of the line.
 struct Glyph {
-    /// Its rectangle, from where the pen stands; with a margin, so that its edge is filtered.
+    /// Its rectangle relative to the pen; with a margin, so that its edge is filtered.
     glm::vec2 low{0.0f}, high{0.0f};
     glm::vec2 texture_low{0.0f}, texture_high{0.0f}; ///< the same in the atlas, 0 to 1
-    float advance = 0.0f;                            ///< of the pen
+    float advance = 0.0f;                            ///< of the pen to the next character
 };
 
 struct GlyphAtlas {
     glm::ivec2 size{0};                 ///< texels
     std::vector<std::uint8_t> coverage; ///< 0 to 255, row after row
-    glm::vec2 solid{0.0f};              ///< a place of full coverage, 0 to 1
+    glm::vec2 solid{0.0f};              ///< a place in the texture with full coverage, 0 to 1
     std::unordered_map<char32_t, Glyph> glyphs;
 
-    /// Null for a character that the font lacks.
+    /// The glyph of a character; null if the font lacks it.
     const Glyph* find(char32_t character) const;
 };
 
-/// The characters of UTF-8 text; what is no UTF-8 becomes U+FFFD.
+/// The characters of UTF-8 text; invalid bytes become U+FFFD.
 std::u32string characters(const std::string& utf8);
 
-/// Width of a line in heights of a line. Characters that the font lacks take no room.
+/// Width of a line of text, in heights of a line. Characters that the font lacks have no width.
 float text_width(const GlyphAtlas& atlas, const std::string& utf8);
 
 } // namespace isochron::render

@@ -1,4 +1,4 @@
-// The data and GL state of a draw of lines.
+// Buffers and GL state for drawing lines.
 #include "render/passes/line_pass.h"
 
 #include "render/gl/shader.h"

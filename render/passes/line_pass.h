@@ -20,10 +20,10 @@ struct Line {
     glm::vec4 color{1.0f}; ///< sRGB, not pre-multiplied; a: opacity
 };
 
-/// The twelve edges of the box [0, extent] as an eye sees them that looks at what is inside.
+/// The twelve edges of the box [0, extent], by whether they are in front of its contents.
 struct BoxLines {
-    std::vector<Line> near; ///< sides of a face that faces the eye: nothing inside hides them
-    std::vector<Line> far;  ///< the others, which hide nothing inside; all, from inside
+    std::vector<Line> near; ///< edges of faces towards the eye: nothing inside the box hides them
+    std::vector<Line> far;  ///< the others, which hide nothing inside; all, for an eye in the box
 };
 /// @param eye in the box's coordinates
 BoxLines box_lines(const glm::vec3& extent, const glm::vec4& color, const glm::vec3& eye);
@@ -34,10 +34,10 @@ class LinePass {
     explicit LinePass(const Gl& gl);
 
     /// Draws into the view's viewport of the bound framebuffer, `width` pixels wide at any
-    /// distance, with soft edges; tests depth and writes that of the lines' core. Soft edges blend
-    /// with what has been drawn: draw lines after what lies behind them, and those that splats may
-    /// lie before, which write no depth, before these. Leaves depth test and depth writes on,
-    /// blending and culling off.
+    /// distance, with soft edges; tests depth, and writes depth for the lines' core. Soft edges
+    /// blend with what was drawn before, so draw lines after the things behind them. But draw lines
+    /// that splats may hide before the splats, as these write no depth. Leaves depth test and depth
+    /// writes on, blending and culling off.
     void draw(const View& view, const glm::mat4& room_from_model, std::span<const Line> lines,
               float width = 1.5f);
 

@@ -1,4 +1,4 @@
-// The uniforms and GL state of a draw of a panel.
+// Uniforms and GL state for drawing a panel.
 #include "render/passes/panel_pass.h"
 
 #include "render/gl/shader.h"

@@ -1,4 +1,4 @@
-// Draws a panel that stands in the room, and the dot on it where somebody points.
+// Draws a panel in the room, and a dot where the user points at it.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -15,7 +15,7 @@ namespace isochron::render {
 struct PanelQuad {
     std::array<glm::vec3, 4>
         corners{};                ///< in the room: lower left, upper left, upper right, lower right
-    GLuint texture = 0;           ///< a PanelPicture's
+    GLuint texture = 0;           ///< of a PanelPicture
     std::optional<glm::vec2> dot; ///< fractions of width and height from the top left
     bool operator==(const PanelQuad&) const = default;
 };
@@ -28,9 +28,9 @@ class PanelPass {
     /// @throws Error when a shader does not compile
     explicit PanelPass(const Gl& gl);
 
-    /// Draws into the view's viewport of the bound framebuffer, as light; tests depth and writes
-    /// that of what is opaque: draw panels before splats, which do not write any. Leaves depth test
-    /// and depth writes on, blending and culling off.
+    /// Draws into the view's viewport of the bound framebuffer, in linear light; tests depth, and
+    /// writes depth for opaque parts. Draw panels before splats, which write no depth. Leaves depth
+    /// test and depth writes on, blending and culling off.
     void draw(const View& view, const PanelQuad& panel) const;
 
   private:

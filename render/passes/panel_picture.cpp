@@ -1,4 +1,4 @@
-// Allocation and filling of a panel's picture.
+// Allocates a panel's picture and draws into it.
 #include "render/passes/panel_picture.h"
 
 #include "render/gl/limits.h"

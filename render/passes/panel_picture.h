@@ -1,4 +1,4 @@
-// The picture of a panel: drawn now and then, seen from anywhere.
+// The picture of a panel in the room: drawn when it changes, seen from any distance.
 //
 //     PanelPicture picture(gl, {800, 1000});
 //     picture.begin();   // clear and bound
@@ -12,8 +12,8 @@
 
 namespace isochron::render {
 
-/// Light with pre-multiplied opacity, held as SRGB8_ALPHA8, with all its mip levels: letters stay
-/// legible and calm from near and far.
+/// Linear light with pre-multiplied opacity, stored as SRGB8_ALPHA8, with all mip levels: letters
+/// stay legible and do not flicker, near and far.
 class PanelPicture {
   public:
     /// @param size pixels

@@ -1,4 +1,4 @@
-// The GL state of a textured rectangle.
+// GL state for drawing a textured rectangle.
 #include "render/passes/picture_pass.h"
 
 #include "render/gl/shader.h"

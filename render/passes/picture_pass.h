@@ -1,4 +1,4 @@
-// Draws a picture on a rectangle in space: a wall with what it shows.
+// Draws a picture on a rectangle in space, such as a wall.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -15,10 +15,10 @@ class PicturePass {
     /// @throws Error when a shader does not compile
     explicit PicturePass(const Gl& gl);
 
-    /// Draws into the view's viewport of the bound framebuffer; tests depth, and writes it where
+    /// Draws into the view's viewport of the bound framebuffer; tests depth, and writes it if
     /// `opacity` is 1. Leaves depth test and depth writes on, blending and culling off.
     /// @param corners in the room: lower left, upper left, upper right, lower right
-    /// @param texture 2D, colors meant for the display, its first row at the bottom
+    /// @param texture 2D, with colors for the display; its first row is the bottom one
     /// @param opacity 0 to 1
     void draw(const View& view, const std::array<glm::vec3, 4>& corners, GLuint texture,
               float opacity) const;

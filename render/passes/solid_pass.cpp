@@ -1,4 +1,4 @@
-// Models of triangles, and the data and GL state of their draw.
+// Models of triangles, and buffers and GL state for drawing them.
 #include "render/passes/solid_pass.h"
 
 #include "render/gl/shader.h"
@@ -46,7 +46,7 @@ std::vector<Triangle> solid_box(glm::vec3 low, glm::vec3 high, glm::vec3 color) 
             std::array<glm::vec3, 4> corners;
             for (int i = 0; i < 4; ++i) {
                 const bool along_u = i == 1 || i == 2, along_v = i >= 2;
-                // The near side is seen from the other direction.
+                // The near side is seen from the other direction, so reverse its corners.
                 corners[far ? i : 3 - i][axis] = far ? high[axis] : low[axis];
                 corners[far ? i : 3 - i][u] = along_u ? high[u] : low[u];
                 corners[far ? i : 3 - i][v] = along_v ? high[v] : low[v];

@@ -1,4 +1,4 @@
-// Draws lit triangles: simple models of what stands in the room.
+// Draws lit triangles: simple models of things in the room.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -19,11 +19,11 @@ struct Triangle {
     glm::vec3 color;                  ///< sRGB, 0 to 1
 };
 
-/// An ellipsoid of facets about a center.
+/// An ellipsoid of flat facets around a center.
 std::vector<Triangle> ellipsoid(glm::vec3 center, glm::vec3 radii, glm::vec3 color);
 /// A box between two corners, `low` below `high` on every axis.
 std::vector<Triangle> solid_box(glm::vec3 low, glm::vec3 high, glm::vec3 color);
-/// A pyramid over a base given counter-clockwise as seen from outside, without the base itself.
+/// A pyramid without its base. @param base corners, counter-clockwise as seen from outside
 std::vector<Triangle> pyramid(const std::array<glm::vec3, 4>& base, glm::vec3 tip, glm::vec3 color);
 
 class SolidPass {
@@ -31,9 +31,9 @@ class SolidPass {
     /// @throws Error when a shader does not compile
     explicit SolidPass(const Gl& gl);
 
-    /// Draws into the view's viewport of the bound framebuffer, opaque, each facet as bright as it
-    /// faces the eye; tests and writes depth. Leaves depth test and depth writes on, blending and
-    /// culling off.
+    /// Draws into the view's viewport of the bound framebuffer, opaque; facets are brighter the
+    /// more they face the eye. Tests and writes depth. Leaves depth test and depth writes on,
+    /// blending and culling off.
     void draw(const View& view, const glm::mat4& room_from_model,
               std::span<const Triangle> triangles);
 

@@ -1,4 +1,4 @@
-// The data and GL state of a draw of text.
+// Buffers and GL state for drawing text.
 #include "render/passes/text_pass.h"
 
 #include "render/gl/limits.h"
@@ -17,7 +17,8 @@ TextPass::TextPass(const Gl& gl, GlyphAtlas atlas)
       program_(link_program(gl, {shader_file("text.vert"), shader_file("text.frag")})), quads_(gl),
       placed_(gl, "characters", sizeof(ScreenQuad) / sizeof(glm::vec4)), frame_(gl),
       glyphs_(gl, GL_TEXTURE_2D) {
-    // Glyphs are made larger than they are shown, so that text of any size is smooth at any place.
+    // Glyphs are rasterized larger than they are drawn, so that text is smooth at any size and
+    // place.
     constexpr GLsizei kLevels = 4;
     expect_texture(Limits(gl), "font", atlas_.size);
     gl.TextureStorage2D(glyphs_.name(), kLevels, GL_R8, atlas_.size.x, atlas_.size.y);

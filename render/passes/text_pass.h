@@ -1,4 +1,4 @@
-// Draws text that stands at places of the room and faces the screen, and plain rectangles with it.
+// Draws text at places in the room, parallel to the screen, and plain rectangles.
 //
 //     TextPass text(gl, atlas);
 //     std::vector<ScreenQuad> quads;
@@ -26,16 +26,16 @@ namespace isochron::render {
 struct Label {
     std::string text;                        ///< UTF-8
     glm::vec3 at{0.0f};                      ///< model space
-    glm::vec2 anchor{0.5f};                  ///< which part of the text is there: 0 left, bottom
-    glm::vec2 offset{0.0f};                  ///< from there, in heights of the text, up positive
+    glm::vec2 anchor{0.5f};                  ///< part of the text that is at `at`: 0 left, bottom
+    glm::vec2 offset{0.0f};                  ///< from `at`, in heights of the text, up positive
     glm::vec4 color{1.0f, 1.0f, 1.0f, 1.0f}; ///< sRGB, not pre-multiplied; a: opacity
 };
 
-/// A rectangle on the screen, as the shader takes it: one character, or one plain area.
+/// A rectangle on the screen, in the shader's layout: one character, or one plain area.
 struct ScreenQuad {
-    glm::vec3 at{0.0f}; ///< what it is fastened to, model space
+    glm::vec3 at{0.0f}; ///< place that it is attached to, model space
     float padding = 0.0f;
-    glm::vec2 low{0.0f}, high{0.0f}; ///< from there, pixels, up positive
+    glm::vec2 low{0.0f}, high{0.0f}; ///< from `at`, pixels, up positive
     glm::vec2 texture_low{0.0f}, texture_high{0.0f};
     glm::vec4 color{1.0f}; ///< as in Label
 };
@@ -56,13 +56,14 @@ class TextPass {
               const glm::vec4& color, std::vector<ScreenQuad>& quads) const;
 
     enum class Depth : std::uint8_t {
-        tested, ///< and written, of the characters' cores: draw text before splats
-        none    ///< over everything
+        tested, ///< depth is tested, and written for characters' cores: draw text before splats
+        none    ///< drawn over everything
     };
-    /// Draws into the view's viewport of the bound framebuffer. Each quad has the depth of what it
-    /// is fastened to and is parallel to the screen, so that both eyes see one upright text at that
-    /// depth. Nothing is moved to whole pixels: that would move it in depth. What is behind the eye
-    /// is left out. Leaves depth test and depth writes on, blending and culling off.
+    /// Draws into the view's viewport of the bound framebuffer. Each quad has the depth of its
+    /// place `at` and is parallel to the screen, so that both eyes see upright text at that depth.
+    /// Quads are not moved to whole pixels, as that would change their depth in stereo. Quads
+    /// behind the eye are left out. Leaves depth test and depth writes on, blending and culling
+    /// off.
     void draw(const View& view, const glm::mat4& room_from_model, std::span<const ScreenQuad> quads,
               Depth depth = Depth::tested);
 
@@ -76,7 +77,7 @@ class TextPass {
     Texture glyphs_;
 };
 
-/// A view whose room is the viewport itself: x and y in pixels from its lower left, z 0.
+/// A view whose room coordinates are pixels: x and y from the viewport's lower left, z 0.
 View pixel_view(const View& view);
 
 } // namespace isochron::render

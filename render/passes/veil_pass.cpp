@@ -1,4 +1,4 @@
-// One triangle of darkness.
+// Darkens a view by one triangle that covers it.
 #include "render/passes/veil_pass.h"
 
 #include "render/gl/shader.h"

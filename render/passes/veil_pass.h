@@ -6,9 +6,9 @@
 
 namespace isochron::render {
 
-/// Each from 0, nothing, to 1, black.
+/// Darkness from 0 (none) to 1 (black).
 struct Veil {
-    float whole = 0.0f; ///< over all of the picture
+    float whole = 0.0f; ///< over the whole picture
     float rim = 0.0f;   ///< towards its corners
     bool operator==(const Veil&) const = default;
 };
@@ -18,8 +18,8 @@ class VeilPass {
     /// @throws Error when a shader does not compile
     explicit VeilPass(const Gl& gl);
 
-    /// Draws over the view's viewport of the bound framebuffer, whatever its depths; nothing where
-    /// there is no veil. Leaves the depth test on and blending off.
+    /// Draws over the view's viewport of the bound framebuffer, at any depth; does nothing if the
+    /// veil is zero. Leaves the depth test on and blending off.
     void draw(const View& view, const Veil& veil) const;
 
   private:

@@ -1,8 +1,9 @@
-// The color of a cell from its style, and the form in which colors are written; needs frame.glsl
-// and srgb.glsl.
+// The color of a cell from its style, conversion of colors for writing, and fading near the viewer;
+// needs frame.glsl and srgb.glsl.
 //
-// A style is 16 bits: 0 to 2 number the surface, 3 to 15 are the color coordinate, the value to
-// color by as a fraction of its whole range in steps of 1 / 8190; 8191 stands for no value.
+// A style has 16 bits. Bits 0 to 2 are the number of the surface. Bits 3 to 15 are the color
+// coordinate: the value to color by as a fraction of its whole range, in steps of 1 / 8190; 8191
+// means no value.
 
 const uint kNoValue = 8191u;
 
@@ -23,24 +24,27 @@ vec3 written(vec3 light) {
     return linear_light ? light : srgb_from_linear(light);
 }
 
-// Opaque quads let a share of the cells through instead of light: which ones is decided in the
-// volume, so that both eyes miss the same.
+// Opaque quads fade by leaving out a share of the cells. A hash of the cell's place decides which
+// ones, so that both eyes miss the same.
 uint hash_of(uvec3 cell) {
     uint hash = (cell.x ^ (cell.y & 0xffffu) * 0x9e3779b9u) * 0x85ebca6bu;
     return (hash ^ hash >> 15) * 0xc2b2ae35u;
 }
 
-// @return 0 to 1, 1 left out, evenly spread
+// @return uniformly distributed in [0, 1)
 float evenly(uint hash) { return float(hash >> 8) / 16777216.0; }
 
-// How much is left of what comes near to the viewer or is cut away, 0 to 1. @param at eye space
+// The share that remains, 0 to 1, near the viewer (fading) and beyond the cutting plane (0).
+// @param at eye space
 float near_share(vec3 at) {
     float whole = dot(EYE(cut), vec4(at, 1.0)) > 0.0 ? 0.0 : 1.0;
     return whole * clamp((distance(at, EYE(between_eyes).xyz) - near_fade.x) * near_fade.y, 0.0, 1.0);
 }
 
-// Opaque surfaces near by let a share of their grains through, which are far smaller than cells.
-// @param place in the cell, voxels; cell its hash. @return as `evenly`
+// Opaque surfaces fade by leaving out a share of their grains, which are much smaller than cells.
+// @param place in the cell, voxels
+// @param cell hash of the cell
+// @return a number for the grain, as `evenly`
 float grain(vec3 place, uint cell) {
     uvec3 at = uvec3(ivec3(floor((place + 0.5) * near_fade.z)));
     uint hash = (at.x * 0x9e3779b9u ^ at.y * 0x85ebca6bu ^ at.z * 0xc2b2ae35u ^ cell) * 0x27d4eb2fu;

@@ -1,5 +1,5 @@
 #version 450 core
-// Enters the bricks of a new set into the page table.
+// Writes the changed pages of a new set of volume bricks into the page table.
 
 #include "work.glsl"
 

@@ -1,13 +1,13 @@
 #version 450 core
 // Places one quad (or, with POINTS, one point) per cell so that it just encloses the projection of
-// the cell's ellipsoid, and shades it from the head.
+// the cell's ellipsoid, and computes the cell's light.
 //
 // The paper (Vrolijk, Botha and Post 2004, section 5) projects the voxel sphere as a quadric,
 // Q' = M^-T Q M^-1, with the conic C = c A - b b^T for its outline, and draws the rectangle on the
-// conic's principal axes. Each cell may have a quadric of its own. The dual of that conic needs no
-// inverse: for an ellipsoid about c whose points are c + F s, |s| = 1, C* = K - p p^T with p = M c
-// and K = (M F) (M F)^T (rows x, y and w; without translation). It holds for every frustum,
-// off-axis and parallel too, and for any spacing.
+// conic's principal axes. Each cell may have its own quadric. The dual of that conic needs no
+// inverse: for an ellipsoid around c whose points are c + F s, |s| = 1, it is C* = K - p p^T with
+// p = M c and K = (M F) (M F)^T (rows x, y and w; without translation). This holds for every
+// frustum, also off-axis and parallel, and for any spacing.
 
 layout(binding = 0) uniform usamplerBuffer cells;
 
@@ -25,8 +25,8 @@ flat out vec4 shaded;
 const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
 #endif
 
-// A matrix F with F F^T = s, the ellipse's shape in pixels: its columns are the half axes. Where
-// the ellipse is nearly a circle its axes mean nothing, and the quad turns upright instead.
+// A matrix F with F F^T = s, the ellipse's shape in pixels; its columns are the half axes. If the
+// ellipse is nearly a circle its axes are arbitrary, so the quad is turned upright instead.
 mat2 half_axes(float xx, float xy, float yy) {
     float h = 0.5 * (xx - yy), mean = 0.5 * (xx + yy);
     float t = sqrt(h * h + xy * xy);
@@ -35,7 +35,7 @@ mat2 half_axes(float xx, float xy, float yy) {
     vec2 u = h >= 0.0 ? vec2(h + t, xy) : vec2(xy, t - h);
     u = t > 1e-6 * mean ? normalize(u) : vec2(1, 0);
     vec2 lengths = sqrt(vec2(major, minor));
-    // Of the four ways to name the same axes, the one nearest to the screen's.
+    // Of the four ways to choose the same axes, take the one nearest to the screen's axes.
     if (abs(u.y) > abs(u.x)) {
         u = vec2(u.y, -u.x);
         lengths = lengths.yx;
@@ -93,7 +93,7 @@ void main() {
 #else
         mat2 axes = half_axes(shape.x, shape.y, shape.z);
 #ifdef POINTS
-        // The square holds the ellipse, or the rectangle on its axes.
+        // The square around the ellipse, or around the rectangle on its axes.
         vec2 u = abs(axes[0]), v = abs(axes[1]);
 #ifdef ROUND
         vec2 reach = sqrt(u * u + v * v);
@@ -109,17 +109,17 @@ void main() {
 #endif
 #endif
         gl_Position = vec4(at * EYE(clip_per_pixel).xy * p.w, p.z, p.w);
-#ifndef POINTS // which serve only where no cell comes that near
+#ifndef POINTS // points are not used if a cell comes that near
     } else {
-        // Where the ellipsoid is the unit sphere.
+        // The eye in coordinates in which the ellipsoid is the unit sphere.
         vec3 eye = stretched(splat, from_center, 1.0 / splat.half_axes);
         float eye_distance2 = dot(eye, eye);
         if (EYE(eye_in_index).w == 0.0 || eye_distance2 <= 1.0) {
-            gl_Position = vec4(0, 0, -2, 1); // around the eye: nothing to see from inside
+            gl_Position = vec4(0, 0, -2, 1); // the eye is inside: draw nothing
             return;
         }
-        // The ellipsoid reaches behind the eye: its silhouette, a circle there, is drawn in its own
-        // plane and clipped.
+        // The ellipsoid reaches behind the eye. Its silhouette, a circle in these coordinates, is
+        // drawn in its own plane and clipped.
         float along = 1.0 / eye_distance2;
         float size = sqrt(1.0 - along);
         vec3 v = abs(eye);

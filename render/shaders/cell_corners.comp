@@ -1,6 +1,6 @@
 #version 450 core
-// Gives every cell the values at its vertices, less its surface's isovalue, and their gradients:
-// what the exact surface inside the cell is drawn from.
+// Computes for every cell the values at its vertices, minus its surface's isovalue, and their
+// gradients: the data for the exact surface inside the cell.
 #ifndef BRICKS
 #define BRICKS samplerBuffer
 #endif
@@ -8,10 +8,11 @@
 #include "work.glsl"
 #include "slots.glsl"
 
-layout(std430, binding = 1) writeonly buffer Values { vec4 corner_values[]; };       // 2 a cell
-layout(std430, binding = 2) writeonly buffer Gradients { uvec4 corner_gradients[]; }; // 4 a cell
+layout(std430, binding = 1) writeonly buffer Values { vec4 corner_values[]; };       // 2 per cell
+layout(std430, binding = 2) writeonly buffer Gradients { uvec4 corner_gradients[]; }; // 4 per cell
 
-// Towards lower values, in physical space; the last half is for the vertex's place in a color map.
+// The gradient towards lower values, in physical space, from differences along the axes; as halves,
+// the last of which is 0.
 uvec2 packed_gradient(vec3 d) {
     if (!is_finite(d))
         return uvec2(0u);
@@ -36,7 +37,7 @@ void main() {
     uint to = slot - work.x;
     corner_values[2u * to] = vec4(row_11.yz, row_21.yz) - level;
     corner_values[2u * to + 1u] = vec4(row_12.yz, row_22.yz) - level;
-    // Differences of the vertices of a row, for each of the four.
+    // Differences at the two vertices of a row, for each of the four rows.
     vec2 wx = difference_weights(cell.x, vertices.x);
     vec2 wy = difference_weights(cell.y, vertices.y);
     vec2 wz = difference_weights(cell.z, vertices.z);

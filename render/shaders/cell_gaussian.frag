@@ -1,7 +1,7 @@
 #version 450 core
-// A splat: its opacity falls off as a Gaussian that is cut at the outline, color pre-multiplied.
-// Computed per fragment rather than looked up in a table: exact at any size, and on software GL the
-// look-up costs more than all the rest of a splat.
+// A splat: its opacity falls off as a Gaussian that is cut at the outline; color is pre-multiplied.
+// The Gaussian is computed per fragment instead of read from a table: that is exact at any size,
+// and on software GL the look-up would cost more than all the rest of a splat.
 
 layout(location = 0) uniform float falloff; // log2 of the opacity on the outline, negative
 

@@ -1,5 +1,5 @@
 #version 450 core
-// Gives every cell its plane, as index::CellPlane defines it: the normal from the mean of its
+// Computes every cell's plane, as index::CellPlane defines it: the normal from the mean of its
 // vertices' central differences, the offset from its own values.
 #ifndef BRICKS
 #define BRICKS samplerBuffer
@@ -8,15 +8,16 @@
 #include "work.glsl"
 #include "slots.glsl"
 
-// Of the octahedron, from -1 to 1, into twelve bits; from CellPlane::kFarthest into a byte.
+// Packs a coordinate of the octahedron, -1 to 1, into twelve bits.
 uint coordinate(float c) { return uint(int(c * 2047.0 + 2048.5)); }
+// Packs an offset of at most CellPlane::kFarthest into the highest byte.
 uint byte_of(float offset) {
     float steps = clamp(offset / 0.87, -1.0, 1.0) * 127.0;
     return uint(int(steps + (steps < 0.0 ? -0.5 : 0.5))) << 24;
 }
 
-// How far from the cell's middle along a vector of differences, which points towards larger
-// values, the cell's mean value has risen to the isovalue [voxels].
+// Distance from the cell's middle at which the value, which rises along the vector of differences
+// `d`, reaches the isovalue [voxels].
 float rise_along(vec3 d, uint slot) {
     uint surface = surface_of(slot);
     float level = levels[surface >> 2][surface & 3u];
@@ -39,7 +40,7 @@ void main() {
     vec2 wx = difference_weights(cell.x, vertices.x);
     vec2 wy = difference_weights(cell.y, vertices.y);
     vec2 wz = difference_weights(cell.z, vertices.z);
-    // Differences first and sums of them then: values may be large and close to each other.
+    // Take differences before sums: values may be large and close to each other.
     vec2 x = wx * ((row_11.zw - row_11.xy) + (row_21.zw - row_21.xy) +
                    (row_12.zw - row_12.xy) + (row_22.zw - row_22.xy));
     vec2 y = wy.x * ((row_21.yz - row_01) + (row_22.yz - row_02)) +
@@ -50,7 +51,7 @@ void main() {
     float most = max(max(abs(d.x), abs(d.y)), abs(d.z));
     uint word = 0u;
     if (is_finite(d) && most > 0.0) {
-        d /= most; // no square may overflow or vanish
+        d /= most; // so that squares neither overflow nor vanish
         vec3 n = vec3(dot(from_difference_x.xyz, d), dot(from_difference_y.xyz, d),
                       dot(from_difference_z.xyz, d));
         vec2 at = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));

@@ -1,5 +1,5 @@
 #version 450 core
-// A fast quad: one flat color, corners and all; or with ROUND the ellipse in it.
+// A fast quad in one flat color; with ROUND only the ellipse in it.
 
 #include "footprint.glsl"
 

@@ -1,9 +1,9 @@
 #version 450 core
-// Gives every cell its style, or takes the colors away from all.
+// Gives every cell its style; without colors it sets all color coordinates to 0.
 #include "work.glsl"
 #include "slots.glsl"
 
-layout(std430, binding = 1) readonly buffer Styles { uint styles[]; }; // two to a word
+layout(std430, binding = 1) readonly buffer Styles { uint styles[]; }; // two per word
 
 void main() {
     uint slot = my_work();

@@ -1,8 +1,10 @@
-// Where in its cell's footprint a fragment lies: any ellipse is an affine picture of the unit disc,
-// and the rectangle around it one of the square around the disc.
+// The place of a fragment in its cell's footprint, as a place on the unit disc: any ellipse is an
+// affine image of the unit disc, and the rectangle around it an image of the square around the
+// disc.
 //
-// With POINTS a footprint is one square point around it, of which the fragments take their part, or
-// with SQUARE all; without, it is a quad with its corners on the rectangle.
+// With POINTS a footprint is drawn as a square point around it, whose fragments outside are
+// discarded; with SQUARE it fills the point. Without POINTS it is a quad whose corners are those of
+// the rectangle.
 
 #ifndef SQUARE
 

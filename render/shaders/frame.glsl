@@ -1,5 +1,5 @@
-// What a draw of cells knows: where its eyes are, and how surfaces look. Drawn in one pass, two
-// eyes are two instances, each in its own viewport; EYE(field) is the field of the current one.
+// The uniforms for drawing cells: the eyes, and how surfaces look. In one pass, two eyes are drawn
+// as two instances, each in its own viewport; EYE(field) is the field of the current eye.
 
 struct Eye {
     // Rows of pixel_from_index: clip space with x and y in pixels from the middle of the viewport.
@@ -10,14 +10,14 @@ struct Eye {
     vec4 ray_right, ray_up, ray_ahead;
     mat4 eye_from_index;
     mat4 eye_from_physical; // linear part
-    vec4 eye_in_index;      // w = 0 where the view is parallel: the direction towards the eye
+    vec4 eye_in_index;      // position (w = 1), or in a parallel view direction to the eye (w = 0)
     vec4 clip_per_pixel;    // xy
     vec4 viewport;          // corner and size in the target, pixels
-    vec4 depth_cue;         // distance [m] where it starts, 1 / its length, strength
+    vec4 depth_cue;         // distance [m] where it starts, 1 / its range, strength
     vec4 key_light;         // direction towards it, eye space
     vec4 up;                // of the room, eye space
-    vec4 between_eyes;      // of the viewer, eye space: what fades near by is the same for both
-    vec4 cut;               // plane in eye space: what lies above it is cut away
+    vec4 between_eyes;      // middle between the viewer's eyes, eye space: both see the same fading
+    vec4 cut;               // plane in eye space above which everything is cut away
 };
 
 layout(std140, binding = 0) uniform Frame {
@@ -26,21 +26,21 @@ layout(std140, binding = 0) uniform Frame {
     vec4 no_value;      // color where there is no value to color by, linear light
     vec4 light;         // strengths of the ambient light, the head light and the key light
     vec4 material;      // reflectance, shininess, floor's share of the ambient light, outline
-    vec4 near_fade;     // distance [m] up to which all is gone, 1 / the way to whole, grains per voxel
-    vec2 color_range;   // coordinate = x value + y
-    bool colored;       // by a value rather than by surface
-    bool linear_light;  // what is written: light, or the display's values
+    vec4 near_fade;     // distance [m] below which nothing is drawn, 1 / fading range, grains per voxel
+    vec2 color_range;   // place in the map = x * coordinate + y
+    bool colored;       // by a value, not by surface
+    bool linear_light;  // written colors are linear light; else display values
     float radius;       // of the footprint, in voxels
     int order_begin;    // the n-th cell drawn is in slot order[order_begin + n * order_step],
     int order_step;     // or in slot n where the step is 0
     bool blended;
-    int drawn_surfaces; // a bit for each
-    bool soft_near_eye; // fade what comes so near that it would veil the whole view
+    int drawn_surfaces; // one bit for each
+    bool soft_near_eye; // fade splats so near to the eye that they would cover the whole view
     vec4 index_from_normal[3]; // rows: planes' normals from physical to index space
 };
 
 #ifdef TWO_EYES
-// Both are read and one is taken: cheaper than an index that is not the same for all.
+// Reading both and selecting one is cheaper than an index that differs between invocations.
 #define EYE(field) (EYE_INDEX == 0 ? eyes[0].field : eyes[1].field)
 #ifdef VERTEX_STAGE
 #define EYE_INDEX gl_InstanceID
@@ -55,7 +55,7 @@ flat in int eye_of_instance;
 #endif
 
 #ifdef VERTEX_STAGE
-// First in every main(): leads the vertex to its eye's viewport.
+// Call it first in every main(): sends the vertex to its eye's viewport.
 void start_eye() {
 #ifdef TWO_EYES
     eye_of_instance = gl_InstanceID;

@@ -1,5 +1,5 @@
 #version 450 core
-// One triangle that covers the viewport; drawn as three vertices without attributes.
+// A triangle that covers the viewport; drawn as three vertices without attributes.
 
 void main() {
     const vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);

@@ -1,9 +1,9 @@
 // Light on a surface, in linear light; needs frame.glsl.
 //
-// A head light shows what the viewer looks at, a key light that stands still in the room tells the
-// turning of the head from the turning of the surface. Both shine on either side. Diffuse light and
-// the normalized highlight of Blinn and Phong share what Schlick's reflectance F splits between
-// them, so that no more light leaves than arrives: base (1 - F) + F (s + 8) / 8 (n.h)^s.
+// A head light shows what the viewer looks at. A key light, fixed in the room, shows whether the
+// head or the surface turns. Both light either side of a surface. Schlick's reflectance F divides
+// the light between diffuse reflection and the normalized Blinn-Phong highlight, so that no more
+// light leaves than arrives: base (1 - F) + F (s + 8) / 8 (n.h)^s.
 
 #include "srgb.glsl"
 
@@ -20,10 +20,10 @@ vec3 reflected(vec3 n, vec3 to_eye, vec3 to_light, vec3 base) {
 
 // The light that a point of the surface sends to the eye.
 // @param at position, eye space [m]
-// @param normal in eye space, of any length; zero where there is none
+// @param normal in eye space, of any length; zero if there is none
 // @param base its color, linear light
 vec3 shade_in_eye(vec3 at, vec3 normal, vec3 base) {
-    float to_distance = inversesqrt(max(dot(at, at), 1e-12)); // 1 / it
+    float to_distance = inversesqrt(max(dot(at, at), 1e-12)); // 1 / distance
     vec3 to_eye = EYE(eye_in_index).w == 0.0 ? vec3(0, 0, 1) : -at * to_distance;
     // Without a normal a cell faces the viewer; with one, both its sides are lit.
     float length2 = dot(normal, normal);
@@ -32,19 +32,19 @@ vec3 shade_in_eye(vec3 at, vec3 normal, vec3 base) {
     n = facing < 0.0 ? -n : n;
     facing = abs(facing);
 
-    // From the eye: `reflected` towards where the light comes from.
+    // The head light: as `reflected`, with the light at the eye.
     float highlight = (material.y + 8.0) / 8.0 * pow(facing, material.y);
     vec3 lit = light.y * facing * (base * (1.0 - material.x) + material.x * highlight);
     lit += light.z * reflected(n, to_eye, EYE(key_light).xyz, base);
-    // The sky gives more than the floor: upper and lower sides differ where no light falls.
+    // The sky is brighter than the floor, so that upper and lower sides differ in shadow.
     lit += light.x * base * mix(material.z, 1.0, 0.5 + 0.5 * dot(n, EYE(up).xyz));
-    // Where the surface turns away, its outline.
+    // The outline: the surface is darker where it turns away.
     lit *= 1.0 - material.w * (1.0 - smoothstep(0.0, 0.5, facing));
     vec4 cue = EYE(depth_cue);
     return lit * (1.0 - cue.z * clamp((dot(at, at) * to_distance - cue.x) * cue.y, 0.0, 1.0));
 }
 
-// @param normal in physical space, else as above
+// The same, with the normal in physical space.
 vec3 shade(vec3 at, vec3 normal, vec3 base) {
     return shade_in_eye(at, mat3(EYE(eye_from_physical)) * normal, base);
 }

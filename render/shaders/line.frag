@@ -1,5 +1,5 @@
 #version 450 core
-// A line with soft edges: coverage falls to zero over the outermost half pixel of either side.
+// A line with soft edges: coverage falls to zero over the outermost half pixel on each side.
 
 layout(std140, binding = 0) uniform Frame {
     mat4 clip_from_model;

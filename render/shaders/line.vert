@@ -10,8 +10,8 @@ layout(std140, binding = 0) uniform Frame {
     vec4 size; // viewport [pixels] xy, half width with its soft edge [pixels] z, least coverage drawn w
 };
 
-// Pixels from the middle of the line, times w, which the fragment shader divides out. Mesa
-// divides zero by zero where it clips a `noperspective` output of a line that is vertical on screen.
+// Pixels from the middle of the line, times w, which the fragment shader divides out. It is not
+// `noperspective`, as Mesa divides zero by zero when it clips such an output of a vertical line.
 out float across_w;
 flat out vec4 color;
 
@@ -23,7 +23,7 @@ void main() {
     color = texelFetch(segments, segment + 2);
     color.rgb = linear_from_srgb(color.rgb);
 
-    // Cut at the near plane here, since a point behind the eye has no place on the screen.
+    // Clip at the near plane here, since a point behind the eye has no place on the screen.
     float near_a = a.z + a.w, near_b = b.z + b.w;
     if (near_a <= 0.0 && near_b <= 0.0) {
         across_w = 0.0;

@@ -1,5 +1,5 @@
 #version 450 core
-// A triangle of a mesh, lit as the exact surface is: for each pixel, by normals in between.
+// A triangle of a mesh, lit per pixel like the exact surface, by interpolated normals.
 
 #include "frame.glsl"
 #include "lighting.glsl"

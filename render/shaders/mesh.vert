@@ -1,5 +1,5 @@
 #version 450 core
-// A vertex of a mesh (index::MeshVertex): where the surface cuts an edge of the grid.
+// A vertex of a mesh (index::MeshVertex): the place where the surface cuts an edge of the grid.
 
 #include "frame.glsl"
 #include "pixels.glsl"

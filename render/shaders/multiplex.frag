@@ -1,11 +1,11 @@
 #version 450 core
-// Two eyes' pictures in one: by color, or by the parity of rows and columns of the window. The
-// textures give light and the target takes it.
+// Combines two eyes' pictures: by color, or by the parity of rows and columns of the window.
+// Textures and target are in linear light.
 
 layout(binding = 0) uniform sampler2D left_eye;
 layout(binding = 1) uniform sampler2D right_eye;
 uniform int mode; // one of the names that Multiplex::shader_prelude defines
-uniform ivec2 left_from_window, right_from_window; // from a pixel of the window to the eye's
+uniform ivec2 left_from_window, right_from_window; // offset from a window's pixel to the eye's
 uniform int window_height;                         // pixels
 out vec4 color;
 

@@ -1,5 +1,5 @@
 #version 450 core
-// A picture seen from afar: the mean of four points of the pixel's footprint.
+// A picture seen from far away: the mean of four points in the pixel's footprint.
 
 layout(binding = 0) uniform sampler2D picture;
 uniform float opacity;

@@ -1,5 +1,5 @@
 #version 450 core
-// A rectangle in the room as a strip of two triangles.
+// A rectangle in the room, as a strip of two triangles.
 
 uniform mat4 clip_from_room;
 uniform vec3 corners[4]; // lower left, upper left, upper right, lower right

@@ -1,17 +1,17 @@
-// What a cell's quad or splat stands for: an ellipsoid in index space; needs frame.glsl.
+// The ellipsoid in index space that a cell's quad or splat stands for; needs frame.glsl.
 //
-// With PLANE it is flat, on the plane of the surface in the cell (index::CellPlane), about the part
-// of the plane that lies in the cell; without, it is the voxel's sphere.
+// With PLANE it is flat: it lies on the plane of the surface in the cell (index::CellPlane), around
+// the part of that plane inside the cell. Without PLANE it is the voxel's sphere.
 
 struct Splat {
     vec3 center;
 #ifdef PLANE
-    vec3 normal, lengthwise; // two axes; the third is across both
+    vec3 normal, lengthwise; // two axes; the third is at right angles to both
 #endif
     vec3 half_axes; // along the normal, lengthwise, across [voxels]
 };
 
-// In physical space; zero where there is none.
+// The plane's normal in physical space; zero if there is none.
 vec3 plane_normal(uint word) {
     vec2 at = (vec2(word & 0xfffu, word >> 12 & 0xfffu) - 2048.0) / 2047.0;
     vec3 n = vec3(at, 1.0 - abs(at.x) - abs(at.y));
@@ -21,15 +21,17 @@ vec3 plane_normal(uint word) {
 }
 
 #ifdef PLANE
-// As render/cells/cell_shape.h has them.
+// As in render/cells/cell_shape.h.
 const float kThickness = 0.125, kLeastWidth = 0.15, kLengthwise = 1.3;
 
 vec3 signs(vec3 v) { return vec3(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0, v.z < 0.0 ? -1.0 : 1.0); }
 
-// How far the plane lies before the cell's farthest corner is how much of it is in the cell: along
-// each edge from there it goes on for `rest` over the normal's part along the edge, at most for the
-// edge. The longest of the three is its length, the second its width, whose ends the neighbors'
-// overlap. Near its middle lies where each edge is followed for a third of that.
+// `rest` is the distance from the plane to the corner of the cell that is farthest out on the
+// plane's side. The plane cuts each edge at that corner at a distance of `rest` divided by the
+// normal's component along the edge, at most the whole edge. The longest of these three distances
+// gives the ellipsoid's length; the second gives its width, whose ends overlap the neighbors'. From
+// the corner, a third of each distance along its edge leads to a point near the middle of the
+// plane's part in the cell.
 Splat splat_of(vec3 middle, vec3 normal, uint word) {
     vec3 n = vec3(dot(index_from_normal[0].xyz, normal), dot(index_from_normal[1].xyz, normal),
                   dot(index_from_normal[2].xyz, normal));
@@ -56,7 +58,7 @@ float form(Splat s, vec3 u, vec3 v) {
            (squares.y - squares.z) * dot(u, s.lengthwise) * dot(v, s.lengthwise);
 }
 
-// Stretched along the ellipsoid's axes.
+// Stretches a vector along the ellipsoid's axes.
 vec3 stretched(Splat s, vec3 v, vec3 by) {
     return by.z * v + (by.x - by.z) * dot(v, s.normal) * s.normal +
            (by.y - by.z) * dot(v, s.lengthwise) * s.lengthwise;

@@ -1,11 +1,11 @@
 #version 450 core
-// A panel in the room: the mean of four points of the pixel's footprint, each from a mip level finer
-// than the footprint asks for, so that letters seen at a slant stay sharp. On it the dot that
-// somebody points with.
+// A panel in the room, with a dot where the user points. Takes the mean of four points in the
+// pixel's footprint, each from a finer mip level than usual, so that letters seen at a slant stay
+// sharp.
 
 layout(binding = 0) uniform sampler2D picture; // light, pre-multiplied
-uniform float core;                            // least opacity drawn
-uniform vec4 pointed;                          // place of the dot, its half sizes; none where these are 0
+uniform float core;                            // least opacity that is drawn
+uniform vec4 pointed;                          // place of the dot, its half sizes (0: no dot)
 
 in vec2 place;
 out vec4 color;

@@ -1,5 +1,5 @@
 #version 450 core
-// A triangle's corner in eye space, and its brightness by a light at the eye.
+// Places a triangle's corner, and lights the triangle from the eye.
 
 layout(binding = 0) uniform samplerBuffer triangles; // three corners, color
 uniform mat4 eye_from_model;

@@ -1,9 +1,9 @@
 #version 450 core
-// The trilinear surface in one cell: where the view ray meets it, and its light.
+// The trilinear surface in one cell: finds where the view ray meets it, and computes its light.
 //
-// Along a ray the value is a cubic. Between its turning points a cubic is monotonic, so that the
-// signs at the ends of these stretches tell every root, and each is found by Halley's method within
-// bounds. No branches but discards: software GL runs all of them for all pixels.
+// Along a ray the value is a cubic. Between its turning points a cubic is monotonic, so the signs
+// at the ends of these intervals show every root; Halley's method finds each one within its bounds.
+// There are no branches except discards: software GL would run both sides for all pixels.
 
 #include "frame.glsl"
 #include "lighting.glsl"
@@ -12,17 +12,18 @@
 
 out vec4 result;
 
-// Half a side of the box, a little larger: a root on a face lies in both cells.
+// Half a side of the box, a little enlarged, so that a root on a face is found in both cells.
 const float kHalf = 0.5 + 1e-5;
-const int kSteps = 3; // leave 0.001 voxel in noise, and 0.00001 on smooth surfaces
+const int kSteps = 3; // the error is 0.001 voxel in noise, and 0.00001 on smooth surfaces
 
-// The part of a view ray in the cell, its ends at s = -1 and s = 1; empty without length.
+// The part of a view ray inside the cell, with its ends at s = -1 and s = 1. It is empty if its
+// length is not positive.
 struct Ray {
     vec3 middle, half_chord;
-    float along_middle, along_half; // how far along the ray, from the plane of the cell's center
+    float along_middle, along_half; // distance along the ray, from the plane of the cell's center
 };
 
-// Where in the target this invocation looks, in pixels.
+// The place in the target that this invocation draws, in pixels.
 vec2 sight() {
 #ifdef EACH_SAMPLE
     return floor(gl_FragCoord.xy) + gl_SamplePosition;
@@ -42,7 +43,7 @@ Ray ray_in_cell() {
     vec3 origin = shift.x * right + shift.y * up;
 
     vec3 size = abs(direction);
-    float tiny = 1e-8 * max(size.x, max(size.y, size.z)); // instead of 0, which divides
+    float tiny = 1e-8 * max(size.x, max(size.y, size.z)); // replaces 0, as it is divided by
     direction = mix(direction, vec3(tiny), lessThan(size, vec3(tiny)));
     vec3 inverse = 1.0 / direction;
     vec3 middle = -origin * inverse, reach = kHalf * abs(inverse);
@@ -65,7 +66,7 @@ vec4 cubic_along(Ray ray) {
 
 float value_at(vec4 k, float s) { return ((k.w * s + k.z) * s + k.y) * s + k.x; }
 
-// In order; -1 stands for those that are not between the ray's ends.
+// In ascending order; -1 replaces those that are not between the ray's ends.
 vec2 turning_points(vec4 k) {
     float cubic = 3.0 * k.w;
     float d = k.z * k.z - cubic * k.y;
@@ -76,7 +77,8 @@ vec2 turning_points(vec4 k) {
     return vec2(min(a, b), max(a, b));
 }
 
-// The one root between two points with values of different sign and no turning point in between.
+// The root between two points whose values have different signs, without a turning point in
+// between.
 float root_between(vec4 k, float low, float high, float f_low, float f_high) {
     bool above = f_low >= 0.0;
     float s = low + (high - low) * f_low / (f_low - f_high);
@@ -93,8 +95,8 @@ float root_between(vec4 k, float low, float high, float f_low, float f_high) {
     return s;
 }
 
-// Towards lower values, in physical space: continuous from cell to cell, as the cells' own slopes
-// are not.
+// The gradient towards lower values, in physical space, interpolated between the vertices: unlike
+// the slope of the cell's own polynomial, it is continuous from cell to cell.
 vec3 gradient(vec3 p) {
     vec3 along_y = gradient_linear[2] + p.x * gradient_mixed[0];
     vec3 along_z = gradient_linear[3] + p.x * gradient_mixed[1] +
@@ -122,7 +124,7 @@ void main() {
     vec4 k = cubic_along(ray);
     vec2 turns = turning_points(k);
     float f0 = value_at(k, -1.0), f1 = value_at(k, turns.x), f2 = value_at(k, turns.y), f3 = value_at(k, 1.0);
-    // A change of sign up to the first turning point, up to the second one, and anywhere.
+    // Whether the sign differs between the start and the first turning point, the second, the end.
     bool first = (f0 >= 0.0) != (f1 >= 0.0), second = (f0 >= 0.0) != (f2 >= 0.0);
     bool third = (f0 >= 0.0) != (f3 >= 0.0);
     if (!(ray.along_half > 0.0) || !(first || second || third))
@@ -137,7 +139,7 @@ void main() {
         discard;
     result = vec4(light_at(p), 1.0);
 #else
-    // Behind the nearest layer may be two more.
+    // There may be two more layers behind the nearest one.
     bool to_third = second != third, to_second = first != second;
     vec4 behind = vec4(0);
     if (to_third && (first || second))

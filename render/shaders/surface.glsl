@@ -1,4 +1,4 @@
-// What the vertices of a cell's quad tell its fragments about the cell; needs frame.glsl.
+// The data of a cell that its quad's vertices pass to the fragments; needs frame.glsl.
 
 #ifdef VERTEX_STAGE
 #define OF_CELL flat out
@@ -6,20 +6,21 @@
 #define OF_CELL flat in
 #endif
 
-// A cell's own coordinates are voxels from its center: they stay precise in any volume.
+// Coordinates inside a cell are voxels from its center, which is precise in any volume.
 OF_CELL vec4 center; // in pixels from the middle of the viewport times w, z and w
 OF_CELL vec3 center_in_eye;
 OF_CELL uint hash;
 OF_CELL vec4 base; // color in linear light, opacity
-// Trilinear interpolation as polynomials, coefficients of 1, x, y, z and of xy, xz, yz, xyz: of the
-// value, whatever its scale, and of the gradient towards lower values in physical space.
+// Polynomials of the trilinear interpolation, with coefficients of 1, x, y, z and of xy, xz, yz,
+// xyz:
+// for the value, in any scale, and for the gradient towards lower values in physical space.
 OF_CELL vec4 linear, mixed;
 OF_CELL vec3 gradient_linear[4], gradient_mixed[4];
 
-// The coefficients of xy, xz and yz about `p`.
+// The coefficients of xy, xz and yz relative to `p`.
 vec3 mixed_at(vec3 p) { return mixed.xyz + mixed.w * p.zyx; }
 
-// The value at `p` and, behind it, its derivatives by x, y and z.
+// The value at `p`, followed by its derivatives by x, y and z.
 vec4 value_and_slope(vec3 p) {
     vec3 about = mixed_at(p);
     vec3 slope = linear.yzw + vec3(mixed.xx * p.yx, mixed.y * p.x) + vec3(about.yz * p.z, about.z * p.y);

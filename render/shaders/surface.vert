@@ -2,8 +2,8 @@
 // Places one quad per cell so that it encloses the surface in it, and prepares what its fragments
 // need to find that surface.
 //
-// Most of a cell's box is empty: on a smooth surface a rectangle around the surface has a third of
-// the pixels of one around the box, and every pixel costs the search for a root.
+// Most of a cell's box is empty. On a smooth surface a rectangle around the surface has a third of
+// the pixels of one around the box, and each pixel costs the search for a root.
 
 layout(binding = 0) uniform usamplerBuffer cells;
 layout(binding = 3) uniform samplerBuffer corner_values;
@@ -17,7 +17,7 @@ layout(binding = 4) uniform usamplerBuffer corner_gradients;
 #include "surface.glsl"
 
 const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
-const float kMargin = 0.002; // around the surface [voxels]: rounding must uncover no pixel
+const float kMargin = 0.002; // around the surface [voxels], so that rounding leaves no gaps
 
 // @param low, high values at the corners with the lower and the higher z, x fastest
 void set_value(vec4 low, vec4 high) {
@@ -29,7 +29,7 @@ void set_value(vec4 low, vec4 high) {
                  dot(difference, kXY));
 }
 
-// Zero where it is not finite, as where a neighbor is not a number.
+// Zero if it is not finite, for example because a neighbor is not a number.
 vec3 unpack_gradient(uvec2 words) {
     vec3 g = vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x);
     return dot(g, g) < 1e30 ? g : vec3(0);
@@ -53,9 +53,9 @@ void set_gradient(int slot) {
     gradient_mixed[3] = difference[3] - difference[2] - difference[1] + difference[0];
 }
 
-// Where along an axis the surface lies, from -0.5 to 0.5, by the values at both ends of the four
-// edges along it: where the edges, linear in between, have values of both signs. Empty (first after
-// last) without any surface.
+// The range of the surface along an axis, within -0.5 to 0.5, from the values at both ends of the
+// four edges along it, which are linear in between: where the edges have values of both signs.
+// Empty (first > last) without a surface.
 vec2 extent(vec4 from, vec4 to) {
     bvec4 above_from = greaterThanEqual(from, vec4(0)), above_to = greaterThanEqual(to, vec4(0));
     bvec4 crossed = notEqual(above_from, above_to);
@@ -65,12 +65,12 @@ vec2 extent(vec4 from, vec4 to) {
                 any(above_to) && !all(above_to) ? 0.5 : max(max(last.x, last.y), max(last.z, last.w)));
 }
 
-// What encloses the surface: the part of a box that lies between two planes.
+// A bound of the surface: the part of a box that lies between two parallel planes.
 struct Slab {
     vec3 middle, half_size; // of the box
-    float value;            // of the plane in the middle of both, at the box's middle
-    vec3 slope;             // how it changes to the box's faces
-    float tolerance;        // the planes are where the value is this, of either sign
+    float value;            // of a linear function, at the box's middle
+    vec3 slope;             // its change from there to the box's faces
+    float tolerance;        // the planes are where this function is +tolerance and -tolerance
 };
 
 Slab slab_in(vec3 lower, vec3 upper) {
@@ -81,13 +81,15 @@ Slab slab_in(vec3 lower, vec3 upper) {
     return Slab(m, h, at.x, at.yzw * h, bend + 1e-5);
 }
 
-// Points p of the slab's box, relative to its middle, come to (dot(x, p), dot(y, p)) / (w + dot(z, p)).
+// Projects a point p, relative to the middle of the slab's box, to
+// (dot(x, p), dot(y, p)) / (w + dot(z, p)).
 struct Projection {
     vec3 x, y, z;
     float w;
 };
 
-// The rectangle around the projection of a slab: around the ends of the parts of the box's edges in it.
+// The rectangle around the projection of a slab: around the ends of the parts of the box's edges
+// that lie between the planes.
 void enclose(Projection to, Slab slab, out vec2 least, out vec2 most) {
     least = vec2(3e38);
     most = vec2(-3e38);
@@ -116,11 +118,12 @@ vec3 least_axis(vec3 v) {
     return v.x <= v.y && v.x <= v.z ? vec3(1, 0, 0) : v.y <= v.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
 }
 
-// Corner of a quad in clip space. Its depth is never used: it stays clear of the near and far plane.
+// A quad's corner in clip space. Its depth is not used, and keeps away from the near and far
+// planes.
 vec4 corner_around(Slab slab, vec3 cell_center, vec2 corner) {
     vec4 seen = to_pixels(vec4(cell_center + slab.middle, 1.0));
     vec3 row_w = EYE(row_w).xyz;
-    // On the screen, turned so that a long cell gets a slim rectangle.
+    // The projection to the screen, turned so that a long cell gets a narrow rectangle.
     vec2 at = seen.xy / seen.w;
     vec3 right = EYE(row_x).xyz - at.x * row_w, up = EYE(row_y).xyz - at.y * row_w;
     vec3 lengths = right * right + up * up;
@@ -130,14 +133,14 @@ vec4 corner_around(Slab slab, vec3 cell_center, vec2 corner) {
     vec2 u = normalize(longest), v = vec2(-u.y, u.x);
     Projection on_screen = Projection(u.x * right + u.y * up, v.x * right + v.y * up, row_w, seen.w);
 
-    // Where the box reaches behind the eye's plane: across the way to the box's nearest point, from
-    // which all of it is ahead.
+    // For a box that reaches behind the eye's plane: a projection along the direction to the box's
+    // nearest point, for which the whole box is ahead of the eye.
     vec3 to_middle = cell_center + slab.middle - EYE(eye_in_index).xyz;
     vec3 nearest = to_middle - clamp(to_middle, -slab.half_size, slab.half_size);
     bool around_eye = nearest == vec3(0);
     vec3 ahead = normalize(around_eye ? vec3(1) : nearest);
     vec3 e1 = normalize(cross(ahead, least_axis(ahead))), e2 = cross(ahead, e1);
-    // Both directions get a share of `ahead`, so that the middle need not be on the axis.
+    // Add a share of `ahead` to both directions, as the middle may be off the axis.
     float distance_ahead = dot(ahead, to_middle);
     vec2 offset = vec2(dot(e1, to_middle), dot(e2, to_middle)) / distance_ahead;
     Projection beside = Projection(e1 - offset.x * ahead, e2 - offset.y * ahead, ahead, distance_ahead);
@@ -178,7 +181,7 @@ void main() {
     vec2 x = extent(vec4(low.xz, high.xz), vec4(low.yw, high.yw));
     vec2 y = extent(vec4(low.xy, high.xy), vec4(low.zw, high.zw));
     vec2 z = extent(low, high);
-    bool has_surface = x.x <= x.y && y.x <= y.y && z.x <= z.y; // not where a value is not finite
+    bool has_surface = x.x <= x.y && y.x <= y.y && z.x <= z.y; // false if a value is not finite
     has_surface = has_surface && (drawn_surfaces >> (style & 7u) & 1) != 0;
     Slab slab = slab_in(vec3(x.x, y.x, z.x) - kMargin, vec3(x.y, y.y, z.y) + kMargin);
     gl_Position = has_surface ? corner_around(slab, at.xyz, kCorners[gl_VertexID & 3]) : vec4(0, 0, 0, 1);

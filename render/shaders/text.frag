@@ -1,5 +1,5 @@
 #version 450 core
-// A character, from its coverage in the atlas.
+// A character, drawn from its coverage in the atlas.
 
 layout(binding = 1) uniform sampler2D glyphs;
 

@@ -1,5 +1,5 @@
 #version 450 core
-// Places one rectangle of the screen: a character, or a plain area.
+// Places one rectangle on the screen: a character, or a plain area.
 
 #include "srgb.glsl"
 

@@ -1,5 +1,5 @@
 #version 450 core
-// Green where two viewports are filled at once, else red.
+// Green in the program that fills two viewports at once, else red.
 out vec4 result;
 void main() {
 #ifdef TWO_EYES

@@ -1,5 +1,5 @@
 #version 450 core
-// Fills the viewport, or two of them at once, to see whether the driver can.
+// Fills the viewport, or two at once, to test whether the driver can.
 void main() {
 #ifdef TWO_EYES
     gl_ViewportIndex = gl_InstanceID;

@@ -1,5 +1,5 @@
 #version 450 core
-// Darkness over a picture: all of it, or what lies off its middle.
+// Darkens a picture: all of it, or only away from its middle.
 
 layout(location = 0) uniform vec4 viewport; // corner and size in the target, pixels
 layout(location = 1) uniform vec2 strength; // of the whole and of the rim, 0 to 1

@@ -1,5 +1,5 @@
-// The values around a cell, from bricks of the volume; needs BRICKS, the sampler of their type.
-// A brick has 8^3 vertices (index/extraction/volume_bricks.h), x fastest.
+// Reads the values around a cell from volume bricks; needs BRICKS, the sampler of their type.
+// A volume brick has 8^3 vertices (index/extraction/volume_bricks.h), x fastest.
 
 layout(binding = 0) uniform usamplerBuffer pages; // slots by brick id
 layout(binding = 1) uniform BRICKS bricks;        // held values by slot
@@ -9,16 +9,16 @@ layout(std140, binding = 0) uniform Volume {
     ivec3 vertices;
     float factor;         // brick units per held value
     ivec3 tiles;          // bricks along each axis
-    float gradient_scale; // of stored gradients, per brick unit
+    float gradient_scale; // factor of stored gradients, per brick unit
     vec4 levels[2];       // of the surfaces, in brick units
 };
 
-// Of the four planes around a cell along one axis (its two vertices and their outer neighbors,
-// folded inwards at the border): where they lie in their bricks, and in which of two bricks.
+// The four planes of vertices around a cell along one axis: its two vertices and their outer
+// neighbors, clamped at the border. They lie in one or two bricks.
 struct Planes {
-    ivec4 offset;
-    bvec4 second;
-    ivec2 brick;
+    ivec4 offset; // of each plane in its brick
+    bvec4 second; // whether it lies in the second brick
+    ivec2 brick;  // the two bricks along this axis
 };
 
 Planes planes(int cell, int count, int shift) {
@@ -32,17 +32,18 @@ ivec4 first_texels(ivec4 brick) {
                  texelFetch(pages, brick.z).x, texelFetch(pages, brick.w).x) << 9;
 }
 
-// The values on those planes, row by row along x: row_yz is of planes y and z. Rows of inner planes
-// have all four values, the others those at the cell's vertices only, and there are none where both
-// y and z are outer: no central difference reaches there. Without arrays and loops, which software
-// GL neither unrolls nor keeps in registers.
+// The values on those planes, in rows along x; row_yz lies on planes y and z. Rows on inner planes
+// have all four values; rows with one outer plane have only the two at the cell's vertices. There
+// are no rows on two outer planes, as no central difference needs them. No arrays and loops:
+// software GL neither unrolls them nor keeps them in registers.
 vec4 row_11, row_21, row_12, row_22;
 vec2 row_01, row_31, row_02, row_32, row_10, row_20, row_13, row_23;
 
 float value_at(int texel) { return float(texelFetch(bricks, texel).x) * factor; }
 
-// First texels of a row in the first and the second brick along x; `lower` has those of bricks that
-// are first along z: both along x of the first along y, then of the second.
+// First texels of a row in the first and the second brick along x. `lower` has the first texels of
+// the bricks that are first along z, `upper` of those that are second; each has both bricks along x
+// for the first brick along y, then for the second.
 ivec2 row_start(bool second_y, bool second_z, int offset, ivec4 lower, ivec4 upper) {
     ivec4 of_z = second_z ? upper : lower;
     return (second_y ? of_z.zw : of_z.xy) + offset;
@@ -81,13 +82,13 @@ void read_around(ivec3 cell) {
 #undef START
 }
 
-// What the differences at a cell's two vertices along one axis are weighed with: central ones, or
-// one-sided at the border.
+// Weights of the differences at a cell's two vertices along one axis: 0.5 for central differences,
+// 1 for one-sided ones at the border.
 vec2 difference_weights(int cell, int count) {
     return vec2(cell == 0 ? 1.0 : 0.5, cell + 2 == count ? 1.0 : 0.5);
 }
 
-// Neither infinite nor NaN, also where a compiler takes both for impossible.
+// Neither infinite nor NaN; works even if the compiler assumes that these do not occur.
 bool is_finite(vec3 v) {
     const uvec3 kExponent = uvec3(0x7f800000u);
     return all(notEqual(floatBitsToUint(v) & kExponent, kExponent));

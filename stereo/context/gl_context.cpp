@@ -1,4 +1,4 @@
-// Choice of a context by name, and the checks that every kind of context passes.
+// Chooses a context by name, and makes the checks that every kind of context must pass.
 #include "stereo/context/gl_context.h"
 
 #include "stereo/context/gl_context_backends.h"
@@ -38,7 +38,7 @@ Function entry_point(const render::GlLoader& loader, const char* name) {
     return reinterpret_cast<Function>(address);
 }
 
-/// A picture's size on top of another context.
+/// A picture with its own size that is drawn in another context.
 class BesideContext final : public OffscreenContext {
   public:
     BesideContext(GlContext& drawing, glm::ivec2 size)

@@ -1,4 +1,4 @@
-// A GL 4.5 core context and, where there is one, its window; chosen by name, never by fallback.
+// A GL 4.5 core context and its window, if it has one; chosen by name, without fallback.
 #pragma once
 
 #include "interaction/window_event.h"
@@ -30,9 +30,9 @@ struct ContextOptions {
     int monitor = 0;
     bool vsync = true;
     bool border = true;                  ///< whether the desktop may frame the window
-    bool stereo_buffers = false;         ///< a left and a right buffer, or no window at all
-    ContextApi api = ContextApi::native; ///< that makes a window's context
-    GlContext* share = nullptr;          ///< a window whose textures this one's context shares
+    bool stereo_buffers = false;         ///< require a left and a right buffer
+    ContextApi api = ContextApi::native; ///< for making a window's context
+    GlContext* share = nullptr;          ///< context whose textures the new one shares; null: none
 };
 
 class GlContext {
@@ -45,29 +45,30 @@ class GlContext {
     virtual void present() = 0; ///< swaps a window's buffers; else does nothing
     /// Whether the window has a left and a right buffer.
     virtual bool has_stereo_buffers() const { return false; }
-    /// Pixels for each of a plain display's 96 to the inch, as the desktop has it set.
+    /// The desktop's scale: window pixels per pixel of a display with 96 pixels per inch.
     virtual float content_scale() const { return 1.0f; }
-    /// [Hz] of the display that shows the window; empty where nothing tells it.
+    /// [Hz] of the display that shows the window; empty if unknown.
     virtual std::optional<double> refresh_rate() const { return std::nullopt; }
     virtual bool should_close() const = 0;
-    /// The user changed their mind: the window no longer wants to close.
+    /// Takes back the user's wish to close the window.
     virtual void keep_open() {}
-    /// Covers the monitor that the window is on, or goes back to where it was.
+    /// Makes the window cover its monitor, or returns it to its place before.
     virtual void toggle_fullscreen() {}
     virtual std::vector<interaction::WindowEvent> poll_events() = 0;
     /// Files that were dropped onto the window since the last call.
     virtual std::vector<std::filesystem::path> take_dropped() { return {}; }
-    /// The context as the window system knows it.
+    /// The window system's handles of the context.
     virtual NativeGl native() const { return {}; }
     virtual std::string description() const = 0; ///< `GLFW, OpenGL 4.5, llvmpipe (...)`
 };
 
-/// Creates a context and makes it current; one that shares another's textures leaves that one
-/// current, and must not outlive it. @throws render::Error in one line: what is missing and which
-/// other kinds there are
+/// Creates a context and makes it current. If it shares another context's textures, that one stays
+/// current and must outlive it.
+/// @throws render::Error in one line: what is missing, and the other kinds of contexts
 std::unique_ptr<GlContext> make_context(ContextKind kind, const ContextOptions& options);
 
-/// One more picture of a size of its own, drawn off screen in another context, which outlives it.
+/// A context without a window that stands for another picture with its own size: it uses `drawing`,
+/// which must outlive it.
 std::unique_ptr<GlContext> offscreen_beside(GlContext& drawing, glm::ivec2 size);
 
 } // namespace isochron::stereo

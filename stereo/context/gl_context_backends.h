@@ -1,4 +1,4 @@
-// The makers of each kind of GL context, and what they share; for gl_context*.cpp alone.
+// Creation of each kind of GL context, and code that they share; only for gl_context*.cpp.
 #pragma once
 
 #include "stereo/context/gl_context.h"
@@ -9,22 +9,22 @@
 
 namespace isochron::stereo {
 
-/// There is no display, so that no other kind of context would bring a window either.
+/// There is no display, so no other kind of context can open a window either.
 class NoDisplay : public render::Error {
   public:
     using render::Error::Error;
 };
 
-/// Each makes its context current. @throws render::Error with the reason alone (`make_context` adds
+/// Each makes its context current. @throws render::Error with only the reason (`make_context` adds
 /// the kind and the alternatives)
 std::unique_ptr<GlContext> make_glfw_context(const ContextOptions& options);
 std::unique_ptr<GlContext> make_egl_context(const ContextOptions& options);
 std::unique_ptr<GlContext> make_osmesa_context(const ContextOptions& options);
 
-/// `OpenGL 4.5, llvmpipe (...)` of the current context.
+/// Describes the current context: `OpenGL 4.5, llvmpipe (...)`.
 std::string describe_current(const render::GlLoader& loader);
 
-/// A context without a window: it draws into framebuffer objects of a size that stays as asked for.
+/// A context without a window: it draws into framebuffer objects of a fixed size.
 class OffscreenContext : public GlContext {
   public:
     explicit OffscreenContext(glm::ivec2 size) : size_(size) {}

@@ -27,8 +27,8 @@ bool lists(const char* extensions, std::string_view wanted) {
     return false;
 }
 
-/// libEGL and its display, which is one object per process and so shared by contexts: that of the
-/// first GPU that opens, else Mesa's surfaceless one, which also draws in software.
+/// libEGL and its display, one object per process that all contexts share: the display of the first
+/// GPU that can be used, else Mesa's surfaceless one, which also draws in software.
 class EglDisplay {
   public:
     decltype(&eglMakeCurrent) make_current;
@@ -79,7 +79,7 @@ class EglDisplay {
     EGLDisplay handle() const { return display_; }
 
   private:
-    /// Devices that are no software renderers; none where EGL cannot tell.
+    /// Devices that are not software renderers; empty if EGL cannot tell.
     std::vector<EGLDeviceEXT> gpus() const {
         const auto query_devices =
             reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(proc_address("eglQueryDevicesEXT"));
@@ -98,7 +98,7 @@ class EglDisplay {
         return found;
     }
 
-    /// Keeps the display when it can be drawn with as we do.
+    /// Tries a display, and keeps it if it has what we need.
     bool opens(EGLDisplay display) {
         if (display == EGL_NO_DISPLAY || !initialize_(display, nullptr, nullptr))
             return false;
@@ -125,7 +125,7 @@ class EglContext final : public OffscreenContext {
     explicit EglContext(const ContextOptions& options)
         : OffscreenContext(options.size), egl_(EglDisplay::shared()) {
         egl_->bind_api(EGL_OPENGL_API);
-        // Not every driver tells of a reset of the GPU.
+        // Not every driver reports resets of the GPU.
         for (const EGLint told : {EGL_LOSE_CONTEXT_ON_RESET, EGL_NO_RESET_NOTIFICATION}) {
             const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                          4,
@@ -160,7 +160,7 @@ class EglContext final : public OffscreenContext {
     EglContext& operator=(const EglContext&) = delete;
 
     void make_current() override {
-        // EGL does not notice when OSMesa took the thread, and would take this for done already.
+        // EGL does not notice that OSMesa was made current on this thread, and would do nothing.
         if (egl_->current_context() == context_)
             release();
         if (!egl_->make_current(egl_->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_))

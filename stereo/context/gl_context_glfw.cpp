@@ -1,4 +1,4 @@
-// A context with a window: GLFW, and the translation of its events.
+// A context with a window, by GLFW; translates GLFW's events.
 #include "stereo/context/display_loss.h"
 #include "stereo/context/gl_context_backends.h"
 #include "stereo/context/gl_context_glfw_native.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace interaction;
 
-/// What GLFW last complained about; it reports through a callback without a user pointer.
+/// GLFW's last error message; static because GLFW's callback has no user pointer.
 std::string& glfw_complaint() {
     static std::string text;
     return text;
@@ -29,7 +29,7 @@ std::string& glfw_complaint() {
                                                  : fmt::format("{}: {}", what, glfw_complaint()));
 }
 
-/// GLFW's one initialization, shared by all windows.
+/// The initialization of GLFW, which all windows share.
 class GlfwLibrary {
   public:
     static std::shared_ptr<GlfwLibrary> shared() {
@@ -53,7 +53,7 @@ class GlfwLibrary {
     GlfwLibrary& operator=(const GlfwLibrary&) = delete;
 };
 
-/// Key has GLFW's own numbers for what it names; the number pad stands for the keys it repeats.
+/// `Key` uses GLFW's numbers. Keys of the number pad become the keys that they repeat.
 Key key_from_glfw(int key) {
     if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9)
         return static_cast<Key>('0' + key - GLFW_KEY_KP_0);
@@ -108,7 +108,7 @@ bool same(const GamepadEvent& a, const GamepadEvent& b) {
            std::equal(std::begin(a.axes), std::end(a.axes), b.axes);
 }
 
-/// Where a window was before it covered its monitor, screen units.
+/// The place of a window before it covered its monitor, in screen units.
 struct WindowedPlace {
     glm::ivec2 corner{100}, size{1280, 720};
 };
@@ -121,10 +121,10 @@ class GlfwContext final : public GlContext {
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-        // Asked for where it is known: otherwise nobody would tell of a reset of the GPU.
+        // Without robustness, which not every driver has, resets of the GPU are not reported.
         glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
         glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-        // Pictures are composed in textures; the window itself needs color only.
+        // Pictures are composed in textures; the window itself needs only color.
         glfwWindowHint(GLFW_DEPTH_BITS, 0);
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
         glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
@@ -133,7 +133,7 @@ class GlfwContext final : public GlContext {
         GLFWmonitor* monitor = options.fullscreen ? monitor_of(options.monitor) : nullptr;
         glm::ivec2 size = options.size;
         if (monitor) {
-            // The monitor's present mode: no mode switch, so that genlock and layout survive.
+            // Use the monitor's current mode: a switch could break genlock and layout.
             const GLFWvidmode* mode = glfwGetVideoMode(monitor);
             glfwWindowHint(GLFW_RED_BITS, mode->redBits);
             glfwWindowHint(GLFW_GREEN_BITS, mode->greenBits);

@@ -1,4 +1,4 @@
-// What GLFW tells of a window's context, and what GLX and EGL have to be asked for.
+// Gets the handles of a window's context from GLFW, GLX and EGL.
 #include "stereo/context/gl_context_glfw_native.h"
 
 #include "stereo/context/glx_types.h"
@@ -7,7 +7,7 @@
 #define EGL_NO_X11
 #include <EGL/egl.h>
 
-// Of Xrandr, which GLFW's header would include all of for them.
+// Types of Xrandr, for which GLFW's header would include all of it.
 using RRCrtc = XID;
 using RROutput = XID;
 #define GLFW_INCLUDE_NONE
@@ -21,7 +21,7 @@ using RROutput = XID;
 namespace isochron::stereo {
 namespace {
 
-/// The object of a number, as both libraries look it up: a context tells the number alone.
+/// Looks up the configuration of a context, for both libraries: a context tells only its number.
 template <typename Query, typename Choose>
 auto config_of(Query query, Choose choose, int id_name, int end) {
     int id = 0;

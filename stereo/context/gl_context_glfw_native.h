@@ -1,4 +1,4 @@
-// The native handles of a GLFW window's context; for gl_context_glfw.cpp alone.
+// The native handles of a GLFW window's context; only for gl_context_glfw.cpp.
 #pragma once
 
 #include "stereo/context/native_gl.h"
@@ -7,7 +7,7 @@ struct GLFWwindow;
 
 namespace isochron::stereo {
 
-/// @return nothing where the window system is neither X11 nor the context one of EGL
+/// @return empty if the context was not made by EGL and the window system is not X11
 NativeGl native_of(GLFWwindow* window);
 
 } // namespace isochron::stereo

@@ -2,7 +2,7 @@
 #include "stereo/context/gl_context_backends.h"
 #include "stereo/context/shared_library.h"
 
-// Declares more than is linked: only types and values are used.
+// Only types and values of this header are used; its functions are loaded at run time.
 #include <GL/osmesa.h>
 
 #include <fmt/format.h>
@@ -32,8 +32,8 @@ struct OsMesa {
     }
 };
 
-/// OSMesa draws by the processor, and crashes where the environment asks for another of Mesa's
-/// drivers (22.3 with GALLIUM_DRIVER=zink).
+/// Hides the environment's choice of a Mesa driver: OSMesa draws on the processor, and crashes if
+/// the environment asks for another driver (22.3 with GALLIUM_DRIVER=zink).
 class WithoutDriverOfChoice {
   public:
     WithoutDriverOfChoice() {
@@ -101,7 +101,7 @@ class OsMesaContext final : public OffscreenContext {
   private:
     OsMesa osmesa_;
     OSMesaContext context_ = nullptr;
-    /// The default framebuffer, which nothing draws to; OSMesa insists on one.
+    /// The default framebuffer, which OSMesa requires; nothing draws to it.
     std::vector<unsigned char> pixel_ = std::vector<unsigned char>(4);
 };
 

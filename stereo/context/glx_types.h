@@ -1,5 +1,5 @@
-// The types of GLX as <GL/glx.h> declares them, which would bring a second set of GL's declarations
-// along. Comes before headers that Xlib's common words would spoil; it takes some of them back.
+// The types of GLX, without <GL/glx.h>, which would declare all of GL a second time. Include it
+// before headers that conflict with Xlib's macros; it undefines some of these.
 #pragma once
 
 #include <X11/Xlib.h>

@@ -1,4 +1,4 @@
-// What the window system calls a GL context: for libraries that share its textures.
+// The window system's handles of a GL context, for libraries that share its textures.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace isochron::stereo {
 
-/// Handles as libEGL and GLX know them, without their headers.
+/// Handles of libEGL and GLX, without their headers.
 struct EglHandles {
     void* display = nullptr; ///< EGLDisplay
     void* config = nullptr;  ///< EGLConfig; null: the context was made without one
@@ -20,7 +20,7 @@ struct GlxHandles {
     unsigned long drawable = 0;
     void* context = nullptr; ///< GLXContext
 };
-/// Nothing where the context belongs to no window system (OSMesa).
+/// Empty if the context belongs to no window system (OSMesa).
 using NativeGl = std::variant<std::monostate, EglHandles, GlxHandles>;
 
 /// Which library makes a window's context.

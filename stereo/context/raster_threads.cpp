@@ -1,4 +1,4 @@
-// Threads found by the names that they give themselves when they start.
+// Finds llvmpipe's threads by their names, and binds them.
 #include "stereo/context/raster_threads.h"
 
 #include <algorithm>
@@ -26,7 +26,8 @@ std::optional<unsigned> number_in(std::string_view text) {
     return error == std::errc() ? std::optional(number) : std::nullopt;
 }
 
-/// Processes of one job on one machine (Open MPI counts them) begin at different processors.
+/// Number of earlier processes of the job on this machine, by Open MPI; each process begins at
+/// another processor.
 std::size_t processes_before() {
     const char* rank = std::getenv("OMPI_COMM_WORLD_LOCAL_RANK"); // NOLINT(concurrency-mt-unsafe)
     return rank ? number_in(rank).value_or(0) : 0;
@@ -42,7 +43,7 @@ std::vector<int> allowed_processors() {
     return processors;
 }
 
-/// As Mesa counts them: none where one processor would do the work of the caller.
+/// The number of threads that Mesa makes: none if there is only one processor.
 std::size_t threads_on(std::size_t processors) {
     constexpr std::size_t kMost = 16;
     const char* wanted = std::getenv("LP_NUM_THREADS");
@@ -50,7 +51,7 @@ std::size_t threads_on(std::size_t processors) {
     return std::min(number ? *number : processors > 1 ? processors : 0, kMost);
 }
 
-/// @return threads found
+/// @return number of threads found
 std::size_t bind_threads(const std::vector<int>& processors, std::size_t first) {
     std::size_t found = 0;
     std::error_code ended; // a thread may end meanwhile

@@ -1,4 +1,4 @@
-// One processor for each thread that software GL draws with.
+// Binds each thread of software GL to one processor.
 #pragma once
 
 #include <cstddef>
@@ -6,20 +6,19 @@
 
 namespace isochron::stereo {
 
-/// What llvmpipe draws with in this process.
+/// The processors and threads with which llvmpipe draws in this process.
 struct RasterThreads {
-    std::vector<int> processors; ///< that the process may use
-    std::size_t threads = 0;     ///< beside the one that gives the commands; 0: that one draws
+    std::vector<int> processors; ///< numbers of those that the process may use
+    std::size_t threads = 0;     ///< apart from the calling thread; 0: the calling thread draws
 };
 RasterThreads raster_threads();
 
 /// Binds the threads of Mesa's llvmpipe to the processors that this process may use, one after the
-/// other, in a job of Open MPI those of the second process on a machine after those of the first;
-/// called when a context of it has been made. They are woken all at once for every frame,
-/// and Linux now and then wakes two on one processor and leaves them there for the frame, which
-/// then takes twice as long: on two processors the 99th percentile of a frame over their median was
-/// 1.9, bound it is 1.25. Threads that have not started after 20 ms are left alone: without this,
-/// too, all is right, only less even.
+/// other; in a job of Open MPI, the second process on a machine begins after the first one's. Call
+/// it after making a context. Every frame wakes all threads at once. Sometimes Linux wakes two on
+/// one processor and leaves them there, and the frame takes twice as long: on two processors the
+/// 99th percentile of frame times was 1.9 times the median, and 1.25 times with bound threads.
+/// Threads that have not started after 20 ms stay unbound: frames are correct then, only less even.
 void spread_raster_threads();
 
 } // namespace isochron::stereo

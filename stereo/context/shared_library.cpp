@@ -1,4 +1,4 @@
-// Opening of system libraries and their symbols.
+// Loads system libraries and their symbols.
 #include "stereo/context/shared_library.h"
 
 #include "render/gl/gl.h"

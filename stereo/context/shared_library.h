@@ -1,15 +1,15 @@
-// A system library that is opened only when it is needed.
+// A system library that is loaded only when it is needed.
 #pragma once
 
 #include <string>
 
 namespace isochron::stereo {
 
-/// Stays open for the rest of the process: GL drivers leave threads and exit handlers behind. Its
-/// symbols stay private, so that libOSMesa's gl* functions never stand in for another driver's.
+/// Stays loaded until the process ends, as GL drivers leave threads and exit handlers behind. Its
+/// symbols are private, so that libOSMesa's gl* functions never replace another driver's.
 class SharedLibrary {
   public:
-    /// @throws render::Error with what the loader said, which names the file
+    /// @throws render::Error with the loader's message, which names the file
     explicit SharedLibrary(const std::string& file);
     /// @throws render::Error naming the library and the missing symbol
     void* symbol(const char* name) const;

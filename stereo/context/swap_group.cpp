@@ -1,4 +1,4 @@
-// Swapping of all windows of a cluster at once.
+// Swaps all windows of a cluster at once.
 #include "stereo/context/swap_group.h"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ Function* entry(const render::GlLoader& load, const char* name) {
     return found;
 }
 
-/// A word of a list, as a whole.
+/// Whether a list contains a word as a whole.
 bool contains(std::string_view list, std::string_view word) {
     for (std::size_t at = 0; (at = list.find(word, at)) != list.npos; at += word.size()) {
         const bool starts = at == 0 || list[at - 1] == ' ';
@@ -55,7 +55,7 @@ void join_swap_group(const render::GlLoader& load) {
     int screen = 0;
     entry<int(XDisplay, GlxContext, int, int*)>(load, "glXQueryContext")(display, context,
                                                                          kGlxScreen, &screen);
-    // Entry points are handed out for extensions, too, that a driver does not have.
+    // Drivers return entry points even for extensions that they do not have.
     const char* extensions =
         entry<const char*(XDisplay, int)>(load, "glXQueryExtensionsString")(display, screen);
     if (!extensions || !contains(extensions, kExtension))
@@ -66,15 +66,15 @@ void join_swap_group(const render::GlLoader& load) {
         display, screen, &groups, &barriers);
     if (groups < kGroup || barriers < kBarrier)
         refuse(fmt::format("the driver offers {} swap groups and {} swap barriers, expected one of "
-                         "each",
-                         groups, barriers));
+                           "each",
+                           groups, barriers));
     if (!entry<int(XDisplay, GlxDrawable, GLuint)>(load, "glXJoinSwapGroupNV")(display, window,
                                                                                kGroup))
         refuse("the driver does not let the window join a swap group");
     if (!entry<int(XDisplay, GLuint, GLuint)>(load, "glXBindSwapBarrierNV")(display, kGroup,
                                                                             kBarrier))
         refuse("the driver does not bind the swap group to a swap barrier: is there a "
-             "synchronization board?");
+               "synchronization board?");
 }
 
 } // namespace isochron::stereo

@@ -69,7 +69,7 @@ std::vector<std::byte> encode_exr(const render::Image& image, const std::string&
         Imf::OutputFile file(stream, header, 0);
         file.setFrameBuffer(frame);
         file.writePixels(image.height);
-    } // writes its table of lines when it ends
+    } // the destructor writes the file's table of lines
     return bytes;
 }
 

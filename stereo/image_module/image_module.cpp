@@ -1,4 +1,4 @@
-// The module that encodes and decodes pictures: loaded when the first is written or read.
+// The module that encodes and decodes pictures: loaded when the first picture is written or read.
 #include "stereo/image_module/image_module.h"
 
 #include "stereo/image_module/picture_codec.h"
@@ -11,7 +11,7 @@
 namespace isochron::stereo::image_module {
 namespace {
 
-/// Nothing may be thrown across the border of a module.
+/// Turns exceptions into `error`: none may leave the module.
 template <typename Function>
 void guarded(std::string& error, Function function) {
     try {
@@ -24,7 +24,8 @@ void guarded(std::string& error, Function function) {
     }
 }
 
-/// By its first bytes; what is neither is left to the library of PNG, which says so.
+/// Whether a file is EXR, by its first bytes. Files of neither format go to libpng, which reports
+/// them.
 bool is_exr(const std::string& path) {
     constexpr std::array<char, 4> kMagic{0x76, 0x2f, 0x31, 0x01};
     std::array<char, 4> begin{};

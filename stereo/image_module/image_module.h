@@ -1,4 +1,4 @@
-// What the program and its picture module agree on; errors cross as text, never as exceptions.
+// The interface between the program and its picture module; errors pass as text, not as exceptions.
 #pragma once
 
 #include "render/gl/image.h"
@@ -10,11 +10,12 @@
 namespace isochron::stereo::image_module {
 
 /// @param format `png` or `exr`
-/// @param note kept in the file as it is; empty: none
-/// @param bytes the whole file; @param error why there is none, else left empty
+/// @param note stored unchanged in the file; empty: none
+/// @param bytes takes the whole file
+/// @param error takes the reason if that fails; else unchanged
 using Encode = void(const render::Image& image, const std::string& format, const std::string& note,
                     std::vector<std::byte>& bytes, std::string& error);
-/// @param note left empty where there is none
+/// @param note takes the note; unchanged if there is none
 using ReadNote = void(const std::string& path, std::string& note, std::string& error);
 using Decode = void(const std::string& path, render::Image& image, std::string& error);
 

@@ -1,4 +1,4 @@
-// The two formats of pictures, each by the library that defines it.
+// The codecs of the two picture formats, each by its reference library.
 #pragma once
 
 #include "render/gl/image.h"
@@ -9,19 +9,19 @@
 
 namespace isochron::stereo::image_module {
 
-/// A picture with more pixels is refused: that is what a lying header asks for, not a display.
+/// Pictures with more pixels are refused: a wrong header asks for so much memory, no display does.
 constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 
-/// How a text is named among a file's attributes.
+/// The name of the note among a file's attributes.
 constexpr const char* kNote = "isochron";
 
-/// All throw std::exception with one line that does not name the file. `note` is ASCII, empty for
-/// none. Three channels are written; one (gray), three or four are read.
+/// All throw std::exception with one line, which does not name the file. `note` is ASCII; empty:
+/// none. They write three channels, and read one (gray), three or four.
 std::vector<std::byte> encode_png(const render::Image& image, const std::string& note);
 render::Image decode_png(const std::string& path);
 std::string png_note(const std::string& path);
 
-/// Half floats of linear light.
+/// Writes linear light as half floats.
 std::vector<std::byte> encode_exr(const render::Image& image, const std::string& note);
 render::Image decode_exr(const std::string& path);
 std::string exr_note(const std::string& path);

@@ -65,7 +65,8 @@ std::vector<std::byte> encode_png(const render::Image& image, const std::string&
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_ABSOLUTE);
     if (!note.empty()) {
-        std::string key = kNote, value = note; // the library takes what it does not change
+        std::string key = kNote,
+                    value = note; // copies, as libpng takes pointers that are not const
         png_text text{};
         text.compression = PNG_TEXT_COMPRESSION_NONE;
         text.key = key.data();
@@ -74,7 +75,7 @@ std::vector<std::byte> encode_png(const render::Image& image, const std::string&
         png_set_text(writer.png, writer.info, &text, 1);
     }
     png_write_info(writer.png, writer.info);
-    png_set_filler(writer.png, 0, PNG_FILLER_AFTER); // alpha is left out
+    png_set_filler(writer.png, 0, PNG_FILLER_AFTER); // skips alpha
     for (int y = 0; y < image.height; ++y)
         png_write_row(writer.png, image.rgba.data() + std::size_t(4) * image.width * y);
     png_write_end(writer.png, nullptr);
@@ -99,7 +100,7 @@ render::Image decode_png(const std::string& path) {
     for (std::size_t y = 0; y < height; ++y)
         rows[y] = image.rgba.data() + 4 * width * y;
     png_read_image(reader.png, rows.data());
-    png_read_end(reader.png, nullptr); // the check of the last part
+    png_read_end(reader.png, nullptr); // checks the end of the file
     return image;
 }
 

@@ -1,4 +1,4 @@
-// Which control of which controller does what: suggestions for five interaction profiles.
+// Suggested actions for the controls of five kinds of controllers (interaction profiles).
 #include "stereo/openxr/openxr_actions.h"
 
 namespace isochron::stereo {

@@ -1,7 +1,7 @@
 // Graphics bindings of EGL and GLX.
 #include "stereo/openxr/graphics_binding.h"
 
-// After its own header, which has no need of it, and before all that Xlib's words would spoil.
+// Included after its own header, but before headers that conflict with Xlib's macros.
 #include "stereo/openxr/openxr_platform.h"
 
 #include "stereo/openxr/openxr_error.h"
@@ -16,7 +16,7 @@ constexpr XrVersion kOurs = XR_MAKE_VERSION(4, 5, 0);
 
 void check_requirements(const OpenXrInstance& instance) {
     if (!instance.has(XR_KHR_OPENGL_ENABLE_EXTENSION_NAME))
-        return; // the runtime only has XR_MNDX_egl_enable, without a way to ask
+        return; // a runtime with only XR_MNDX_egl_enable cannot be asked
     XrGraphicsRequirementsOpenGLKHR wanted{XR_TYPE_GRAPHICS_REQUIREMENTS_OPENGL_KHR};
     const auto ask = instance.function<PFN_xrGetOpenGLGraphicsRequirementsKHR>(
         "xrGetOpenGLGraphicsRequirementsKHR");

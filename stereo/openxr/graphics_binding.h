@@ -1,4 +1,4 @@
-// How a GL context is handed over to an OpenXR runtime.
+// Passes a GL context to an OpenXR runtime.
 #pragma once
 
 #include "stereo/context/native_gl.h"
@@ -11,12 +11,12 @@ namespace isochron::stereo {
 
 class OpenXrInstance;
 
-/// The structure that a session is created with.
+/// The structure with the context, for creating a session.
 class OpenXrGraphics {
   public:
-    /// Asks for the runtime's requirements too, as every runtime demands it.
-    /// @throws OpenXrError when the context is none that the instance's binding can hand over, or
-    /// the runtime wants another OpenGL
+    /// Also asks for the runtime's requirements, as OpenXR demands.
+    /// @throws OpenXrError when the instance's binding does not fit the context, or the runtime
+    /// needs another version of OpenGL
     OpenXrGraphics(const OpenXrInstance& instance, const NativeGl& context);
     ~OpenXrGraphics();
     const void* next() const; ///< for XrSessionCreateInfo

@@ -1,4 +1,4 @@
-// Actions as OpenXR has them: their making, their states, and what hands are made to feel.
+// Creates OpenXR's actions, reads their states, and vibrates controllers.
 #include "stereo/openxr/openxr_actions.h"
 
 #include "stereo/openxr/openxr_error.h"
@@ -15,7 +15,7 @@ namespace {
 struct ActionRow {
     HandAction action;
     XrActionType type;
-    const char *name, *words; ///< the words are what a runtime's menu shows
+    const char *name, *words; ///< `words` are shown in a runtime's menu
 };
 constexpr std::array kRows{
     ActionRow{HandAction::aim, XR_ACTION_TYPE_POSE_INPUT, "aim", "Where a hand points"},
@@ -61,7 +61,7 @@ OpenXrActions::OpenXrActions(const OpenXrInstance& instance, bool left_handed)
 }
 
 OpenXrActions::~OpenXrActions() {
-    xrDestroyActionSet(set_); // and its actions
+    xrDestroyActionSet(set_); // also destroys its actions
 }
 
 const char* OpenXrActions::user(Hand hand) const {

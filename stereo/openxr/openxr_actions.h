@@ -1,4 +1,4 @@
-// What the hands of a headset's wearer can do, and on which controllers' buttons that lies.
+// The actions of a headset wearer's hands, and their bindings to controllers.
 #pragma once
 
 #include "interaction/actions.h"
@@ -13,7 +13,7 @@
 
 namespace isochron::stereo {
 
-/// The hand that points, and the one that helps: devices `wand` and `wand2`.
+/// The pointing hand and the other one: devices `wand` and `wand2`.
 enum class Hand : std::uint8_t { wand, other };
 inline constexpr std::array kHands{Hand::wand, Hand::other};
 
@@ -36,35 +36,35 @@ enum class HandAction : std::uint8_t {
     count
 };
 
-/// One suggestion to the runtime, whose user may choose otherwise.
+/// One suggested binding; the runtime's user may change it.
 struct HandBinding {
     std::string_view profile; ///< `oculus/touch_controller`
     HandAction action;
     Hand hand;
-    std::string_view path; ///< `input/squeeze/value`; with `|`: of the left, of the right hand
+    std::string_view path; ///< `input/squeeze/value`; with `|`: left hand | right hand
 };
 std::span<const HandBinding> hand_bindings();
 
-/// `squeeze/value` of `a/click|b/click` for one hand; empty where that hand has none.
+/// The path for one hand: of `input/x/click|input/a/click` the part of that hand; may be empty.
 std::string_view path_on(const HandBinding& binding, bool left);
 
 class OpenXrActions {
   public:
-    /// Makes them known to the runtime, once for an instance.
+    /// Creates the actions and suggests their bindings to the runtime.
     OpenXrActions(const OpenXrInstance& instance, bool left_handed);
     ~OpenXrActions();
     OpenXrActions(const OpenXrActions&) = delete;
     OpenXrActions& operator=(const OpenXrActions&) = delete;
 
-    /// Once for each session.
+    /// Attaches the actions to a session; call once per session.
     void attach(XrSession session);
-    /// Takes in what the hands do now. @return false while another program has the input
+    /// Updates the states of the actions. @return false while another program has the input
     bool sync(XrSession session) const;
 
-    /// Whether the hand holds something that is bound.
+    /// Whether the hand has a controller with bindings.
     bool has(XrSession session, Hand hand) const;
     bool pressed(XrSession session, HandAction action, Hand hand) const;
-    /// -1 to 1, 0 where nothing is bound.
+    /// Value of an action, -1 to 1; 0 if nothing is bound.
     float value(XrSession session, HandAction action, Hand hand) const;
     XrSpace aim(Hand hand) const { return aims_[static_cast<std::size_t>(hand)]; }
     void vibrate(XrSession session, Hand hand, interaction::Seconds duration,

@@ -1,4 +1,4 @@
-// Comparison of the session's clock with an OpenXR runtime's.
+// Compares the session's clock with an OpenXR runtime's.
 #include "stereo/openxr/openxr_clock.h"
 
 #include "stereo/openxr/openxr_error.h"
@@ -20,7 +20,7 @@ void OpenXrClock::compare(const OpenXrInstance& instance, interaction::Seconds n
         return;
     const auto convert = reinterpret_cast<PFN_xrConvertTimespecTimeToTimeKHR>(convert_);
     timespec monotonic{};
-    clock_gettime(CLOCK_MONOTONIC, &monotonic); // the clock that the extension is about
+    clock_gettime(CLOCK_MONOTONIC, &monotonic); // the clock that the extension converts
     check(convert(instance.handle(), &monotonic, &here_), "xrConvertTimespecTimeToTimeKHR");
     now_ = now;
 }

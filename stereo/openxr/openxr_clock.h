@@ -1,4 +1,4 @@
-// Session time of an OpenXR runtime's times.
+// Converts an OpenXR runtime's times to session time.
 #pragma once
 
 #include "interaction/pose.h"
@@ -10,15 +10,15 @@ namespace isochron::stereo {
 class OpenXrInstance;
 
 /// The two clocks are compared once in every frame, so that they cannot drift apart. A runtime
-/// without XR_KHR_convert_timespec_time tells no time but that of the next picture: then a frame is
-/// taken to be seen one period after the program was told of it.
+/// without XR_KHR_convert_timespec_time tells only the time of the next picture: then the program
+/// assumes that a frame is visible one period after xrWaitFrame has returned.
 class OpenXrClock {
   public:
     explicit OpenXrClock(const OpenXrInstance& instance);
 
-    /// @param now session time of this very moment
+    /// Compares the clocks. @param now current session time
     void compare(const OpenXrInstance& instance, interaction::Seconds now);
-    /// @param now session time, right after xrWaitFrame has told of the frame
+    /// Call right after xrWaitFrame. @param now session time
     void told(XrTime display_time, XrDuration period, interaction::Seconds now);
 
     interaction::Seconds session_time(XrTime time) const;

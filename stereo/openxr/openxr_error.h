@@ -1,4 +1,4 @@
-// What OpenXR says has gone wrong.
+// Errors of OpenXR calls.
 #pragma once
 
 #include "render/gl/gl.h"
@@ -17,14 +17,15 @@ class OpenXrError : public render::Error {
     XrResult result;
 };
 
-/// `XR_ERROR_RUNTIME_UNAVAILABLE`; `XrResult -1000` for one that is not in this version's list.
+/// `XR_ERROR_RUNTIME_UNAVAILABLE`; `XrResult -1000` for a result that this version does not know.
 std::string name_of(XrResult result);
 
-/// @throws OpenXrError naming the call and the result, unless that is a success
+/// @throws OpenXrError naming the call and the result, unless the result is a success
 /// @return the result, which may be a qualified success
 XrResult check(XrResult result, const char* call);
 
-/// What names a list of things in two calls: how many there are, then all of them.
+/// The list from an OpenXR function that is called twice: for the number of items, then for the
+/// items.
 template <typename T, typename Call>
 std::vector<T> enumerated(const char* name, T blank, Call call) {
     std::uint32_t count = 0;

@@ -1,4 +1,4 @@
-// Connecting to a runtime and its headset, for as long as the program runs.
+// Connects to a runtime and its headset, and reconnects as long as the program runs.
 #include "stereo/openxr/openxr_headset.h"
 
 #include "stereo/openxr/openxr_actions.h"
@@ -19,10 +19,10 @@ using interaction::Seconds;
 
 /// How long a runtime may take to agree that the program ends.
 constexpr std::chrono::milliseconds kPatience{2000};
-/// Between two looks whether it has.
+/// Time between two checks whether it has agreed.
 constexpr std::chrono::milliseconds kLook{5};
 
-/// After these, the same calls may succeed once everything is made anew.
+/// After these results, the same calls may succeed when everything has been created anew.
 bool is_loss(XrResult result) {
     return result == XR_ERROR_SESSION_LOST || result == XR_ERROR_INSTANCE_LOST ||
            result == XR_ERROR_RUNTIME_FAILURE || result == XR_ERROR_RUNTIME_UNAVAILABLE ||
@@ -41,7 +41,7 @@ class OpenXrHeadset final : public Headset {
                 throw;
             lose(Seconds(0), error);
         }
-        // The context is made before the runtime can say which one it would like.
+        // The context is made before the runtime can tell which one it prefers.
         if (options_.binding == OpenXrBinding::automatic)
             options_.binding = options_.windowless ? OpenXrBinding::egl : OpenXrBinding::xlib;
     }
@@ -150,7 +150,7 @@ class OpenXrHeadset final : public Headset {
         return session_->running() ? HeadsetState::running : HeadsetState::idle;
     }
 
-    /// Does what a runtime may fail at; a loss is taken note of, anything else is an error.
+    /// Runs work that may fail in the runtime: notes a loss, and passes on any other error.
     template <typename Work>
     bool guarded(Seconds now, Work work) {
         try {
@@ -167,7 +167,7 @@ class OpenXrHeadset final : public Headset {
     void lose(Seconds now, const OpenXrError& error) {
         trouble_ = error.what();
         session_.reset();
-        // A lost session alone leaves the instance as it is.
+        // After the loss of only the session, the instance can still be used.
         if (error.result != XR_ERROR_SESSION_LOST &&
             error.result != XR_ERROR_FORM_FACTOR_UNAVAILABLE) {
             actions_.reset();
@@ -183,7 +183,7 @@ class OpenXrHeadset final : public Headset {
             trouble_ = fmt::format("{}: no headset is connected", instance_->description());
             return;
         }
-        // An attached action set stays with its session: the next one gets another.
+        // An attached action set belongs to its session: a new session needs a new one.
         actions_.reset();
         actions_ = std::make_unique<OpenXrActions>(*instance_, options_.left_handed);
         session_ = std::make_unique<OpenXrSession>(*instance_, options_, *context_, *gl_);
@@ -223,7 +223,7 @@ class OpenXrHeadset final : public Headset {
     OpenXrOptions options_;
     GlContext* context_ = nullptr;
     const render::Gl* gl_ = nullptr;
-    // In the order in which they are made; they go in the other one.
+    // In the order of creation; they are destroyed in reverse order.
     std::unique_ptr<OpenXrInstance> instance_;
     std::unique_ptr<OpenXrActions> actions_;
     std::unique_ptr<OpenXrSession> session_;

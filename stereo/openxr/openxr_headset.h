@@ -8,9 +8,9 @@
 
 namespace isochron::stereo {
 
-/// The runtime is connected to at once, or later where the options wait for one; the headset once it
-/// is attached to a context.
-/// @throws render::Error when there is no runtime, or none that suits the options
+/// Connects to the runtime at once, or later if the options wait for one; to the headset when it is
+/// attached to a context.
+/// @throws render::Error when there is no runtime, or it does not fit the options
 std::unique_ptr<Headset> open_headset(const OpenXrOptions& options);
 
 } // namespace isochron::stereo

@@ -1,4 +1,4 @@
-// Location of head and hands, and what their buttons stand for.
+// Locates head and hands, and reads the hands' buttons.
 #include "stereo/openxr/openxr_input.h"
 
 #include "interaction/dead_zone.h"
@@ -16,7 +16,7 @@ using interaction::WandButton;
 using interaction::WandValuator;
 
 constexpr float kDeadZone = 0.15f; ///< of a thumbstick
-constexpr float kStepAt = 0.6f;    ///< deflection that asks for a step
+constexpr float kStepAt = 0.6f;    ///< deflection of a thumbstick that counts as a step
 
 constexpr XrSpaceLocationFlags kKnown =
     XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
@@ -29,13 +29,14 @@ interaction::DeviceOptions options_of(std::string name) {
     interaction::DeviceOptions options;
     options.name = std::move(name);
     options.prediction.on = false;
-    // The runtime has filtered its poses; a thrown arm is faster than any carried tracker.
+    // The runtime has already filtered its poses, and an arm may move faster than a carried
+    // tracker.
     options.limits.fastest = 20.0;
     options.limits.fastest_turn = 60.0;
     return options;
 }
 
-/// @param needed that the location must have been measured by, besides being known
+/// @param needed flags that the location must have, besides being known
 void add_pose(interaction::TrackedDevice& device, Seconds now, const OpenXrSession& session,
               XrSpace space, XrSpaceLocationFlags needed) {
     XrSpaceVelocity velocity{XR_TYPE_SPACE_VELOCITY};
@@ -65,7 +66,7 @@ constexpr std::array kButtons{Button{HandAction::grab, WandButton::grab},
                               Button{HandAction::teleport, WandButton::teleport},
                               Button{HandAction::recenter, WandButton::recenter}};
 
-/// A control lies on one hand alone, whichever it is bound to.
+/// Value of a stick, without its dead zone.
 float stick(const OpenXrSession& session, const OpenXrActions& actions, HandAction action,
             Hand hand) {
     return interaction::past_dead_zone(actions.value(session.handle(), action, hand), kDeadZone);
@@ -118,7 +119,7 @@ void OpenXrInput::poll_hand(Seconds now, const OpenXrSession& session, const Ope
 
 void OpenXrInput::poll_keys(const OpenXrSession& session, const OpenXrActions& actions) {
     const auto add = [&](bool down, Action action) { keys_ |= down ? bit(action) : 0; };
-    const auto pressed = [&](HandAction action) { // by whichever hand has it
+    const auto pressed = [&](HandAction action) { // by either hand
         return std::ranges::any_of(
             kHands, [&](Hand hand) { return actions.pressed(session.handle(), action, hand); });
     };

@@ -10,21 +10,23 @@
 
 namespace isochron::stereo {
 
-/// Poses are those of the time at which the picture will be seen: the runtime has predicted them,
-/// and they are not predicted again. `device_time` is that time by the runtime's clock.
+/// Poses are for the time at which the picture will be visible: the runtime has predicted them, so
+/// they are not predicted again. `device_time` is that time by the runtime's clock.
 ///
-/// A head is tracked while its direction is measured and its place is known, if only by a model of
-/// the neck; a hand, with which things are moved, while both are measured. Anything else is held,
-/// and lost after a while, as with any tracker. Hands appear once they have been there.
+/// A head counts as tracked while its direction is measured and its place is known, even if only by
+/// a model of the neck; a hand, as it moves things, only while both are measured. Else the pose is
+/// held, and lost after a while, as with any tracker. A hand's device appears when it is first
+/// seen.
 class OpenXrInput {
   public:
     OpenXrInput();
-    /// @param session running, or null: everything is held, and nothing is pressed
+    /// @param session running; null: poses are held, and nothing is pressed
     interaction::InputState poll(interaction::Seconds now, const OpenXrSession* session,
                                  const OpenXrActions* actions);
-    /// The reference space moves at this display time: what was measured until then lies elsewhere.
+    /// The reference space moves at this display time: poses measured before it are no longer
+    /// valid.
     void recenter_at(XrTime time) { recentered_at_ = time; }
-    /// Everything may be elsewhere.
+    /// Forgets all poses, as everything may have moved.
     void forget();
     std::vector<std::string> status() const;
 

@@ -1,4 +1,4 @@
-// Choice of extensions, and questions to the runtime.
+// Chooses extensions, and asks the runtime.
 #include "stereo/openxr/openxr_instance.h"
 
 #include "stereo/openxr/openxr_error.h"
@@ -13,10 +13,11 @@
 namespace isochron::stereo {
 namespace {
 
-// Defined beside the structures of window systems, which only openxr_binding.cpp knows.
+// OpenXR defines these names beside structures of window systems, which only graphics_binding.cpp
+// includes.
 constexpr const char* kXlib = "XR_KHR_opengl_enable";
 constexpr const char* kEgl = "XR_MNDX_egl_enable";
-/// Used where the runtime has them.
+/// Used if the runtime has them.
 constexpr std::array kOptional{XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME,
                                "XR_KHR_convert_timespec_time"};
 
@@ -79,7 +80,7 @@ OpenXrInstance::OpenXrInstance(const OpenXrOptions& options) {
     const auto offered = offered_extensions();
     binding_ = choose(options, offered);
     std::vector<const char*> wanted;
-    // Its requirements are those of any OpenGL, and only this one has the call for them.
+    // Enable it for EGL contexts as well: only this extension has the call for the requirements.
     if (binding_ == OpenXrBinding::xlib || std::ranges::find(offered, kXlib) != offered.end())
         wanted.push_back(kXlib);
     if (binding_ == OpenXrBinding::egl)

@@ -1,4 +1,4 @@
-// The connection to an OpenXR runtime, and the headset that it has.
+// The connection to an OpenXR runtime and its headset.
 #pragma once
 
 #include "stereo/headset.h"
@@ -13,32 +13,32 @@
 
 namespace isochron::stereo {
 
-/// One eye's picture, as the runtime would like it.
+/// Sizes of one eye's picture, from the runtime [pixel].
 struct EyeSize {
     glm::ivec2 recommended, most;
 };
 
 class OpenXrInstance {
   public:
-    /// @throws OpenXrError when there is no runtime, or none that shows what this program draws:
-    /// what was looked for, where, and what there is
+    /// @throws OpenXrError when there is no runtime, or it cannot show OpenGL; it tells what was
+    /// looked for, where, and what was found
     explicit OpenXrInstance(const OpenXrOptions& options);
     ~OpenXrInstance();
     OpenXrInstance(const OpenXrInstance&) = delete;
     OpenXrInstance& operator=(const OpenXrInstance&) = delete;
 
     XrInstance handle() const { return instance_; }
-    /// The extension by which contexts are handed over that belongs to the binding.
+    /// How contexts are passed to the runtime.
     OpenXrBinding binding() const { return binding_; }
     bool has(const char* extension) const { return enabled_.contains(extension); }
 
     /// Looks for a headset. @return whether there is one now
-    /// @throws OpenXrError when there never will be
+    /// @throws OpenXrError when there can never be one
     bool find_headset();
     XrSystemId headset() const { return system_; }
     std::vector<EyeSize> eye_sizes() const; ///< left, right
 
-    /// The next event that has come; nothing when there is none.
+    /// The next event; empty if there is none.
     std::optional<XrEventDataBuffer> next_event() const;
 
     XrPath path(const char* text) const;

@@ -1,4 +1,4 @@
-// OpenXR's headers with the graphics bindings of EGL and GLX. Comes before every other header.
+// OpenXR's headers with the graphics bindings of EGL and GLX. Include it before other headers.
 #pragma once
 
 #include "stereo/context/glx_types.h"

@@ -1,4 +1,4 @@
-// Poses and velocities as OpenXR has them, and as the program has them.
+// Converts poses and vectors between OpenXR and the program.
 #pragma once
 
 #include "interaction/pose.h"
@@ -21,7 +21,7 @@ inline glm::dvec3 vector_of(const XrVector3f& v) {
     return {v.x, v.y, v.z};
 }
 
-/// `child`, which is given in the frame of `parent`, where the parent is.
+/// Transforms `child` from the frame of `parent` to the frame that `parent` is given in.
 inline interaction::Pose placed(const interaction::Pose& parent, const interaction::Pose& child) {
     return {parent.position + parent.orientation * child.position,
             parent.orientation * child.orientation};

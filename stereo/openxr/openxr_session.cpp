@@ -1,4 +1,4 @@
-// Life of an OpenXR session, from its creation to its frames.
+// Creates an OpenXR session, and runs its frames.
 #include "stereo/openxr/openxr_session.h"
 
 #include "stereo/openxr/graphics_binding.h"
@@ -40,7 +40,7 @@ OpenXrSession::OpenXrSession(const OpenXrInstance& instance, const OpenXrOptions
 
 OpenXrSession::~OpenXrSession() {
     images_ = {};
-    xrDestroySession(session_); // and its spaces
+    xrDestroySession(session_); // also destroys its spaces
 }
 
 void OpenXrSession::create(const OpenXrInstance& instance, const GlContext& context) {
@@ -82,7 +82,7 @@ void OpenXrSession::choose_blending() {
             return xrEnumerateEnvironmentBlendModes(instance_->handle(), instance_->headset(),
                                                     kStereo, list...);
         });
-    // The runtime's favorite comes first; the picture has a background of its own.
+    // The runtime prefers the first one; any will do, as our picture has its own background.
     if (!offered.empty() && std::ranges::find(offered, blending_) == offered.end())
         blending_ = offered.front();
 }
@@ -135,7 +135,7 @@ void OpenXrSession::request_exit() {
 HeadsetFrame OpenXrSession::begin_frame(interaction::Seconds now) {
     clock_.compare(*instance_, now);
     const auto before = std::chrono::steady_clock::now();
-    // Null would do for these by the specification; the core validation layer wants them all.
+    // The specification allows null for these, but the core validation layer does not.
     const XrFrameWaitInfo wait{XR_TYPE_FRAME_WAIT_INFO};
     const XrFrameBeginInfo begin{XR_TYPE_FRAME_BEGIN_INFO};
     XrFrameState frame{XR_TYPE_FRAME_STATE};

@@ -1,4 +1,4 @@
-// One OpenXR session: its states, its frames, and the pictures that they show.
+// One OpenXR session: its states, its frames, and their pictures.
 #pragma once
 
 #include "stereo/headset.h"
@@ -14,8 +14,7 @@
 
 namespace isochron::stereo {
 
-/// Calls throw OpenXrError; when that says that session or instance are lost, this object is good
-/// for nothing but its destruction.
+/// Calls throw OpenXrError. If the session or instance is lost, this object can only be destroyed.
 class OpenXrSession {
   public:
     OpenXrSession(const OpenXrInstance& instance, const OpenXrOptions& options,
@@ -27,17 +26,17 @@ class OpenXrSession {
     XrSession handle() const { return session_; }
     XrSessionState state() const { return state_; }
     bool running() const { return running_; } ///< between xrBeginSession and xrEndSession
-    /// Follows the runtime into a state: begins when READY, ends when STOPPING.
+    /// Follows the runtime into a state: begins the session when READY, ends it when STOPPING.
     void enter(XrSessionState state);
     void request_exit();
 
-    /// Blocks, then begins a frame.
+    /// Waits for the runtime, then begins a frame.
     HeadsetFrame begin_frame(interaction::Seconds now);
     bool in_frame() const { return in_frame_; }
     std::vector<HeadsetEye> eyes();
     void end_frame(const HeadsetPictures* pictures, bool again);
 
-    /// The time for which everything is located; nothing before the first frame.
+    /// The time for which poses are located; empty before the first frame.
     std::optional<XrTime> display_time() const { return display_time_; }
     XrSpace room_space() const { return space_; }
     XrSpace head_space() const { return head_; }
@@ -66,7 +65,7 @@ class OpenXrSession {
     interaction::Pose room_from_space_;
     std::array<glm::ivec2, 2> sizes_{};
     std::array<Images, 2> images_;
-    bool filled_ = false;           ///< pictures have been given to the runtime
+    bool filled_ = false;           ///< the runtime has got pictures
     std::array<XrView, 2> views_{}; ///< as located last
     XrEnvironmentBlendMode blending_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     std::optional<XrTime> display_time_;

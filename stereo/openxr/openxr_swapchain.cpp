@@ -1,4 +1,4 @@
-// Acquiring, filling and releasing of an OpenXR runtime's textures.
+// Acquires, fills and releases an OpenXR runtime's textures.
 #include "stereo/openxr/openxr_swapchain.h"
 
 #include "stereo/openxr/openxr_error.h"
@@ -62,7 +62,7 @@ void OpenXrSwapchain::copy_from(GLuint framebuffer, glm::ivec2 corner) {
     wait.timeout = XR_INFINITE_DURATION;
     check(xrWaitSwapchainImage(swapchain_, &wait), "xrWaitSwapchainImage");
     gl_->Disable(GL_SCISSOR_TEST);
-    gl_->Enable(GL_FRAMEBUFFER_SRGB); // light goes over, whichever way each side stores it
+    gl_->Enable(GL_FRAMEBUFFER_SRGB); // copies linear light, however each side stores it
     const glm::ivec2 end = corner + size_;
     gl_->BlitNamedFramebuffer(framebuffer, framebuffers_.at(index).name(), corner.x, corner.y,
                               end.x, end.y, 0, 0, size_.x, size_.y,

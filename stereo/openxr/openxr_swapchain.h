@@ -1,4 +1,4 @@
-// Pictures that an OpenXR runtime shows: textures of its own, into which finished ones are copied.
+// The pictures that an OpenXR runtime shows: its own textures, into which finished ones are copied.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -13,11 +13,11 @@
 
 namespace isochron::stereo {
 
-/// What a swapchain's pictures hold.
+/// The contents of a swapchain's pictures.
 enum class SwapchainContent : std::uint8_t { color, depth };
 
-/// The format to take out of those that a runtime offers: display values as sRGB, or else light in
-/// half floats; depth only as 32-bit float, which is what is drawn and can be copied.
+/// The format to use of those that a runtime offers. Color: sRGB, else linear light in half floats.
+/// Depth: only 32-bit floats, as drawn depth can be copied only to these. Empty if none fits.
 std::optional<std::int64_t> chosen_format(std::span<const std::int64_t> offered,
                                           SwapchainContent content);
 
@@ -33,7 +33,7 @@ class OpenXrSwapchain {
     /// Copies a part of a framebuffer into the next picture and gives it to the runtime.
     /// @param corner lower left of the part, which has the pictures' size @throws OpenXrError
     void copy_from(GLuint framebuffer, glm::ivec2 corner);
-    /// All of the newest picture.
+    /// The whole newest picture.
     XrSwapchainSubImage image() const;
 
   private:
@@ -41,7 +41,7 @@ class OpenXrSwapchain {
     SwapchainContent content_;
     glm::ivec2 size_;
     XrSwapchain swapchain_ = XR_NULL_HANDLE;
-    std::vector<render::Framebuffer> framebuffers_; ///< by picture
+    std::vector<render::Framebuffer> framebuffers_; ///< one for each texture
 };
 
 } // namespace isochron::stereo

@@ -1,5 +1,5 @@
-// `isochron-bench artifacts`: what kept normals and false positives do to pictures, and the paper's
-// pair of renderings.
+// `isochron-bench artifacts`: the effect of kept normals and false positives on pictures, and the
+// paper's pair of renderings.
 #include "app/commands/cancel.h"
 #include "app/commands/progress_bar.h"
 #include "stereo/context/gl_context.h"
@@ -32,7 +32,7 @@ struct ArtifactArguments {
     std::string context = "egl";
 };
 
-/// The strips of pictures of one series, at a step in its middle.
+/// Writes the strips of pictures of one series, at a step in its middle.
 void write_pictures(const fs::path& folder, const std::string& data,
                     const std::shared_ptr<const index::IndexFile>& file, double isovalue,
                     const index::ThiOptions& options, const render::Gl& gl) {

@@ -74,7 +74,7 @@ void run_bench_index(BenchArguments arguments) {
     }
     Results results{this_machine(), {}, {}};
     const app::CancelOnSignal signals;
-    // What is measured is told at once: an hour is long, and the rest may be interrupted.
+    // Print each result at once: the whole run takes an hour and may be interrupted.
     const auto add = [&](const auto& measure_one) {
         app::ProgressBar bar;
         const Results more = measure_one([&](std::string_view phase, double fraction) {

@@ -48,7 +48,7 @@ struct Subject {
     double isovalue = 0;
 };
 
-/// `1024` or `2x1024`; nothing for anything else.
+/// Parses `1024` or `2x1024`; empty for anything else.
 std::optional<Picture> picture_from_name(std::string_view name) {
     Picture picture;
     if (name.starts_with("2x")) {
@@ -63,8 +63,8 @@ std::optional<Picture> picture_from_name(std::string_view name) {
     return picture;
 }
 
-/// At most so many processors for this process, and as many threads for Mesa's software GL, which
-/// reads its number when its first context is made: 0 draws on the thread that calls.
+/// Limits this process to at most `count` processors, and Mesa's software GL to the same number of
+/// threads. Mesa reads that number when its first context is made; 0: the calling thread draws.
 void use_processors(unsigned count) {
     cpu_set_t allowed, used;
     if (sched_getaffinity(0, sizeof(allowed), &allowed) == 0) {
@@ -117,7 +117,7 @@ std::vector<Subject> make_subjects(const RenderArguments& arguments, const fs::p
     return subjects;
 }
 
-/// Silhouettes and light of quads and splats beside the exact surface's.
+/// Compares silhouettes and light of quads and splats with those of the exact surface.
 void compare_with_exact(const RenderArguments& arguments, const std::vector<Subject>& subjects) {
     AgreementResults results{this_machine(), {}};
     for (const Subject& subject : subjects) {

@@ -1,4 +1,4 @@
-// `isochron-bench results`: the page of results.
+// `isochron-bench results`: writes the page of results.
 #include "app/commands/command_line.h"
 #include "index/error.h"
 #include "tests/bench/benchmarks.h"

@@ -1,4 +1,4 @@
-// `isochron-bench scale`: what a step costs that nobody has looked at yet, on large grids.
+// `isochron-bench scale`: the cost of a step that is opened for the first time, on large grids.
 #include "app/commands/cancel.h"
 #include "app/commands/progress_bar.h"
 #include "app/generate/fourier_modes.h"
@@ -47,14 +47,14 @@ double seconds_of(const std::function<void()>& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 }
 
-/// Bytes that this process has had from disks.
+/// Bytes that this process has read from disks.
 std::uint64_t bytes_from_disk() {
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_inblock) * 512;
 }
 
-/// Takes a file out of the page cache.
+/// Drops a file from the page cache.
 void forget(const fs::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0)
@@ -64,7 +64,7 @@ void forget(const fs::path& path) {
     ::close(file);
 }
 
-/// One step of turbulence as raw bytes, 255 for its highest value.
+/// One step of turbulence as raw bytes; 255 is its highest value.
 class Field {
   public:
     Field(std::size_t size, bool smooth, const fs::path& path) : size_(size), path_(path) {
@@ -93,7 +93,7 @@ class Field {
     std::size_t count() const { return size_ * size_ * size_; }
     const fs::path& path() const { return path_; }
 
-    /// Takes the values from the file once more.
+    /// Reads the values from the file again.
     void read_again() {
         index::open_bytes(path_)->read(0, std::as_writable_bytes(std::span(bytes_)).first(count()));
     }
@@ -110,7 +110,7 @@ class Field {
     std::vector<std::uint8_t> bytes_;
 };
 
-/// Processor time of what `zstd -1` does with the same bytes.
+/// Processor time of `zstd -1` for the same bytes.
 double seconds_of_zstd(const Field& field) {
     const auto stored = field.values().step_bytes(0);
     std::vector<std::byte> out(ZSTD_compressBound(stored.size()));
@@ -119,8 +119,8 @@ double seconds_of_zstd(const Field& field) {
     return watch.seconds();
 }
 
-/// How many blocks of `edge`^3 cells hold an active one: no search of any kind can read less than
-/// these where values are kept in such blocks.
+/// Number of blocks of `edge`^3 cells with an active cell: if values are stored in these blocks, no
+/// search can read less.
 std::size_t blocks_with(const std::vector<index::CellId>& ids, std::uint32_t size,
                         std::uint32_t edge) {
     const std::size_t cells = size - 1, across = (cells + edge - 1) / edge;
@@ -132,7 +132,7 @@ std::size_t blocks_with(const std::vector<index::CellId>& ids, std::uint32_t siz
     return static_cast<std::size_t>(std::ranges::count(held, true));
 }
 
-/// What finding and shading the cells of one isovalue costs when nothing of the file is in memory.
+/// The cost of finding and shading the cells of one isovalue with nothing of the file in memory.
 struct Cost {
     double seconds = 0;
     std::uint64_t bytes = 0;
@@ -167,7 +167,7 @@ Cost cost_of_scan(Field& field, const Query& query, const std::vector<index::Cel
 
 Cost cost_of_vtk(Field& field, const Query& query) {
     const auto rival = flying_edges(field.values());
-    rival->contour({0, -1}, false); // loads what it needs, finds nothing
+    rival->contour({0, -1}, false); // loads the module; finds nothing
     forget(field.path());
     return {seconds_of([&] {
                 field.read_again();

@@ -1,4 +1,4 @@
-// Which build on which machine a benchmark measures.
+// The build and the machine that a benchmark measures.
 #include "tests/bench/machine.h"
 
 #include "commit.h"
@@ -15,7 +15,8 @@ namespace isochron::bench {
 
 namespace {
 
-/// As the kernel names it; the model number where the name says little, as in virtual machines.
+/// The kernel's name of the processor; with the model number if the name says little, as in virtual
+/// machines.
 std::string processor() {
     std::ifstream file("/proc/cpuinfo");
     std::string name = "unknown", family, model, line;

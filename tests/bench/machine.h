@@ -1,4 +1,4 @@
-// Which build on which machine a benchmark measures.
+// The build and the machine that a benchmark measures.
 #pragma once
 
 #include "tests/bench/pages/rows.h"

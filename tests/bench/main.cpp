@@ -1,4 +1,4 @@
-// The laboratory: measures the program's own parts against their rivals.
+// `isochron-bench`: measures parts of the program against their rivals.
 #include "tests/bench/benchmarks.h"
 
 int main(int argc, char** argv) {

@@ -1,4 +1,4 @@
-// Text that appears under its name only when it is complete.
+// Writes text files, which appear under their name only when complete.
 #include "tests/bench/text_file.h"
 
 #include "index/system/new_file.h"

@@ -1,4 +1,4 @@
-// The files that the benchmarks write.
+// Writes the text files of the benchmarks.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace isochron::bench {
 
-/// The file appears complete or not at all. @throws index::Error
+/// Writes a file, which appears complete or not at all. @throws index::Error
 void write_text(const std::filesystem::path& path, const std::string& text);
 
 } // namespace isochron::bench

@@ -1,4 +1,4 @@
-// Configurations, what they are imported from, and messages of a cluster.
+// Fuzz targets: configurations, files that are imported as such, and messages of a cluster.
 #include "tests/fuzz/targets.h"
 
 #include "app/cluster/cluster_messages.h"

@@ -1,4 +1,4 @@
-// Claims that end the program.
+// Checks that end the program when they fail.
 #include "tests/fuzz/claims.h"
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What inputs are, and what holds for each.
+// Checks that end the program when they fail, for the fuzz targets.
 #pragma once
 
 #include <cstdint>

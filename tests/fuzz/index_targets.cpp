@@ -1,4 +1,4 @@
-// Indices, whose checksums are made to match before they are read.
+// Fuzz targets: indices, whose checksums are repaired before they are read.
 #include "tests/fuzz/targets.h"
 
 #include "index/error.h"

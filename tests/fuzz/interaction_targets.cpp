@@ -1,4 +1,4 @@
-// Recordings, and datagrams of trackers through the sockets on which they come in.
+// Fuzz targets: recordings, and datagrams of trackers through sockets.
 #include "tests/fuzz/targets.h"
 
 #include "interaction/recording/recording.h"

@@ -1,4 +1,4 @@
-// Changes to what lies compressed in a file.
+// Mutates the compressed contents of a file.
 #include "tests/fuzz/packed_mutation.h"
 
 #include "tests/index/formats/packed.h"

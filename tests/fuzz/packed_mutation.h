@@ -1,4 +1,4 @@
-// Changes to what lies compressed in a file.
+// Mutates the compressed contents of a file.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Every input that once did harm, and every one that fuzzing starts from, does none.
+// Every input that was once found to cause a fault, and every seed of the fuzzers, passes.
 #include "tests/fuzz/targets.h"
 #include "tests/support/paths.h"
 

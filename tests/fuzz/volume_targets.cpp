@@ -1,4 +1,4 @@
-// Files of volumes that the program decodes itself.
+// Fuzz targets: files of volumes that the program decodes itself.
 #include "tests/fuzz/targets.h"
 
 #include "index/error.h"
@@ -101,7 +101,8 @@ void fuzz_time_unit(Bytes input) {
     claim(!same || same->size() == times.size(), "every time has one in another unit");
 }
 
-/// A message between the program and a reader: a byte that says which way it goes, then the message.
+/// A message between the program and a reader: a byte that says which way it goes, then the
+/// message.
 void fuzz_reader(Bytes input) {
     if (input.empty())
         return;

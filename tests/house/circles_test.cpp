@@ -1,4 +1,4 @@
-// No file includes one that includes it back, straight or round; a header and its source are one.
+// No file includes itself through others; a header and its source count as one file.
 #include "tests/house/source_tree.h"
 
 #include <gtest/gtest.h>

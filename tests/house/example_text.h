@@ -1,4 +1,4 @@
-// The runnable example of a header: the indented lines of the comment that the file begins with.
+// The example in a header: the indented lines in the comment at its beginning.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Every example of a header is among those that header_examples.cpp compiles.
+// Every example in a header is also in header_examples.cpp, which compiles it.
 #include "tests/house/example_text.h"
 #include "tests/house/source_tree.h"
 

@@ -1,4 +1,5 @@
-// The house stays as it was drawn: no floor looks upwards, every file says what it is for.
+// The order of the source tree: no folder includes one above it, and every file says what it is
+// for.
 #include "tests/house/source_tree.h"
 
 #include <gtest/gtest.h>

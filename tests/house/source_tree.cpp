@@ -1,4 +1,4 @@
-// The source tree as its tests see it.
+// Reads the source tree for its tests.
 #include "tests/house/source_tree.h"
 
 #include "tests/support/paths.h"

@@ -1,4 +1,4 @@
-// The source tree as its tests see it: files, places in the order of the house, includes.
+// Reads the source tree for its tests: files, the order of folders, and includes.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A desk to try controls at: devices, a session's state, and frames of a fixed length.
+// Helpers to test controls: devices, a session's state, and frames of a fixed length.
 #pragma once
 
 #include "interaction/controls.h"

@@ -1,4 +1,4 @@
-// What mouse and keyboard make of the emulated devices.
+// The devices that mouse and keyboard emulate.
 #include "interaction/desktop_emulation.h"
 
 #include "tests/interaction/input_builders.h"

@@ -1,4 +1,4 @@
-// Navigation as rooms know it: two hands, flying by valuator, snap turns, teleport, viewpoints.
+// Navigation in rooms: two hands, flying by valuator, snap turns, teleport, viewpoints.
 #include "interaction/comfort.h"
 #include "interaction/navigator.h"
 

@@ -1,4 +1,4 @@
-// Short ways to say window events, device states and seeds in tests.
+// Short functions for window events, device states and seeds in tests.
 #pragma once
 
 #include "interaction/actions.h"

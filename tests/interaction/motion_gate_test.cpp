@@ -1,4 +1,4 @@
-// The motion gate against synthetic heads: sway, tracker noise, starts, stops and random input.
+// The motion gate with synthetic heads: sway, tracker noise, starts, stops and random input.
 #include "interaction/motion_gate.h"
 
 #include "tests/interaction/input_builders.h"

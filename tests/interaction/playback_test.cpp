@@ -1,4 +1,4 @@
-// Playback in physical time, against a slow walk along the time axis.
+// Playback in physical time, compared with a slow walk along the time axis.
 #include "interaction/playback.h"
 
 #include "tests/interaction/input_builders.h"

@@ -1,4 +1,4 @@
-// Tools: what hands do with the one that they hold.
+// Tools: what hands do with the tool that they hold.
 #include "interaction/clip_tool.h"
 #include "interaction/tool_table.h"
 

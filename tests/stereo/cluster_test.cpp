@@ -1,4 +1,4 @@
-// Processes that wait for each other, played by threads.
+// Processes that wait for each other, simulated by threads.
 #include "stereo/cluster.h"
 
 #include "index/error.h"

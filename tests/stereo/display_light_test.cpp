@@ -1,4 +1,4 @@
-// Light in every stereo mode: what eyes are composed of, with one sample and with several.
+// Light in every stereo mode: the composed pictures of the eyes, with one sample and with several.
 #include "stereo/display.h"
 
 #include "render/gl/shader.h"

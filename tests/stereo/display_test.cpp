@@ -1,4 +1,4 @@
-// Eyes, disparity and composition of windows, measured on the pictures.
+// Eyes, disparity and composition of windows, measured in the pictures.
 #include "stereo/display.h"
 
 #include "render/gl/shader.h"

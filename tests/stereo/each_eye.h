@@ -1,4 +1,4 @@
-// Draws of tests that show each eye something of its own.
+// Scenes for tests that draw something different for each eye.
 #pragma once
 
 #include "render/gl/viewport.h"

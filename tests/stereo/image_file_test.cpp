@@ -1,4 +1,4 @@
-// Pictures survive the way through files; comparisons of pictures can fail.
+// Pictures are read as they were written; comparisons of pictures can fail.
 #include "stereo/image_file.h"
 
 #include "index/error.h"

@@ -1,4 +1,4 @@
-// Which eye owns which pixel of a window, whatever the window's size and the viewports in it.
+// Which eye has which pixel of a window, for all sizes of windows and viewports.
 #include "stereo/display.h"
 
 #include "render/gl/shader.h"

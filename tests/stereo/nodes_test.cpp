@@ -1,4 +1,4 @@
-// Which process of a job opens which windows.
+// The windows that each process of a job opens.
 #include "stereo/nodes.h"
 
 #include <gmock/gmock.h>

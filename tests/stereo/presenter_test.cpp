@@ -1,4 +1,4 @@
-// What reaches a window's buffers, seen through a table of entry points that only counts.
+// The contents of a window's buffers, by a table of entry points that only counts.
 #include "stereo/presenter.h"
 
 #include <gmock/gmock.h>

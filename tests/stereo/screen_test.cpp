@@ -1,4 +1,4 @@
-// Frusta put the corners of screens on the corners of pictures; bad screens are told apart.
+// Frusta project the corners of screens to the corners of pictures; wrong screens are reported.
 #include "stereo/screen.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Names of stereo modes, what is understood besides, and where inverted modes put the eyes.
+// Names of stereo modes, further names that are accepted, and the eyes' places in inverted modes.
 #include "stereo/installation.h"
 #include "stereo/stereo_mode.h"
 

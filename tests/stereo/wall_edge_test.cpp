@@ -1,4 +1,4 @@
-// What crosses from one wall to the next is seen at one point of their common edge.
+// A thing that crosses from one wall to the next is seen at one point of their common edge.
 #include "stereo/screen.h"
 #include "tests/support/test_seed.h"
 

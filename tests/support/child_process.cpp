@@ -1,4 +1,4 @@
-// Runs a program in a folder of its own.
+// Runs a program as a child process in a given folder.
 #include "tests/support/child_process.h"
 
 #include <array>
@@ -37,7 +37,7 @@ std::string file_contents(const fs::path& path) {
         if (options.largest_file > 0) {
             const struct rlimit limit { options.largest_file, options.largest_file };
             ::setrlimit(RLIMIT_FSIZE, &limit);
-            ::signal(SIGXFSZ, SIG_IGN); // so that the write fails instead
+            ::signal(SIGXFSZ, SIG_IGN); // so that a write fails, without a signal
         }
         if (options.dies_after > 0) {
             const auto most = static_cast<std::uint64_t>(1'000'000);
@@ -47,7 +47,7 @@ std::string file_contents(const fs::path& path) {
                         static_cast<suseconds_t>(options.dies_after % most)
                 }
             };
-            ::setitimer(ITIMER_REAL, &alarm, nullptr); // stays over the next line
+            ::setitimer(ITIMER_REAL, &alarm, nullptr); // stays active after exec
         }
         for (const std::string& variable : options.environment)
             ::putenv(const_cast<char*>(variable.c_str()));
@@ -60,7 +60,7 @@ std::string file_contents(const fs::path& path) {
 
 ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments,
                       const fs::path& folder, const ChildOptions& options) {
-    const TestFolder captured; // not the child's folder: tests look at what lies there
+    const TestFolder captured; // not the child's folder, whose contents tests check
     const fs::path out = options.out.empty() ? captured.path() / "out" : fs::path(options.out);
     std::array<int, 2> pipe{};
     if (::pipe2(pipe.data(), O_CLOEXEC) != 0)

@@ -1,4 +1,4 @@
-// Runs a program in a folder of its own, for tests of the command line.
+// Runs a program as a child process in a given folder, for tests of the command line.
 #pragma once
 
 #include "tests/support/test_folder.h"
@@ -14,19 +14,19 @@ namespace isochron::app {
 using test_support::TestFolder;
 
 struct ChildOptions {
-    std::string out{};              ///< file for its stdout instead of the result
-    std::uint64_t largest_file = 0; ///< [bytes] no file can grow beyond, as on a full disk; 0: any
-    std::string interrupt_after{};  ///< SIGINT once this stands on its stderr
-    std::uint64_t dies_after = 0;   ///< [us] after which an alarm kills it wherever it is; 0: never
+    std::string out{};              ///< file for its stdout, which is then not in the result
+    std::uint64_t largest_file = 0; ///< [byte] limit of files, as on a full disk; 0: no limit
+    std::string interrupt_after{};  ///< send SIGINT when stderr contains this text
+    std::uint64_t dies_after = 0;   ///< [us] until an alarm kills it, whatever it does; 0: never
     std::vector<std::string> environment{}; ///< NAME=VALUE, beside what this process has
 };
 
 struct ChildResult {
-    int status = -1; ///< exit status; 1000 + signal when one killed it
+    int status = -1; ///< exit status; 1000 + signal if a signal killed it
     std::string out, err;
 };
 
-/// Waits for its end. @throws std::runtime_error when it cannot be started
+/// Runs the program and waits for its end. @throws std::runtime_error when it cannot be started
 ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments,
                       const std::filesystem::path& folder, const ChildOptions& options = {});
 

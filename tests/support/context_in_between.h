@@ -1,4 +1,4 @@
-// A context with something of the tests' between the program and the driver.
+// A context in which tests can replace the driver's functions.
 #pragma once
 
 #include "stereo/context/gl_context.h"
@@ -12,17 +12,17 @@
 
 namespace isochron::stereo {
 
-/// Remembers the driver's function and gives ours instead.
+/// Stores the driver's function in `actual` and returns ours.
 template <class Function>
 void* before(void* found, Function& actual, Function ours) {
     actual = reinterpret_cast<Function>(found);
     return reinterpret_cast<void*>(ours);
 }
 
-/// As the context itself but for some entry points, and without a window.
+/// Like the context itself, apart from replaced entry points, and without a window.
 class ContextInBetween : public GlContext {
   public:
-    /// @param replace given the name and the driver's function, gives what the program calls
+    /// From the name and the driver's function, returns the function that the program calls.
     using Replace = std::function<void*(std::string_view name, void* found)>;
     ContextInBetween(ContextKind kind, glm::ivec2 size, Replace replace)
         : context_(make_context(kind, {.size = size})), replace_(std::move(replace)) {}

@@ -1,4 +1,4 @@
-// Waiting for what comes when it comes, as on a screen.
+// Waits for something that takes an unknown time, such as a picture on a screen.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace isochron::test_support {
 
-/// Asks again and again. @return false when it does not hold within a minute
+/// Waits until `holds` returns true. @return false if it does not within a minute
 inline bool eventually(const std::function<bool()>& holds) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (!holds()) {

@@ -1,4 +1,4 @@
-// Fixture of every test that draws: both windowless contexts, and no GL error goes unseen.
+// Fixture of tests that draw: both windowless contexts; every GL error is a failure.
 #pragma once
 
 #include "render/cells/cell_buffers.h"
@@ -25,7 +25,7 @@ class GlTest : public testing::TestWithParam<stereo::ContextKind> {
         gl_.DebugMessageCallback(
             [](GLenum source, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                const void*) {
-                if (source != GL_DEBUG_SOURCE_SHADER_COMPILER && // which reports by its log
+                if (source != GL_DEBUG_SOURCE_SHADER_COMPILER && // its log reports errors
                     (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR))
                     ADD_FAILURE() << "GL error: " << message;
             },
@@ -33,7 +33,7 @@ class GlTest : public testing::TestWithParam<stereo::ContextKind> {
     }
     void TearDown() override { EXPECT_EQ(gl_.GetError(), GLenum{GL_NO_ERROR}); }
 
-    /// A frame takes the time that the GPU needs for what was asked of it.
+    /// Lets the time of a frame pass: until the GPU has done all of its work.
     void let_a_frame_pass() { gl_.Finish(); }
 
     std::unique_ptr<stereo::GlContext> context_;
@@ -50,7 +50,7 @@ inline std::string context_name(const testing::TestParamInfo<stereo::ContextKind
     return std::string(stereo::name_of(info.param));
 }
 
-/// Cells, all with the same packed normal.
+/// Points of cells that all have the same packed normal.
 inline std::vector<index::CellPoint> cell_set(const std::vector<glm::ivec3>& cells,
                                               std::uint32_t normal = 0) {
     std::vector<index::CellPoint> points;
@@ -60,7 +60,7 @@ inline std::vector<index::CellPoint> cell_set(const std::vector<glm::ivec3>& cel
     return points;
 }
 
-/// A plane through the cell's middle, or beside it. @param offset voxels
+/// Packs a plane. @param offset from the cell's middle [voxel]
 inline std::uint32_t packed_normal(const glm::vec3& n, double offset = 0.0) {
     return index::pack({glm::dvec3(n), offset});
 }

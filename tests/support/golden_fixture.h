@@ -1,4 +1,4 @@
-// A sphere in its box as golden pictures show it, and the checks that every picture of it stands.
+// Fixture of golden pictures: a sphere in its box, and checks that each of its pictures must pass.
 #pragma once
 
 #include "tests/support/session_fixture.h"
@@ -23,16 +23,17 @@ constexpr glm::ivec2 kPicture(192, 128);
 constexpr std::uint32_t kStep = 3;
 constexpr double kOuterRadius = 11.0, kInnerRadius = 6.5; ///< voxels
 constexpr double kFromRadius = 16.0; ///< isovalue plus radius of the data's spheres
-constexpr int kPerEdge = 24;         ///< points looked at
+constexpr int kPerEdge = 24;         ///< checked points per edge of the box
 inline const glm::dvec3 kSphereCenter(12.0 + kStep, 15.5, 15.5); ///< of the data, at that step
 constexpr double kBox = 31.0;                                    ///< side of the volume, voxels
 
-/// Both contexts are held to the same pictures: the same rasterizer draws in both, byte for byte
-/// alike. With another processor's instructions (SSE4.1 in place of AVX2) single channels round to
-/// the neighboring value; no outline moves, which would change a pixel by a hundred and more.
+/// Both contexts must give the same pictures: the same rasterizer draws in both, with the same
+/// bytes.
+/// With another processor's instructions (SSE4.1 instead of AVX2) single channels round to the next
+/// value. But no outline moves, which would change a pixel by a hundred or more.
 constexpr ImageTolerance kTolerance{.maximum = 12, .mean = 0.01};
 
-/// Turned, so that no edge of the box hides another.
+/// A placement that is rotated so that no edge of the box hides another.
 inline interaction::Similarity place_at(glm::dvec3 center, double scale) {
     interaction::Similarity placement;
     placement.scale = scale;
@@ -55,13 +56,13 @@ inline Commands showing(const interaction::Similarity& placement) {
     return commands;
 }
 
-/// What would else depend on whether a GPU draws.
+/// Fixes the settings that depend on whether a GPU draws.
 inline void draw_as_in_software(Config& config) {
     config.samples = 1;
     config.blending = Blending::display;
 }
 
-/// A session before a screen that stands a little aside of the viewer.
+/// A configuration with one screen that is a little to the side of the viewer.
 inline Config one_window(StereoMode mode, glm::ivec2 size = kPicture) {
     Config config = small_config(mode);
     draw_as_in_software(config);
@@ -73,7 +74,7 @@ inline Config one_window(StereoMode mode, glm::ivec2 size = kPicture) {
 }
 inline const interaction::Similarity kPlacement = place_at({0.12, 1.75, -2.5}, 0.039);
 
-/// The surface's color is warm, those of the background, of the box and its numbers are cold.
+/// Whether a pixel shows the surface, whose color is warm: background, box and numbers are cold.
 inline bool warm(const std::uint8_t* pixel) {
     return pixel[0] > pixel[2] + 12;
 }
@@ -83,7 +84,7 @@ inline Coverage warm_part(const Image& image) {
                                   [&](int x, int y) { return warm(image.at(x, y)); });
 }
 
-/// What a sphere of the data covers.
+/// The pixels that a sphere of the data should cover.
 /// @param radius voxels
 inline Coverage expected_part(const PinholeEye& eye, const interaction::Similarity& placement,
                               double radius) {
@@ -93,7 +94,7 @@ inline Coverage expected_part(const PinholeEye& eye, const interaction::Similari
 
 class GoldenPictures : public testing::TestWithParam<stereo::ContextKind> {
   protected:
-    /// Frames until nothing in the picture changes any more.
+    /// Draws frames until the picture does not change any more. @return the last footprint
     Footprint settle(Session& session, const Commands& commands, const interaction::Pose& head) {
         Commands now = commands;
         for (int frame = 0; frame < 30; ++frame, ++frame_, now = {}) {
@@ -118,8 +119,8 @@ class GoldenPictures : public testing::TestWithParam<stereo::ContextKind> {
     int frame_ = 0;
 };
 
-/// The sphere has its place and its size; both within what the pixels can tell.
-/// @param swelling share of its area by which a footprint may be larger than the surface
+/// Expects the sphere's place and size to be right, within the precision of pixels.
+/// @param swelling share of the sphere's area by which the footprint may be larger
 inline void expect_sphere(const Coverage& actual, const Coverage& expected, double swelling) {
     EXPECT_NEAR(actual.center.x, expected.center.x, 0.5);
     EXPECT_NEAR(actual.center.y, expected.center.y, 0.5);
@@ -127,8 +128,8 @@ inline void expect_sphere(const Coverage& actual, const Coverage& expected, doub
     EXPECT_LT(actual.pixels, (1.03 + swelling) * expected.pixels);
 }
 
-/// Whether one of the four pixels around a place differs from the background: edges end bluntly, so
-/// that a corner itself may fall between them.
+/// Whether one of the four pixels around a place differs from the background. Lines have blunt
+/// ends, so a corner itself may lie between them.
 inline bool drawn_at(const Image& image, glm::dvec2 place, glm::ivec3 background) {
     const glm::ivec2 first(glm::floor(place - 0.5));
     for (const glm::ivec2 step : {glm::ivec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
@@ -141,8 +142,8 @@ inline bool drawn_at(const Image& image, glm::dvec2 place, glm::ivec3 background
     return false;
 }
 
-/// Every edge of the box, corners included, is drawn where it must be.
-/// @return how many of the points looked at are in the picture
+/// Expects every edge of the box, with its corners, to be drawn at the right place.
+/// @return number of checked points that are in the picture
 inline int expect_box(const Image& image, const PinholeEye& eye,
                       const interaction::Similarity& placement) {
     const glm::ivec3 background(glm::round(255.0f * Config().background));

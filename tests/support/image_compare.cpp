@@ -1,4 +1,4 @@
-// Differences of pictures, as numbers and as a picture.
+// Computes differences of pictures, as numbers and as a picture.
 #include "tests/support/image_compare.h"
 
 #include "stereo/image_file.h"

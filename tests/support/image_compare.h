@@ -1,4 +1,4 @@
-// Comparison of pictures with a maximum and a mean tolerance; a failure leaves pictures to look at.
+// Compares pictures with a maximum and a mean tolerance; a failure writes pictures to look at.
 //
 //     EXPECT_TRUE(images_match(picture, expected, {.maximum = 8, .mean = 0.2}, "sphere_left"));
 //     EXPECT_TRUE(matches_golden(picture, "sphere_left", {.maximum = 8, .mean = 0.2}));
@@ -14,8 +14,8 @@ namespace isochron::test_support {
 
 struct ImageTolerance {
     int maximum = 0; ///< largest difference of any channel of any pixel, 0 to 255
-    double mean = 0; ///< mean difference over all channels (alpha left out)
-    /// Share of the channels that may be off by more than 8; any where no share is given.
+    double mean = 0; ///< mean difference over all channels except alpha
+    /// Share of the channels that may differ by more than 8; 1: any.
     double strays = 1;
 };
 
@@ -24,8 +24,8 @@ struct ImageTolerance {
 testing::AssertionResult images_match(const render::Image& actual, const render::Image& expected,
                                       ImageTolerance tolerance, const std::string& name);
 
-/// Compares with `tests/data/golden/NAME.png`; fails when there is none, and then writes the actual
-/// picture, ready to be looked at and copied there.
+/// Compares with `tests/data/golden/NAME.png`. If there is none, fails and writes the actual
+/// picture, to be checked and copied there.
 testing::AssertionResult matches_golden(const render::Image& actual, const std::string& name,
                                         ImageTolerance tolerance);
 

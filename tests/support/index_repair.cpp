@@ -1,4 +1,4 @@
-// Checksums of an index that has been tampered with, made to match again at every depth.
+// Repairs all checksums of a modified index.
 #include "tests/support/index_repair.h"
 
 #include "index/cells/cell_table_head.h"
@@ -23,7 +23,7 @@ class IndexRepair {
     explicit IndexRepair(std::span<std::byte> file) : file_(file) {}
 
     void run() {
-        // Both slots, one after the other: the second may be the one that counts.
+        // Repair both slots, as the second one may be the valid one.
         for (std::uint64_t slot = 0; slot < kHeaderSlots; ++slot) {
             const std::uint64_t begin = slot * kHeaderBytes;
             if (!has(begin, kHeaderBytes))

@@ -1,4 +1,4 @@
-// Checksums of an index that has been tampered with, made to match again at every depth.
+// Repairs all checksums of a modified index, so that tests reach the checks behind them.
 #pragma once
 
 #include <cstddef>
@@ -6,9 +6,9 @@
 
 namespace isochron::index {
 
-/// Of chunks, tables of layers, levels of bricks, tables and heads of units, sections and header, as
-/// far as what the bytes say of themselves leads there. Those of whole steps stay: only `verify`
-/// compares them.
+/// Repairs the checksums of chunks, tables of layers, levels of bricks, tables and heads of units,
+/// sections and header, as far as they can be found by the file's own contents. Checksums of whole
+/// steps stay as they are, because only `verify` compares them.
 /// @param file an index, or any other bytes
 void repair_checksums(std::span<std::byte> file);
 

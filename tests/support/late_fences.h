@@ -1,4 +1,4 @@
-// A driver whose fences are passed late, as of a GPU that is behind.
+// A driver that passes fences late, like a GPU that is behind.
 #pragma once
 
 #include "render/gl/gl.h"
@@ -10,13 +10,13 @@
 
 namespace isochron::render {
 
-/// GL's functions have no room for state.
+/// The state of the functions below; global, because GL's functions take no user data.
 struct LateFences {
     static constexpr std::chrono::milliseconds kLate{50};
     PFNGLFENCESYNCPROC fence = nullptr; ///< the driver's own
     PFNGLCLIENTWAITSYNCPROC wait = nullptr;
     std::map<GLsync, std::chrono::steady_clock::time_point> made = {};
-    bool hangs = false; ///< then none is passed
+    bool hangs = false; ///< true: no fence is ever passed
 };
 inline LateFences late_fences;
 

@@ -1,4 +1,4 @@
-// Answers of the least driver, and what it watches.
+// The limits of the least driver, and the checks that calls keep to them.
 #include "tests/support/least_driver.h"
 
 #include "tests/support/context_in_between.h"
@@ -134,7 +134,7 @@ void APIENTRY dispatch(GLuint x, GLuint y, GLuint z) {
     EXPECT_LE(std::max({x, y, z}), most(GL_MAX_COMPUTE_WORK_GROUP_COUNT));
     driver.dispatch(x, y, z);
 }
-/// Only cells are drawn as points, and tests show none that is smaller than two pixels.
+/// Only cells are drawn as points; tests draw none that is smaller than two pixels.
 void APIENTRY draw_points(GLenum mode, GLint first, GLsizei count, GLsizei instances) {
     if (mode == GL_POINTS) {
         EXPECT_GE(most(GL_POINT_SIZE_RANGE), 2);

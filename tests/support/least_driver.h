@@ -1,4 +1,4 @@
-// A driver with the least of everything that GL 4.5 core promises, and that does not bear more.
+// A driver with the smallest limits that GL 4.5 core allows; using more is a failure.
 #pragma once
 
 #include "render/gl/gl.h"
@@ -9,16 +9,16 @@
 
 namespace isochron::test_support {
 
-/// What a driver answers, by name, that has no more than the OpenGL 4.5 core specification asks of
-/// it: in its tables of implementation dependent values the smallest maximums, and for alignments
-/// the largest minimums.
+/// The limits, by name, of a driver with no more than the OpenGL 4.5 core specification requires:
+/// in its tables of implementation dependent values the smallest maximums, and for alignments the
+/// largest minimums.
 std::map<GLenum, GLint64> least_limits();
 
-/// Stands between a program and the driver, which it calls a GPU: answers by `limits` and complains,
-/// by a failure of the test, where more is asked for. There is one at a time, since GL's functions have no room for
-/// state.
-/// @param limits `least_limits()`, or less; those of the driver where they are not among them
-/// @return what takes the place of an entry point, as stereo::ContextInBetween wants it
+/// Replaces functions of the driver, which it presents as a GPU: answers with `limits`, and fails
+/// the test if the program uses more. There can be only one at a time, because GL's functions take
+/// no user data.
+/// @param limits `least_limits()`, or less; limits that are not listed are the driver's
+/// @return a function that replaces entry points, as stereo::ContextInBetween needs it
 std::function<void*(std::string_view name, void* found)>
 with_limits(std::map<GLenum, GLint64> limits);
 

@@ -1,4 +1,4 @@
-// A series read from memory, for tests of the index file.
+// A series in memory, for tests of the index file.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -33,7 +33,7 @@ class MemorySeries : public VolumeSeries {
         std::memcpy(out.data(), values_.first + step * values_.stride, out.size());
     }
 
-    std::function<void(std::size_t)> before_read; ///< may throw
+    std::function<void(std::size_t)> before_read; ///< called with the step; may throw
 
   private:
     StepValues values_;

@@ -1,5 +1,5 @@
-// Where the tests find the checkout and what was built of it. Said in one source alone, so that
-// another clone's compiler cache serves all others.
+// Paths of the checkout and the build, for tests. Only one source has them compiled in, so that
+// other clones can use the same compiler cache for all others.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 namespace isochron::test_support {
 
 std::string source_root(); ///< the checkout
-std::string binary_root(); ///< where the programs lie that were built
+std::string binary_root(); ///< folder of the built programs
 std::string test_data();   ///< tests/data
 
 } // namespace isochron::test_support

@@ -1,4 +1,4 @@
-// A program with a headset that the test plays, on EGL without a window.
+// Fixture for tests with a headset that the test plays, on EGL without a window.
 #pragma once
 
 #include "tests/support/played_headset/played_headset.h"
@@ -19,7 +19,7 @@ using interaction::Pose;
 using interaction::Seconds;
 using played::Happening;
 
-/// The real loader finds the played runtime by these.
+/// Sets environment variables by which the real loader finds the played runtime.
 inline void use_played_runtime() {
     setenv("XR_RUNTIME_JSON", (test_support::binary_root() + "/played_headset.json").c_str(), 1);
     unsetenv("ISOCHRON_PLAYED_HEADSET");
@@ -58,7 +58,7 @@ class PlayedTest : public testing::Test {
         client_->attach(*context_, gl_);
     }
 
-    /// One frame as the program has them. @return whether anything was drawn
+    /// Makes one frame as the program does. @return whether anything was drawn
     bool frame() {
         now_ += Seconds(0.0111);
         client_->update(now_);
@@ -73,7 +73,7 @@ class PlayedTest : public testing::Test {
         display_.submit(*client_, eyes_, false);
         return !eyes_.empty();
     }
-    /// Until pictures are wanted, as after any start.
+    /// Makes frames until the headset wants pictures, as after any start.
     void settle() {
         for (int i = 0; i < 10 && !frame(); ++i) {
         }

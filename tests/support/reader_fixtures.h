@@ -1,4 +1,4 @@
-// What the reader tests share: temporary folders, small volumes, and the message of an Error.
+// Helpers of the reader tests: temporary folders, small volumes, and the message of an Error.
 #pragma once
 
 #include "index/error.h"
@@ -51,7 +51,7 @@ std::span<const std::byte> bytes_of(const std::vector<T>& values) {
     return std::as_bytes(std::span(values));
 }
 
-/// The values' bytes as they lie in memory.
+/// The values' bytes in memory.
 template <class T>
 std::string text_of(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
@@ -87,7 +87,7 @@ std::vector<T> values_of(VolumeSeries& series, std::size_t step) {
     return values;
 }
 
-/// The message of the Error that `f` throws; empty, and a failure, when it throws none.
+/// The message of the Error that `f` throws; fails the test and returns empty if it throws none.
 template <class F>
 std::string error_of(F&& f) {
     try {

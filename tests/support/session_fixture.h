@@ -14,7 +14,7 @@
 
 namespace isochron::app {
 
-/// A sphere that moves along x and breathes: 32^3 vertices, f32, distance from the center negated.
+/// A sphere that moves along x: 32^3 vertices, f32, values 16 minus the distance from the center.
 class MovingSphere final : public index::VolumeSeries {
   public:
     explicit MovingSphere(std::size_t steps) {
@@ -62,7 +62,7 @@ inline Config small_config(stereo::StereoMode mode = stereo::StereoMode::side_by
     return config;
 }
 
-/// A head at rest and nothing else, at a time.
+/// Input with only a head at rest, at a time.
 inline interaction::InputState head_at_rest(double seconds) {
     interaction::InputState input;
     input.time = interaction::Seconds(seconds);

@@ -1,4 +1,4 @@
-// Runs a check in each of the versions that SIMD code is compiled for, plain code included.
+// Runs a check with every version of SIMD code, including plain code.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 namespace isochron::index {
 
-/// Calls `check` once for every version that this processor runs.
+/// Calls `check` once for every version that this processor can run.
 template <class Check>
 void on_every_simd_target(Check&& check) {
     std::int64_t rest = hwy::SupportedTargets() | HWY_SCALAR;

@@ -1,4 +1,4 @@
-// Lines of sight through pixels, one by one.
+// Tests the line of sight through each pixel.
 #include "tests/support/sphere_oracle.h"
 
 #include "stereo/stereo_mode.h"

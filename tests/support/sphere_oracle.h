@@ -1,4 +1,4 @@
-// Where a sphere and a box must appear in a picture, from nothing but the geometry of the room.
+// Where a sphere and a box must appear in a picture, computed only from the geometry of the room.
 #pragma once
 
 #include "interaction/pose.h"
@@ -14,8 +14,8 @@
 
 namespace isochron::test_support {
 
-/// An eye before a screen that stands in the room. Pixels count from the picture's top left corner,
-/// so that the middle of the first one is (0.5, 0.5).
+/// An eye in front of a screen in the room. Pixel coordinates count from the picture's top left
+/// corner, so the middle of the first pixel is (0.5, 0.5).
 class PinholeEye {
   public:
     PinholeEye(const stereo::Screen& screen, const interaction::Pose& head, stereo::Eye eye,
@@ -23,8 +23,8 @@ class PinholeEye {
 
     /// Whether the line of sight through a pixel meets the sphere.
     bool sees(glm::dvec2 pixel, glm::dvec3 center, double radius) const;
-    /// Where a point appears; nothing for what is not at least 0.1 m in front of the eye or outside
-    /// the picture.
+    /// Where a point appears; empty if it is outside the picture, or less than 0.1 m in front of
+    /// the eye.
     std::optional<glm::dvec2> pixel_of(glm::dvec3 point) const;
     glm::ivec2 picture() const { return picture_; }
 
@@ -33,12 +33,13 @@ class PinholeEye {
     glm::ivec2 picture_;
 };
 
-/// What a convex thing covers: what is drawn over parts of it, such as thin lines, is counted in.
+/// The pixels that a convex thing covers, including those where something is drawn over it, such as
+/// thin lines.
 struct Coverage {
     double pixels = 0;
     glm::dvec2 center{0.0};
 };
-/// @param covered asked for the column and row of each pixel
+/// @param covered called with the column and row of each pixel
 Coverage coverage(glm::ivec2 picture, const std::function<bool(int, int)>& covered);
 Coverage expected_coverage(const PinholeEye& eye, glm::dvec3 center, double radius);
 

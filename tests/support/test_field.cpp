@@ -1,4 +1,4 @@
-// Series made in memory, and the slow and obvious answer to every query on them.
+// Series made in memory, and the answer to every query on them by brute force.
 #include "tests/support/test_field.h"
 
 #include <algorithm>

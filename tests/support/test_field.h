@@ -1,4 +1,4 @@
-// Series made in memory, and the slow and obvious answer to every query on them.
+// Series made in memory, and the answer to every query on them by brute force.
 #pragma once
 
 #include "index/volume/step_values.h"
@@ -70,14 +70,14 @@ class BruteForce {
     std::vector<double> low_, high_; ///< low > high where a vertex is NaN
 };
 
-/// Scaled values of all vertices and steps that are numbers, sorted.
+/// Scaled values of all vertices and steps, sorted, without NaN.
 std::vector<double> sorted_values(const StepValues& values);
 
 /// The quantiles k / (n + 1), k = 1 to n.
 std::vector<double> quantiles(const std::vector<double>& sorted, int n);
 
-/// Isovalues that tie: some of the values, at most about `most`, their neighbors, and what lies beyond
-/// both ends.
+/// Isovalues that are equal or close to values: some of the values, at most about `most`, with
+/// their neighbors, and isovalues beyond both ends.
 std::vector<double> ties(const StepValues& values, std::size_t most = SIZE_MAX - 1);
 
 /// Scaled value of a vertex.

@@ -1,4 +1,4 @@
-// A folder of a test's own, which goes with it.
+// A temporary folder for one test, removed at its end.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ class TestFolder {
         std::ifstream file(path_ / name, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
     }
-    /// Of everything in it, sorted.
+    /// Names of everything in it, sorted.
     std::vector<std::string> names() const {
         std::vector<std::string> found;
         for (const auto& entry : std::filesystem::directory_iterator(path_))

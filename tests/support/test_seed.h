@@ -1,4 +1,4 @@
-// The seed of the tests that draw their input at random.
+// The seed of tests with random input.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace isochron {
 
-/// 1, so that the same program gives the same verdict, or ISOCHRON_SEED=n. Printed, so that a
-/// failure under another seed can be repeated.
+/// The environment's ISOCHRON_SEED, or 1, so that results repeat. It is printed, so that a failure
+/// with another seed can be repeated.
 inline std::uint32_t test_seed() {
     const char* given = std::getenv("ISOCHRON_SEED");
     const auto seed = given ? static_cast<std::uint32_t>(std::strtoul(given, nullptr, 10)) : 1u;

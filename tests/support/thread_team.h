@@ -1,4 +1,4 @@
-// Members of a team that are threads of one test.
+// A team whose members are threads of one test.
 #pragma once
 
 #include "index/system/team.h"
@@ -12,7 +12,7 @@
 
 namespace isochron::test_support {
 
-/// Letter boxes of all members.
+/// The inboxes of all members.
 struct ThreadPost {
     explicit ThreadPost(unsigned members) : boxes(members), posted(members) {}
     std::mutex mutex;

@@ -1,4 +1,4 @@
-// Plays a tracker: datagrams as DTrack and Open Sound Control devices send them.
+// Plays a tracker: makes and sends datagrams of DTrack and Open Sound Control devices.
 #include "tests/support/tracker_packets.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ void append(std::string& bytes, std::uint32_t value) {
         bytes.push_back(static_cast<char>(value >> shift & 0xff));
 }
 
-/// Ended by one to four zero bytes, to a multiple of four.
+/// Appends one to four zero bytes, up to a multiple of four.
 std::string padded(std::string_view text) {
     std::string bytes(text);
     do

@@ -1,5 +1,5 @@
-// Plays a tracker: datagrams as DTrack and Open Sound Control devices send them, and a socket to
-// send them by. Written from the protocols' descriptions, without the code under test.
+// Plays a tracker: makes datagrams of DTrack and Open Sound Control devices, and sends them.
+// Written from the protocols' descriptions, without the code under test.
 #pragma once
 
 #include "interaction/pose.h"
@@ -19,7 +19,7 @@ struct PlayedBody {
     int id = 0;
     glm::dvec3 position{0.0}; ///< [m]
     glm::dmat3 rotation{1.0};
-    bool tracked = true; ///< a Flystick only: a body that is not tracked does not appear
+    bool tracked = true; ///< for Flysticks only: an untracked body is left out
 };
 struct PlayedFlystick {
     PlayedBody body;
@@ -27,7 +27,7 @@ struct PlayedFlystick {
     std::vector<double> controllers;
 };
 
-/// One frame as DTrack2 writes it: fr, ts, 6dcal, 6d, 6df2, 3d, lines ended by CR LF.
+/// One frame of DTrack2: fr, ts, 6dcal, 6d, 6df2, 3d, in lines that end with CR LF.
 std::string dtrack_datagram(std::uint32_t counter, std::optional<double> stamp,
                             const std::vector<PlayedBody>& bodies,
                             const std::vector<PlayedFlystick>& flysticks = {},
@@ -39,7 +39,7 @@ struct OscArgument {
     double value;
 };
 std::string osc_message(std::string_view address, const std::vector<OscArgument>& arguments);
-/// x y z and qx qy qz qw as floats.
+/// A message with x y z and qx qy qz qw as floats.
 std::string osc_pose(std::string_view address, const interaction::Pose& pose);
 /// @param stamp [s] since 1900; 0: immediately
 std::string osc_bundle(double stamp, const std::vector<std::string>& elements);
@@ -51,7 +51,7 @@ class UdpSender {
     ~UdpSender();
     UdpSender(const UdpSender&) = delete;
     UdpSender& operator=(const UdpSender&) = delete;
-    /// @return whether it went out; over loopback it has arrived then
+    /// @return whether it was sent; over loopback it has then arrived
     bool send(std::string_view bytes) const;
 
   private:

@@ -1,4 +1,4 @@
-// Start of Xvfb, and requests to it through Xlib and xdotool.
+// Starts Xvfb, and sends it requests through Xlib and xdotool.
 #include "tests/support/virtual_display.h"
 
 #include <X11/Xatom.h>
@@ -99,7 +99,7 @@ VirtualDisplay::VirtualDisplay() {
         throw std::runtime_error("no pipe to Xvfb");
     server_ = fork();
     if (server_ == 0) {
-        prctl(PR_SET_PDEATHSIG, SIGTERM); // it goes with the test, however that ends
+        prctl(PR_SET_PDEATHSIG, SIGTERM); // it ends with the test in any case
         const int silence = open("/dev/null", O_WRONLY);
         dup2(silence, STDERR_FILENO);
         dup2(ends[1], STDOUT_FILENO);
@@ -140,7 +140,7 @@ void VirtualDisplay::xdotool(std::vector<std::string> arguments) const {
     pid_t child = -1;
     if (posix_spawnp(&child, "xdotool", nullptr, nullptr, pointers.data(), environ) != 0)
         throw std::runtime_error("xdotool does not start");
-    // `search --sync` waits for a window; a program that died opens none.
+    // `search --sync` would wait forever for a window of a program that has died.
     constexpr int kPatience = 6000; // of 10 ms
     int status = -1;
     for (int waited = 0; waitpid(child, &status, WNOHANG) == 0; ++waited) {

@@ -1,4 +1,4 @@
-// An X server without a screen, and a user who presses keys and handles windows on it.
+// An X server without a screen, with simulated input and window operations.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace isochron::test_support {
 
-/// Starts Xvfb (1280x1024, no window manager) on a free display and points DISPLAY at it, until it
-/// goes. Windows are found by their title. Everything throws std::runtime_error on failure.
+/// Starts Xvfb (1280x1024, no window manager) on a free display and sets DISPLAY to it until
+/// destroyed. Windows are found by title. Everything throws std::runtime_error on failure.
 class VirtualDisplay {
   public:
     VirtualDisplay();
@@ -21,7 +21,7 @@ class VirtualDisplay {
     /// Input as from a real keyboard and mouse: `{"key", "a"}`, `{"mousemove", "10", "20"}`, ...
     void xdotool(std::vector<std::string> arguments) const;
     void resize_window(const std::string& title, int width, int height) const;
-    /// Asks the window to close, as its close button does.
+    /// Asks the window to close, like its close button.
     void close_window(const std::string& title) const;
     /// Drags a file from another program and drops it onto the window, by the XDND protocol that
     /// desktops' file managers speak. Waits until the window has taken it.
@@ -30,7 +30,7 @@ class VirtualDisplay {
     void die();
     /// What programs that start from now on are told of its resolution (Xft.dpi).
     void set_dots_per_inch(int dots) const;
-    /// Red, green and blue of what is shown, (0, 0) at the top left.
+    /// Red, green and blue of a pixel on the display, (0, 0) at the top left.
     std::array<int, 3> pixel(int x, int y) const;
 
   private:

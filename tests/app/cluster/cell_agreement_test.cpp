@@ -1,4 +1,4 @@
-// Several processes agree on the cells that all of them show.
+// The agreement of several processes on the cells that all of them show.
 #include "app/cluster/cell_agreement.h"
 
 #include "tests/support/test_seed.h"

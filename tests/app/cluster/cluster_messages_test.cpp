@@ -1,4 +1,4 @@
-// What the processes of a cluster say to each other survives the way, and damage does not.
+// Messages of a cluster are read as they were written, and damaged ones are refused.
 #include "app/cluster/cluster_messages.h"
 
 #include "tests/support/test_seed.h"

@@ -1,4 +1,4 @@
-// A process alone shows what it has, when it has it, and tells nobody.
+// A process alone shows cells as soon as it has them, and never waits.
 #include "app/cluster/frames_alone.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What processes that draw on one machine are told of its processors.
+// The warnings about processes on one machine that have too few processors to draw.
 #include "app/cluster/processor_shares.h"
 
 #include <gmock/gmock.h>

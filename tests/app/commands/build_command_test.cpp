@@ -1,4 +1,5 @@
-// Building, appending, referring: what the commands leave behind, and what changes between queries.
+// Building, appending and referring: the files that the commands leave, and changes between
+// queries.
 #include "tests/app/commands/command_line.h"
 #include "tests/support/paths.h"
 

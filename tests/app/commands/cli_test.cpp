@@ -1,4 +1,4 @@
-// The commands as a user runs them: what they print, how they end, and what they leave behind.
+// The commands as a user runs them: their output, their exit status, and the files that they leave.
 #include "tests/app/commands/command_line.h"
 
 #include <nlohmann/json.hpp>

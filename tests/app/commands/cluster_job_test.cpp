@@ -1,4 +1,4 @@
-// The whole program as a job of several processes: one picture, one end.
+// The whole program as a job of several processes: they show one picture and end together.
 #include "tests/support/child_process.h"
 #include "tests/support/session_fixture.h"
 

@@ -1,5 +1,4 @@
-// Files that libraries decode, as a user meets them: damaged ones, and a program that is started
-// from anywhere.
+// Files that libraries decode: damaged ones, and the program started from any folder.
 #include "tests/app/commands/command_line.h"
 
 #include <set>
@@ -72,7 +71,8 @@ TEST_F(ForeignFiles, AreReadWhereverTheProgramIsStartedFrom) {
 }
 
 TEST_F(ForeignFiles, WithoutAReaderAreRefusedAndOthersAreRead) {
-    // Neither the folder that it is started in nor the one above it is where a reader is looked for.
+    // Neither the folder that it is started in nor the one above it is where a reader is looked
+    // for.
     const fs::path program = folder.path() / "bin" / "isochron";
     fs::create_directory(program.parent_path());
     fs::copy_file(test_support::binary_root() + "/isochron", program);

@@ -1,4 +1,4 @@
-// `isochron explore` in a headset, as a program of its own.
+// `isochron explore` with a headset, as a separate program.
 #include "tests/support/child_process.h"
 #include "tests/support/session_fixture.h"
 

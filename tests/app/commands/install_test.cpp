@@ -1,4 +1,5 @@
-// The installed tree: it works wherever it lies, other programs build against it, and its package leaves as it came.
+// The installed tree: it works at any place, other programs build against it, and removing its
+// package leaves nothing.
 #include "tests/app/commands/command_line.h"
 
 #include <sstream>

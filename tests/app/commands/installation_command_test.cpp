@@ -1,4 +1,4 @@
-// The commands about installations, as an engineer runs them.
+// The commands on installations, as an engineer runs them.
 #include "tests/support/session_fixture.h"
 
 #include "interaction/recording/recording.h"

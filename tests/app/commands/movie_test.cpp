@@ -1,4 +1,4 @@
-// A movie has exactly the frames that its rate and its recording's length ask for.
+// A movie has exactly the frames that follow from its rate and its recording's length.
 #include "tests/support/session_fixture.h"
 
 #include "app/output/movie_file.h"

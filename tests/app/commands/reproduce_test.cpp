@@ -1,4 +1,4 @@
-// A picture that the program has written is made again, to the byte, from what it holds.
+// A picture that the program has written is drawn again from its note, with the same bytes.
 #include "tests/support/child_process.h"
 #include "tests/support/session_fixture.h"
 

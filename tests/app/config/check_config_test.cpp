@@ -1,4 +1,5 @@
-// `--check-config`: what is shipped is sound, and everything that is wrong is named with its place.
+// `--check-config`: shipped configurations have no problems, and every problem is reported with its
+// place.
 #include "app/config/check_config.h"
 
 #include "app/config/shipped_configs.h"

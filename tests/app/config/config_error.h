@@ -1,4 +1,4 @@
-// What is wrong with a configuration, for tests.
+// The error message of a configuration, for tests.
 #pragma once
 
 #include "app/config/config.h"

@@ -1,4 +1,4 @@
-// Configurations that were damaged at random: each is read, or refused in words, and never worse.
+// Randomly damaged configurations are read, or refused with a message.
 #include "app/config/check_config.h"
 #include "app/config/config.h"
 #include "app/config/display_config_text.h"

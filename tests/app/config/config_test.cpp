@@ -1,4 +1,4 @@
-// Configuration files: what is shipped is valid, and what is wrong is named with its place.
+// Configuration files: shipped ones are valid, and errors are reported with their place.
 #include "app/config/config.h"
 #include "app/config/toml_reader.h"
 #include "tests/app/config/config_error.h"

@@ -1,4 +1,4 @@
-// Trackers in configuration files: what is written arrives, and what is wrong is named.
+// Trackers in configuration files: all settings are read, and errors are reported.
 #include "app/config/tracker_setup.h"
 #include "app/frame/device_tracking.h"
 #include "interaction/recording/recording.h"

@@ -1,4 +1,4 @@
-// Where a volume first stands in the room: what is up in the data is up in the room.
+// The first placement of a volume in the room: what is up in the data is up in the room.
 #include "app/config/first_placement.h"
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// Files that spell as version 0.1 did still mean the same.
+// Files with the spellings of version 0.1 still have the same meaning.
 #include "app/config/config.h"
 #include "tests/app/config/config_error.h"
 

@@ -1,4 +1,4 @@
-// The `[openxr]` table, and what a configuration says of it.
+// The `[openxr]` table: reading it, and describing it.
 #include "app/config/check_config.h"
 #include "app/config/config.h"
 

@@ -1,4 +1,4 @@
-// ParaView's .pvx files: what they describe arrives, and what is wrong with one is named.
+// ParaView's .pvx files: all that they describe is imported, and errors are reported.
 #include "app/config/pvx_file.h"
 
 #include "app/config/check_config.h"

@@ -1,4 +1,4 @@
-// The JSON schema of configurations: made by the readers, shipped, and kept to by what is shipped.
+// The JSON schema of configurations: it is made from the readers, and shipped files conform to it.
 #include "app/config/config.h"
 #include "app/config/toml_reader.h"
 #include "tests/app/config/config_error.h"

@@ -1,4 +1,4 @@
-// Background work: in order, all of it, and never in the caller's way.
+// Background work is done completely and in order, without blocking the caller.
 #include "app/frame/background_work.h"
 
 #include "index/error.h"

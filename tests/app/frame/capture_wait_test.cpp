@@ -1,4 +1,4 @@
-// Captures wait for cells and quality, and not for ever.
+// Captures wait for cells and quality, but not forever.
 #include "app/frame/capture_wait.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The model of draw cost: finds both parts, never says less than nothing, and forgets.
+// The model of draw cost: it finds both parts, is never negative, and forgets.
 #include "app/frame/draw_cost.h"
 
 #include "tests/support/test_seed.h"

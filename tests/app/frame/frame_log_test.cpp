@@ -1,4 +1,4 @@
-// The program's own measurement: what it adds up, and what its report says.
+// The log of frames: its sums and its report.
 #include "app/frame/frame_log.h"
 #include "app/panel/panel.h"
 #include "tests/support/test_folder.h"

@@ -1,4 +1,4 @@
-// Undo and redo: any change comes back as it was, and a drag is one step.
+// Undo and redo: any change can be undone exactly, and a drag is one step.
 #include "app/frame/history.h"
 #include "interaction/actions.h"
 #include "interaction/navigation.h"

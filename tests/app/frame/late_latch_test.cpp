@@ -1,4 +1,4 @@
-// Heads as they are right before drawing: in the views and the recording, and nowhere else.
+// Heads right before drawing: they are used in the views and the recording, and nowhere else.
 #include "app/frame/late_latch.h"
 
 #include "tests/support/session_fixture.h"

@@ -1,4 +1,5 @@
-// The choice of the footprint against simulated costs: it fits, it holds still, it never sticks.
+// The choice of the footprint with simulated costs: it fits the budget, is stable, and never stays
+// too low.
 #include "tests/app/frame/quality_fixture.h"
 
 #include <gtest/gtest.h>

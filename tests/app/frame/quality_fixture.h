@@ -1,4 +1,4 @@
-// What tests of the quality controller share: costs of three rungs, and that nothing flickers.
+// Helpers for tests of the quality controller: costs of three footprints, and a check for flicker.
 #pragma once
 
 #include "tests/app/frame/simulated_display.h"

@@ -1,4 +1,4 @@
-// What is drawn while something moves, and what is never tried.
+// The footprints that are drawn while something moves, and those that are never tried.
 #include "tests/app/frame/quality_fixture.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// A display without GL: footprints cost what a test says, and the cost is known some frames later.
+// A display without GL: a test sets the cost of footprints, which becomes known some frames later.
 #pragma once
 
 #include "app/frame/quality_controller.h"

@@ -1,4 +1,4 @@
-// The demo series as files: what they hold, and that they are whole and always the same.
+// The demo series as files: their contents, and that they are complete and always the same.
 #include "app/generate/demo_series.h"
 
 #include "index/error.h"

@@ -1,4 +1,4 @@
-// The field of random Fourier modes is what its formula says, and solenoidal.
+// The field of random Fourier modes agrees with its formula, and is solenoidal.
 #include "app/generate/fourier_modes.h"
 
 #include "app/generate/demo_fields.h"

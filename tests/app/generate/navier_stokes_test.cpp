@@ -1,4 +1,4 @@
-// The flow behind the demo data against what is known exactly about such flows.
+// The flow behind the demo data, compared with exact results on such flows.
 #include "app/generate/navier_stokes.h"
 #include "app/generate/random_velocity.h"
 

@@ -1,5 +1,5 @@
-// A CAVE of four walls, drawn: every wall its part, one picture across their edges, and the room
-// that an emulation shows.
+// A CAVE of four walls: each wall shows its part, pictures match at their edges, and an emulation
+// shows the room.
 #include "tests/support/session_fixture.h"
 
 #include "app/output/room_camera.h"

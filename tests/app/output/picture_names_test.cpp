@@ -1,4 +1,4 @@
-// File names of pictures: as they always were for one window, told apart for more.
+// File names of pictures: unchanged for one window, different for several.
 #include "app/output/picture_names.h"
 
 #include "tests/support/test_folder.h"

@@ -1,4 +1,4 @@
-// What a picture says of itself comes back as it was, or is refused in one line.
+// The note in a picture is read as it was written, or refused in one line.
 #include "app/output/picture_note.h"
 
 #include "app/frame/explorer_state.h"

@@ -1,4 +1,4 @@
-// The camera of an emulated room: what it starts with, what moves it, and what it leaves alone.
+// The camera of an emulated room: its start, the events that move it, and those that it ignores.
 #include "app/output/room_camera.h"
 
 #include "app/config/config.h"

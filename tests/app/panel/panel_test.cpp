@@ -1,4 +1,4 @@
-// The panel without a window: whatever the data are called and hold, it can be laid out.
+// The panel without a window can be laid out, whatever the names and values of the data.
 #include "app/config/config.h"
 #include "app/panel/panel.h"
 #include "app/panel/panel_tools.h"

@@ -1,4 +1,4 @@
-// A session with the panel in the room, and a wand that points at places of it.
+// A session with the panel in the room, and a wand that points at it.
 #pragma once
 
 #include "tests/support/session_fixture.h"

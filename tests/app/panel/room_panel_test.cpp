@@ -1,5 +1,5 @@
-// The panel in the room, operated by a wand: seen by both eyes, before and behind the surface, and
-// replayed.
+// The panel in the room, operated by a wand: both eyes see it, before and behind the surface, and a
+// replay repeats it.
 #include "tests/app/panel/room_panel_fixture.h"
 
 #include "tests/support/sphere_oracle.h"

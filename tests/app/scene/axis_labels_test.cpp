@@ -1,4 +1,4 @@
-// Labels along the box: none over another one, in neither eye, and none left out without need.
+// Labels along the box: none covers another in either eye, and none is left out without need.
 #include "app/scene/axis_labels.h"
 
 #include "app/scene/font.h"

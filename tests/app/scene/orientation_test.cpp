@@ -1,4 +1,4 @@
-// A bar that says how long something is at the data's center.
+// The scale bar shows the right length at the data's center.
 #include "app/scene/orientation.h"
 
 #include "interaction/navigation.h"

@@ -1,5 +1,5 @@
-// The right letter in the right eye, and the cross where geometry says, in every mode and on every
-// wall.
+// The test pattern: each eye has its letter, and the cross is at its place, in every mode and on
+// every wall.
 #include "tests/support/golden_fixture.h"
 
 #include "app/session/pattern_show.h"

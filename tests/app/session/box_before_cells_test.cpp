@@ -1,4 +1,4 @@
-// The box's edges before the cells let these shine through, and no edge behind them shows.
+// The box's edges in front of the cells are translucent, and no edge behind the cells shows.
 #include "tests/support/golden_fixture.h"
 
 #include "render/gl/srgb.h"

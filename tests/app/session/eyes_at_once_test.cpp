@@ -1,4 +1,4 @@
-// Both eyes' cells in one draw where the driver can, in two where it cannot, and the same pictures.
+// Both eyes' cells in one draw if the driver can, else in two; the pictures are the same.
 #include "render/gl/driver_trials.h"
 #include "tests/support/context_in_between.h"
 #include "tests/support/golden_fixture.h"

@@ -1,4 +1,5 @@
-// Every stereo mode's window, pixel for pixel and by what geometry says of each eye's part.
+// The windows of all stereo modes, compared with golden pictures and with the geometry of each
+// eye's part.
 #include "tests/support/golden_fixture.h"
 
 #include "stereo/image_file.h"

@@ -1,4 +1,4 @@
-// Pictures of a sphere as they were once looked at and kept, and what geometry alone says of them.
+// Pictures of a sphere, compared with golden pictures and with geometry.
 #include "render/gl/driver.h"
 #include "tests/support/golden_fixture.h"
 

@@ -1,4 +1,4 @@
-// What hands are made to feel.
+// The haptic pulses of hands.
 #include "app/session/haptics.h"
 
 #include "interaction/actions.h"

@@ -1,4 +1,4 @@
-// The whole picture in a headset: what each eye is shown of a sphere, and how far away it is.
+// The whole picture in a headset: what each eye sees of a sphere, and at what distance.
 #include "tests/support/golden_fixture.h"
 #include "tests/support/played_fixture.h"
 

@@ -1,4 +1,5 @@
-// A driver with the least that GL 4.5 core promises draws the same; a lesser one says what it lacks.
+// A driver with the smallest limits of GL 4.5 core draws the same; with smaller limits an error
+// says what is missing.
 #include "tests/support/context_in_between.h"
 #include "tests/support/golden_fixture.h"
 #include "tests/support/least_driver.h"
@@ -40,7 +41,8 @@ class LeastDriver : public GoldenPictures {
 };
 
 /// Where points are a pixel at most, quads stand for them, which round a little otherwise. Of
-/// ellipses, which end between pixels, one pixel in a thousand may lie on the other side of an edge.
+/// ellipses, which end between pixels, one pixel in a thousand may lie on the other side of an
+/// edge.
 constexpr ImageTolerance kEllipses{.maximum = 160, .mean = 0.05, .strays = 0.001};
 constexpr ImageTolerance kSame{.maximum = 0, .mean = 0.0};
 

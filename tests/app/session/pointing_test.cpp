@@ -1,4 +1,4 @@
-// What the cursor is over is what is picked: against rays made of the views' own matrices.
+// The place under the cursor is the picked place, by rays made from the views' own matrices.
 #include "tests/interaction/input_builders.h"
 #include "tests/support/session_fixture.h"
 #include "tests/support/test_seed.h"

@@ -1,4 +1,4 @@
-// A session that is kept and resumed is the one that was left, to the pixel.
+// A resumed session is the same as the saved one, pixel by pixel.
 #include "app/session/session_file.h"
 #include "app/session/session_keeper.h"
 #include "tests/interaction/recording/random_commands.h"

@@ -1,5 +1,5 @@
-// The session's quality: measured when live, by pace alone in a fixed-step replay, awaited by
-// captures.
+// The quality of a session: by measurement when live, by pace only in a fixed-step replay; captures
+// wait for it.
 #include "tests/support/session_fixture.h"
 
 #include "app/session/replay.h"

@@ -1,4 +1,4 @@
-// The session: one frame does what the day's story says, and waits for nobody.
+// The session: a frame does all that it should, and never waits.
 #include "tests/support/session_fixture.h"
 
 #include "app/session/replay.h"

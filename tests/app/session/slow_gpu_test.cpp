@@ -1,5 +1,5 @@
-// Behind a slow driver: fences passed 50 ms late, times that come ten frames late, maps that wait.
-// Frames go on, every set lands once and whole, and nothing is sent twice.
+// A slow driver: fences are passed 50 ms late, times are known ten frames late, maps wait. Frames
+// continue, every set is shown once and complete, and nothing is sent twice.
 #include "tests/support/context_in_between.h"
 #include "tests/support/late_fences.h"
 #include "tests/support/session_fixture.h"

@@ -1,4 +1,4 @@
-// What the program remembers of its user.
+// What the program remembers between sessions.
 #include "app/session/user_memory.h"
 #include "tests/support/test_folder.h"
 

@@ -1,4 +1,4 @@
-// Pictures of footprints beside those of the exact surface.
+// Compares pictures of footprints with those of the exact surface.
 #include "tests/bench/measures/agreement.h"
 
 #include "index/extraction/extraction.h"
@@ -28,7 +28,7 @@ using render::Image;
 
 constexpr int kTimedDraws = 15;
 
-/// Pixels across the picture that give a voxel in the volume's middle so many.
+/// Size of the picture with which a voxel in the volume's middle has `pixels_per_voxel` [pixel].
 int picture_size(const index::SeriesInfo& info, double pixels_per_voxel) {
     const BenchCamera camera = bench_camera(info, 1000, 1);
     const render::View& view = camera.views[0];
@@ -55,8 +55,8 @@ double luminance(const Image& image, int x, int y) {
                            glm::vec3(0.2126f, 0.7152f, 0.0722f))};
 }
 
-/// Length of the silhouette's outline [pixels]: by Cauchy and Crofton from how often rows and
-/// columns cross it.
+/// Length of the silhouette's outline [pixels], by the Cauchy-Crofton formula from the number of
+/// times that rows and columns cross it.
 double outline_length(const Image& image) {
     double crossings = 0;
     for (int y = 0; y < image.height; ++y)
@@ -97,7 +97,7 @@ class AgreementView {
     AgreementView(const render::Gl& gl, const index::SeriesInfo& info, double pixels_per_voxel)
         : gl_(gl), camera_(bench_camera(info, picture_size(info, pixels_per_voxel), 1)),
           target_(gl, camera_.views[0].size) {
-        look_.linear_light = !render::draws_in_software(gl); // as a session's
+        look_.linear_light = !render::draws_in_software(gl); // as in a session
     }
 
     Image draw(render::CellPass& pass, render::CellBuffers& cells, Footprint footprint) {

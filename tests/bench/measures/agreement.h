@@ -1,4 +1,4 @@
-// How far quads and splats agree with the exact surface: silhouettes and light, pixel by pixel.
+// Compares quads and splats with the exact surface: silhouettes and light, pixel by pixel.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -19,8 +19,8 @@ struct AgreementOptions {
 };
 
 /// Draws the exact surface, and quads and splats of both shapes, in one view of the bench's camera
-/// (perspective, alone on black), and compares pictures: see `AgreementRow`. Speeds are of the same
-/// draws, in turn.
+/// (perspective, on black), and compares the pictures: see `AgreementRow`. Speeds are measured on
+/// the same draws, in turn.
 std::vector<AgreementRow> measure_agreement(const std::shared_ptr<const index::IndexFile>& file,
                                             const AgreementOptions& options);
 

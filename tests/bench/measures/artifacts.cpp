@@ -1,4 +1,4 @@
-// The paper's two sources of error in pixels.
+// Measures the paper's two sources of error in pixels.
 #include "tests/bench/measures/artifacts.h"
 
 #include "index/error.h"
@@ -60,7 +60,8 @@ index::CellSetPtr shaded(const index::StepValues& values, const index::Query& qu
     return set;
 }
 
-/// Neither source of error can be seen on the exact surface, which is drawn from the volume.
+/// All footprints except the exact surface, which is drawn from the volume and so does not show
+/// these errors.
 const std::vector<NamedFootprint>& splats() {
     static const std::vector<NamedFootprint> footprints = [] {
         auto all = all_footprints();

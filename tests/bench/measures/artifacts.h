@@ -1,5 +1,5 @@
-// The two sources of error that section 7 of the paper names, in pixels: normals that are kept over
-// a time span, and false positives that are drawn.
+// Measures, in pixels, the two sources of error that section 7 of the paper names: normals that are
+// kept over a time span, and false positives that are drawn.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -16,11 +16,11 @@
 
 namespace isochron::bench {
 
-/// How one picture differs from another of the same size, over the pixels where either shows
-/// something. A pixel's difference is that of its color channel that differs most, of 255.
+/// Difference of two pictures of the same size, over the pixels where at least one of them shows
+/// something. A pixel's difference is the largest of its color channels', 0 to 255.
 struct PixelDifference {
     double mean = 0, p99 = 0;
-    double changed_percent = 0; ///< of those pixels: by more than kVisible
+    double changed_percent = 0; ///< share of these pixels that differ by more than kVisible
     static constexpr int kVisible = 5;
 };
 PixelDifference difference(const render::Image& a, const render::Image& b);
@@ -41,33 +41,33 @@ struct ArtifactResults {
     std::vector<ArtifactRow> rows;
 };
 std::string to_json_text(const ArtifactResults& results);
-/// @throws index::Error when something is missing, or of another kind
+/// @throws index::Error when a field is missing or has the wrong type
 ArtifactResults artifacts_from_json(const std::string& text, const std::string& name);
 
-/// What is drawn of one step.
+/// The sets of cells that are drawn for one step.
 struct ArtifactSets {
-    index::CellSetPtr exact;           ///< the active cells with normals of the step itself
+    index::CellSetPtr exact;           ///< the active cells with normals of this step
     index::CellSetPtr kept_normals;    ///< the same with the normals that the tree stores
-    index::CellSetPtr false_positives; ///< all that the tree finds, with normals of the step
+    index::CellSetPtr false_positives; ///< all cells that the tree finds, with normals of this step
 };
 ArtifactSets artifact_sets(const index::StepValues& values, const index::ThiTree& tree,
                            const index::Query& query);
 
-/// The three as pictures, from the camera of the rendering benchmark.
+/// Pictures of the three sets, from the camera of the rendering benchmark.
 struct ArtifactPictures {
     render::Image exact, kept_normals, false_positives;
 };
 
-/// Draws series in a context that is current.
+/// Draws series in the current context.
 class ArtifactBench {
   public:
-    /// @param size of the pictures, across and up, pixels
+    /// @param size of both sides of the pictures, pixels
     ArtifactBench(const render::Gl& gl, std::shared_ptr<const index::IndexFile> file, int size);
 
     ArtifactPictures draw(const ArtifactSets& sets, render::Footprint footprint);
     render::Image draw(const index::CellSetPtr& set, render::Footprint footprint);
 
-    /// @param steps every so many of them are drawn
+    /// @param every draw each `every`-th step
     std::vector<ArtifactRow> measure(const std::string& data, const index::ThiOptions& options,
                                      double isovalue, std::uint32_t every,
                                      const index::Progress& progress);
@@ -81,7 +81,7 @@ class ArtifactBench {
 
 /// Pictures of the same height next to each other.
 render::Image side_by_side(const std::vector<render::Image>& pictures);
-/// Where two pictures differ: black where they do not, brighter by `gain`.
+/// The difference of two pictures, times `gain`; black where they are equal.
 render::Image difference_picture(const render::Image& a, const render::Image& b, int gain);
 
 } // namespace isochron::bench

@@ -1,4 +1,4 @@
-// One pipe for the child's answer, one process to wait for.
+// Runs work in a child process, which sends its result through a pipe.
 #include "tests/bench/measures/child.h"
 
 #include "index/error.h"
@@ -22,7 +22,7 @@ namespace isochron::bench {
 namespace {
 
 constexpr int kFailed = 1;
-constexpr int kLookMs = 200; ///< between two looks for the user's wish to cancel
+constexpr int kLookMs = 200; ///< between two checks whether the user cancels
 
 [[noreturn]] void run(const std::function<std::string()>& work, int out) {
     std::string answer;
@@ -42,17 +42,17 @@ constexpr int kLookMs = 200; ///< between two looks for the user's wish to cance
         rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
     }
     std::fflush(stderr);
-    _exit(status); // without the parent's destructors
+    _exit(status); // does not run the parent's destructors
 }
 
-/// The child and the reading end of its pipe; neither outlives it.
+/// The child process and the reading end of its pipe; both end with this object.
 class Child {
   public:
     explicit Child(const std::function<std::string()>& work) {
         std::array<int, 2> ends{};
         if (pipe(ends.data()) != 0)
             throw index::Error(fmt::format("no pipe to a child process: {}", std::strerror(errno)));
-        std::fflush(nullptr); // else both would print what is still buffered
+        std::fflush(nullptr); // else both processes would print what is still buffered
         process_ = fork();
         if (process_ == 0) {
             close(ends[0]);
@@ -75,14 +75,14 @@ class Child {
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// Everything that it writes, until it closes its end.
+    /// Reads everything that the child writes, until it closes its end.
     std::string read_all(const app::CancelOnSignal& signals) {
         std::string all;
         std::array<char, 4096> part{};
         for (;;) {
             signals.check();
             pollfd ready{in_, POLLIN, 0};
-            if (poll(&ready, 1, kLookMs) <= 0) // a signal ends it, where it would not end a read
+            if (poll(&ready, 1, kLookMs) <= 0) // a signal ends poll, but would not end read
                 continue;
             const ssize_t count = read(in_, part.data(), part.size());
             if (count == 0)
@@ -94,7 +94,7 @@ class Child {
         }
     }
 
-    /// As waitpid tells it.
+    /// The child's status, from waitpid.
     int wait() {
         int status = 0;
         while (waitpid(process_, &status, 0) < 0 && errno == EINTR)

@@ -1,4 +1,4 @@
-// Work in a process of its own, for what a process can set but once.
+// Runs work in a child process, for settings that a process can make only once.
 #pragma once
 
 #include "app/commands/cancel.h"
@@ -8,9 +8,9 @@
 
 namespace isochron::bench {
 
-/// Forks, runs the work in the child and waits for what it returns. The parent must have no other
-/// threads. What the child prints to stderr is seen at once; when the user cancels, the child is
-/// told so and waited for.
+/// Forks, runs the work in the child, and waits for its result. The parent must have no other
+/// threads. The child's output on stderr appears at once. If the user cancels, the child gets the
+/// signal too, and is waited for.
 /// @throws app::Canceled, or index::Error with the child's own message
 std::string in_child(const std::function<std::string()>& work, const app::CancelOnSignal& signals);
 

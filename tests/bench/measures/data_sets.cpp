@@ -1,4 +1,4 @@
-// The series that the benchmark makes for itself.
+// The series that the benchmark generates.
 #include "tests/bench/measures/data_sets.h"
 
 #include "index/build/index_build.h"
@@ -9,7 +9,7 @@ namespace isochron::bench {
 
 namespace {
 
-/// A made series as the builder reads series.
+/// A generated series, in the form in which the builder reads series.
 class MadeSeries : public index::VolumeSeries {
   public:
     template <class Series>
@@ -51,7 +51,7 @@ DataSet data_set(const std::string& name, index::ValueType type, std::optional<s
                 .series = app::VorticitySeries{.type = type, .steps = steps.value_or(64)},
                 .isovalue = {},
                 .active_cells = 3940}; // the paper's average
-    // Some 0.5 % of all cells; of the large one just so many that copying them takes its time.
+    // About 0.5 % of all cells; for the large series enough that copying takes noticeable time.
     const bool large = name == "fourier-256";
     assert(large || name == "fourier-128");
     return {.name = large ? "fourier256" : "fourier128",

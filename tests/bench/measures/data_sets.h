@@ -1,4 +1,4 @@
-// The series that the benchmark makes for itself.
+// The series that the benchmark generates.
 #pragma once
 
 #include "app/generate/demo_fields.h"
@@ -17,15 +17,15 @@ namespace isochron::bench {
 struct DataSet {
     std::string name; ///< as in the rows: `sphere`, `vorticity64`, `fourier128`, `fourier256`
     std::variant<app::SphereSeries, app::VorticitySeries, app::FourierSeries> series;
-    std::optional<double> isovalue; ///< to measure at; else the one with so many active cells:
-    double active_cells = 0;        ///< on average, approximately
+    std::optional<double> isovalue; ///< to measure at; empty: the one with `active_cells`
+    double active_cells = 0;        ///< wanted mean number of active cells
 };
 
 /// The choices of `--data`, in the order they are measured.
 const std::vector<std::string>& data_names();
 
 /// @param name one of `data_names()`
-/// @param steps instead of those of the name, where given
+/// @param steps number of steps; empty: as the name has
 DataSet data_set(const std::string& name, index::ValueType type, std::optional<std::size_t> steps);
 
 /// Makes the series and builds its index as `isochron build` does.

@@ -1,4 +1,4 @@
-// Whether a structure finds what it must.
+// Counts the false positives and false negatives of a structure.
 #include "tests/bench/measures/errors.h"
 
 #include "index/scan/scan.h"

@@ -1,4 +1,4 @@
-// Whether a structure finds what it must: false positives and false negatives, counted.
+// Counts the false positives and false negatives of a structure.
 #pragma once
 
 #include "index/volume/step_values.h"
@@ -12,7 +12,7 @@ namespace isochron::bench {
 
 struct ErrorCount {
     std::uint64_t active = 0;          ///< truly active cells over all queries
-    std::uint64_t false_positives = 0; ///< found without being active, or found again
+    std::uint64_t false_positives = 0; ///< found but not active, or found twice
     std::uint64_t false_negatives = 0;
 };
 

@@ -1,4 +1,4 @@
-// Which isovalues a series is measured at.
+// Chooses the isovalues at which a series is measured.
 #include "tests/bench/measures/isovalues.h"
 
 #include "index/scan/scan.h"
@@ -17,7 +17,7 @@ constexpr std::size_t kSampleSteps = 8;
 
 std::vector<double> sorted_sample(const index::StepValues& values) {
     const std::size_t vertices = values.grid.vertex_count();
-    // Odd, so that it meets all places along an axis of 2^n vertices.
+    // An odd stride reaches all places along an axis of 2^n vertices.
     const std::size_t stride = values.steps * vertices / kSample | 1;
     std::vector<double> sample;
     index::visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
@@ -44,7 +44,7 @@ double mean_active(const index::StepValues& values, double isovalue) {
     return sum / static_cast<double>(steps);
 }
 
-/// To four digits; between whole numbers where the values are such.
+/// Rounds to four digits, or between whole numbers if the values are whole numbers.
 double rounded(const index::StepValues& values, double isovalue) {
     if (values.type != index::ValueType::f32 && values.type != index::ValueType::f64 &&
         values.scaling == index::Scaling{})
@@ -81,7 +81,7 @@ double isovalue_with(const index::StepValues& values, double active) {
         }
         if (cells < active)
             continue;
-        // Between this quantile and the one above, more become fewer.
+        // Between this quantile and the next, the number of active cells falls below `active`.
         double high = sample[(sample.size() - 1) * k / kCoarse];
         for (int halving = 0; halving < 20; ++halving) {
             const double middle = (low + high) / 2;

@@ -1,4 +1,4 @@
-// Which isovalues a series is measured at.
+// Chooses the isovalues at which a series is measured.
 #pragma once
 
 #include "index/volume/step_values.h"
@@ -7,12 +7,12 @@
 
 namespace isochron::bench {
 
-/// The quantiles k / (count + 1) of the numbers among the scaled values of all steps, k = 1 to
-/// `count`; of large series those of an even sample. Empty when there are no numbers.
+/// The quantiles k / (count + 1), k = 1 to `count`, of the scaled values of all steps without NaN;
+/// of large series those of an evenly spaced sample. Empty if all values are NaN.
 std::vector<double> quantile_isovalues(const index::StepValues& values, int count);
 
-/// The highest isovalue at which about so many cells are active on average over some of the steps,
-/// with few digits; where no isovalue has as many, one that has most.
+/// The highest isovalue, with few digits, at which about `active` cells are active on average over
+/// some of the steps; if no isovalue has that many, the one with the most.
 double isovalue_with(const index::StepValues& values, double active);
 
 } // namespace isochron::bench

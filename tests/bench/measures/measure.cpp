@@ -1,4 +1,4 @@
-// The benchmark of all structures on one series.
+// Measures all structures on one series.
 #include "tests/bench/measures/measure.h"
 
 #include "index/extraction/id_sort.h"
@@ -25,14 +25,14 @@ using index::CellSet;
 using index::Query;
 using index::StepValues;
 
-/// The paper's structure takes some 30 bytes for each while it is built.
+/// Most cells times steps for which the paper's structure is built, with about 30 bytes for each.
 constexpr double kMostThiCellSteps = 150e6;
 
-/// The truth at the isovalue of the times.
+/// The correct result at the isovalue of the times.
 struct Surface {
     std::vector<Ids> active; ///< of each step, ascending
     double mean_active = 0;
-    std::optional<double> mean_change; ///< added and removed cells from step to step
+    std::optional<double> mean_change; ///< mean number of added and removed cells per step
 
     Surface(const StepValues& values, double isovalue) : active(values.steps) {
         for (std::uint32_t step = 0; step < values.steps; ++step) {
@@ -51,12 +51,12 @@ struct Surface {
     }
 };
 
-/// Makes the result of a copy visible, so that it is really made.
+/// Keeps the compiler from removing a copy whose result is not used.
 void keep(const void* memory) {
     asm volatile("" : : "r"(memory) : "memory");
 }
 
-/// What every structure is compared with, in the order of the columns.
+/// The operations that every structure is compared with, in the order of the columns.
 std::vector<Operation> comparisons(const StepValues& values, double isovalue, const Structure& tbon,
                                    FlyingEdges& peer, const Surface& surface) {
     std::vector<Operation> all;
@@ -82,7 +82,7 @@ std::vector<Operation> comparisons(const StepValues& values, double isovalue, co
     return all;
 }
 
-/// As the program makes a set: ascending, tested where the ids are candidates, shaded.
+/// Makes a set as the program does: sorted, tested if the ids are candidates, and shaded.
 void make_set(const StepValues& values, const Structure& structure, const Query& query,
               CellSet& set) {
     structure.ids(query, set.ids);
@@ -97,7 +97,7 @@ void time_searches(const StepValues& values, const Structure& structure,
                    const std::vector<Operation>& compared, unsigned rounds, Row& row) {
     const double isovalue = row.isovalue;
     const auto steps = static_cast<std::uint32_t>(values.steps);
-    // Backwards from the last step, forwards from all others.
+    // The next step; for the last step the one before it.
     const auto neighbor = [steps](std::uint32_t step) {
         return step + 1 < steps ? step + 1 : step - 1;
     };

@@ -1,4 +1,4 @@
-// The benchmark of all structures on one series.
+// Measures all structures on one series.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -15,12 +15,12 @@ namespace isochron::bench {
 struct MeasureOptions {
     std::string data; ///< name of the series in the rows
     double isovalue = 0;
-    unsigned rounds = 5;      ///< of every time, for the median
-    int error_isovalues = 64; ///< quantiles of the values
+    unsigned rounds = 5;      ///< number of measurements of each time, for the median
+    int error_isovalues = 64; ///< number of isovalues (quantiles) at which errors are counted
     StructureOptions structures;
 };
 
-/// Builds one structure after the other and measures each in turn with what it is compared with.
+/// Builds one structure after the other, and measures each in turn with the comparisons.
 /// @return rows and details
 Results measure(const std::shared_ptr<const index::IndexFile>& file, const MeasureOptions& options,
                 const index::Progress& progress);

@@ -1,4 +1,4 @@
-// The tiers of an index as the benchmark measures them.
+// The tiers of an index, as structures for the benchmark.
 #include "index/cells/unit_builder.h"
 #include "index/extraction/cell_change.h"
 #include "index/file/tiers.h"
@@ -16,8 +16,7 @@ using index::StepValues;
 using index::Tier;
 using FilePtr = std::shared_ptr<const IndexFile>;
 
-/// Of the whole file, but for the volume with its levels of detail and the tiers that a structure
-/// does without.
+/// Bytes of the file without the volume, its levels of detail, and the tiers in `others`.
 std::uint64_t bytes_without(const IndexFile& file, std::initializer_list<Tier> others) {
     std::uint64_t bytes =
         file.stats().file_bytes - file.stats().volume_bytes - file.stats().detail_bytes;
@@ -26,7 +25,7 @@ std::uint64_t bytes_without(const IndexFile& file, std::initializer_list<Tier> o
     return bytes;
 }
 
-/// Builds the bricks of all steps once more, on one thread.
+/// Time to build the bricks of all steps again, on one thread.
 double seconds_for_bricks(const IndexFile& file) {
     const StepValues& values = file.values();
     std::vector<std::uint8_t> bricks(index::BrickGrid(values.grid).bytes_per_step());
@@ -68,7 +67,7 @@ Recipe bricks_of(const FilePtr& file) {
             }};
 }
 
-/// A search of the cells, with the memory for its runs.
+/// A search of the cell tier, with the memory for its runs.
 struct CellSearch {
     explicit CellSearch(const FilePtr& of) : file(of), changes(of) {}
 
@@ -86,7 +85,7 @@ struct CellSearch {
     Ids all;
 };
 
-/// Only of lossless levels, where no run is ambiguous.
+/// Only for lossless levels, with which no run is ambiguous.
 Recipe cells_of(const FilePtr& file, bool deltas) {
     const std::string name = deltas ? "cells+deltas" : "cells";
     return {name, [=](const index::Progress& progress) {

@@ -1,4 +1,4 @@
-// Placement and frusta of the rendering benchmark.
+// Placement and frusta for the rendering benchmark.
 #include "tests/bench/measures/render_camera.h"
 
 #include "app/config/first_placement.h"
@@ -14,7 +14,7 @@ namespace isochron::bench {
 namespace {
 
 constexpr double kEyeSeparation = 0.063;       // meters
-const glm::dvec3 kTowardsEye(0.45, 0.35, 1.0); // from the middle: no axis is seen end-on
+const glm::dvec3 kTowardsEye(0.45, 0.35, 1.0); // from the middle, along no axis
 
 } // namespace
 

@@ -1,5 +1,5 @@
-// The camera of the rendering benchmark: 45 degrees, the volume's bounding sphere touches the
-// picture.
+// The camera of the rendering benchmark: 45 degrees, and the volume's bounding sphere just fits
+// into the picture.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -12,7 +12,7 @@
 
 namespace isochron::bench {
 
-/// Where a camera stands, in the physical space of the series.
+/// Pose of a camera in the physical space of the series.
 struct CameraPose {
     glm::dvec3 eye, center, up;
 };
@@ -21,11 +21,12 @@ struct BenchCamera {
     static constexpr double kAngle = 45.0; ///< degrees, of the whole picture
     render::Placement placement;
     std::vector<render::View> views; ///< left to right, side by side
-    std::vector<CameraPose> poses;   ///< one for each
+    std::vector<CameraPose> poses;   ///< one for each view
 };
 
-/// @param size pixels of each eye's picture, across and up
-/// @param eyes 1, or 2: as far apart as a person's, with zero parallax in the volume's middle
+/// @param size of both sides of each eye's picture, pixels
+/// @param eyes 1 or 2; two are as far apart as a person's, with zero parallax in the volume's
+/// middle
 BenchCamera bench_camera(const index::SeriesInfo& info, int size, int eyes);
 
 } // namespace isochron::bench

@@ -1,4 +1,4 @@
-// Frames, their stages and their rivals, in turn.
+// Measures frames, their stages and their rivals, in turn.
 #include "tests/bench/measures/render_measure.h"
 
 #include "index/extraction/extractor.h"
@@ -35,8 +35,8 @@ double wall_ms() {
     return Milliseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Frames of one kind: what a viewer waits for, and the processor time of all threads, which others
-/// on the machine lengthen less.
+/// Times of frames of one kind: wall-clock time, and processor time of all threads, which depends
+/// less on other work on the machine.
 class Frames {
   public:
     template <class Frame>
@@ -61,21 +61,22 @@ bool is_blended(Footprint footprint) {
     return footprint == Footprint::gaussian;
 }
 
-/// As a session's in motion, where neither quads nor meshes need it.
+/// As in a session in motion, where quads and meshes need no volume.
 render::SendVolume volume_for(Footprint footprint) {
     return footprint == Footprint::quad || footprint == Footprint::mesh
                ? render::SendVolume::never
                : render::SendVolume::with_cells;
 }
 
-/// Radius in voxels of the largest cells where the footprint is an ellipse or a rectangle.
+/// Radius in voxels of the largest cells, if the footprint is an ellipse or a rectangle; else
+/// empty.
 std::optional<float> radius_of(Footprint footprint, const render::FootprintShapes& shapes) {
     if (render::has_layers(footprint))
         return std::nullopt;
     return shapes.radius_of(footprint);
 }
 
-/// All frames of one row, and the stages of the whole ones.
+/// Times of all frames of one row, and of the stages of whole frames.
 struct Times {
     Frames whole, vtk, bare, quads, extract, order, upload, draw;
     std::vector<double> cells;
@@ -89,7 +90,7 @@ std::optional<double> processor_ms(const Frames& frames) {
     return frames.empty() ? std::nullopt : std::optional(frames.processor_ms());
 }
 
-/// One picture of one series: the program's own frame, and what it is compared with.
+/// One picture of one series: the program's frame, and the frames of its rivals.
 class Bench {
   public:
     Bench(const render::Gl& gl, std::shared_ptr<const index::IndexFile> file,
@@ -98,7 +99,7 @@ class Bench {
           camera_(bench_camera(file_->info(), picture.size, picture.eyes)),
           target_(gl, {picture.size * picture.eyes, picture.size}), pass_(gl), as_quads_(gl),
           cells_(gl, file_->info().grid), orders_(gl), bare_(gl) {
-        look_.linear_light = !render::draws_in_software(gl); // as a session's
+        look_.linear_light = !render::draws_in_software(gl); // as in a session
         as_quads_.draw_without_points();
         as_quads_.draw_hidden_cells();
         if (options.vtk && options.context != stereo::ContextKind::osmesa)
@@ -203,7 +204,7 @@ class Bench {
         target_.bind();
         target_.clear(kBackground);
         if (!is_blended(footprint) || !look_.linear_light)
-            gl_.Disable(GL_FRAMEBUFFER_SRGB); // as the pass does, whose colors need no conversion
+            gl_.Disable(GL_FRAMEBUFFER_SRGB); // as the pass does, as its colors need no conversion
         bare_.draw(camera_.views, is_blended(footprint));
         gl_.Finish();
     }
@@ -216,7 +217,7 @@ class Bench {
                                      spacing);
     }
 
-    /// As the pass does it in the frame that shows a new set.
+    /// Sorts the cells, as the pass does in the frame that shows a new set.
     void make_orders() {
         for (const render::View& view : camera_.views)
             orders_.texture(cells_, key_of(view));
@@ -233,13 +234,13 @@ class Bench {
         }
     }
 
-    /// Time plays and the isovalue is dragged to and fro, with the extraction on its own thread;
-    /// each frame is held against draws of the very cells that it showed.
+    /// Time plays and the isovalue is dragged to and fro, with extraction on its own thread. Each
+    /// frame is compared with draws of the same cells.
     void play(Footprint footprint, std::size_t frames, RenderRow& row,
               const std::function<void(double)>& progress) {
         constexpr int kStatic = 3;
-        constexpr double kDragged = 0.1; ///< of the isovalue
-        // One frame in a hundred is to be one of several, not the worst, where that is soon done.
+        constexpr double kDragged = 0.1; ///< share of the isovalue
+        // With enough frames the 99th percentile is not just the worst one; only if that is fast.
         constexpr std::size_t kManyFrames = 500;
         constexpr double kSoon = 3e3; // ms
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());

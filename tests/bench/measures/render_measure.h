@@ -1,4 +1,4 @@
-// The rendering benchmark of one series in one GL context.
+// Measures the rendering of one series in one GL context.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -17,12 +17,12 @@ struct NamedFootprint {
     std::string_view name; ///< as in the rows
     render::Footprint footprint;
 };
-/// What `--footprints` offers.
+/// The choices of `--footprints`.
 const std::vector<NamedFootprint>& all_footprints();
 
 /// A picture: `512`, `1024`, or for both eyes `2x1024`.
 struct Picture {
-    int size = 0; ///< pixels of each eye's picture, across and up
+    int size = 0; ///< both sides of each eye's picture, pixels
     int eyes = 1;
 };
 
@@ -30,11 +30,11 @@ struct RenderOptions {
     std::string data; ///< name of the series in the rows
     double isovalue = 0;
     stereo::ContextKind context = stereo::ContextKind::egl;
-    unsigned threads = 1; ///< processors that may be used, as the context was made for
+    unsigned threads = 1; ///< processors that may be used
     std::vector<NamedFootprint> footprints = all_footprints();
     std::vector<Picture> pictures{{512, 1}, {1024, 1}, {1024, 2}};
     unsigned rounds = 3; ///< through all steps
-    bool vtk = true;     ///< in a context that VTK can draw in, which OSMesa is not
+    bool vtk = true;     ///< measure VTK, if it can draw in the context (not OSMesa)
 };
 
 /// Makes a context and measures every picture and footprint in it. Whole frames, VTK's frames,
@@ -43,7 +43,7 @@ std::vector<RenderRow> measure_rendering(const std::shared_ptr<const index::Inde
                                          const RenderOptions& options,
                                          const index::Progress& progress);
 
-/// The number that so many percent of the numbers, which are not empty, are not above.
+/// The percentile of some numbers. @param numbers not empty
 double percentile(std::vector<double> numbers, double percent);
 
 } // namespace isochron::bench

@@ -1,4 +1,4 @@
-// Uploads of all steps, one after the other.
+// Uploads all steps, one after the other.
 #include "tests/bench/measures/sent_ids.h"
 
 #include "index/extraction/extraction.h"

@@ -1,4 +1,4 @@
-// How many ids a GPU is sent from step to step.
+// Measures how many ids are sent to a GPU from step to step.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -9,10 +9,10 @@
 
 namespace isochron::bench {
 
-/// Ids that go to the GPU as differences, in percent of all ids of the sets, over all steps after
-/// the first. Sets without normals are asked for, which a GPU makes itself: those that come with
-/// their normals, where the processor draws, are always sent whole.
-/// @return nothing where there is only one step, or no cell
+/// Ids that are sent to the GPU as differences, in percent of all ids of the sets, over all steps
+/// after the first. Uses sets without normals, as for a GPU, which computes them itself: sets with
+/// normals, for software GL, are always sent whole.
+/// @return empty if there is only one step, or no cell
 std::optional<double> sent_ids_percent(const render::Gl& gl,
                                        const std::shared_ptr<const index::IndexFile>& file,
                                        double isovalue);

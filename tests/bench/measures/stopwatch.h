@@ -1,4 +1,4 @@
-// How much processor time something took, which others on the machine do not lengthen.
+// Measures processor time, which other work on the machine does not lengthen.
 #pragma once
 
 #include <ctime>

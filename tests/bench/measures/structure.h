@@ -1,4 +1,4 @@
-// A search structure as the benchmark sees it: what it costs and what it can be asked.
+// A search structure for the benchmark: its costs, and the operations that it has.
 #pragma once
 
 #include "index/extraction/cell_set.h"
@@ -16,27 +16,27 @@ namespace isochron::bench {
 
 using Ids = std::vector<index::CellId>;
 
-/// What a structure has no way to do stays empty, and its figure null. All calls come from one
-/// thread; what they capture keeps alive what they search.
+/// Functions that a structure lacks stay empty; their figures are null. All calls come from one
+/// thread. The functions keep the data that they search alive.
 struct Structure {
     std::string name;                     ///< as in the rows: `thi`, `bricks`, ...
     std::optional<index::ThiOptions> thi; ///< of the paper's structure and its variants
     std::uint64_t bytes = 0;              ///< without the volume
-    std::uint64_t entries = 0;            ///< stored (cell, interval, time node), where it has such
-    bool candidates = false;              ///< its answers still want the exact test
+    std::uint64_t entries = 0;            ///< stored (cell, interval, time node), if it has these
+    bool candidates = false;              ///< its results still need the exact test
     unsigned build_threads = 1;
-    double build_seconds = 0; ///< of processor time, over all threads; 0 where nothing is built
+    double build_seconds = 0; ///< processor time of all threads; 0 if nothing is built
 
     /// Appends the cells of a full search, in any order, each once.
     std::function<void(const index::Query&, Ids&)> ids;
-    /// A full search that leaves the ids where they lie. @return the number of runs
+    /// A full search that does not copy the ids. @return the number of runs
     std::function<std::size_t(const index::Query&)> runs;
-    /// Ids, positions and normals of the active cells; made from `ids` where it is empty.
+    /// Ids, positions and normals of the active cells; if this is empty, they are made from `ids`.
     std::function<void(const index::Query&, index::CellSet&)> full;
-    /// Finds the ids that come and those that go between two queries, without knowing anything
-    /// else. @return how many
+    /// Finds the added and the removed ids between two queries, without an earlier result.
+    /// @return their number
     std::function<std::size_t(const index::Query& from, const index::Query& to)> change;
-    /// Moves on from the last query it was given, to the complete new set. @return its size
+    /// Updates the set of the last query to that of this one. @return its size
     std::function<std::size_t(const index::Query&)> follow;
     /// The error of normals that are stored once for a time span, at an isovalue.
     std::function<NormalError(double isovalue)> normal_error;

@@ -29,7 +29,7 @@ Recipe scan_of(const FilePtr& file) {
                     index::scan(file->values(), query, out);
                 };
                 structure.full = [file](const Query& query, index::CellSet& set) {
-                    index::scan(file->values(), query, set.ids); // in order already
+                    index::scan(file->values(), query, set.ids); // already in order
                     index::shade_cells(file->values(), set);
                 };
                 return structure;
@@ -40,7 +40,7 @@ std::string name_with(const std::string& name, const index::ThiOptions& options)
     return fmt::format("{} L {}, MaxVariation {}", name, options.lattice, options.max_variation);
 }
 
-/// A tree with the bytes that it refers to.
+/// A tree together with its bytes.
 struct OwnThiTree {
     explicit OwnThiTree(std::vector<std::byte> built) : bytes(std::move(built)), tree(bytes) {}
     OwnThiTree(const OwnThiTree&) = delete;

@@ -12,7 +12,7 @@
 
 namespace isochron::bench {
 
-/// How to build a structure: one after the other, since they do not all fit into memory.
+/// How to build a structure. They are built one after the other, as memory cannot hold all of them.
 struct Recipe {
     std::string what; ///< for the progress: `thi L 64, MaxVariation 2`
     std::function<Structure(const index::Progress&)> build;
@@ -21,10 +21,10 @@ struct Recipe {
 struct StructureOptions {
     std::vector<std::uint32_t> lattices{32, 64, 128}; ///< SpanSpaceSize L of the THI trees
     std::vector<std::uint32_t> max_variations{1, 2, 3};
-    unsigned threads = 0; ///< to build with; 0: as many as there are processors
+    unsigned threads = 0; ///< for building; 0: one for each processor
 };
 
-/// The T-BON, which all others are compared with as well.
+/// The T-BON, with which all others are also compared.
 Structure build_tbon(const std::shared_ptr<const index::IndexFile>& file, unsigned threads);
 
 /// The tiers that the index itself holds: bricks, cells, cells with deltas.

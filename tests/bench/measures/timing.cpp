@@ -1,4 +1,4 @@
-// Times of operations that take anything from 50 ns to a second, measured in turn.
+// Measures times of operations in turn.
 #include "tests/bench/measures/timing.h"
 
 #include "tests/bench/measures/stopwatch.h"
@@ -11,7 +11,7 @@ namespace isochron::bench {
 
 namespace {
 
-constexpr double kMeasurable = 30e-6; ///< [s] so long that calling the clock does not count
+constexpr double kMeasurable = 30e-6; ///< [s] long enough that the cost of the clock is negligible
 constexpr double kSlow = 5e-3;        ///< [s]
 constexpr double kMostRepeats = 1000;
 
@@ -71,7 +71,7 @@ double time_sweep(const Operation& go, std::uint32_t steps, unsigned rounds) {
             go(step);
         return watch.seconds() / 2;
     };
-    there_and_back(); // fetches what it reads
+    there_and_back(); // warms up the caches
     std::vector<double> sweeps;
     for (unsigned round = 0; round < std::max(rounds, 1u); ++round)
         sweeps.push_back(there_and_back());

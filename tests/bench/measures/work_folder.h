@@ -1,4 +1,4 @@
-// A folder for the files of a benchmark.
+// A temporary folder for the files of a benchmark.
 #pragma once
 
 #include "index/error.h"
@@ -11,7 +11,7 @@
 
 namespace isochron::bench {
 
-/// Goes with all that is in it.
+/// Deleted with its contents by the destructor.
 class WorkFolder {
   public:
     explicit WorkFolder(const std::filesystem::path& parent) {

@@ -1,4 +1,4 @@
-// What `isochron-bench render --agreement-only` says, as JSON and as a table.
+// The results of `isochron-bench render --agreement-only`, as JSON and as a table.
 #pragma once
 
 #include "tests/bench/pages/header.h"
@@ -9,8 +9,8 @@
 
 namespace isochron::bench {
 
-/// One footprint of one cell set beside the exact surface. A pixel is lit where at least half of
-/// the light behind it is stopped.
+/// One footprint of one cell set, compared with the exact surface. A pixel counts as lit if it
+/// blocks at least half of the light behind it.
 struct AgreementRow {
     std::string data, footprint, shape; ///< series; quad, gaussian; plane, voxel
     std::uint32_t step = 0;
@@ -18,16 +18,16 @@ struct AgreementRow {
     double pixels_per_voxel = 0; ///< in the volume's middle
     double cells = 0;
     double exact_percent = 0;  ///< pixels of the picture that the exact surface lights
-    double extra_percent = 0;  ///< lit by the footprint alone, of those of the exact surface
-    double missed_percent = 0; ///< lit by the exact surface alone, likewise
-    /// Area between the two silhouettes over the length of the exact one [voxels].
+    double extra_percent = 0;  ///< lit only by the footprint, relative to the exact surface's
+    double missed_percent = 0; ///< lit only by the exact surface, relative to all of its pixels
+    /// Area between the two silhouettes divided by the length of the exact one [voxels].
     double offset = 0;
-    /// Where both light: mean difference of luminance (Rec. 709, linear light), in percent of the
-    /// exact surface's mean there,
+    /// Over pixels that both light: mean difference of luminance (Rec. 709, linear light), in
+    /// percent of the exact surface's mean there.
     double luminance_percent = 0;
-    /// and of display values (sRGB), in percent of white.
+    /// Over the same pixels: mean difference of display values (sRGB), in percent of white.
     double display_percent = 0;
-    /// Processor time of all threads, the fastest of several draws, in turn with the other shape's.
+    /// Processor time of all threads: the fastest of several draws, in turn with the other shape.
     double draw_ms = 0;
 };
 
@@ -39,11 +39,11 @@ struct AgreementResults {
 std::string to_json_text(const AgreementResults& results);
 
 /// @param name of the file, for errors
-/// @throws index::Error when something is missing, or of another kind
+/// @throws index::Error when a field is missing or has the wrong type
 AgreementResults agreement_results_from_json(const std::string& text, const std::string& name);
 
-/// Markdown, the part of the page of results that is about footprints beside the exact surface.
-/// @param source the file that the results come from, as the page names it
+/// The part of the page of results on footprints compared with the exact surface, as Markdown.
+/// @param source name of the results' file on the page
 std::string agreement_section(const AgreementResults& results, const std::string& source);
 
 /// Columns for the terminal.

@@ -1,4 +1,4 @@
-// The part of the page of results that is about the paper's two sources of error.
+// The part of the page of results on the paper's two sources of error.
 #include "tests/bench/pages/artifact_page.h"
 
 #include <fmt/format.h>

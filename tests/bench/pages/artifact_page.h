@@ -1,4 +1,4 @@
-// The part of the page of results that is about the paper's two sources of error.
+// The part of the page of results on the paper's two sources of error.
 #pragma once
 
 #include "tests/bench/measures/artifacts.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::bench {
 
-/// Markdown, to follow the parts about the index and about rendering.
-/// @param source the file that the results come from, as the page names it
+/// Markdown that follows the parts on the index and on rendering.
+/// @param source name of the results' file on the page
 std::string artifact_section(const ArtifactResults& results, const std::string& source);
 
 } // namespace isochron::bench

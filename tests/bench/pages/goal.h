@@ -1,4 +1,4 @@
-// A figure that is to be reached, and how far what was measured is from it.
+// A goal for a figure, and its comparison with the measured ones.
 #pragma once
 
 #include "tests/bench/pages/short_number.h"
@@ -16,18 +16,18 @@ namespace isochron::bench {
 template <class Row>
 struct Goal {
     std::string what;
-    std::string unit;   ///< behind every number
-    double goal, floor; ///< at most, or at least where `more` is better
-    bool more;
-    std::function<std::optional<double>(const Row&)> figure; ///< none where it is not about the row
+    std::string unit;   ///< written after every number
+    double goal, floor; ///< upper limits, or lower limits if `more`
+    bool more;          ///< larger figures are better
+    std::function<std::optional<double>(const Row&)> figure; ///< empty for rows it does not concern
 
     bool reaches(double measured, double bound) const {
         return more ? measured >= bound : measured <= bound;
     }
 };
 
-/// A line of Markdown: the goal, the figures of all rows that it speaks of, and what the worst of
-/// them amounts to.
+/// A line of Markdown: the goal, the range of the figures of all rows that it concerns, and the
+/// verdict on the worst of them.
 template <class Row>
 std::string line_of(const Goal<Row>& goal, const std::vector<Row>& rows) {
     std::vector<double> measured;
@@ -48,7 +48,7 @@ std::string line_of(const Goal<Row>& goal, const std::vector<Row>& rows) {
                        goal.floor, goal.unit, found, verdict);
 }
 
-/// All of them as a table in Markdown.
+/// All goals as a table in Markdown.
 template <class Row>
 std::string table_of(const std::vector<Goal<Row>>& goals, const std::vector<Row>& rows) {
     std::string text = "| what | goal | floor | measured | |\n|---|---|---|---|---|\n";

@@ -1,4 +1,4 @@
-// What the index is to reach, held against what was measured.
+// The goals of the index, compared with the measured figures.
 #include "tests/bench/pages/goals.h"
 
 #include "tests/bench/pages/goal.h"

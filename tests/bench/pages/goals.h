@@ -1,4 +1,4 @@
-// What the index is to reach, held against what was measured.
+// The goals of the index, compared with the measured figures.
 #pragma once
 
 #include "tests/bench/pages/rows.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::bench {
 
-/// A table in Markdown: every goal with its floor, the figures of all rows that it speaks of, and
-/// what the worst of them amounts to.
+/// A table in Markdown: every goal with its floor, the range of the figures of all rows that it
+/// concerns, and the verdict on the worst of them.
 std::string goals_table(const Results& results);
 
 } // namespace isochron::bench

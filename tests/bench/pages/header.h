@@ -1,4 +1,4 @@
-// Which build on which machine the figures come from.
+// The build and the machine that figures come from.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Tables 1, 2 and 3 of the paper, to stand beside what is measured here.
+// Tables 1, 2 and 3 of the paper, for comparison with the figures measured here.
 #pragma once
 
 #include <array>

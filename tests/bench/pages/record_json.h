@@ -30,7 +30,7 @@ void each_field(AnyHeader& header,
     field("date", header.date);
 }
 
-/// Five digits: more is noise.
+/// Rounds to five digits, as more would be noise.
 inline ordered_json to_number(double value) {
     if (value == 0 || !std::isfinite(value))
         return value;
@@ -76,7 +76,7 @@ Record record_from_json(const json& j) {
     return record;
 }
 
-/// Parts of results as text, a row to a line.
+/// Parts of results as text, one row per line.
 inline std::string json_text(const ordered_json& j) {
     std::string text = "{";
     for (const auto& [part, value] : j.items()) {
@@ -102,7 +102,8 @@ std::string results_text(const Results& results) {
     return json_text(j);
 }
 
-/// @param command whose results they are, @param name of the file, for errors
+/// @param name of the file, for errors
+/// @param command that wrote the results, for errors
 /// @throws index::Error
 template <class Results>
 Results results_from_text(const std::string& text, const std::string& name, const char* command) {

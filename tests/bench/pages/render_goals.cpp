@@ -1,4 +1,4 @@
-// What rendering is to reach, held against what was measured.
+// The goals of rendering, compared with the measured figures.
 #include "tests/bench/pages/render_goals.h"
 
 #include "tests/bench/pages/goal.h"
@@ -11,7 +11,7 @@ namespace {
 
 using RenderFigure = std::function<std::optional<double>(const RenderRow&)>;
 
-constexpr unsigned kThreads = 2; // that all goals speak of
+constexpr unsigned kThreads = 2; // for which all goals are given
 
 /// The figure for rows of one footprint (empty: any), series (empty: any) and one-eyed picture.
 RenderFigure of(const std::string& footprint, const std::string& data, int size,
@@ -50,7 +50,7 @@ std::optional<double> sent_ids(const RenderRow& row) {
     return row.sent_ids_percent;
 }
 
-/// Against splats of the same picture.
+/// A row's rate relative to that of splats in the same picture.
 RenderFigure over_splats(const std::vector<RenderRow>& rows) {
     return [&rows](const RenderRow& row) -> std::optional<double> {
         const auto splats = std::find_if(rows.begin(), rows.end(), [&](const RenderRow& other) {

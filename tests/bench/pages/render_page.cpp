@@ -1,4 +1,4 @@
-// The part of the page of results that is about rendering.
+// The part of the page of results on rendering.
 #include "tests/bench/pages/render_page.h"
 
 #include "tests/bench/pages/paper_tables.h"
@@ -84,7 +84,7 @@ std::string all_rows(const std::vector<RenderRow>& rows) {
     return text;
 }
 
-/// What does not depend on who else uses the machine.
+/// The table of processor times, which do not depend on other work on the machine.
 std::string processor_table(const std::vector<RenderRow>& rows) {
     std::string text =
         "| series | footprint | picture | cores | context | frame ms | VTK ms | draw ms | as quads "

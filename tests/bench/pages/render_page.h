@@ -1,4 +1,4 @@
-// The part of the page of results that is about rendering.
+// The part of the page of results on rendering.
 #pragma once
 
 #include "tests/bench/pages/render_rows.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::bench {
 
-/// Markdown, to follow the page of the index; the same results give the same text.
-/// @param source the file that the results come from, as the page names it
+/// Markdown that follows the part on the index; the same results give the same text.
+/// @param source name of the results' file on the page
 std::string render_section(const RenderResults& results, const std::string& source);
 
 } // namespace isochron::bench

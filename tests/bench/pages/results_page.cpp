@@ -62,7 +62,7 @@ constexpr std::string_view kComparable =
     "cells and, in the paper's layout of 48 bytes per entry, trees of about the same size; ours "
     "take 16 bytes per entry.\n\n";
 
-/// The row of that setting of the published structure, where it was measured.
+/// The row with this setting of the published structure; null if it was not measured.
 const Row* find(const Results& results, const PublishedThi& published, std::string_view type) {
     const auto found = std::find_if(results.rows.begin(), results.rows.end(), [&](const Row& row) {
         return row.data == "sphere" && row.structure == "thi" && row.type == type &&
@@ -72,7 +72,7 @@ const Row* find(const Results& results, const PublishedThi& published, std::stri
     return found == results.rows.end() ? nullptr : &*found;
 }
 
-/// A table of the paper: for each setting and number of steps the published figures and ours.
+/// A table of the paper: the published figures and ours for each setting and number of steps.
 std::string published_table(const Results& results, std::span<const PublishedThi> table) {
     std::string text =
         "| L | MaxVariation | steps | | % of raw | FP % | search us | incremental us "
@@ -89,8 +89,8 @@ std::string published_table(const Results& results, std::span<const PublishedThi
                 text += fmt::format("| | | | {} here | - | - | - | - | - |\n", type);
                 continue;
             }
-            // The published times are means, and so is a sweep; the median over the steps would
-            // hide those where half the tree is searched anew.
+            // The published times are means, and so is a sweep. The median over the steps would
+            // hide steps at which half of the tree is searched again.
             const double incremental = 1e3 * row->sweep_ms / static_cast<double>(row->steps);
             const auto& detail =
                 results.details[static_cast<std::size_t>(row - results.rows.data())];
@@ -103,7 +103,7 @@ std::string published_table(const Results& results, std::span<const PublishedThi
     return text + "\n";
 }
 
-/// What keeping one normal for a time span costs, for every setting of the published structure.
+/// The errors of one normal per time span, for every setting of the published structure.
 std::string normals_table(const Results& results) {
     std::string text = "| series | type | steps | L | MaxVariation | mean | 99 % are below |\n"
                        "|---|---|---|---|---|---|---|\n";
@@ -131,7 +131,7 @@ std::string structure_line(const Row& row, const ErrorDetail& detail) {
         page_number(row.build_mcs_per_s));
 }
 
-/// The median over the rows of a series: each of them was measured beside what it is compared with.
+/// The median over the rows of a series, each of which has its own measurement of the comparison.
 std::string compared(std::span<const Row> rows, double Row::*figure) {
     std::vector<double> all;
     for (const Row& row : rows)
@@ -210,7 +210,7 @@ std::string results_page(const Results& results, const ResultPaths& paths) {
 
 namespace {
 
-/// What `isochron-bench scale` printed, as it is.
+/// The section with the output of `isochron-bench scale`, unchanged.
 std::string scale_section(const std::string& lines, const std::string& path) {
     return fmt::format(
         "\n# Large grids, measured\n\n"

@@ -1,4 +1,4 @@
-// What a benchmark says: rows of figures, with the machine they come from, as JSON and as a table.
+// The results of a benchmark: rows of figures and the machine, as JSON and as a table.
 #pragma once
 
 #include "tests/bench/pages/header.h"
@@ -11,13 +11,13 @@
 
 namespace isochron::bench {
 
-/// One structure on one series. Every figure that a structure does not have is empty. Searches run
-/// on one thread; times are medians over the steps, in microseconds unless they say otherwise.
+/// One structure on one series. Figures that a structure does not have are empty. Searches run on
+/// one thread; times are medians over the steps, in microseconds unless the name says otherwise.
 struct Row {
     std::string data, type, structure;
     std::uint64_t steps = 0;
     std::optional<std::uint32_t> l, max_variation;
-    unsigned threads = 1;    ///< that built it
+    unsigned threads = 1;    ///< for building
     double isovalue = 0;     ///< of the times
     double active = 0;       ///< cells at that isovalue, mean over the steps
     std::uint64_t bytes = 0; ///< without the volume
@@ -25,25 +25,25 @@ struct Row {
     std::uint64_t false_positives = 0, false_negatives = 0; ///< over all steps and isovalues
     std::optional<double> search_runs_us;
     double search_ids_us = 0;
-    double search_full_us = 0; ///< ids, tested where they are candidates, positions and normals
+    double search_full_us = 0; ///< ids (tested if they are candidates), positions and normals
     std::optional<double> incremental_us;      ///< added and removed ids, to a neighboring step
     std::optional<double> incremental_full_us; ///< the complete new set
     std::optional<double> delta_ids;           ///< added and removed cells from step to step, mean
     double sweep_ms = 0; ///< all steps once: the mean of forwards and backwards
-    // What it is compared with, at the same steps and in turn with its own searches:
+    // The comparisons, at the same steps and in turn with the structure's own searches:
     double scan_us = 0, tbon_us = 0, flying_edges_us = 0, flying_edges_normals_us = 0;
     double memcpy_us = 0;                  ///< of the active ids
     std::optional<double> build_mcs_per_s; ///< million cell-steps per second of processor time
 };
 
-/// What explains a row's false positives; not among its figures.
+/// Details that explain a row's false positives; not part of its figures.
 struct ErrorDetail {
     std::uint64_t queries = 0;      ///< steps x isovalues
     std::uint64_t active = 0;       ///< truly active cells over all of them
     double percent_at_isovalue = 0; ///< false positives / active at the row's isovalue
-    std::uint64_t entries = 0;      ///< stored; 0 where that means nothing
-    /// Degrees between a cell's normal at its step and that stored for a time span, over all steps
-    /// at the row's isovalue.
+    std::uint64_t entries = 0;      ///< stored; 0 if the structure has none
+    /// Degrees between a cell's normal at its step and the one stored for a time span, over all
+    /// steps at the row's isovalue.
     std::optional<double> normal_error_mean, normal_error_p99;
 };
 
@@ -54,11 +54,11 @@ struct Results {
 };
 
 nlohmann::ordered_json to_json(const Results& results);
-/// The same as text, a row to a line.
+/// The same as text, one row per line.
 std::string to_json_text(const Results& results);
 
 /// @param name of the file, for errors
-/// @throws index::Error when something is missing, or of another kind
+/// @throws index::Error when a field is missing or has the wrong type
 Results results_from_json(const std::string& text, const std::string& name);
 
 /// Columns for the terminal.

@@ -1,4 +1,4 @@
-// Figures for people: as many digits as one may believe.
+// Formats figures with the number of digits that is reliable.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Projection on the processor, and the plainest of draws.
+// Projects on the processor, and draws plain quads.
 #include "tests/bench/rivals/bare_quads.h"
 
 #include "render/gl/shader.h"

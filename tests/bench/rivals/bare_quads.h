@@ -1,4 +1,4 @@
-// The limit of this GL: plain quads where the footprints are, with nothing to compute.
+// The limit of this GL: plain quads at the footprints, without any computation.
 #pragma once
 
 #include "render/cells/placement.h"
@@ -23,7 +23,7 @@ class BareQuads {
   public:
     explicit BareQuads(const render::Gl& gl);
 
-    /// Takes the corners of one view, ahead of the draws.
+    /// Sets the corners of one view, before the draws.
     void set(std::size_t view, const std::vector<glm::vec3>& corners);
 
     /// One flat color, no texture; opaque quads test and write depth, others blend.

@@ -95,7 +95,7 @@ std::uint64_t CompactSpanSpace::bytes() const {
            keys_.size() * sizeof(std::uint32_t);
 }
 
-/// How many entries of a list come before the first whose key is not `before`.
+/// Number of entries of a list before the first key that is not `before`.
 template <class Before>
 std::uint32_t CompactSpanSpace::prefix(const List& list, const Keys& keys, Before&& before) const {
     const std::uint32_t* first = keys_.data() + keys.begin;

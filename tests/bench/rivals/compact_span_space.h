@@ -9,8 +9,8 @@
 
 namespace isochron::bench {
 
-/// AL keeps ids; DR keeps the places of the same cells in AL, in as few bytes as the list's length
-/// needs. Keys that are equal are stored once where that takes less.
+/// AL stores ids. DR stores the places of the same cells in AL, in as few bytes as the list's
+/// length allows. Equal keys are stored once if that saves space.
 class CompactSpanSpace {
   public:
     /// @param lines of the lattice, which all time nodes share; must outlive this
@@ -21,8 +21,8 @@ class CompactSpanSpace {
     void search(index::OrderKey threshold, std::vector<index::CellId>& out) const;
 
   private:
-    /// A sorted list of keys: its distinct keys and behind them where each ends in the list, or
-    /// all of its keys when `count` is the list's length.
+    /// A sorted list of keys: its distinct keys, followed by the end of each in the list; or all of
+    /// its keys if `count` is the list's length.
     struct Keys {
         std::uint32_t begin, count;
     };

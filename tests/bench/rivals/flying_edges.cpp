@@ -1,4 +1,4 @@
-// VTK's flying edges, from a module that is loaded when it is measured.
+// VTK's flying edges, from a module that is loaded when needed.
 #include "tests/bench/rivals/flying_edges.h"
 
 #include "index/system/module.h"

@@ -1,4 +1,4 @@
-// What there is today: VTK's flying edges, computed anew for every step and isovalue.
+// The current standard: VTK's flying edges, computed anew for every step and isovalue.
 #pragma once
 
 #include "index/volume/query.h"
@@ -14,7 +14,7 @@
 namespace isochron::bench {
 
 /// `vtkFlyingEdges3D` (Schroeder, Maynard and Geveci, LDAV 2015, doi 10.1109/LDAV.2015.7348069) on
-/// one thread, over the volume where it lies.
+/// one thread, without a copy of the volume.
 class FlyingEdges {
   public:
     virtual ~FlyingEdges() = default;
@@ -24,7 +24,7 @@ class FlyingEdges {
     /// Contours a step from the start.
     virtual Surface contour(const index::Query& query, bool normals) = 0;
 
-    /// What it makes of a step, with normals.
+    /// The surface of a step, with normals.
     struct Geometry {
         std::vector<glm::vec3> points; ///< in units of the grid's spacing
         std::vector<glm::vec3> normals;

@@ -1,4 +1,4 @@
-// The sorted lists of one time node with the memory they lie in.
+// The sorted lists of one time node, with their memory.
 #pragma once
 
 #include "index/thi/interval_tree.h"

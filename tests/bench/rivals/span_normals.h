@@ -16,17 +16,17 @@ struct SpanCells {
     std::vector<index::CellId> cells; ///< in no particular order
 };
 
-/// The active cells by where the tree found them, from the root down.
+/// The active cells by the time node in which the tree found them, from the root down.
 std::vector<SpanCells> span_cells(const index::StepValues& values, const index::ThiTree& tree,
                                   const index::Query& query);
 
-/// Angles between the normal of an active cell at its step and that of the same cell in the middle
-/// of the time span for which the tree stores it once, as the paper stores position and gradient.
+/// Angles between an active cell's normal at its step and the same cell's normal in the middle of
+/// the time span for which the tree stores the cell once, as in the paper.
 struct NormalError {
     double mean_degrees = 0, p99_degrees = 0;
 };
 
-/// Over all steps at one isovalue; cells whose gradient vanishes at either step do not count.
+/// The error over all steps at one isovalue, without cells whose gradient is zero at either step.
 NormalError normal_error(const index::StepValues& values, const index::ThiTree& tree,
                          double isovalue);
 

@@ -30,7 +30,7 @@ std::uint64_t Tbon::bytes() const {
 }
 
 void Tbon::build_topology() {
-    // How many nodes each level has along the axes, the leaves' level first.
+    // Number of nodes of each level along the axes; the leaves' level first.
     std::vector<std::array<std::uint32_t, 3>> levels{values_.grid.cells()};
     do {
         auto extent = levels.back();
@@ -76,7 +76,7 @@ void Tbon::find_extremes(std::size_t step) {
             for (std::uint32_t z = 2 * node.z; z < std::min(2 * node.z + 3, nz); ++z)
                 for (std::uint32_t y = 2 * node.y; y < std::min(2 * node.y + 3, ny); ++y) {
                     const T* row = volume + (std::size_t{z} * ny + y) * nx;
-                    // In this order a comparison with NaN leaves the extremes as they are.
+                    // In this order a comparison with NaN does not change the extremes.
                     for (std::uint32_t x = 2 * node.x; x < std::min(2 * node.x + 3, nx); ++x)
                         all = {row[x] < all.low ? row[x] : all.low,
                                row[x] > all.high ? row[x] : all.high};
@@ -112,7 +112,7 @@ void Tbon::search_step(std::size_t step, T cut, std::vector<CellId>& out) const 
     visit(visit, 0);
 }
 
-/// Works on three bits for each of the nine vertex rows around the eight cells.
+/// Uses three bits for each of the nine rows of vertices around the eight cells.
 template <class T>
 void Tbon::search_leaf(const T* volume, T cut, const Node& leaf, std::vector<CellId>& out) const {
     const auto [nx, ny, nz] = values_.grid.vertices;

@@ -1,4 +1,4 @@
-// T-BON: an octree per step over one topology, the rival that needs the volume at hand.
+// T-BON: an octree for each step, with one topology; a rival that needs the volume in memory.
 #pragma once
 
 #include "index/progress.h"
@@ -19,10 +19,10 @@ namespace isochron::bench {
 class Tbon {
   public:
     /// @param values must outlive this: a search reads the vertices of the leaves it reaches
-    /// @param threads 0 for as many as there are processors
+    /// @param threads 0: one for each processor
     explicit Tbon(const index::StepValues& values, unsigned threads = 0);
 
-    /// Of the topology and of all extremes, which are stored in the values' type.
+    /// Bytes of the topology and of all extremes, which are stored in the values' type.
     std::uint64_t bytes() const;
 
     /// Appends the active cells, leaf by leaf. Exact, also beside NaN vertices.
@@ -36,7 +36,7 @@ class Tbon {
     };
     template <class T>
     struct Extremes {
-        T low, high; ///< low > high where no vertex is a number
+        T low, high; ///< low > high if all vertices are NaN
     };
 
     void build_topology();

@@ -1,4 +1,4 @@
-// The improvements of the THI tree that its authors left to future work.
+// The improvements of the THI tree that its authors proposed as future work.
 #include "tests/bench/rivals/thi_variants.h"
 
 #include "index/system/parallel.h"
@@ -21,7 +21,7 @@ using index::OrderKey;
 
 namespace {
 
-/// A span space with a lattice of its own, of at most as many lines as were asked for.
+/// A span space with its own lattice, of at most the given number of lines.
 class NodeLattice {
   public:
     NodeLattice(std::vector<Interval> entries, std::uint32_t lattice)
@@ -77,7 +77,7 @@ class WholeIntervalTree {
     std::uint32_t root_;
 };
 
-/// The binary time tree over whatever keeps the entries of a node.
+/// The binary time tree, for any type of node that stores entries.
 template <class Node>
 class Tree : public ThiVariantTree {
   public:

@@ -1,4 +1,4 @@
-// The steps of a series as VTK sees them, for the modules that know VTK.
+// The steps of a series as VTK images, for the modules that use VTK.
 #pragma once
 
 #include "index/volume/step_values.h"
@@ -33,7 +33,7 @@ inline std::vector<vtkSmartPointer<vtkImageData>> vtk_images(const index::StepVa
     for (std::size_t step = 0; step < values.steps; ++step) {
         auto scalars = vtkSmartPointer<vtkDataArray>::Take(
             vtkDataArray::CreateDataArray(vtk_type(values.type)));
-        // Without a copy: VTK reads the memory that everything else reads, and never writes it.
+        // VTK reads the same memory as everything else, and never writes to it.
         scalars->SetVoidArray(const_cast<std::byte*>(values.first + step * values.stride),
                               static_cast<vtkIdType>(values.grid.vertex_count()), 1);
         auto image = vtkSmartPointer<vtkImageData>::New();

@@ -1,4 +1,4 @@
-// The module that knows VTK's contour filter.
+// The module with VTK's contour filter.
 #include "tests/bench/rivals/flying_edges.h"
 #include "tests/bench/rivals/vtk_images.h"
 
@@ -33,7 +33,7 @@ class VtkFlyingEdges : public FlyingEdges {
         vtkFlyingEdges3D& edges = filter(normals);
         edges.SetInputData(steps_[query.step]);
         edges.SetValue(0, (query.isovalue - scaling_.intercept) / scaling_.slope);
-        edges.Modified(); // the same query again is computed again
+        edges.Modified(); // so that a repeated query is computed again
         edges.Update();
         vtkPolyData& surface = *edges.GetOutput();
         const vtkDataArray* given = surface.GetPointData()->GetNormals();

@@ -1,4 +1,4 @@
-// VTK's renderer, from a module that is loaded when it is measured.
+// VTK's renderer, from a module that is loaded when needed.
 #include "tests/bench/rivals/vtk_scene.h"
 
 #include "index/system/module.h"
@@ -17,7 +17,7 @@ std::unique_ptr<VtkScene> vtk_scene(const index::StepValues& values,
         VtkScene* (*)(const index::StepValues&, std::span<const CameraPose>, int, unsigned);
     static const auto make =
         reinterpret_cast<Make>(index::module_symbol("isochron_vtk_scene", "isochron_vtk_scene"));
-    // VTK gets the steps without origin and direction: there its cameras stand elsewhere.
+    // VTK gets the steps without origin and direction, so its cameras must be moved.
     const glm::dmat4 image_from_physical = glm::scale(glm::dmat4(1.0), values.grid.spacing) *
                                            glm::inverse(values.grid.physical_from_index());
     const auto moved = [&](const glm::dvec3& v, double w) {

@@ -1,4 +1,4 @@
-// What there is today: flying edges and VTK's own renderer, for every step anew.
+// The current standard: flying edges and VTK's own renderer, anew for every step.
 #pragma once
 
 #include "index/volume/query.h"
@@ -10,22 +10,22 @@
 
 namespace isochron::bench {
 
-/// `vtkFlyingEdges3D` with normals, `vtkPolyDataMapper` and `vtkOpenGLRenderer`, in the GL context
-/// that is current, so that both draw with the very same GL.
+/// `vtkFlyingEdges3D` with normals, `vtkPolyDataMapper` and `vtkOpenGLRenderer`, in the current GL
+/// context, so that both draw with the same GL.
 class VtkScene {
   public:
     virtual ~VtkScene() = default;
-    /// Contours the step from the start and draws it for every camera, side by side, into VTK's own
-    /// framebuffer; GL may still be at it when it returns. Leaves GL's state undefined.
+    /// Contours the step from the start and draws it for every camera, side by side, into VTK's
+    /// framebuffer; GL may still be drawing when it returns. Leaves GL's state undefined.
     virtual void draw(const index::Query& query) = 0;
-    /// Of the last draw: the share of pixels that show the surface.
+    /// Share of pixels that show the surface in the last draw.
     virtual double covered() = 0;
 };
 
 /// @param values must outlive it, and so must the context
-/// @param size pixels of each camera's picture, across and up
-/// @param threads that VTK may contour with
-/// @throws index::Error when the module with VTK cannot be loaded, or not with this context
+/// @param size of both sides of each camera's picture, pixels
+/// @param threads that VTK may use for contouring
+/// @throws index::Error when the module with VTK cannot be loaded, or cannot use this context
 std::unique_ptr<VtkScene> vtk_scene(const index::StepValues& values,
                                     std::span<const CameraPose> cameras, int size,
                                     unsigned threads);

@@ -1,4 +1,4 @@
-// The module that knows VTK's renderer.
+// The module with VTK's renderer.
 #include "tests/bench/rivals/vtk_images.h"
 #include "tests/bench/rivals/vtk_scene.h"
 
@@ -25,7 +25,7 @@ VTK_MODULE_INIT(vtkRenderingOpenGL2)
 namespace isochron::bench {
 namespace {
 
-/// VTK asks its window; the context is that of the benchmark, and always current.
+/// Answers VTK's questions to its window: the context is the benchmark's, and always current.
 void answer(vtkObject*, unsigned long event, void*, void* data) {
     if (event == vtkCommand::WindowIsCurrentEvent)
         *static_cast<bool*>(data) = true;
@@ -73,7 +73,7 @@ class VtkSceneInContext : public VtkScene {
     void draw(const index::Query& query) override {
         edges_->SetInputData(steps_[query.step]);
         edges_->SetValue(0, (query.isovalue - scaling_.intercept) / scaling_.slope);
-        edges_->Modified(); // the same query again is computed again
+        edges_->Modified(); // so that a repeated query is computed again
         window_->Render();
     }
 
@@ -100,9 +100,9 @@ class VtkSceneInContext : public VtkScene {
 } // namespace
 } // namespace isochron::bench
 
-/// Stands before GLEW's own in the order of symbols. Debian's GLEW loads the entry points of the
-/// current context through libGL's dispatch, which is EGL's too, and only then complains that GLX
-/// has no display (4): for VTK that would be the end.
+/// Found before GLEW's own function. Debian's GLEW loads the entry points of the current context
+/// through libGL's dispatch, which also serves EGL, and only then reports that GLX has no display
+/// (4). VTK would fail on that, so this function ignores it.
 extern "C" __attribute__((visibility("default"))) unsigned glewInit() {
     constexpr unsigned kOk = 0, kNoVersion = 1, kNoGlxDisplay = 4;
     const auto real = reinterpret_cast<unsigned (*)()>(dlsym(RTLD_NEXT, "glewInit"));

@@ -1,4 +1,5 @@
-// Appending in place: the answers of building anew, few bytes written, and no moment to be killed.
+// Appending in place: the same answers as after building anew, few bytes written, and an intact
+// index if it is killed at any moment.
 #include "index/build/appended_series.h"
 #include "index/build/index_build.h"
 #include "index/error.h"

@@ -1,4 +1,4 @@
-// Building an index: complete under its name, or not there at all.
+// Building an index: it is complete under its name, or does not exist.
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "tests/support/memory_series.h"

@@ -1,4 +1,4 @@
-// The states that an index grows through: what they leave behind, and what is known of them.
+// The states of a growing index: what they leave in the file, and what is known of earlier ones.
 #include "index/build/appended_series.h"
 #include "index/build/index_build.h"
 #include "index/error.h"

@@ -1,5 +1,5 @@
-// Building from pieces of steps: the same bytes as from whole steps, in memory that does not follow
-// their size.
+// Building from parts of steps: the same bytes as from whole steps, in memory that does not depend
+// on their size.
 #include "index/build/index_build.h"
 #include "index/build/layer_stream.h"
 #include "index/build/level_choice.h"

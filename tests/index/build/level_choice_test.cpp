@@ -1,4 +1,4 @@
-// Levels are lossless where they can be, divide values well where not, and depend on nothing else.
+// Levels are lossless if possible, else divide values well, and depend on nothing but the values.
 #include "index/build/level_choice.h"
 
 #include "index/volume/ordinal.h"

@@ -1,4 +1,4 @@
-// Which tiers a series gets, and with which figures.
+// The choice of tiers for a series, and their figures.
 #include "index/build/tier_plan.h"
 #include "index/error.h"
 #include "tests/support/test_field.h"

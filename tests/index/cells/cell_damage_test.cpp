@@ -1,4 +1,4 @@
-// Damaged bytes of cells and deltas are refused, or searched without leaving them.
+// Damaged bytes of cells and deltas are refused, or searched without reading outside them.
 #include "tests/index/cells/cell_series.h"
 
 #include "index/error.h"

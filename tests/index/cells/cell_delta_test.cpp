@@ -1,4 +1,4 @@
-// Differences from step to step and from isovalue to isovalue are those of the sets themselves.
+// Differences between steps and between isovalues equal those of the sets themselves.
 #include "tests/index/cells/cell_series.h"
 
 #include "index/volume/ordinal.h"

@@ -1,4 +1,4 @@
-// Cells and deltas of a whole series in memory, as the tests search them.
+// Cells and deltas of a whole series in memory, for tests of searches.
 #pragma once
 
 #include "index/cells/cell_tier.h"

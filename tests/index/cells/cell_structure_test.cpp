@@ -1,4 +1,5 @@
-// What cells store: entries at the highest time nodes over which cells are constant, in few bytes.
+// Stored cells: entries are at the highest time nodes over which cells are constant, and take few
+// bytes.
 #include "tests/index/cells/cell_series.h"
 
 #include <gtest/gtest.h>

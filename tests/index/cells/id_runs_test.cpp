@@ -1,4 +1,4 @@
-// Runs become ids, whatever their lengths and whichever instructions the machine has.
+// Runs are expanded to ids, for all lengths and instruction sets.
 #include "index/cells/id_runs.h"
 
 #include "tests/support/test_seed.h"

@@ -1,4 +1,5 @@
-// Files that other libraries wrote, as these read them: scripts of this folder make both.
+// Files that other libraries wrote, compared with their own readings: scripts in this folder make
+// both.
 #include "index/formats/foreign_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"

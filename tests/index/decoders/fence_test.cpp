@@ -1,4 +1,4 @@
-// The fence around a reader: what it keeps out, and what it lets through.
+// The sandbox around a reader: what it blocks, and what it allows.
 #include "index/decoders/fence.h"
 
 #include "tests/support/test_folder.h"

@@ -1,4 +1,4 @@
-// The depth of XML elements, whatever stands in comments, values and quotes.
+// The depth of XML elements, whatever comments, values and quotes contain.
 #include "index/decoders/xml_markup.h"
 
 #include "tests/support/reader_fixtures.h"

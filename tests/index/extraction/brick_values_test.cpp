@@ -1,4 +1,4 @@
-// What bricks hold: no value changes its side of an isovalue, whatever the type and the scaling.
+// Values in volume bricks: none changes its side of an isovalue, for any type and scaling.
 #include "index/extraction/brick_values.h"
 #include "index/volume/grid.h"
 #include "tests/support/test_field.h"

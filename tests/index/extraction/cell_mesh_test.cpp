@@ -1,4 +1,4 @@
-// Meshes of active cells against their definition, edge by edge, and against what closed surfaces are.
+// Meshes of active cells agree with their definition, edge by edge, and closed surfaces are closed.
 #include "index/extraction/mesh_cases.h"
 #include "index/extraction/mesh_parts.h"
 #include "index/scan/scan.h"

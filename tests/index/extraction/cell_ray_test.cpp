@@ -1,4 +1,4 @@
-// Picks: the first place where a ray meets a surface, against every cell looked at.
+// Picking: the first place where a ray meets a surface, compared with a test of every cell.
 #include "index/extraction/cell_ray.h"
 
 #include "index/build/index_build.h"

@@ -1,4 +1,4 @@
-// The extraction thread: latest wins, prefetch, failures, and never a wait.
+// The extraction thread: the newest query wins; prefetch and failures; it never blocks the caller.
 #include "index/extraction/extractor.h"
 #include "tests/support/test_field.h"
 

@@ -1,4 +1,4 @@
-// Work on chunks gives what work on whole steps gives, whatever the size of the grid.
+// Work on chunks gives the same result as work on whole steps, for grids of any size.
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/extraction.h"

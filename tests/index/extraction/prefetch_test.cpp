@@ -1,4 +1,4 @@
-// Steps that a playback comes to are made before it asks for them, as far as there is room.
+// Prefetching: steps are made before a playback asks for them, as far as there is room.
 #include "index/extraction/extractor.h"
 
 #include <gtest/gtest.h>

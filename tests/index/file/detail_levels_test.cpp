@@ -1,4 +1,4 @@
-// Levels of detail: what their definition says, slowly, and what searches at them find.
+// Levels of detail agree with their definition, and with searches at them.
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/layer_search.h"

@@ -1,4 +1,4 @@
-// Damage that no checksum tells, at every depth of the file: refused in one line, or harmless.
+// Damage that checksums do not show, at every depth of the file: refused in one line, or harmless.
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/cell_change.h"

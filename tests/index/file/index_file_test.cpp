@@ -1,4 +1,4 @@
-// The index file: what goes in comes out, and damage is told instead of believed.
+// The index file: it is read as it was written, and damage is reported.
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/file/file_layout.h"

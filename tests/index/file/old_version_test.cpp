@@ -1,4 +1,4 @@
-// Indices of file version 2 are refused in one line, and read by a build.
+// Indices of file version 2 are refused in one line, and `build` reads them.
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/file/index_series.h"

@@ -1,4 +1,4 @@
-// Packed rows give back the numbers, and nothing else is taken for packed rows.
+// Packed rows are unpacked to the same numbers, and other bytes are refused.
 #include "index/file/packed_rows.h"
 #include "tests/support/test_seed.h"
 

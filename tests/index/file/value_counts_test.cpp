@@ -1,4 +1,4 @@
-// Counts of values depend on the values alone, whatever came first.
+// Counts of values depend only on the values.
 #include "index/file/value_counts.h"
 #include "tests/support/test_field.h"
 

@@ -1,4 +1,4 @@
-// Files that change while they are read: one line, and no value of two times in one series.
+// Files that change while they are read: one error line, and no mix of values from two times.
 #include "tests/index/formats/packed.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -1,5 +1,4 @@
-// Data that fail their own check, go on after what their header says, or lie about how many they
-// are.
+// Data with a wrong checksum, with bytes behind their declared end, or with wrong counts.
 #include "tests/index/formats/packed.h"
 #include "tests/support/reader_fixtures.h"
 #include "tests/support/test_seed.h"

@@ -1,4 +1,4 @@
-// Where the vertices of NetCDF files lie in space and time.
+// The positions of the vertices of NetCDF files in space and time.
 #include "tests/index/formats/netcdf_writer.h"
 #include "tests/support/reader_fixtures.h"
 

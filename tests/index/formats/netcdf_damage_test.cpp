@@ -1,4 +1,4 @@
-// NetCDF files that are cut short, lie or hold no volume: one clear line each.
+// NetCDF files that are cut short, inconsistent or without a volume: one clear error line each.
 #include "tests/index/formats/netcdf_writer.h"
 #include "tests/support/reader_fixtures.h"
 

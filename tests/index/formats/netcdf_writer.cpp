@@ -1,4 +1,4 @@
-// NetCDF files made for tests.
+// Writes NetCDF files for tests.
 #include "tests/index/formats/netcdf_writer.h"
 
 #include <stdexcept>

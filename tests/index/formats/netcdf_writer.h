@@ -1,4 +1,4 @@
-// NetCDF files made for tests, with the library itself.
+// Writes NetCDF files for tests, with the library itself.
 #pragma once
 
 #include <netcdf.h>

@@ -1,4 +1,4 @@
-// Left stays left: a landmark keeps its physical position in every way that files can store it.
+// Left stays left: a landmark keeps its physical position, however the file stores it.
 #include "tests/support/reader_fixtures.h"
 
 #include <glm/vec4.hpp>

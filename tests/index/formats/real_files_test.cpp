@@ -1,4 +1,4 @@
-// Files that other people's tools wrote: values and geometry against independent readings.
+// Files from other people's tools: values and geometry, compared with independent readings.
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 

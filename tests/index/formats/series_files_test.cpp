@@ -1,4 +1,4 @@
-// Series of raw and of written .pvd files: order, times, and disagreement.
+// Series of raw files and .pvd files: order, times, and files that do not match.
 #include "index/formats/natural_order.h"
 #include "index/formats/series_writer.h"
 #include "tests/support/reader_fixtures.h"

@@ -1,4 +1,5 @@
-// Files in readers: crashes, kills, hangs and greed cost one line, and the next file is read.
+// Files in reader processes: crashes, kills, hangs and too much memory give one error line, and the
+// next file is read.
 #include "index/formats/foreign_file.h"
 
 #include "index/reader/process_signs.h"

@@ -1,4 +1,4 @@
-// Messages between program and reader: what is sent is what comes, and nothing else is believed.
+// Messages between program and reader arrive as they were sent, and all others are refused.
 #include "index/reader/reader_messages.h"
 
 #include "index/error.h"

@@ -1,4 +1,4 @@
-// Bricks hold their cells' extremes, and the search with them finds what the definition says.
+// Bricks hold their cells' extremes, and the search with them agrees with the definition.
 #include "index/scan/bricks.h"
 
 #include "index/scan/scan.h"

@@ -1,4 +1,4 @@
-// A file that gets shorter, fails or is slow: one line of what reads it, and never a signal.
+// A file that gets shorter, fails or is slow: one error line of its reader, and never a signal.
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"

@@ -1,4 +1,4 @@
-// Inputs are regular files: nothing else is opened, waited for, or read without end.
+// Inputs are regular files: others are not opened, waited for, or read without end.
 #include "index/system/input_file.h"
 
 #include "index/error.h"

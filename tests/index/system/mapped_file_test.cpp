@@ -1,4 +1,4 @@
-// A mapped file counts as memory of the process only as long as it is wanted.
+// A mapped file counts as the process's memory only while it is needed.
 #include "index/system/mapped_file.h"
 
 #include "tests/support/test_folder.h"

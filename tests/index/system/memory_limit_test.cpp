@@ -1,4 +1,4 @@
-// How much memory there may be, by what control groups of either version say.
+// The memory limit, by control groups of both versions.
 #include "index/system/memory_limit.h"
 #include "tests/support/test_folder.h"
 

@@ -1,4 +1,4 @@
-// A file that appears complete or not at all, in a folder where others left things.
+// A new file appears complete or not at all, also beside leftovers of others.
 #include "index/system/new_file.h"
 
 #include "tests/support/test_folder.h"

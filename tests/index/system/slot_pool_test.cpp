@@ -1,4 +1,4 @@
-// Slots: none is given out twice, memory is used again, and goes back.
+// The pool of slots: no slot is given out twice, memory is reused, and is released.
 #include "index/system/slot_pool.h"
 
 #include <gtest/gtest.h>

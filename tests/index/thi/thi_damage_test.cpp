@@ -1,4 +1,4 @@
-// Damaged bytes of a THI tree are refused, or searched without leaving them.
+// Damaged bytes of a THI tree are refused, or searched without reading outside them.
 #include "index/error.h"
 #include "index/thi/thi_layout.h"
 #include "index/thi/thi_tree.h"

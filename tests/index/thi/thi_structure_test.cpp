@@ -1,4 +1,4 @@
-// The parts of the THI tree are those of the paper: its examples, followed by hand.
+// The parts of the THI tree agree with the paper: its examples, computed by hand.
 #include "index/thi/thi_tree.h"
 
 #include "index/thi/interval_tree.h"

@@ -1,4 +1,4 @@
-// Building the THI tree on several threads: the same bytes for any number, and a way to stop.
+// Building the THI tree on several threads: the same bytes for any number, and it can be canceled.
 #include "index/thi/thi_tree.h"
 
 #include "tests/support/test_field.h"

@@ -1,4 +1,4 @@
-// Cuts by rank give the sides that comparing scaled values gives.
+// Cuts by rank agree with comparisons of scaled values.
 #include "index/volume/level_map.h"
 
 #include "index/volume/ordinal.h"

@@ -1,4 +1,4 @@
-// Keys keep the order of values, and thresholds of keys decide exactly what isovalues decide.
+// Keys keep the order of values, and thresholds of keys agree exactly with isovalues.
 #include "index/volume/order_key.h"
 
 #include "tests/support/test_field.h"

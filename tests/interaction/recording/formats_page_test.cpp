@@ -1,4 +1,4 @@
-// docs/FORMATS.md tells every key of `commands` in a recording, and no other.
+// docs/FORMATS.md describes every key of `commands` in a recording, and no other.
 #include "interaction/command_fields.h"
 #include "interaction/recording/commands_json.h"
 #include "tests/support/paths.h"

@@ -1,4 +1,4 @@
-// Commands whose fields hold anything that they may hold.
+// Random commands, whose fields have any valid values.
 #pragma once
 
 #include "interaction/command_fields.h"

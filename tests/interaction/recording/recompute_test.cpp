@@ -1,4 +1,5 @@
-// A whole session through emulation and controls: its recording explains every command again.
+// A whole session through emulation and controls: every command can be recomputed from its
+// recording.
 #include "interaction/controls.h"
 #include "interaction/desktop_emulation.h"
 #include "interaction/motion_gate.h"

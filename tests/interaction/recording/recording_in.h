@@ -1,4 +1,4 @@
-// Reads a recording from a file of a test.
+// Reads a recording from a test's file.
 #pragma once
 
 #include "interaction/recording/recording.h"

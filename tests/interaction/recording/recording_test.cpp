@@ -1,4 +1,4 @@
-// Recordings: what goes in comes out, and no file, however broken, does more than complain.
+// Recordings are read as they were written, and damaged files only give an error.
 #include "interaction/recording/recording.h"
 
 #include "tests/interaction/input_builders.h"

@@ -1,4 +1,4 @@
-// A recording as input: at any time the newest frame that is not later.
+// A recording as input: at any time it gives the newest frame that is not later.
 #include "interaction/recording/recording.h"
 #include "tests/interaction/input_builders.h"
 

@@ -1,4 +1,4 @@
-// Calibration against poses that were worked out by hand.
+// Calibration, compared with poses that were computed by hand.
 #include "interaction/trackers/calibration.h"
 
 #include "tests/interaction/control_desk.h"

@@ -1,4 +1,4 @@
-// DTrack over loopback: what is read, and what loss, reordering, garbage and silence come to.
+// DTrack over loopback: reading, and the effects of loss, reordering, garbage and silence.
 #include "interaction/recording/recording.h"
 #include "interaction/trackers/dtrack_input.h"
 #include "interaction/trackers/dtrack_protocol.h"

@@ -1,4 +1,4 @@
-// Which samples are believed: gaps, jumps, garbage, and the way back.
+// Which samples the filter accepts: gaps, jumps, garbage, and recovery.
 #include "interaction/trackers/pose_filter.h"
 
 #include "tests/interaction/input_builders.h"

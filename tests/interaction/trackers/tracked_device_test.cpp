@@ -1,4 +1,4 @@
-// One device over time: prediction, buttons that never stick, time stamps, several sources.
+// One device over time: prediction, buttons that never stay pressed, time stamps, several sources.
 #include "interaction/composite_input.h"
 #include "interaction/motion_gate.h"
 #include "interaction/trackers/device_clock.h"

@@ -1,5 +1,5 @@
-// Two hands that move at once, and a tracker that has been sending for a while: what is sent is what
-// is stated, for the moment that it was measured at.
+// Two hands that move at once, and a tracker that has been sending for a while: poses are those
+// sent, for the time of their measurement.
 #include "interaction/trackers/dtrack_input.h"
 
 #include "tests/interaction/control_desk.h"
@@ -82,8 +82,8 @@ TEST(TwoHands, AreStatedAsSentWithoutPrediction) {
     EXPECT_LT(farthest(false), 2e-6) << "DTrack sends thousandths of a millimeter";
 }
 
-/// The velocity is that of the last 50 ms, so a hand in a curve is stated on its tangent: off by the
-/// acceleration times the way ahead times half of both times.
+/// The velocity is that of the last 50 ms, so a hand in a curve is stated on its tangent: off by
+/// the acceleration times the way ahead times half of both times.
 TEST(TwoHands, ArePredictedAsFarAsTheirCurveAllows) {
     const PredictionOptions prediction;
     const double acceleration = kRadius * kTurns * kTurns + 0.1 * 4 * kTurns * kTurns;

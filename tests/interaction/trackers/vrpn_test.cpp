@@ -1,4 +1,4 @@
-// VRPN against its own servers, in this process and over loopback.
+// VRPN with its own servers, in this process and over loopback.
 #include "interaction/trackers/vrpn_input.h"
 
 #include "tests/interaction/control_desk.h"

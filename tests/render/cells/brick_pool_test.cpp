@@ -1,4 +1,5 @@
-// The pool of bricks: what it holds is the volume, and no more than two sets need.
+// The pool of volume bricks: its contents agree with the volume, and it is no larger than two sets
+// need.
 #include "render/cells/brick_pool.h"
 #include "render/cells/cell_compute.h"
 #include "tests/render/cells/extractions.h"

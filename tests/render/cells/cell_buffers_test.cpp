@@ -1,4 +1,5 @@
-// Transfer of cell sets: differences only, within the budget, never half a set, never starved.
+// Uploads of cell sets: only differences, within the budget, never half a set, and every stream of
+// sets makes progress.
 #include "index/extraction/cell_colors.h"
 #include "tests/render/cells/cell_upload.h"
 

@@ -1,4 +1,4 @@
-// What the GPU computes for its cells, against the CPU and the definitions.
+// The results of the compute passes, compared with the CPU and the definitions.
 #include "tests/render/cells/extractions.h"
 #include "tests/support/gl_test.h"
 

@@ -1,4 +1,4 @@
-// The two renderers: depth, order, light, large sets, and how often they sort.
+// The two renderers: depth, order, light, large sets, and the number of sorts.
 #include "render/cells/cell_pass.h"
 #include "render/gl/driver_trials.h"
 #include "render/gl/render_target.h"

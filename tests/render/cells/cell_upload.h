@@ -1,4 +1,4 @@
-// Sets of random cells, and what of them is on the GPU.
+// Sets of random cells, and checks of their contents on the GPU.
 #pragma once
 
 #include "tests/render/cells/extractions.h"

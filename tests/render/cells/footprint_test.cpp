@@ -1,4 +1,4 @@
-// What a single cell covers on the screen, against the paper's conic and against rays.
+// The pixels that a single cell covers, compared with the paper's conic and with rays.
 #include "render/cells/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/outline_oracle.h"

@@ -20,9 +20,9 @@ struct Volume {
     std::vector<glm::ivec3> cells;
 };
 
-/// A shell and grains around it, seen from anywhere, in parallel now and then: half of the time
-/// whole and from outside, with cubic voxels; else also from within, cut by the view's edges, and
-/// with uneven voxels.
+/// A shell with grains around it, in a random view, sometimes a parallel one. Half of the scenes
+/// are whole, seen from outside, with cubic voxels; others may be seen from inside, cut by the
+/// view's edges, and have uneven voxels.
 inline Volume random_volume(std::mt19937& random) {
     auto uniform = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -100,7 +100,7 @@ struct Shell {
     std::vector<std::uint32_t> order;
 };
 
-/// Pictures with what hidden cells would draw, and without.
+/// Pictures with and without hidden cells.
 class HiddenCellsTest : public GlTest {
   protected:
     /// All cells look different.
@@ -108,7 +108,7 @@ class HiddenCellsTest : public GlTest {
         std::vector<index::CellPoint> points;
         for (const glm::ivec3& cell : volume.cells) {
             const glm::vec3 normal(float(random_() % 100) - 50, float(random_() % 100) - 50, 20);
-            // Few pass the cell's middle, and some have no plane.
+            // Few planes pass through the cell's middle, and some cells have no plane.
             const double offset = (double(random_() % 1000) - 500) / 600;
             points.push_back({std::uint16_t(cell.x), std::uint16_t(cell.y), std::uint16_t(cell.z),
                               std::uint16_t(random_() % 3),
@@ -132,7 +132,7 @@ class HiddenCellsTest : public GlTest {
         look.surfaces[2].color = {0.3f, 0.2f, 1};
         return look;
     }
-    /// Calls it with both shapes, and with passes that leave out hidden cells and that do not.
+    /// Calls it for both shapes, with one pass that culls hidden cells and one that draws all.
     template <class Test>
     void with_both_shapes(Test&& test) {
         for (const CellShape shape : {CellShape::plane, CellShape::voxel}) {

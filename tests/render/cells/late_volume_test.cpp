@@ -1,4 +1,4 @@
-// Cells that are shown before their part of the volume, which follows when it is asked for.
+// Cells that are shown before their part of the volume, which follows later.
 #include "tests/render/cells/cell_upload.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Light: several samples and blending average light, and what surfaces send stays what they get.
+// Light: samples and blending average linear light, and surfaces send out no more light than they
+// get.
 #include "render/cells/cell_pass.h"
 #include "render/gl/driver.h"
 #include "render/gl/render_target.h"

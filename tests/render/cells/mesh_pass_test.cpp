@@ -1,4 +1,4 @@
-// Meshes on the screen against the exact surface, and their way to the GPU.
+// Meshes: their pictures, compared with the exact surface, and their upload.
 #include "render/cells/cell_pass.h"
 
 #include "index/extraction/mesh_parts.h"

@@ -1,4 +1,4 @@
-// What comes near to a viewer fades as the distances say, and both eyes see the same.
+// Fading near a viewer follows the distances, and is the same for both eyes.
 #include "tests/render/cells/surface_agreement.h"
 #include "tests/support/test_field.h"
 

@@ -1,4 +1,4 @@
-// Where the outline of a cell's ellipsoid lies on the screen, by the paper's construction.
+// The outline of a cell's ellipsoid on the screen, by the paper's construction.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,4 @@
-// The oracle itself: its ellipse is where the points of the sphere end.
+// The oracle itself: its ellipse is the outline of the points of the sphere.
 #include "tests/render/cells/outline_oracle.h"
 #include "tests/render/cells/random_views.h"
 #include "tests/support/test_seed.h"

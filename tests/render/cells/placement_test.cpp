@@ -1,4 +1,4 @@
-// Where a grid's cells stand in the room.
+// The places of a grid's cells in the room.
 #include "render/cells/placement.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Points and quads show the same, and points are taken only where they can.
+// Points and quads show the same, and points are used only where they are valid.
 #include "render/cells/point_sprites.h"
 
 #include "render/cells/cell_pass.h"
@@ -166,7 +166,8 @@ TEST_P(PointPasses, ShowWhatQuadsShow) {
                     pass->draw(scene.view, scene.placement, buffers, footprint);
                     images[pass == &as_quads] = target.read();
                 }
-                // Edges may lie on the other side of pixels' middles: what is shown beside them then.
+                // Edges may lie on the other side of pixels' middles: what is shown beside them
+                // then.
                 int different = 0, drawn = 0;
                 for (int y = 0; y < images[0].height; ++y)
                     for (int x = 0; x < images[0].width; ++x) {

@@ -1,5 +1,5 @@
-// How much a ShellSplatting picture changes when the order of its cells does: an eye that crosses
-// from one case of the traversal to the next must not see the surface pop.
+// The change of a ShellSplatting picture when the order of its cells changes: the surface must not
+// pop when an eye crosses from one case of the traversal to the next.
 #include "render/cells/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/support/gl_test.h"

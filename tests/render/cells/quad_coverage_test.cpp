@@ -1,4 +1,4 @@
-// Fast quads leave no gap in a surface: nothing shows through them that the surface hides.
+// Fast quads leave no gap in a surface: nothing behind it shows.
 #include "render/cells/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/extractions.h"

@@ -1,4 +1,4 @@
-// What other cells hide is left out, and nobody sees it.
+// Occlusion culling of quads: hidden cells are left out, and pictures do not change.
 #include "render/cells/quad_culling.h"
 
 #include "render/cells/point_sprites.h"

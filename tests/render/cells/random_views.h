@@ -1,4 +1,4 @@
-// Random single cells seen by random cameras: parallel, perspective and strongly off-axis.
+// Random single cells, seen by random cameras: parallel, perspective and strongly off-axis.
 #pragma once
 
 #include "render/cells/placement.h"

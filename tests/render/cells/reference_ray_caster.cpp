@@ -1,4 +1,4 @@
-// Rays against a trilinear field, cell by cell.
+// Casts rays through a trilinear field, cell by cell.
 #include "tests/render/cells/reference_ray_caster.h"
 
 #include <glm/common.hpp>

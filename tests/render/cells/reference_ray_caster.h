@@ -1,4 +1,4 @@
-// The slow and obvious answer to what a ray sees of a trilinear field, in double.
+// A slow and simple ray-caster for a trilinear field, in double.
 #pragma once
 
 #include "render/cells/placement.h"

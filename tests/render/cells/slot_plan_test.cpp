@@ -1,4 +1,4 @@
-// Plans of slots against a model: whatever follows whatever, in portions of any size.
+// Slot plans, compared with a model: any sequence of sets, in portions of any size.
 #include "render/cells/slot_plan.h"
 #include "tests/support/test_seed.h"
 

@@ -1,4 +1,4 @@
-// Splats behind opaque ones are left out, and nobody sees it.
+// Occlusion culling of splats: those behind opaque ones are left out, and pictures do not change.
 #include "render/cells/splat_culling.h"
 
 #include "tests/render/cells/hidden_cells.h"

@@ -1,4 +1,4 @@
-// Surfaces against the reference ray-caster: depths, what is hit, and normals.
+// Surfaces, compared with the reference ray-caster: depths, hits and normals.
 #include "tests/render/cells/surface_agreement.h"
 #include "tests/support/test_field.h"
 

@@ -1,4 +1,4 @@
-// Pixel by pixel comparison.
+// Compares pictures of surfaces pixel by pixel.
 #include "tests/render/cells/surface_agreement.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How well a picture of a surface agrees with the reference ray-caster.
+// The agreement of a picture of a surface with the reference ray-caster.
 #pragma once
 
 #include "tests/render/cells/reference_ray_caster.h"

@@ -1,4 +1,4 @@
-// Surfaces in several views, transparent ones, and normals across the borders of cells.
+// Surfaces in several views, translucent ones, and normals across the borders of cells.
 #include "render/gl/driver.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/surface_agreement.h"

@@ -1,4 +1,4 @@
-// A float target, and shaders whose light is replaced by the normal.
+// Draws surfaces into a float target, by shaders that write the normal instead of light.
 #include "tests/render/cells/surface_picture.h"
 
 #include <string>

@@ -1,4 +1,4 @@
-// Surfaces drawn for measurements: the depth and the normal that every pixel got, in floats.
+// Surfaces drawn for measurements: depth and normal of every pixel, in floats.
 #pragma once
 
 #include "render/cells/cell_pass.h"

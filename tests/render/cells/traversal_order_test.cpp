@@ -1,4 +1,4 @@
-// Back-to-front order against an exact test of which box can hide which.
+// The back-to-front order, compared with an exact test of which box can hide which.
 #include "render/cells/traversal_order.h"
 
 #include "tests/support/test_seed.h"

@@ -1,4 +1,4 @@
-// Finite differences and trilinear interpolation.
+// Finite differences and trilinear interpolation of a step's values.
 #include "tests/render/cells/vertex_field.h"
 
 #include "tests/support/test_field.h"

@@ -1,4 +1,4 @@
-// A step's values, and what is between them: what the pictures of surfaces are compared with.
+// A step's values, interpolated between vertices, for comparison with pictures of surfaces.
 #pragma once
 
 #include "index/volume/query.h"

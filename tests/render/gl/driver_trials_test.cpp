@@ -1,4 +1,4 @@
-// Drivers that promise more than they do are found out, and are drawn and sent with all the same.
+// Drivers that break their promises are recognized, and can still be used.
 #include "render/gl/driver.h"
 #include "render/gl/driver_trials.h"
 #include "tests/support/gl_test.h"

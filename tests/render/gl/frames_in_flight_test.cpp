@@ -1,4 +1,4 @@
-// Frames are held back by a GPU that is behind, for a while, and a lost context is told.
+// Frames wait, for a limited time, for a GPU that is behind; a lost context is reported.
 #include "render/gl/driver.h"
 #include "render/gl/frames_in_flight.h"
 #include "tests/support/gl_test.h"

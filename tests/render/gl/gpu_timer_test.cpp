@@ -1,5 +1,4 @@
-// The GPU timer: what it says is true, what cannot be true it does not say, and it waits for
-// nobody.
+// The GPU timer: its times are true, it leaves out impossible ones, and it never waits.
 #include "render/gl/gpu_timer.h"
 
 #include "render/gl/render_target.h"

@@ -1,4 +1,4 @@
-// What a driver has at least, what it lacks, and work that is split by what it can do at once.
+// The driver's limits: their least values, missing ones, and work that is split by them.
 #include "render/gl/limits.h"
 
 #include "render/cells/cell_buffers.h"

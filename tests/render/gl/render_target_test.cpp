@@ -1,4 +1,4 @@
-// The offscreen target: which way up, which size, which color.
+// The offscreen target: orientation, size and color.
 #include "render/gl/render_target.h"
 #include "tests/support/gl_test.h"
 

@@ -1,4 +1,4 @@
-// The shader files that are part of the library.
+// The shader files that are compiled into the library.
 #include "render/gl/shader.h"
 #include "tests/support/paths.h"
 

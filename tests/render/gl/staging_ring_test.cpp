@@ -1,4 +1,4 @@
-// The staging ring: bytes arrive, room is never given twice, and nobody waits.
+// The staging ring: bytes arrive, room is never given out twice, and it never waits.
 #include "render/gl/staging_ring.h"
 #include "tests/support/gl_test.h"
 

@@ -1,4 +1,4 @@
-// Color maps: lightness that never turns back, and steps that look equal.
+// Color maps: lightness changes in one direction, and steps look equal.
 #include "render/passes/color_map.h"
 
 #include "render/gl/srgb.h"

@@ -1,4 +1,4 @@
-// Lines: where they are, how wide, and what they hide.
+// Lines: their places and widths, and what they hide.
 #include "render/gl/render_target.h"
 #include "render/passes/line_pass.h"
 #include "tests/support/gl_test.h"

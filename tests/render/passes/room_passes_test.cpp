@@ -1,4 +1,4 @@
-// Pictures on walls and solid models: where they are, what they hide, and which way they face.
+// Pictures on walls and solid models: their places, what they hide, and which way they face.
 #include "render/gl/render_target.h"
 #include "render/passes/picture_pass.h"
 #include "render/passes/solid_pass.h"

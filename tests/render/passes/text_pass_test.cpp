@@ -1,4 +1,4 @@
-// Text: where it stands, that it reads from left to right, what hides it and what it hides.
+// Text: its place, its reading direction, what hides it and what it hides.
 #include "render/passes/text_pass.h"
 
 #include "render/gl/render_target.h"

@@ -1,4 +1,4 @@
-// Darkness over a picture.
+// Darkening of a picture.
 #include "render/gl/render_target.h"
 #include "render/gl/srgb.h"
 #include "render/passes/veil_pass.h"

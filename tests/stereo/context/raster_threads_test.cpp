@@ -1,4 +1,4 @@
-// Software GL's threads have a processor each.
+// Each of software GL's threads has its own processor.
 #include "stereo/context/gl_context.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Swap groups, asked of drivers that have them and of those that do not.
+// Swap groups, with drivers that have them and with drivers that do not.
 #include "stereo/context/swap_group.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Windows on an X server of the test's own: what is shown there, and what a user does to them.
+// Windows on the test's own X server: their contents, and what a user does to them.
 #include "stereo/display.h"
 #include "stereo/loading_picture.h"
 #include "tests/stereo/each_eye.h"

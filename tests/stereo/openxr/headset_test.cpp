@@ -1,4 +1,4 @@
-// Life with a headset: it comes, shows what is drawn for it, goes and comes back.
+// The life of a headset: it appears, shows pictures, disappears and comes back.
 #include "tests/support/played_fixture.h"
 
 #include "render/gl/viewport.h"

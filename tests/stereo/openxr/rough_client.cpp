@@ -1,4 +1,4 @@
-// An OpenXR program written down straight, without any of the code under test.
+// A simple OpenXR program, without any of the code under test.
 #include "stereo/openxr/openxr_platform.h"
 
 #include "tests/stereo/openxr/rough_client.h"

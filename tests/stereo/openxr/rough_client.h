@@ -1,4 +1,4 @@
-// A small OpenXR program that shows a few frames, well or with one mistake.
+// A small OpenXR program that shows a few frames, correctly or with one mistake.
 #pragma once
 
 #include "stereo/context/native_gl.h"

@@ -1,4 +1,4 @@
-// The played runtime itself: a program that does well passes, and each of its mistakes is seen.
+// The played runtime itself: a correct program passes, and each mistake is noticed.
 #include "tests/stereo/openxr/rough_client.h"
 
 #include "tests/support/played_fixture.h"

@@ -163,7 +163,7 @@ bool is_active(const Action& action, std::uint64_t id, XrPath subaction) {
                        [](const std::string& path) { return world().hand(path).present; });
 }
 
-/// The parts that states of booleans and floats have alike.
+/// The code that states of booleans and of floats share.
 template <typename State, typename Value>
 XrResult get_state(XrSession session, const XrActionStateGetInfo* info, State* out,
                    XrStructureType structure, XrActionType type, const char* call, Value value) {

@@ -1,4 +1,4 @@
-// The played runtime's frames: their order, and what the layers of one hold.
+// The played runtime's frames: their order, and the contents of their layers.
 #include "tests/support/played_headset/world.h"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ XrResult XRAPI_CALL begin_frame(XrSession session, const XrFrameBeginInfo* info)
     return XR_SUCCESS;
 }
 
-/// Reads the part of a swapchain's image that a view shows, upper row first.
+/// Reads the part of a swapchain's image that a view shows, top row first.
 template <typename T>
 std::vector<T> read(const XrSwapchainSubImage& part, GLenum format, GLenum type, int channels) {
     const Swapchain& from = world().swapchains.at(id_of(part.swapchain));
@@ -113,7 +113,7 @@ XrResult check_part(const XrSwapchainSubImage& part) {
     return XR_SUCCESS;
 }
 
-constexpr float kSame = 1e-4f; ///< [m, rad] lost by going from space to space
+constexpr float kSame = 1e-4f; ///< [m, rad] rounding error between spaces
 
 bool same(const interaction::Pose& a, const interaction::Pose& b) {
     return glm::length(a.position - b.position) < kSame &&
@@ -207,7 +207,7 @@ XrResult XRAPI_CALL end_frame(XrSession session, const XrFrameEndInfo* info) {
             return bad;
     }
     world().headset.frames.push_back(std::move(frame));
-    // A session is SYNCHRONIZED once its first frame has come.
+    // A session is SYNCHRONIZED after its first frame.
     if (mine.state == XR_SESSION_STATE_READY)
         push_state(XR_SESSION_STATE_SYNCHRONIZED);
     return XR_SUCCESS;

@@ -1,4 +1,4 @@
-// Where the OpenXR loader finds the played runtime.
+// The function by which the OpenXR loader gets the played runtime's entry points.
 #include "tests/support/played_headset/world.h"
 
 #include <cstring>
@@ -21,8 +21,8 @@ XrResult XRAPI_CALL get_instance_proc_addr(XrInstance, const char* name, PFN_xrV
     return *out ? XR_SUCCESS : XR_ERROR_FUNCTION_UNSUPPORTED;
 }
 
-/// As "OpenXR Loader - Design and Operation", section "Loader/Runtime Negotiation", has them; this
-/// version's headers do not.
+/// From "OpenXR Loader - Design and Operation", section "Loader/Runtime Negotiation"; this
+/// version's headers do not have them.
 struct LoaderInfo {
     int type; ///< 1
     std::uint32_t version;

@@ -1,4 +1,4 @@
-// A headset that a test plays: what it is, where it is, and what the program did with it.
+// A headset that a test plays: its properties, its poses, and what the program did with it.
 //
 //     PlayedHeadset& headset = played_headset();
 //     headset.head = {{0.2f, 1.7f, 0.1f}, {1, 0, 0, 0}};
@@ -44,7 +44,7 @@ struct Hand {
     std::map<std::string, float> inputs; ///< `squeeze/value`: 1
 };
 
-/// Something that the specification forbids, or that only a careless program does.
+/// A call that the specification forbids, or that only a careless program makes.
 struct Violation {
     std::string code; ///< `begin_before_ready`
     std::string call; ///< `xrBeginSession`
@@ -62,7 +62,7 @@ struct SubmittedView {
     interaction::Pose pose; ///< in the stage
     Fov fov;
     render::Image picture;    ///< empty while pictures are not kept
-    std::vector<float> depth; ///< from the top left, empty without a depth layer
+    std::vector<float> depth; ///< from the top left; empty without a depth layer
     float near_z = 0, far_z = 0;
 };
 struct SubmittedFrame {
@@ -70,7 +70,7 @@ struct SubmittedFrame {
     std::vector<SubmittedView> views; ///< none: a frame without a layer
 };
 
-/// What happens when the runtime's next event or frame comes due.
+/// What happens at the runtime's next event or frame.
 enum class Happening : std::uint8_t {
     exit,         ///< the user ends the program from the runtime's menu
     hide,         ///< another program is shown: SYNCHRONIZED, nothing to render
@@ -84,25 +84,25 @@ enum class Happening : std::uint8_t {
 
 class PlayedHeadset {
   public:
-    // What it is. Read when an instance or a session is made.
+    // Properties, read when an instance or a session is made.
     bool runtime_available = true, connected = true;
     bool has_stage = true, has_depth = true, has_egl = true, has_xlib = true, has_clock = true;
     std::array<Eye, 2> eyes;
     std::string profile = "/interaction_profiles/oculus/touch_controller";
-    std::vector<std::int64_t> formats; ///< that swapchains are offered in
+    std::vector<std::int64_t> formats; ///< offered for swapchains
     interaction::Pose local_in_stage{{0.4f, 1.5f, -0.2f}, {1, 0, 0, 0}};
     std::int64_t period = 11'111'111; ///< [ns]
-    bool paced = false;               ///< frames come once in a period, else as fast as they go
+    bool paced = false;               ///< one frame per period; else as fast as possible
 
-    // Where it is.
+    // Poses.
     interaction::Pose head{{0.0f, 1.6f, 0.0f}, {1, 0, 0, 0}};
     interaction::Velocity head_velocity;
     bool head_tracked = true, head_valid = true;
     Hand left, right;
 
-    // What has become of it.
+    // What the program did.
     std::vector<Violation> violations;
-    std::vector<SubmittedFrame> frames; ///< of this process, whatever session
+    std::vector<SubmittedFrame> frames; ///< of all sessions of this process
     std::vector<Pulse> pulses;
     std::vector<std::string> suggested; ///< `PROFILE ACTION PATH`
     unsigned instances = 0, sessions = 0, waits = 0;
@@ -110,12 +110,12 @@ class PlayedHeadset {
 
     PLAYED_HEADSET_API PlayedHeadset();
     PLAYED_HEADSET_API void happens(Happening what);
-    /// As it is when nothing has happened; without an instance only.
+    /// Back to the initial state; call only while there is no instance.
     PLAYED_HEADSET_API void reset();
 };
 
-/// The one that the runtime of this process plays. A program of its own is told by a script that
-/// the variable ISOCHRON_PLAYED_HEADSET names (script.cpp).
+/// The headset of this process's runtime. In a separate program a script plays it, which the
+/// variable ISOCHRON_PLAYED_HEADSET names (script.cpp).
 PLAYED_HEADSET_API PlayedHeadset& played_headset();
 
 } // namespace isochron::played

@@ -1,11 +1,11 @@
-// The script by which a headset is played in a program of its own.
+// The script that plays a headset in a separate program.
 //
-// ISOCHRON_PLAYED_HEADSET names a JSON file. `log` is where violations, pulses and frames are
-// written, a line of JSON each; `paced` and `connected` are as in played_headset.h. `frames` is a
-// list of what holds from a frame on, counted by xrWaitFrame: `at`, and any of `head`, `left` and
-// `right` (7 numbers: x y z, then the quaternion x y z w), `inputs` (`right/squeeze/value`: 1),
-// `happens` (`exit`, `lose_session`, ...) and `picture` (a file that the left eye's picture of the
-// frame before is written to, as PPM).
+// ISOCHRON_PLAYED_HEADSET names a JSON file. `log` is the file for violations, pulses and frames, a
+// line of JSON each; `paced` and `connected` are as in played_headset.h. `frames` is a list of
+// changes. Each has `at`, the frame from which it holds (counted by xrWaitFrame), and any of
+// `head`, `left` and `right` (7 numbers: x y z, then the quaternion x y z w), `inputs`
+// (`right/squeeze/value`: 1), `happens` (`exit`, `lose_session`, ...) and `picture` (a file for the
+// left eye's picture of the previous frame, as PPM).
 #include "tests/support/played_headset/world.h"
 
 #include <nlohmann/json.hpp>
@@ -61,7 +61,7 @@ void write_line(const json& line) {
     std::ofstream(world().log, std::ios::app) << line.dump() << "\n";
 }
 
-/// What has come since the last frame goes into the log; pictures are let go.
+/// Writes everything since the last frame into the log, and drops the pictures.
 void write_log() {
     PlayedHeadset& headset = world().headset;
     for (const Pulse& pulse : std::exchange(headset.pulses, {}))

@@ -108,7 +108,7 @@ XrResult XRAPI_CALL destroy_session(XrSession session) {
     here.swapchains.clear();
     here.spaces.clear();
     here.events.clear();
-    // Sets that were attached stay so for ever: no session takes them another time.
+    // Action sets stay attached forever: no other session accepts them.
     return XR_SUCCESS;
 }
 
@@ -118,7 +118,7 @@ XrResult XRAPI_CALL begin_session(XrSession session, const XrSessionBeginInfo* i
         return bad;
     has_type(info, XR_TYPE_SESSION_BEGIN_INFO, kCall);
     Session& mine = *world().session;
-    // What the client has been told counts, not what lies in its queue.
+    // Only events that the client has received count, not those in its queue.
     bool told = true;
     for (const XrEventDataBuffer& event : world().events)
         told = told && event.type != XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED;

@@ -87,7 +87,7 @@ const Space* find(XrSpace space, const char* call) {
     return nullptr;
 }
 
-/// The times that a client can know of: that of the frame it draws.
+/// Checks that a time is the one that the client knows: that of the frame it draws.
 XrResult check_time(XrTime time, const char* call) {
     if (time <= 0)
         return refuse(call, "bad_time", XR_ERROR_TIME_INVALID, std::to_string(time));

@@ -15,7 +15,7 @@ XrResult check_swapchain(XrSwapchain handle, const char* call, Swapchain*& found
     return check_session(reinterpret_cast<XrSession>(world().session_handle), call);
 }
 
-/// GL calls of the runtime go to the context that the session was made with.
+/// Checks that the session's GL context is current, as the runtime's GL calls need it.
 bool context_is_current(const char* call) {
     const Session& session = *world().session;
     if (session.current_context() == session.context)

@@ -133,7 +133,7 @@ void happen(Happening what, Session& session) {
     }
 }
 
-/// The state that comes after the present one on the way to where the session is going.
+/// The next state on the session's way to its final one.
 XrSessionState next_state(const Session& session) {
     const auto state = session.state;
     const bool leaving = session.exit_asked || session.hidden;

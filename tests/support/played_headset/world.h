@@ -1,4 +1,4 @@
-// Everything that the played runtime remembers between calls, and how it refuses one.
+// The state of the played runtime between calls, and the checks of calls.
 #pragma once
 
 #include "stereo/openxr/openxr_platform.h"
@@ -31,7 +31,7 @@ struct Binding {
     std::string path; ///< `/user/hand/left/input/x/click`
 };
 struct Space {
-    std::optional<std::uint64_t> action; ///< else a reference space
+    std::optional<std::uint64_t> action; ///< empty: a reference space
     XrPath subaction = XR_NULL_PATH;
     XrReferenceSpaceType type{};
     interaction::Pose offset;
@@ -46,7 +46,7 @@ struct Swapchain {
 };
 enum class FrameStage : std::uint8_t { idle, waited, begun };
 struct Session {
-    XrSessionState state = XR_SESSION_STATE_UNKNOWN; ///< as told by the last event
+    XrSessionState state = XR_SESSION_STATE_UNKNOWN; ///< as of the last event
     bool begun = false, attached = false, lost = false, exit_asked = false, stopping = false;
     bool hidden = false, covered = false;
     FrameStage frame = FrameStage::idle;
@@ -54,14 +54,14 @@ struct Session {
     bool views_located = false, views_valid = false; ///< for that frame
     std::array<interaction::Pose, 2> located;        ///< in the stage
     std::unique_ptr<render::Gl> gl;
-    void* context = nullptr; ///< that it was made with
+    void* context = nullptr; ///< GL context with which it was made
     void* (*current_context)() = nullptr;
 };
 
 struct World {
     PlayedHeadset headset;
     std::vector<std::string> paths; ///< XrPath i is paths[i - 1]
-    std::uint64_t handles = 0;      ///< given out so far
+    std::uint64_t handles = 0;      ///< number of handles so far
     std::uint64_t instance = 0, session_handle = 0;
     bool instance_lost = false, requirements_asked = false, system_asked = false;
     std::set<std::string> extensions; ///< enabled
@@ -93,15 +93,15 @@ Handle new_handle() {
     return reinterpret_cast<Handle>(++world().handles);
 }
 
-/// Whether calls on the instance, on the session, may do their work; else the reason why not.
+/// XR_SUCCESS if calls on the instance, or on the session, are allowed; else the error.
 XrResult check_instance(XrInstance instance, const char* call);
 XrResult check_session(XrSession session, const char* call);
-/// @return whether a structure has its type; else the violation is noted
+/// @return whether a structure has the expected type; else notes a violation
 bool has_type(const void* structure, XrStructureType expected, const char* call);
-/// The member of a chain that has this type.
+/// The member of a chain with this type; null if there is none.
 const void* in_chain(const void* first, XrStructureType type);
 
-/// Copies a list as OpenXR's two calls do it.
+/// Fills a list as in OpenXR's functions that are called twice.
 template <typename T, typename Fill>
 XrResult fill(std::size_t size, std::uint32_t capacity, std::uint32_t* count, T* items, Fill set) {
     *count = static_cast<std::uint32_t>(size);
@@ -115,17 +115,17 @@ XrResult fill(std::size_t size, std::uint32_t capacity, std::uint32_t* count, T*
 }
 
 void push_state(XrSessionState state);
-/// Lets what is due happen: called where a runtime comes to work.
+/// Makes the happenings that are due happen; called by calls in which a runtime does its work.
 void happen();
 
 interaction::Pose from_xr(const XrPosef& pose);
 XrPosef to_xr(const interaction::Pose& pose);
 bool is_unit(const XrPosef& pose);
-/// `a` seen from `b`, both in the stage.
+/// The pose `a` relative to `b`; both are in the stage.
 interaction::Pose seen_from(const interaction::Pose& b, const interaction::Pose& a);
 interaction::Pose compose(const interaction::Pose& parent, const interaction::Pose& child);
 
-/// Where a space is in the stage; nothing while that is not known.
+/// Where a space is in the stage.
 struct Located {
     interaction::Pose pose;
     interaction::Velocity velocity;
@@ -133,12 +133,12 @@ struct Located {
 };
 std::optional<Located> locate(const Space& space);
 
-/// The bindings of an action under the profile in use, of one hand or of any.
+/// The bindings of an action in the current profile, for one hand or for any.
 std::vector<std::string> bound_paths(const Action& action, std::uint64_t handle, XrPath subaction);
 
-/// Reads the script of a program of its own, once.
+/// Reads the script, once, in a separate program.
 void read_script();
-/// What the script has for the frame that begins.
+/// Applies the script to the frame that begins.
 void play_script(std::size_t frame);
 
 // The entry points, by file; negotiate.cpp hands them out.

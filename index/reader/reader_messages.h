@@ -21,7 +21,7 @@
 namespace isochron::index {
 
 /// The formats that libraries decode.
-enum class ForeignFormat : std::uint8_t { vti, vtk, netcdf, hdf5, tiff, vtk_data };
+enum class ForeignFormat : std::uint8_t { vti, vtk, netcdf, hdf5, tiff, vtk_data, zarr };
 
 /// The program in which a format is decoded: one for each library, so that none waits for the
 /// loading of another.

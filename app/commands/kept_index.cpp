@@ -23,6 +23,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Changes when a file in a folder is written to.
+std::string state_of_folder(const fs::path& folder) {
+    std::error_code error;
+    std::uint64_t files = 0, bytes = 0;
+    fs::file_time_type newest = fs::file_time_type::min();
+    for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
+        if (!entry.is_regular_file(error))
+            continue;
+        ++files;
+        bytes += entry.file_size(error);
+        newest = std::max(newest, entry.last_write_time(error));
+    }
+    return fmt::format("{} {} {}", files, bytes, newest.time_since_epoch().count());
+}
+
 /// The same for the same files and options.
 std::string name_of_kept(const std::vector<fs::path>& files, const BuildArguments& arguments) {
     std::string key(kProgram);
@@ -30,7 +45,8 @@ std::string name_of_kept(const std::vector<fs::path>& files, const BuildArgument
         key += fmt::format("{}:{};", text.size(), text);
     };
     for (const fs::path& file : files)
-        add(fs::weakly_canonical(file).string());
+        add(fs::weakly_canonical(file).string() +
+            (fs::is_directory(file) ? state_of_folder(file) : ""));
     const index::ReadOptions& read = arguments.read;
     for (const auto& text :
          {read.array, read.component, read.length_unit, read.time_unit, read.value_unit,

@@ -33,6 +33,10 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_tiff(const std::filesystem::path& path,
                                          const ReadOptions& options);
 
+/// Zarr, versions 2 and 3, and OME-Zarr: a folder, the file in it that describes it, or a zip file.
+std::unique_ptr<DecodedFile> decode_zarr(const std::filesystem::path& path,
+                                         const ReadOptions& options);
+
 /// The files and times of a ParaView collection (.pvd), in the order of their times, paths made
 /// relative to where the program runs. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> decode_pvd(const std::filesystem::path& path);

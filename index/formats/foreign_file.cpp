@@ -226,6 +226,10 @@ std::unique_ptr<VolumeFile> open_tiff(const fs::path& path, const ReadOptions& o
     return open_foreign(readers_of_this_process(), ForeignFormat::tiff, path, options);
 }
 
+std::unique_ptr<VolumeFile> open_zarr(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::zarr, path, options);
+}
+
 std::vector<std::pair<fs::path, double>> read_pvd(const fs::path& path) {
     ReaderLease lease(readers_of_this_process(), kCollectionProgram, path);
     std::vector<std::pair<fs::path, double>> files;

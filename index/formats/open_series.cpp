@@ -37,11 +37,23 @@ constexpr std::array kFormats{
     Format{".pvts", open_vtk_data}, Format{".vtm", open_vtk_data},  Format{".vth", open_vtk_data},
     Format{".tif", open_tiff},      Format{".tiff", open_tiff},     Format{".btf", open_tiff},
     Format{".h5", open_hdf5},       Format{".hdf5", open_hdf5},     Format{".he5", open_hdf5},
+    Format{"zarr.json", open_zarr}, Format{".zattrs", open_zarr},   Format{".zarray", open_zarr},
+    Format{".zgroup", open_zarr},   Format{".zip", open_zarr},      Format{".ozx", open_zarr},
     Format{".hdf", open_hdf5},      Format{".vtkhdf", open_hdf5},   Format{".raw", open_raw},
 };
 
-SeriesFile series_file(const fs::path& path, const ReadOptions& options,
+/// Of a Zarr folder the file that describes it; else the path itself.
+fs::path described_in(const fs::path& path) {
+    std::error_code ignored;
+    for (const char* name : {"zarr.json", ".zattrs", ".zarray", ".zgroup"})
+        if (fs::is_directory(path, ignored) && fs::is_regular_file(path / name, ignored))
+            return path / name;
+    return path;
+}
+
+SeriesFile series_file(const fs::path& given, const ReadOptions& options,
                        std::optional<double> time = {}) {
+    const fs::path path = described_in(given);
     file_bytes(path);
     const std::string name = lower_case(path.filename().string());
     for (const Format& format : kFormats)
@@ -90,11 +102,10 @@ std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& files,
     if (list != files.end()) {
         const std::string name = list->string();
         if (files.size() != 1)
-            throw Error(fmt::format("{}: names its files itself, {} more given", name,
-                                    files.size() - 1));
-        if (options.times_from_names)
             throw Error(
-                fmt::format("{}: gives the times itself, --times-from-names cannot", name));
+                fmt::format("{}: names its files itself, {} more given", name, files.size() - 1));
+        if (options.times_from_names)
+            throw Error(fmt::format("{}: gives the times itself, --times-from-names cannot", name));
         file_bytes(*list);
         for (const auto& [path, time] : is_pvd(*list) ? read_pvd(*list) : read_json_series(*list))
             series.push_back(series_file(path, options, time));

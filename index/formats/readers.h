@@ -46,6 +46,11 @@ std::unique_ptr<VolumeFile> open_hdf5(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_tiff(const std::filesystem::path& path,
                                       const ReadOptions& options);
 
+/// Zarr and OME-Zarr, in a reader: a zip file, or the file that describes a folder (`zarr.json`,
+/// `.zattrs`, `.zarray`, `.zgroup`).
+std::unique_ptr<VolumeFile> open_zarr(const std::filesystem::path& path,
+                                      const ReadOptions& options);
+
 /// The files and times of a ParaView collection (.pvd), in its order, paths made relative to where
 /// the program runs; in a reader. @throws Error naming the file
 std::vector<std::pair<std::filesystem::path, double>> read_pvd(const std::filesystem::path& path);

@@ -14,7 +14,7 @@ constexpr ValueType kLastValue<ValueType> = ValueType::f64;
 template <>
 constexpr Anatomy kLastValue<Anatomy> = Anatomy::enu;
 template <>
-constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::vtk_data;
+constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::zarr;
 
 namespace {
 
@@ -118,6 +118,7 @@ std::string program_of(ForeignFormat format) {
     case ForeignFormat::netcdf: return "isochron-reader-netcdf";
     case ForeignFormat::hdf5: return "isochron-reader-hdf5";
     case ForeignFormat::tiff: return "isochron-reader-tiff";
+    case ForeignFormat::zarr: return "isochron-reader-zarr";
     case ForeignFormat::vti:
     case ForeignFormat::vtk:
     case ForeignFormat::vtk_data: break;

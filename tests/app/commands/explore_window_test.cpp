@@ -18,6 +18,11 @@ class ExploreWindow : public ExploreTest {
     void wait_for_window(const std::string& pattern) {
         screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", pattern});
     }
+    static bool is_shown(const std::string& data) {
+        return system(
+                   ("xdotool search --onlyvisible --name " + data + " > /dev/null 2>&1").c_str()) ==
+               0;
+    }
     /// The panel's title is blue, what is behind it nearly black.
     bool is_title(int x) {
         const auto color = screen_.pixel(x, 8);
@@ -35,11 +40,11 @@ TEST_F(ExploreWindow, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {
     std::filesystem::copy_file(file("sphere.isochron"), file("other.isochron"));
     UserMemory(state_.path() / "isochron").remember(file("other.isochron"));
     const auto program = explore({});
-    screen_.xdotool({"key", "ctrl+o", "sleep", "1"});
-    // The second line: the first are the data that are open.
-    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "126",
-                     "sleep", "0.3", "click", "1"});
-    screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron: .*/other.isochron"});
+    // The second line: the first are the data that are open. Until the list is there, nothing is
+    // clicked.
+    while (!is_shown("other.isochron"))
+        screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320",
+                         "126", "key", "ctrl+o", "sleep", "0.4", "click", "1", "sleep", "0.4"});
     program->signal(SIGTERM);
     EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
     EXPECT_EQ(UserMemory(state_.path() / "isochron").recent().front(), file("other.isochron"));
@@ -50,7 +55,7 @@ TEST_F(ExploreWindow, WithoutDataItLetsTheUserChooseSome) {
     const Program program({"explore", "--size", "640", "480", "--seconds", "300"});
     wait_for_window("Isochron: open data");
     // The first of those that were open lately; until it is there, nothing is clicked.
-    while (system("xdotool search --onlyvisible --name sphere.isochron > /dev/null 2>&1") != 0)
+    while (!is_shown("sphere.isochron"))
         screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
                          "%1", "320", "104", "sleep", "0.2", "click", "1", "sleep", "0.3"});
     program.signal(SIGTERM);

@@ -112,7 +112,11 @@ TEST_P(Conformance, ValuesPlacesAndTimesAreTheLibrarys) {
         const ReadOptions options = options_in(entry["options"]);
         SCOPED_TRACE(fmt::format("{} {}", entry["files"].dump(), entry["options"].dump()));
         if (entry.contains("message")) {
-            EXPECT_THAT(error_of([&] { open_series(files, options); }),
+            EXPECT_THAT(error_of([&] {
+                            const auto series = open_series(files, options);
+                            if (entry["options"].value("reads", false))
+                                scaled_values(*series);
+                        }),
                         testing::HasSubstr(std::string(entry["message"])));
             continue;
         }
@@ -172,7 +176,8 @@ TEST_P(Conformance, DamageIsOneLine) {
     std::size_t refused = 0, cut = 0;
     for (const json& entry : entries()) {
         const std::string name = entry["files"].front();
-        if (entry.contains("message") || entry["files"].size() > 1 || !seen.insert(name).second)
+        if (entry.contains("message") || entry["files"].size() > 1 ||
+            !std::filesystem::is_regular_file(folder_.path() / name) || !seen.insert(name).second)
             continue;
         const std::string whole = folder_.read(name);
         const ReadOptions options = options_in(entry["options"]);
@@ -193,7 +198,7 @@ TEST_P(Conformance, DamageIsOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(Libraries, Conformance,
                          testing::Values("with_h5py.py", "with_nibabel.py", "with_tifffile.py",
-                                         "with_vtk.py"),
+                                         "with_vtk.py", "with_zarr.py"),
                          [](const auto& script) {
                              const std::string name = script.param;
                              return name.substr(5, name.size() - 8);

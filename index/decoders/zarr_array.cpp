@@ -1,0 +1,367 @@
+// Chunks of Zarr arrays.
+#include "index/decoders/zarr_array.h"
+
+#include "index/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace isochron::index {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostChunk = std::size_t{4} << 30; ///< [bytes]
+
+std::size_t product(const std::vector<std::uint64_t>& sizes, std::size_t element,
+                    const std::string& where) {
+    double bytes = static_cast<double>(element);
+    for (const std::uint64_t size : sizes)
+        bytes *= static_cast<double>(size);
+    if (bytes > static_cast<double>(kMostChunk))
+        throw Error(fmt::format("{}: chunks of {} values, expected at most {} bytes", where,
+                                fmt::join(sizes, " x "), kMostChunk));
+    return static_cast<std::size_t>(bytes);
+}
+
+std::optional<json> json_at(const ZarrStore& store, const std::string& key) {
+    const auto bytes = store.read(key);
+    if (!bytes)
+        return std::nullopt;
+    constexpr std::size_t kLargest = 64 << 20;
+    auto parsed = bytes->size() > kLargest
+                      ? json(json::value_t::discarded)
+                      : json::parse(reinterpret_cast<const char*>(bytes->data()),
+                                    reinterpret_cast<const char*>(bytes->data()) + bytes->size(),
+                                    nullptr, false);
+    if (!parsed.is_object())
+        throw Error(fmt::format("{}: {} is no JSON object", store.name(), key));
+    return parsed;
+}
+
+/// `<f4`, `|u1`, `>i2` of version 2; `float32` of version 3.
+std::optional<StoredType> type_of_zarr(std::string name) {
+    if (name.size() == 3 && std::string("<>|").find(name[0]) != std::string::npos)
+        name.erase(0, 1);
+    for (const auto& [known, type] : std::initializer_list<std::pair<const char*, StoredType>>{
+             {"b1", StoredType::u8},      {"bool", StoredType::u8},     {"i1", StoredType::i8},
+             {"int8", StoredType::i8},    {"u1", StoredType::u8},       {"uint8", StoredType::u8},
+             {"i2", StoredType::i16},     {"int16", StoredType::i16},   {"u2", StoredType::u16},
+             {"uint16", StoredType::u16}, {"i4", StoredType::i32},      {"int32", StoredType::i32},
+             {"u4", StoredType::u32},     {"uint32", StoredType::u32},  {"i8", StoredType::i64},
+             {"int64", StoredType::i64},  {"u8", StoredType::u64},      {"uint64", StoredType::u64},
+             {"f4", StoredType::f32},     {"float32", StoredType::f32}, {"f8", StoredType::f64},
+             {"float64", StoredType::f64}})
+        if (name == known)
+            return type;
+    return std::nullopt;
+}
+
+std::string joined(const std::string& group, const std::string& name) {
+    return group.empty() ? name : group + "/" + name;
+}
+
+} // namespace
+
+std::string ZarrArray::where(const std::string& what) const {
+    return fmt::format("{}: {}", store_->name(), joined(path_, what));
+}
+
+std::optional<ZarrArray> ZarrArray::open(const ZarrStore& store, const std::string& path) {
+    ZarrArray array(store, path);
+    try {
+        if (const auto v3 = json_at(store, joined(path, "zarr.json"))) {
+            if (v3->value("node_type", "") != "array")
+                return std::nullopt;
+            array.describe_v3(*v3);
+        } else if (const auto v2 = json_at(store, joined(path, ".zarray"))) {
+            array.describe_v2(*v2);
+        } else {
+            return std::nullopt;
+        }
+    } catch (const json::exception& error) {
+        throw Error(fmt::format("{}: damaged description: {}", array.where(""), error.what()));
+    }
+    array.check();
+    return array;
+}
+
+void ZarrArray::check() const {
+    const std::size_t rank = shape_.size();
+    if (chunk_.size() != rank || (!inner_.empty() && inner_.size() != rank) || rank > 16)
+        throw Error(fmt::format("{}: {} dimensions, chunks of {}", where(""), rank, chunk_.size()));
+    for (std::size_t i = 0; i < rank; ++i)
+        if (chunk_[i] == 0 || (!inner_.empty() && (inner_[i] == 0 || chunk_[i] % inner_[i] != 0)))
+            throw Error(fmt::format("{}: chunks of {}, in it {}", where(""),
+                                    fmt::join(chunk_, " x "), fmt::join(inner_, " x ")));
+    if (type_)
+        product(chunk(), size_of(*type_), where(""));
+}
+
+void ZarrArray::fill_with(const json& value) {
+    double number = 0;
+    if (value.is_number())
+        number = value.get<double>();
+    else if (value == "NaN")
+        number = std::numeric_limits<double>::quiet_NaN();
+    else if (value == "Infinity" || value == "-Infinity")
+        number = value == "Infinity" ? HUGE_VAL : -HUGE_VAL;
+    if (type_)
+        visit_stored_type(*type_, [&]<class T>(std::type_identity<T>) {
+            T fill{};
+            if constexpr (std::is_floating_point_v<T>)
+                fill = static_cast<T>(number);
+            else if (value.is_number_integer())
+                fill = static_cast<T>(value.get<std::int64_t>());
+            fill_.resize(sizeof(T));
+            std::memcpy(fill_.data(), &fill, sizeof(T));
+        });
+}
+
+void ZarrArray::describe_v2(const json& j) {
+    j.at("shape").get_to(shape_);
+    j.at("chunks").get_to(chunk_);
+    const json& dtype = j.at("dtype");
+    const std::string name = dtype.is_string() ? dtype.get<std::string>() : "";
+    type_ = type_of_zarr(name);
+    pipeline_.big_endian = name.starts_with('>');
+    separator_ = j.value("dimension_separator", ".");
+    if (j.value("order", "C") == "F")
+        for (std::size_t i = shape_.size(); i-- > 0;)
+            pipeline_.order.push_back(i);
+    const std::size_t element = type_ ? size_of(*type_) : 1;
+    if (const auto compressor = j.find("compressor");
+        compressor != j.end() && !compressor->is_null())
+        pipeline_.codecs.push_back(codec_of(compressor->at("id"), element, where("")));
+    if (const auto filters = j.find("filters"); filters != j.end() && filters->is_array())
+        for (auto filter = filters->rbegin(); filter != filters->rend(); ++filter)
+            pipeline_.codecs.push_back(
+                codec_of(filter->at("id"), filter->value("elementsize", element), where("")));
+    fill_with(j.value("fill_value", json()));
+    attributes_ = json_at(*store_, joined(path_, ".zattrs")).value_or(json::object());
+    if (const auto names = attributes_.find("_ARRAY_DIMENSIONS");
+        names != attributes_.end() && names->is_array() && names->size() == shape_.size())
+        names->get_to(names_);
+}
+
+void ZarrArray::describe_v3(const json& j) {
+    j.at("shape").get_to(shape_);
+    const json& type = j.at("data_type");
+    type_ = type_of_zarr(type.is_string() ? type.get<std::string>() : "");
+    const json& grid = j.at("chunk_grid");
+    if (grid.at("name") != "regular")
+        throw Error(fmt::format("{}: a chunk grid {}, expected regular", where(""),
+                                grid.at("name").dump()));
+    grid.at("configuration").at("chunk_shape").get_to(chunk_);
+    const json encoding = j.value("chunk_key_encoding", json::object());
+    const bool slashes = encoding.value("name", "default") == "default";
+    prefix_ = slashes ? "c" : "";
+    separator_ =
+        encoding.value("configuration", json::object()).value("separator", slashes ? "/" : ".");
+    pipeline_ = pipeline_v3(j.at("codecs"), true);
+    fill_with(j.value("fill_value", json()));
+    attributes_ = j.value("attributes", json::object());
+    if (const auto names = j.find("dimension_names"); names != j.end() && names->is_array())
+        for (const json& name : *names)
+            names_.push_back(name.is_string() ? name.get<std::string>() : "");
+}
+
+ZarrArray::Pipeline ZarrArray::pipeline_v3(const json& codecs, bool outer) {
+    Pipeline pipeline;
+    const std::size_t element = type_ ? size_of(*type_) : 1;
+    for (const json& codec : codecs) {
+        const std::string name =
+            codec.is_string() ? codec.get<std::string>() : codec.at("name").get<std::string>();
+        const json configuration =
+            codec.is_object() ? codec.value("configuration", json::object()) : json::object();
+        if (name == "bytes")
+            pipeline.big_endian = configuration.value("endian", "little") == "big";
+        else if (name == "transpose")
+            configuration.at("order").get_to(pipeline.order);
+        else if (name == "sharding_indexed" && outer && codecs.size() == 1)
+            take_shard(configuration);
+        else
+            pipeline.codecs.insert(pipeline.codecs.begin(), codec_of(name, element, where("")));
+    }
+    std::vector<std::size_t> sorted = pipeline.order;
+    std::ranges::sort(sorted);
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        if (sorted.size() != shape_.size() || sorted[i] != i)
+            throw Error(
+                fmt::format("{}: transposed by {}", where(""), fmt::join(pipeline.order, " ")));
+    return inner_.empty() || !outer ? pipeline : pipeline_;
+}
+
+void ZarrArray::take_shard(const json& configuration) {
+    configuration.at("chunk_shape").get_to(inner_);
+    pipeline_ = pipeline_v3(configuration.at("codecs"), false);
+    index_ = pipeline_v3(configuration.at("index_codecs"), false);
+    index_at_end_ = configuration.value("index_location", "end") == "end";
+}
+
+std::string ZarrArray::key_of(std::span<const std::uint64_t> at) const {
+    std::string key = prefix_;
+    for (const std::uint64_t number : at)
+        key += (key.empty() ? "" : separator_) + std::to_string(number);
+    return joined(path_, at.empty() && key.empty() ? "0" : key);
+}
+
+std::size_t ZarrArray::values_in_chunk() const {
+    std::size_t values = 1;
+    for (const std::uint64_t length : chunk())
+        values *= length;
+    return values;
+}
+
+ZarrBytes ZarrArray::values_of(ZarrBytes stored, const Pipeline& pipeline,
+                               const std::string& name) const {
+    const std::size_t size = size_of(*type_), bytes = values_in_chunk() * size;
+    // A check adds to what comes out of the codecs before it.
+    constexpr std::size_t kSlack = 64;
+    for (std::size_t i = 0; i < pipeline.codecs.size(); ++i)
+        stored = decoded(std::move(stored), pipeline.codecs[i], 0, bytes + kSlack, name);
+    if (stored.size() != bytes)
+        throw Error(fmt::format("{}: {} bytes, expected {}", name, stored.size(), bytes));
+    if (pipeline.big_endian)
+        for (std::size_t i = 0; i < bytes; i += size)
+            std::reverse(stored.begin() + static_cast<std::ptrdiff_t>(i),
+                         stored.begin() + static_cast<std::ptrdiff_t>(i + size));
+    if (pipeline.order.empty())
+        return stored;
+    // Stored dimension i is dimension order[i]: walk through the values as they are stored.
+    const std::size_t rank = chunk().size();
+    std::vector<std::size_t> stride(rank, 1), at(rank, 0);
+    for (std::size_t i = rank - 1; i-- > 0;)
+        stride[i] = stride[i + 1] * chunk()[i + 1];
+    ZarrBytes out(bytes);
+    for (std::size_t from = 0; from < bytes; from += size) {
+        std::size_t to = 0;
+        for (std::size_t i = 0; i < rank; ++i)
+            to += at[i] * stride[pipeline.order[i]];
+        std::memcpy(&out[to * size], &stored[from], size);
+        for (std::size_t i = rank; i-- > 0;) {
+            if (++at[i] < chunk()[pipeline.order[i]])
+                break;
+            at[i] = 0;
+        }
+    }
+    return out;
+}
+
+ZarrBytes ZarrArray::load(const std::vector<std::uint64_t>& at) const {
+    if (!inner_.empty())
+        return from_shard(at);
+    const std::string key = key_of(at);
+    auto stored = store_->read(key);
+    return stored ? values_of(std::move(*stored), pipeline_,
+                              fmt::format("{}: {}", store_->name(), key))
+                  : ZarrBytes{};
+}
+
+// Behind or before its chunks a shard has, for each, where it begins and its bytes (u64 each).
+ZarrBytes ZarrArray::from_shard(const std::vector<std::uint64_t>& at) const {
+    std::vector<std::uint64_t> shard;
+    std::size_t number = 0, count = 1;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const std::uint64_t along = chunk_[i] / inner_[i];
+        shard.push_back(at[i] / along);
+        number = number * along + at[i] % along;
+        count *= along;
+    }
+    const std::string key = key_of(shard), name = fmt::format("{}: {}", store_->name(), key);
+    const auto bytes = store_->read(key);
+    if (!bytes)
+        return {};
+    std::size_t size = 16 * count;
+    for (const ZarrCodec& codec : index_.codecs)
+        size += codec.name == "crc32c" ? 4 : 0;
+    if (bytes->size() < size)
+        throw Error(
+            fmt::format("{}: {} bytes, expected an index of {}", name, bytes->size(), size));
+    const auto begin =
+        index_at_end_ ? bytes->end() - static_cast<std::ptrdiff_t>(size) : bytes->begin();
+    ZarrBytes index(begin, begin + static_cast<std::ptrdiff_t>(size));
+    for (const ZarrCodec& codec : index_.codecs)
+        index = decoded(std::move(index), codec, 0, size, name);
+    std::uint64_t entry[2]{};
+    if (index.size() != 16 * count)
+        throw Error(
+            fmt::format("{}: an index of {} bytes, expected {}", name, index.size(), 16 * count));
+    std::memcpy(entry, &index[16 * number], sizeof entry);
+    constexpr std::uint64_t kNone = ~std::uint64_t{0};
+    if (entry[0] == kNone && entry[1] == kNone)
+        return {};
+    if (entry[0] > bytes->size() || entry[1] > bytes->size() - entry[0])
+        throw Error(fmt::format("{}: truncated: chunk {} of {} bytes at {} of {}", name, number,
+                                entry[1], entry[0], bytes->size()));
+    const auto first = bytes->begin() + static_cast<std::ptrdiff_t>(entry[0]);
+    return values_of({first, first + static_cast<std::ptrdiff_t>(entry[1])}, pipeline_, name);
+}
+
+const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {
+    if (const auto found = kept_.find(at); found != kept_.end())
+        return found->second;
+    constexpr std::size_t kMostKept = 256 << 20;
+    if (kept_bytes_ > kMostKept) {
+        kept_.clear();
+        kept_bytes_ = 0;
+    }
+    ZarrBytes& chunk = kept_[at] = load(at);
+    kept_bytes_ += chunk.size();
+    return chunk;
+}
+
+void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
+                     std::span<std::byte> out) {
+    const std::size_t rank = shape_.size(), size = size_of(*type_);
+    std::vector<std::uint64_t> first(rank), last(rank), at;
+    for (std::size_t i = 0; i < rank; ++i) {
+        first[i] = start[i] / chunk()[i];
+        last[i] = (start[i] + count[i] - 1) / chunk()[i];
+    }
+    at = first;
+    while (true) {
+        const ZarrBytes& values = chunk_at(at);
+        // The part of the box in this chunk, row by row along the last dimension.
+        std::vector<std::uint64_t> low(rank), high(rank);
+        for (std::size_t i = 0; i < rank; ++i) {
+            low[i] = std::max(start[i], at[i] * chunk()[i]);
+            high[i] = std::min(start[i] + count[i], (at[i] + 1) * chunk()[i]);
+        }
+        const std::size_t row = high[rank - 1] - low[rank - 1];
+        for (std::vector<std::uint64_t> p = low;;) {
+            std::size_t to = 0, from = 0;
+            for (std::size_t i = 0; i < rank; ++i) {
+                to = to * count[i] + (p[i] - start[i]);
+                from = from * chunk()[i] + (p[i] - at[i] * chunk()[i]);
+            }
+            if (!values.empty())
+                std::memcpy(&out[to * size], &values[from * size], row * size);
+            else
+                for (std::size_t i = 0; i < row; ++i)
+                    std::memcpy(&out[(to + i) * size], fill_.data(), size);
+            std::size_t i = rank - 1;
+            while (i > 0 && ++p[i - 1] >= high[i - 1]) {
+                p[i - 1] = low[i - 1];
+                --i;
+            }
+            if (i == 0)
+                break;
+        }
+        std::size_t i = rank;
+        while (i > 0 && ++at[i - 1] > last[i - 1]) {
+            at[i - 1] = first[i - 1];
+            --i;
+        }
+        if (i == 0)
+            return;
+    }
+}
+
+} // namespace isochron::index

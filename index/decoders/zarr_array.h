@@ -1,0 +1,77 @@
+// One array of a Zarr hierarchy, of version 2 or 3: its description, and its chunks as values.
+#pragma once
+
+#include "index/decoders/zarr_codecs.h"
+#include "index/formats/stored_scalar.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// Zarr v2: https://zarr.readthedocs.io/en/stable/spec/v2.html; v3:
+/// https://zarr-specs.readthedocs.io/en/latest/v3/core/, sharding codec included.
+class ZarrArray {
+  public:
+    /// @param path in the store, empty for its root; none where no array is there
+    /// @throws Error naming store and array: damaged, or with what is not known here
+    static std::optional<ZarrArray> open(const ZarrStore& store, const std::string& path);
+
+    const std::string& path() const { return path_; }
+    /// none: of a type that no volume can have
+    std::optional<StoredType> type() const { return type_; }
+    const std::vector<std::uint64_t>& shape() const { return shape_; }
+    /// Values along each dimension of what is decoded at a time.
+    const std::vector<std::uint64_t>& chunk() const { return inner_.empty() ? chunk_ : inner_; }
+    /// Of the dimensions, where it says them; else empty.
+    const std::vector<std::string>& names() const { return names_; }
+    const nlohmann::json& attributes() const { return attributes_; }
+
+    /// The box of values from `start`, `count` along each dimension, as stored, in the machine's
+    /// byte order, the last dimension fastest. @throws Error naming the chunk that is damaged
+    void read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
+              std::span<std::byte> out);
+
+  private:
+    /// What makes values of the bytes of a chunk.
+    struct Pipeline {
+        std::vector<ZarrCodec> codecs; ///< in the order of decoding
+        bool big_endian = false;
+        std::vector<std::size_t> order; ///< of the dimensions as stored; empty: as they are
+    };
+    ZarrArray(const ZarrStore& store, std::string path) : store_(&store), path_(std::move(path)) {}
+
+    void describe_v2(const nlohmann::json& j);
+    void describe_v3(const nlohmann::json& j);
+    Pipeline pipeline_v3(const nlohmann::json& codecs, bool outer);
+    void take_shard(const nlohmann::json& configuration);
+    void check() const;
+    void fill_with(const nlohmann::json& value);
+    std::string where(const std::string& what) const;
+    std::string key_of(std::span<const std::uint64_t> at) const;
+    std::size_t values_in_chunk() const;
+    /// The values of a chunk; empty: only the fill value.
+    const ZarrBytes& chunk_at(const std::vector<std::uint64_t>& at);
+    ZarrBytes load(const std::vector<std::uint64_t>& at) const;
+    ZarrBytes from_shard(const std::vector<std::uint64_t>& at) const;
+    ZarrBytes values_of(ZarrBytes stored, const Pipeline& pipeline, const std::string& name) const;
+
+    const ZarrStore* store_;
+    std::string path_;
+    std::optional<StoredType> type_;
+    std::vector<std::uint64_t> shape_, chunk_, inner_; ///< of chunks in a shard, if there are
+    std::vector<std::string> names_;
+    nlohmann::json attributes_;
+    std::string prefix_, separator_ = ".";
+    Pipeline pipeline_, index_;
+    bool index_at_end_ = true;
+    ZarrBytes fill_; ///< one value
+    std::map<std::vector<std::uint64_t>, ZarrBytes> kept_;
+    std::size_t kept_bytes_ = 0;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,11 @@
+// `isochron-reader-zarr`: Zarr, whose chunks several libraries decompress.
+#include "index/decoders/decoders.h"
+#include "index/decoders/reader_program.h"
+
+#include <array>
+
+int main() {
+    using namespace isochron::index;
+    constexpr std::array kDecoders{Decoder{ForeignFormat::zarr, decode_zarr}};
+    return run_reader(kDecoders);
+}

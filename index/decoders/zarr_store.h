@@ -1,0 +1,38 @@
+// Where the chunks and descriptions of a Zarr hierarchy lie: a folder, or a zip file.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+using ZarrBytes = std::vector<std::byte>;
+
+class ZarrStore {
+  public:
+    virtual ~ZarrStore() = default;
+
+    /// The value of a key as `path/to/array/c/0/1`; none where there is none.
+    /// @throws Error naming the file: unreadable, damaged
+    virtual std::optional<ZarrBytes> read(const std::string& key) const = 0;
+    /// Names directly below a group, sorted, at most 100,000. @param group without a slash at its end
+    virtual std::vector<std::string> names(const std::string& group) const = 0;
+
+    /// Where it is, for messages.
+    const std::string& name() const { return name_; }
+
+  protected:
+    explicit ZarrStore(std::string name) : name_(std::move(name)) {}
+
+  private:
+    std::string name_;
+};
+
+/// @param path a folder, or a zip file @throws Error naming it
+std::unique_ptr<ZarrStore> open_zarr_store(const std::filesystem::path& path);
+
+} // namespace isochron::index

@@ -43,12 +43,15 @@ std::string type_name(const toml::node& node) {
     }
 }
 
-/// Keys and words that had another spelling up to version 0.1, and their spelling now.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kSpellings{{
+/// Keys and words that were spelled in another way up to version 0.1, and how they are now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSpellings{{
     {"colour", "color"},
     {"surface_colour", "surface_color"},
     {"colouring", "coloring"},
     {"grey", "gray"},
+    {"lagoon", "viridis"},
+    {"dusk", "inferno"},
+    {"polar", "coolwarm"},
 }};
 
 /// Empty if there was no other spelling.

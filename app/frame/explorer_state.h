@@ -13,6 +13,7 @@ struct ExplorerState {
     std::vector<interaction::Isosurface> isosurfaces{{}}; ///< 1 to kMostIsosurfaces
     std::uint32_t picked = 0;                             ///< surface whose isovalue is moved
     interaction::Coloring coloring;
+    interaction::Look look;
     bool bounding_box = true; ///< the box with its ticks and numbers
     std::uint32_t steps = 0;  ///< number that the session shows; 0: all steps of the index
     std::uint32_t step = 0;

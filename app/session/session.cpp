@@ -53,13 +53,6 @@ bool Session::should_close() const {
     return outputs_.windows().should_close() || frames_->close_wanted();
 }
 
-std::string Session::drawing() const {
-    std::string text = outputs_.windows().drawing().description();
-    for (const std::string& line : scene_.given_up())
-        text += "; " + line;
-    return text;
-}
-
 std::string Session::failure() const {
     return frames_->failure(extractor_);
 }
@@ -230,6 +223,7 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
         .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
         .cells = scene_.shown(),
         .isosurfaces = state_.isosurfaces,
+        .look = state_.look,
         .scale = shown_scale(),
         .bounding_box = state_.bounding_box,
         .windows = outputs_.window_sizes(),

@@ -14,6 +14,13 @@ constexpr std::size_t kShownFrames = 120;
 
 } // namespace
 
+std::string Session::drawing() const {
+    std::string text = outputs_.windows().drawing().description();
+    for (const std::string& line : scene_.given_up())
+        text += "; " + line;
+    return text;
+}
+
 std::optional<glm::dvec3> Session::parallel_center() const {
     if (!state_.orthographic)
         return std::nullopt;
@@ -83,6 +90,8 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .asked = state_,
             .second_array = file_->color() != nullptr,
             .whole_range = scale ? scale->whole : std::array{0.0, 0.0},
+            .cells = scale && scene_.shown() ? scene_.shown().get() : nullptr,
+            .color_maps = config_.color_maps,
             .frame = report,
             .frame_times = log_.stage(&FrameReport::total, kShownFrames),
             .frames_per_second = log_.frames_per_second(kShownFrames),

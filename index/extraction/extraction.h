@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/extraction/index_search.h"
+#include "index/extraction/surroundings.h"
 #include "index/extraction/volume_bricks.h"
 
 #include <chrono>
@@ -23,7 +24,8 @@ struct Extraction {
     /// Color coordinates of the cells, surface after surface in the order of ids; empty if none
     /// were asked for, or the index has no second array to color by.
     std::vector<std::uint16_t> colors;
-    VolumeBricks bricks; ///< of the step, for all surfaces
+    VolumeBricks bricks;           ///< of the step, for all surfaces
+    SurroundingField surroundings; ///< of all surfaces; none where there are no cells
     std::chrono::nanoseconds gather_time{0};
 
     std::size_t cells() const; ///< of all surfaces: a cell that is active in two counts twice

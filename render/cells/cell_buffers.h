@@ -11,6 +11,7 @@
 #include "render/cells/mesh_buffers.h"
 #include "render/cells/ranked_points.h"
 #include "render/cells/slot_plan.h"
+#include "render/cells/surroundings.h"
 #include "render/cells/upload_count.h"
 #include "render/gl/staging_ring.h"
 
@@ -93,6 +94,8 @@ class CellBuffers {
     /// Whether the shown set came with meshes of its surfaces, as `Footprint::mesh` needs.
     bool has_mesh() const { return shown_ && mesh_version_ == version_; }
     const MeshBuffers& mesh() const { return mesh_; }
+    /// Of the shown set.
+    const Surroundings& surroundings() const { return surroundings_; }
 
     /// Whether the shown set's part of the volume is on the GPU, as the exact surface needs.
     bool has_volume() const { return volume_version_ == version_; }
@@ -139,8 +142,9 @@ class CellBuffers {
     StagingRing ring_;
     DeviceArray points_, message_, styles_, corner_values_, corner_gradients_;
     MeshBuffers mesh_;
-    std::optional<BrickPool> bricks_;    ///< made when the type of held values is known
-    std::optional<CellCompute> compute_; ///< made with bricks_
+    Surroundings surroundings_;
+    std::optional<BrickPool> bricks_;    ///< made when the type is known
+    std::optional<CellCompute> compute_; ///< likewise
     index::ExtractionPtr shown_, refused_;
     std::string refusal_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set

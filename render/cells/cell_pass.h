@@ -102,6 +102,7 @@ class CellPass {
     /// The sequence of one view; `Sequence::cells` is the same in all views that are drawn at once.
     Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
                          Footprint footprint, bool blended, const CellAppearance& appearance);
+    bool triangles_are_small(std::span<const View> views, const Placement& placement) const;
     void draw_mesh(std::span<const View> views, const Placement& placement,
                    const CellBuffers& cells, const Layer& layer, const CellAppearance& appearance,
                    const FrameBlock& frame);

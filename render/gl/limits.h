@@ -26,9 +26,9 @@ struct Limits {
     std::size_t work_groups;         ///< most work groups of a dispatch, along x
 };
 
-/// Bytes of the largest uniform block that shaders use.
-inline constexpr std::size_t kUniformBlockBytes = 1024;
-/// Invocations in a work group, all along x: local_size_x of work.glsl.
+/// Bytes of the largest uniform block.
+inline constexpr std::size_t kUniformBlockBytes = 1280;
+/// Invocations of a work group, all along x: local_size_x of work.glsl.
 inline constexpr std::size_t kWorkGroup = 64;
 
 /// @throws Error when a limit of the driver is too small; it names the limit, the need and the

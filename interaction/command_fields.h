@@ -28,7 +28,8 @@ struct Field {
     std::size_t least = 0, most = kLongestText;  ///< items of a list, or bytes of a text
     const char* old_key = nullptr;               ///< what recordings of older versions say
     bool undone = true;                          ///< changes of a setting can be taken back
-    bool dragged = false; ///< changes that follow one another closely are one, of a setting
+    bool may_lack = false; ///< recordings of older versions do without: then it is as by default
+    bool dragged = false;  ///< changes that follow one another closely are one, of a setting
 };
 
 template <class T, class Record>
@@ -60,6 +61,20 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"by"}, r.by...);
     visit(Field{"map"}, r.map...);
     visit(Field{"range"}, r.range...);
+    visit(Field{.key = "reversed", .may_lack = true}, r.reversed...);
+    visit(Field{.key = "bands", .low = 0, .high = kMostBands, .may_lack = true}, r.bands...);
+    visit(Field{.key = "logarithmic", .may_lack = true}, r.logarithmic...);
+    visit(
+        Field{
+            .key = "colors", .low = 0, .high = 0xffffff, .most = kMostMapColors, .may_lack = true},
+        r.colors...);
+}
+
+template <class Visit, Of<Look>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"background"}, r.background...);
+    visit(Field{"material"}, r.material...);
+    visit(Field{"occlusion", 0, 1}, r.occlusion...);
 }
 
 template <class Visit, Of<RoomPanel>... Records>
@@ -109,6 +124,7 @@ void each_setting(Visit&& visit, Records&... r) {
           r.isosurfaces...);
     visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);
     visit(Field{.key = "coloring", .dragged = true}, r.coloring...);
+    visit(Field{.key = "look", .dragged = true}, r.look...);
     visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
     visit(Field{.key = "steps", .low = 0, .undone = false}, r.steps...);
     visit(Field{.key = "step", .dragged = true}, r.step...);

@@ -62,12 +62,50 @@ template <>
 inline constexpr std::array<std::string_view, 3> kNames<ColorBy>{"surface", "value",
                                                                  "first_crossing"};
 
+inline constexpr std::uint32_t kMostBands = 64;
+inline constexpr std::size_t kMostMapColors = 256;
+
 struct Coloring {
     ColorBy by = ColorBy::surface;
-    std::string map = "lagoon"; ///< a color map's name
+    std::string map = "viridis"; ///< a color map's name
     /// Values at the ends of the map, ascending; all that occur in the series when there is none.
-    std::optional<std::array<double, 2>> range;
+    std::optional<std::array<double, 2>> range = {};
+    bool reversed = false;
+    std::uint32_t bands =
+        0; ///< colors that each fill a part of the map; 0: they are not told apart
+    bool logarithmic = false; ///< equal ratios of values, all above 0, are equally far on the map
+    /// Of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none: the
+    /// program knows the map by its name.
+    std::vector<std::uint32_t> colors = {};
     bool operator==(const Coloring&) const = default;
+};
+
+/// What is behind the data.
+enum class Background : std::uint8_t {
+    dark,    ///< the configuration's color
+    light,   ///< nearly white, as paper
+    gradient ///< from a dark floor to a lighter sky, which stands still in the room
+};
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<Background>{"dark", "light", "gradient"};
+
+/// How surfaces shine.
+enum class Material : std::uint8_t {
+    satin,  ///< as the configuration lights it
+    matte,  ///< no highlights
+    glossy, ///< small and bright ones
+    metal   ///< the surface mirrors more than it scatters
+};
+template <>
+inline constexpr std::array<std::string_view, 4> kNames<Material>{"satin", "matte", "glossy",
+                                                                  "metal"};
+
+/// How the picture is lit.
+struct Look {
+    Background background = Background::dark;
+    Material material = Material::satin;
+    float occlusion = 0.6f; ///< how much darker the surface is where it is surrounded by itself
+    bool operator==(const Look&) const = default;
 };
 
 /// The panel that stands in the room.
@@ -144,6 +182,7 @@ struct Commands {
     std::optional<std::vector<Viewpoint>> views; ///< all saved ones, at most kMostViews
     std::optional<bool> bounding_box;            ///< the box, its ticks and numbers shown
     std::optional<Coloring> coloring;
+    std::optional<Look> look;
     std::optional<RoomPanel> room_panel;
     std::optional<Mark> mark;
     std::optional<Tools> tools;

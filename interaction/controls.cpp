@@ -51,7 +51,10 @@ Coloring after(const Coloring& coloring, bool has_second_array) {
     const auto next =
         static_cast<ColorBy>((static_cast<std::size_t>(coloring.by) + 1) % kNames<ColorBy>.size());
     const bool skipped = next == ColorBy::value && !has_second_array;
-    return {skipped ? ColorBy::first_crossing : next, coloring.map, std::nullopt};
+    Coloring changed = coloring;
+    changed.by = skipped ? ColorBy::first_crossing : next;
+    changed.range.reset();
+    return changed;
 }
 
 struct Controls::State {

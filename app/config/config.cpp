@@ -1,6 +1,7 @@
 // Reading of the TOML configuration: the only file that knows its keys.
 #include "app/config/config.h"
 
+#include "app/config/look_config.h"
 #include "app/config/shipped_configs.h"
 #include "app/config/toml_reader.h"
 #include "app/text.h"
@@ -72,22 +73,6 @@ void read_surfaces(TomlReader& reader, Config& config) {
                                             interaction::kMostIsosurfaces, config.surfaces.size()));
 }
 
-void read_coloring(TomlReader& reader, interaction::Coloring& coloring) {
-    reader.word("by", interaction::all_names<interaction::ColorBy>(), [&](const std::string& word) {
-        coloring.by = *interaction::value_named<interaction::ColorBy>(word);
-    });
-    reader.word("map", {render::kColorMapNames.begin(), render::kColorMapNames.end()},
-                [&](const std::string& word) { coloring.map = word; });
-    glm::dvec2 range(0.0);
-    reader.vector("range", range);
-    if (!reader.has("range"))
-        return;
-    if (!(range.x < range.y))
-        reader.fail("range",
-                    fmt::format("expected two ascending numbers, got {} and {}", range.x, range.y));
-    coloring.range = {range.x, range.y};
-}
-
 void read_lighting(TomlReader& reader, render::CellAppearance& look) {
     constexpr double kBrightest = 4.0;
     reader.number("ambient", 0.0, kBrightest, look.ambient);
@@ -154,7 +139,8 @@ void read_root(TomlReader& reader, Config& config) {
     reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
     reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });
     reader.table("lighting", [&](TomlReader& inner) { read_lighting(inner, config.appearance); });
-    reader.table("coloring", [&](TomlReader& inner) { read_coloring(inner, config.coloring); });
+    reader.table("coloring", [&](TomlReader& inner) { read_coloring(inner, config); });
+    reader.table("look", [&](TomlReader& inner) { read_look(inner, config.look); });
     read_surfaces(reader, config);
     reader.table("memory", [&](TomlReader& inner) {
         inner.integer("cache_megabytes", 0, 1 << 24, config.cache_megabytes);

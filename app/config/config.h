@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/config/cluster_config.h"
+#include "app/config/color_map_file.h"
 #include "app/config/device_config.h"
 #include "app/config/display_config.h"
 #include "app/config/first_placement.h"
@@ -65,13 +66,15 @@ struct Config {
     glm::vec3 surface_color{0.94f, 0.86f, 0.70f}; ///< sRGB
     std::vector<ConfiguredSurface> surfaces;      ///< none: one of surface_color
     interaction::Coloring coloring;
+    std::vector<LoadedColorMap> color_maps; ///< beside those that the program knows
+    interaction::Look look;
     render::CellAppearance appearance; ///< light and material
     Blending blending = Blending::automatic;
     render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< whose ways cells are drawn in
     int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
     int picture_samples = 0;  ///< likewise of pictures that are written; 0: 4, or more on displays
     int cache_megabytes = 0;  ///< what is kept of the index; 0: a quarter of what there may be
-    int mesh_megabytes = 192; ///< that the triangles of a set may take; 0: none are made
+    int mesh_megabytes = 96; ///< that the triangles of a set may take; 0: none are made
     bool bounding_box = true; ///< with ticks and numbers
     bool wand_ray = true;
     bool picture_ray = false;     ///< pictures that are written show it, too

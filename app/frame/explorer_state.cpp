@@ -41,7 +41,13 @@ bool holds(const Field& field, const std::vector<interaction::Isosurface>& surfa
            });
 }
 bool holds(const Field&, const interaction::Coloring& coloring) {
-    return render::color_map_from_name(coloring.map).has_value();
+    const auto& colors = coloring.colors;
+    return coloring.bands <= interaction::kMostBands &&
+           colors.size() <= interaction::kMostMapColors &&
+           (!colors.empty() || render::color_map_from_name(coloring.map));
+}
+bool holds(const Field&, const interaction::Look& look) {
+    return holds(Field{"", 0, 1}, look.occlusion);
 }
 bool holds(const Field&, const interaction::PlaybackState& playback) {
     return holds(Field{"", interaction::kSlowest, interaction::kFastest}, playback.speed);

@@ -13,6 +13,7 @@ struct ExplorerState {
     std::vector<interaction::Isosurface> isosurfaces{{}}; ///< 1 to kMostIsosurfaces
     std::uint32_t picked = 0;                             ///< the one that the isovalue moves
     interaction::Coloring coloring;
+    interaction::Look look;
     bool bounding_box = true; ///< the box with its ticks and numbers
     std::uint32_t steps = 0;  ///< of the series, as far as the session knows; 0: all of them
     std::uint32_t step = 0;

@@ -58,7 +58,8 @@ nlohmann::json upload_json(const render::UploadCount& count) {
             {"id_bytes", count.id_bytes},
             {"brick_bytes", count.brick_bytes},
             {"color_bytes", count.color_bytes},
-            {"mesh_bytes", count.mesh_bytes}};
+            {"mesh_bytes", count.mesh_bytes},
+            {"surrounding_bytes", count.surrounding_bytes}};
 }
 
 nlohmann::json summary_json(const TimeSummary& summary) {
@@ -118,6 +119,36 @@ std::uint64_t FrameLog::frames_with(render::Footprint footprint) const {
         std::ranges::count(frames_, footprint, &FrameReport::footprint));
 }
 
+FrameLog::Moving FrameLog::moving() const {
+    Moving moving;
+    for (const FrameReport& frame : frames_)
+        if (frame.pace == interaction::Pace::moving && frame.redrawn && frame.cells > 0) {
+            ++moving.frames;
+            moving.as_surface += render::has_layers(frame.footprint);
+        }
+    return moving;
+}
+
+FrameLog::Rests FrameLog::rests() const {
+    Rests rests;
+    std::optional<interaction::Seconds> moved; ///< last, where no rest has come to its end since
+    bool resting = false;
+    for (const FrameReport& frame : frames_) {
+        if (frame.pace == interaction::Pace::moving || frame.cells == 0) {
+            moved = frame.time;
+            resting = false;
+            continue;
+        }
+        rests.count += !resting && moved;
+        resting = true;
+        if (!moved || !frame.redrawn || frame.footprint != render::kBestFootprint)
+            continue;
+        rests.exact_after.push_back(Milliseconds(frame.time - *moved + frame.total).count());
+        moved.reset();
+    }
+    return rests;
+}
+
 TimeSummary FrameLog::stage(Stage stage, std::size_t count) const {
     const std::size_t first = count == 0 || count > frames_.size() ? 0 : frames_.size() - count;
     std::vector<double> times;
@@ -145,6 +176,11 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
     report["missed"] = missed();
     for (const render::Footprint footprint : kFootprints)
         report["footprints"][name_of(footprint)] = frames_with(footprint);
+    report["moving"] = {{"frames", moving().frames}, {"as_surface", moving().as_surface}};
+    const Rests still = rests();
+    report["rests"] = {{"count", still.count},
+                       {"exact", still.exact_after.size()},
+                       {"exact_after", summary_json(summarize(still.exact_after))}};
     report["uploaded"] = upload_json(uploaded());
     report["reading"] = {{"bytes", reading.bytes},
                          {"hits", reading.hits},
@@ -208,6 +244,15 @@ std::string FrameLog::table() const {
     for (const render::Footprint footprint : kFootprints)
         text += fmt::format("  {:<14}{:>8} frames\n", name_of(footprint), frames_with(footprint));
     text += fmt::format("  {:<14}{:>8} refreshes of the display\n", "missed", missed());
+    if (const Moving all = moving(); all.frames > 0)
+        text += fmt::format("  {:<14}{:>8} frames, {:.0f} % of them as mesh or surface\n", "moving",
+                            all.frames, 100.0 * double(all.as_surface) / double(all.frames));
+    if (const Rests still = rests(); still.count > 0) {
+        const TimeSummary after = summarize(still.exact_after);
+        text += fmt::format(
+            "  {:<14}{:>8} times, {} of them exact after {:.0f} ms (worst {:.0f})\n", "at rest",
+            still.count, still.exact_after.size(), after.median, after.worst);
+    }
     const render::UploadCount sent = uploaded();
     if (sent.whole_ids > 0)
         text +=

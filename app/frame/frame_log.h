@@ -74,6 +74,19 @@ class FrameLog {
     unsigned missed() const; ///< of all frames kept
     std::uint64_t frames_with(render::Footprint footprint) const;
 
+    /// Frames that moved and showed cells, and those of them that showed the surface itself.
+    struct Moving {
+        std::uint64_t frames = 0, as_surface = 0; ///< as mesh or exact surface
+    };
+    Moving moving() const;
+    /// How often the picture came to rest, and how long after the last frame that moved the exact
+    /// surface was shown, where it was.
+    struct Rests {
+        std::uint64_t count = 0;
+        std::vector<double> exact_after; ///< [ms]
+    };
+    Rests rests() const;
+
     /// Rate of the newest `count` frames, by their session times; 0 before the second frame.
     double frames_per_second(std::size_t count) const;
 

@@ -2,6 +2,7 @@
 #include "app/panel/panel_colors.h"
 
 #include "app/panel/panel_words.h"
+#include "app/scene/color_scale.h"
 #include "app/text.h"
 #include "render/passes/color_map.h"
 
@@ -9,6 +10,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace isochron::app {
 namespace {
@@ -57,6 +59,43 @@ bool surface_line(const PanelModel& model, std::uint32_t i, std::vector<Isosurfa
     return removed;
 }
 
+/// Surfaces of lower isovalues lie around those of higher ones: what lies around the new one gives
+/// way to it, and it to what it lies around.
+void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
+    constexpr float kSeenThrough = 0.45f;
+    for (Isosurface& outer : surfaces) {
+        const bool encloses = std::ranges::any_of(surfaces, [&](const Isosurface& inner) {
+            return inner.isovalue > outer.isovalue &&
+                   (&outer == &surfaces[added] || &inner == &surfaces[added]);
+        });
+        if (encloses)
+            outer.opacity = std::min(outer.opacity, kSeenThrough);
+    }
+}
+
+void text_of_rule(const std::vector<Isosurface>& surfaces) {
+    const bool through = std::ranges::any_of(
+        surfaces, [](const Isosurface& surface) { return surface.opacity < 1.0f; });
+    note(through ? "lower isovalues lie outside: those are see-through, so that all are seen"
+                 : "lower isovalues lie outside: less opacity lets see what they hide",
+         kDim);
+}
+
+/// How the map is used.
+void way_of_map(interaction::Coloring& coloring) {
+    ImGui::Checkbox("reversed", &coloring.reversed);
+    tip("the colors run from the high to the low end");
+    ImGui::SameLine();
+    ImGui::Checkbox("logarithmic", &coloring.logarithmic);
+    tip("equal ratios of values are equally far apart; for values above 0");
+    int bands = static_cast<int>(coloring.bands);
+    ImGui::SetNextItemWidth(-60.0f);
+    if (ImGui::SliderInt("bands", &bands, 0, 20, bands == 0 ? "none" : "%d",
+                         ImGuiSliderFlags_AlwaysClamp))
+        coloring.bands = static_cast<std::uint32_t>(bands);
+    tip("so many colors that each fill a part of the range; none: they pass into each other");
+}
+
 void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
     bool automatic = !coloring.range;
     if (ImGui::Checkbox("all values", &automatic)) {
@@ -65,6 +104,13 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
             coloring.range = model.whole_range;
     }
     tip("the colors span all values; off: a range of your own");
+    if (model.cells) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton("2 to 98 % of what is shown"))
+            if (const auto range = range_of_shares(*model.cells, model.whole_range, {0.02, 0.98}))
+                coloring.range = range;
+        tip("the colors span the values on these surfaces, but the least and the largest 2 %");
+    }
     if (!coloring.range)
         return;
     std::array<double, 2> range = *coloring.range;
@@ -92,17 +138,41 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
     const bool more = surfaces.size() < interaction::kMostIsosurfaces;
     const bool added = more && ImGui::SmallButton("add a surface");
     if (more)
-        tip("one more isovalue beside these; all become half transparent");
+        tip("one more isovalue beside these; it is seen at once");
     if (added) {
         commands.picked = static_cast<std::uint32_t>(surfaces.size());
-        // Seen at once: through those that may lie around it.
-        constexpr float kSeenThrough = 0.45f;
-        for (Isosurface& surface : surfaces)
-            surface.opacity = std::min(surface.opacity, kSeenThrough);
         surfaces.push_back(another(model));
+        let_see(surfaces, surfaces.size() - 1);
     }
+    if (surfaces.size() > 1)
+        text_of_rule(surfaces);
     if (surfaces != model.asked.isosurfaces)
         commands.isosurfaces = surfaces;
+}
+
+void look_section(const PanelModel& model, Commands& commands) {
+    interaction::Look look = model.asked.look;
+    const auto choice = [](const char* label, auto& value, const char* effect) {
+        using Value = std::remove_reference_t<decltype(value)>;
+        ImGui::SetNextItemWidth(0.28f * ImGui::GetWindowContentRegionMax().x);
+        if (ImGui::BeginCombo(label, std::string(interaction::name_of(value)).c_str())) {
+            for (std::size_t i = 0; i < interaction::kNames<Value>.size(); ++i) {
+                const auto one = static_cast<Value>(i);
+                if (ImGui::Selectable(std::string(interaction::name_of(one)).c_str(), one == value))
+                    value = one;
+            }
+            ImGui::EndCombo();
+        }
+        tip(effect);
+    };
+    choice("material", look.material, "how surfaces shine");
+    ImGui::SameLine();
+    choice("behind", look.background, "what is behind the data");
+    ImGui::SetNextItemWidth(-60.0f);
+    ImGui::SliderFloat("depth", &look.occlusion, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    tip("how much darker a surface is where it is surrounded by itself");
+    if (look != model.asked.look)
+        commands.look = look;
 }
 
 void coloring_section(const PanelModel& model, Commands& commands) {
@@ -131,8 +201,18 @@ void coloring_section(const PanelModel& model, Commands& commands) {
                coloring.by = by;
            });
     if (coloring.by != interaction::ColorBy::surface) {
-        choice("map", coloring.map, render::kColorMapNames, "colors from the low to the high end",
-               [&](std::size_t i) { coloring.map = render::kColorMapNames[i]; });
+        std::vector<std::string> names{render::kColorMapNames.begin(),
+                                       render::kColorMapNames.end()};
+        const std::size_t own = names.size();
+        for (const LoadedColorMap& map : model.color_maps)
+            names.push_back(map.name);
+        choice("map", coloring.map, names, "colors from the low to the high end",
+               [&](std::size_t i) {
+                   coloring.map = names[i];
+                   coloring.colors =
+                       i < own ? std::vector<std::uint32_t>() : model.color_maps[i - own].colors;
+               });
+        way_of_map(coloring);
         range_of_map(model, coloring);
     }
     if (coloring != model.asked.coloring)
@@ -141,6 +221,7 @@ void coloring_section(const PanelModel& model, Commands& commands) {
     if (ImGui::Checkbox("box with numbers", &shown))
         commands.bounding_box = shown;
     tip("the data's box, with ticks in their units (O)");
+    look_section(model, commands);
 }
 
 } // namespace isochron::app

@@ -1,6 +1,7 @@
 // What the panel shows in one frame.
 #pragma once
 
+#include "app/config/color_map_file.h"
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "index/file/read_use.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,8 +42,10 @@ struct PanelModel {
     const index::SeriesInfo& info;
     const index::IndexStats& stats;
     const ExplorerState& asked;
-    bool second_array = false;           ///< there is one to color by
-    std::array<double, 2> whole_range{}; ///< of what is colored by
+    bool second_array = false;                       ///< there is one to color by
+    std::array<double, 2> whole_range{};             ///< of what is colored by
+    const index::Extraction* cells = nullptr;        ///< colored ones that are shown
+    std::span<const LoadedColorMap> color_maps = {}; ///< of the configuration
     const FrameReport& frame;
     TimeSummary frame_times; ///< of the last frames
     double frames_per_second = 0;

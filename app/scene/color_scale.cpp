@@ -1,7 +1,14 @@
 // What the colors on the surfaces stand for.
 #include "app/scene/color_scale.h"
 
+#include "index/extraction/cell_colors.h"
+#include "render/gl/srgb.h"
+
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 
 namespace isochron::app {
 namespace {
@@ -30,8 +37,53 @@ std::optional<ColorScale> color_scale(const ExplorerState& state, const index::I
         break;
     }
     scale.range = state.coloring.range.value_or(scale.whole);
-    scale.map = *render::color_map_from_name(state.coloring.map);
+    scale.map = state.coloring.map;
+    scale.colors = state.coloring.colors;
+    scale.use = {state.coloring.reversed, state.coloring.bands};
+    if (state.coloring.logarithmic && scale.range[1] > 0) {
+        // Without a range of its own a map goes by logarithms over six decades at most.
+        constexpr double kDecades = 1e-6;
+        if (!state.coloring.range && !(scale.range[0] > kDecades * scale.range[1]))
+            scale.range[0] = kDecades * scale.range[1];
+        scale.logarithmic = scale.range[0] > 0;
+    }
     return scale;
+}
+
+std::vector<glm::vec3> colors_of(const ColorScale& scale) {
+    std::vector<glm::vec3> given;
+    for (const std::uint32_t color : scale.colors)
+        given.push_back(render::linear_from_srgb(
+            glm::vec3(color >> 16 & 0xffu, color >> 8 & 0xffu, color & 0xffu) / 255.0f));
+    const auto known = render::color_map_from_name(scale.map);
+    return render::used(given.empty() ? render::color_map(known.value_or(render::ColorMap::viridis))
+                                      : render::color_map_between(given),
+                        scale.use);
+}
+
+double share_on(const ColorScale& scale, double value) {
+    const auto [low, high] = scale.range;
+    if (scale.logarithmic)
+        return std::log(value / low) / std::log(high / low);
+    return (value / 2 - low / 2) / (high / 2 - low / 2);
+}
+
+std::optional<std::array<double, 2>> range_of_shares(const index::Extraction& shown,
+                                                     const std::array<double, 2>& whole,
+                                                     const std::array<double, 2>& shares) {
+    std::vector<std::uint16_t> coordinates;
+    std::ranges::copy_if(shown.colors, std::back_inserter(coordinates),
+                         [](std::uint16_t one) { return one != index::kNoColor; });
+    if (coordinates.empty())
+        return std::nullopt;
+    std::array<double, 2> range{};
+    for (std::size_t end = 0; end < 2; ++end) {
+        const auto at = coordinates.begin() +
+                        std::lround(shares[end] * static_cast<double>(coordinates.size() - 1));
+        std::ranges::nth_element(coordinates, at);
+        range[end] = std::lerp(whole[0], whole[1], *at / double{index::kColorSteps});
+    }
+    return range[0] < range[1] ? std::optional(range) : std::nullopt;
 }
 
 } // namespace isochron::app

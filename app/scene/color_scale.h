@@ -2,22 +2,39 @@
 #pragma once
 
 #include "app/frame/explorer_state.h"
+#include "index/extraction/extraction.h"
 #include "render/passes/color_map.h"
 
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
 
 /// Values and their colors.
 struct ColorScale {
-    std::string title;             ///< `temperature [K]`
-    std::array<double, 2> range{}; ///< values at the ends of the map
-    std::array<double, 2> whole{}; ///< all that occur: what cells' color coordinates span
-    render::ColorMap map{};
+    std::string title;                 ///< `temperature [K]`
+    std::array<double, 2> range{};     ///< values at the ends of the map
+    std::array<double, 2> whole{};     ///< all that occur: what cells' color coordinates span
+    std::string map = "viridis";       ///< by its name, unless it has colors of its own:
+    std::vector<std::uint32_t> colors; ///< as interaction::Coloring
+    render::ColorMapUse use;
+    bool logarithmic = false; ///< both ends of the range are above 0 then
     bool operator==(const ColorScale&) const = default;
 };
+
+/// The map's colors from the low to the high end, linear light.
+std::vector<glm::vec3> colors_of(const ColorScale& scale);
+/// Where a value lies between the ends of the range, 0 to 1 within it.
+double share_on(const ColorScale& scale, double value);
+
+/// Values that these shares of the shown cells' do not exceed, as a range for a map.
+/// @param shares 0 to 1, ascending
+/// @return nothing where the cells have no values, or the same one at both
+std::optional<std::array<double, 2>> range_of_shares(const index::Extraction& shown,
+                                                     const std::array<double, 2>& whole,
+                                                     const std::array<double, 2>& shares);
 
 /// Nothing when colors tell surfaces apart, or when there is no second array to color by.
 std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file);

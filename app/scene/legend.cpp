@@ -63,7 +63,7 @@ class Layout {
 };
 
 void write_scale(const ColorScale& scale, Layout& layout) {
-    const std::vector<glm::vec3> colors = render::color_map(scale.map);
+    const std::vector<glm::vec3> colors = colors_of(scale);
     for (int i = 0; i < kPatches; ++i) {
         const std::size_t at = i * (colors.size() - 1) / (kPatches - 1);
         layout.fill({0.0f, 0.5f + kBarHeight * static_cast<float>(i) / kPatches},
@@ -71,12 +71,14 @@ void write_scale(const ColorScale& scale, Layout& layout) {
                     glm::vec4(render::srgb_from_linear(colors[at]), 1.0f));
     }
     const auto [low, high] = scale.range;
-    const Ticks ticks = nice_ticks(low, high, kMostLegendTicks);
+    const Ticks ticks = scale.logarithmic ? logarithmic_ticks(low, high, kMostLegendTicks)
+                                          : nice_ticks(low, high, kMostLegendTicks);
     for (const double value : ticks.values) {
-        const auto up = static_cast<float>((value - low) / (high - low));
+        const auto up = static_cast<float>(share_on(scale, value));
         const float y = 0.5f + kBarHeight * up;
         layout.fill({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, kLegendInk);
-        layout.write(tick_text(value, ticks.step), {kBarWidth + 0.7f, y});
+        layout.write(tick_text(value, scale.logarithmic ? value : ticks.step),
+                     {kBarWidth + 0.7f, y});
     }
     layout.write(scale.title, {0.0f, kBarHeight + 1.6f});
 }

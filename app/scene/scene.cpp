@@ -4,6 +4,7 @@
 #include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
+#include "app/scene/look.h"
 #include "app/scene/mark.h"
 #include "app/scene/orientation.h"
 #include "interaction/navigation.h"
@@ -23,6 +24,7 @@ constexpr float kWandLength = 1.2f;             // meters
 constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
 constexpr float kToolLine = 2.0f;               ///< [pixel]
 constexpr glm::vec4 kBoxColor(0.45f, 0.50f, 0.56f, 0.55f);
+constexpr glm::vec4 kBoxOnLight(0.25f, 0.28f, 0.32f, 0.8f);
 constexpr glm::vec4 kWandColor(1.0f, 0.77f, 0.36f, 0.9f);
 constexpr float kFontPixels = 32.0f; ///< of glyphs, which are shown smaller
 
@@ -37,9 +39,10 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
     : gl_(gl), info_(info), upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame),
       mesh_room_(
           render::CellBuffers::wanted_shading(gl) == index::Shading::none ? 0 : config.mesh_room()),
-      appearance_(config.appearance), cells_(gl, info.grid),
+      configured_(config.appearance), appearance_(configured_), cells_(gl, info.grid),
       cell_pass_(gl, {.shape = config.cell_shape}), line_pass_(gl),
-      text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), veil_pass_(gl) {
+      text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
+      veil_pass_(gl) {
     appearance_.linear_light = blends_light(gl, config.blending);
     // How values are held depends on their type only, not on their range.
     cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
@@ -82,8 +85,11 @@ void Scene::look(const ExplorerState& state, const interaction::Pose& head,
     surfaces_ = state.isosurfaces;
     for (std::size_t i = 0; i < surfaces_.size(); ++i)
         appearance_.surfaces[i] = {surfaces_[i].color, surfaces_[i].opacity};
-    if (scale && (!scale_ || scale_->map != scale->map))
-        map_.emplace(render::color_map_texture(gl_, scale->map));
+    const auto same_colors = [](const ColorScale& a, const ColorScale& b) {
+        return a.map == b.map && a.colors == b.colors && a.use == b.use;
+    };
+    if (scale && (!scale_ || !same_colors(*scale_, *scale)))
+        map_.emplace(render::color_map_texture(gl_, colors_of(*scale), scale->use.bands > 0));
     scale_ = scale;
     appearance_.values.reset();
     if (scale) {
@@ -93,13 +99,20 @@ void Scene::look(const ExplorerState& state, const interaction::Pose& head,
         };
         appearance_.values = {
             .map = map_->name(), .low = share(scale->range[0]), .high = share(scale->range[1])};
+        if (scale->logarithmic)
+            appearance_.values->ratio = static_cast<float>(scale->range[1] / scale->range[0]);
     }
+    set_look(appearance_, configured_, state.look);
+    background_ = background_of(state.look);
+    on_light_ = state.look.background == interaction::Background::light;
     mark_ = state.mark;
     box_ = state.bounding_box;
     axes_ =
         box_ ? axes_for(info_, render::Placement::of(info_.grid, matrix(state.room_from_physical)),
                         head)
              : Axes{};
+    if (on_light_)
+        darken(axes_);
 }
 
 void Scene::set_near_fade(const interaction::ComfortOptions& comfort,
@@ -204,6 +217,9 @@ void Scene::draw(std::span<const render::View> views,
     const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
     // Another process of a cluster may have chosen what is not there yet.
     footprint = footprints().best(footprint);
+    if (background_)
+        for (const render::View& view : views)
+            background_pass_.draw(view, *background_);
     // Soft edges blend with what is drawn before them. What splats may hide must come before these
     // all the same, since they write no depth.
     appearance_.cut = cut_in(room_from_physical);
@@ -233,7 +249,7 @@ bool Scene::writes_depth(render::Footprint footprint) const {
 
 render::BoxLines Scene::box_in(const render::View& view, const render::Placement& placement) const {
     const glm::vec4 eye(view.eye_in_room(), 1.0f);
-    return render::box_lines(placement.extent, kBoxColor,
+    return render::box_lines(placement.extent, on_light_ ? kBoxOnLight : kBoxColor,
                              glm::vec3(glm::inverse(placement.room_from_index) * eye));
 }
 

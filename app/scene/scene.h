@@ -14,6 +14,7 @@
 #include "render/cells/cell_buffers.h"
 #include "render/cells/cell_pass.h"
 #include "render/gl/view.h"
+#include "render/passes/background_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
@@ -123,7 +124,10 @@ class Scene {
     std::vector<interaction::Isosurface> surfaces_;
     std::optional<ColorScale> scale_;
     std::optional<render::Texture> map_; ///< the last that was needed
+    const render::CellAppearance configured_;
     render::CellAppearance appearance_;
+    std::optional<render::BackgroundColors> background_; ///< none: the picture's own color
+    bool on_light_ = false;                              ///< what is drawn on it is dark
     render::CellBuffers cells_;
     render::CellPass cell_pass_;
     render::LinePass line_pass_;
@@ -138,6 +142,7 @@ class Scene {
     bool orientation_ = false;
     interaction::ToolDrawing tools_;
     interaction::ClipPlane clip_;
+    render::BackgroundPass background_pass_;
     render::VeilPass veil_pass_;
     render::Veil veil_;
 };

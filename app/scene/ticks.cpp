@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace isochron::app {
 namespace {
@@ -40,6 +41,35 @@ Ticks nice_ticks(double low, double high, int most) {
         }
         ticks.step = nice_above(ticks.step * 1.5);
     }
+}
+
+Ticks logarithmic_ticks(double low, double high, int most) {
+    if (!(low > 0) || !(high > low) || !std::isfinite(high))
+        return {};
+    const int first = static_cast<int>(std::floor(std::log10(low)));
+    const int last = static_cast<int>(std::floor(std::log10(high)));
+    const auto within = [&](std::initializer_list<double> factors, int every) {
+        Ticks ticks;
+        for (int decade = first; decade <= last; ++decade) {
+            if (decade % every != 0)
+                continue;
+            for (const double factor : factors) {
+                const double value = factor * std::pow(10.0, decade);
+                constexpr double kRounding = 1e-9;
+                if (value >= low * (1 - kRounding) && value <= high * (1 + kRounding))
+                    ticks.values.push_back(value);
+            }
+        }
+        ticks.step = ticks.values.empty() ? 0 : ticks.values.front();
+        return ticks;
+    };
+    const auto count = [](const Ticks& ticks) { return static_cast<int>(ticks.values.size()); };
+    if (const Ticks dense = within({1, 2, 5}, 1); count(dense) <= most)
+        // Within one decade there may be none of them: then as on a straight axis.
+        return count(dense) < 2 ? nice_ticks(low, high, most) : dense;
+    for (int every = 1;; ++every)
+        if (const Ticks ticks = within({1}, every); count(ticks) <= most)
+            return ticks;
 }
 
 std::string tick_text(double value, double step) {

@@ -229,6 +229,7 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
         .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
         .cells = scene_.shown(),
         .isosurfaces = state_.isosurfaces,
+        .look = state_.look,
         .scale = shown_scale(),
         .bounding_box = state_.bounding_box,
         .windows = outputs_.window_sizes(),

@@ -139,6 +139,7 @@ class Session {
         render::Footprint footprint{};
         index::ExtractionPtr cells;
         std::vector<interaction::Isosurface> isosurfaces;
+        interaction::Look look;
         std::optional<ColorScale> scale;
         bool bounding_box = true;
         std::vector<glm::ivec2> windows;

@@ -83,6 +83,8 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .asked = state_,
             .second_array = file_->color() != nullptr,
             .whole_range = scale ? scale->whole : std::array{0.0, 0.0},
+            .cells = scale && scene_.shown() ? scene_.shown().get() : nullptr,
+            .color_maps = config_.color_maps,
             .frame = report,
             .frame_times = log_.stage(&FrameReport::total, kShownFrames),
             .frames_per_second = log_.frames_per_second(kShownFrames),

@@ -28,6 +28,7 @@ ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     state.eye_separation = config.installation.viewers.front().eye_separation;
     state.isosurfaces = first_surfaces(config, file.stats());
     state.coloring = config.coloring;
+    state.look = config.look;
     state.bounding_box = config.bounding_box;
     const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
     state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};

@@ -71,9 +71,30 @@ class Extracting {
             if (!gatherer_.gather(whole->values, step, levels, result.bricks, stop))
                 return false;
         }
+        find_surroundings(result, whole ? &*whole : nullptr, stop);
         result.gather_time = std::chrono::steady_clock::now() - started;
         return colors_.fill(result.query, result.surfaces, whole ? &whole->values : nullptr,
                             result.colors, stop);
+    }
+
+    /// In the finest level of detail that is small enough, so that little has to be read.
+    /// @param whole the step, if it is loaded
+    void find_surroundings(Extraction& result, const LoadedStep* whole,
+                           const std::stop_token& stop) const {
+        const SurfacesQuery& query = result.query;
+        std::size_t level = 0;
+        const auto small = [&] {
+            return std::ranges::max(file_->chunks(level).info().grid.vertices) <= kMostPlaces;
+        };
+        while (level + 1 < file_->detail_levels() && !small())
+            ++level;
+        if (level == 0 && !whole && !small())
+            return;
+        const LoadedStep loaded = level > 0 ? file_->chunks(level).whole(query.step, stop)
+                                  : whole   ? *whole
+                                            : file_->load(query.step, stop);
+        result.surroundings = surroundings_of(loaded.values, query.step,
+                                              static_cast<unsigned>(level), query.isovalues);
     }
 
     std::shared_ptr<const IndexFile> file_;

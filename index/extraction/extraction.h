@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/extraction/index_search.h"
+#include "index/extraction/surroundings.h"
 #include "index/extraction/volume_bricks.h"
 
 #include <chrono>
@@ -23,7 +24,8 @@ struct Extraction {
     /// Coordinates of the cells, surface after surface in the order of ids; empty where none were
     /// asked for, and where the index has no second array to color by.
     std::vector<std::uint16_t> colors;
-    VolumeBricks bricks; ///< of the step, for all surfaces
+    VolumeBricks bricks;           ///< of the step, for all surfaces
+    SurroundingField surroundings; ///< of all surfaces; none where there are no cells
     std::chrono::nanoseconds gather_time{0};
 
     std::size_t cells() const; ///< of all surfaces: one that is active in two counts twice

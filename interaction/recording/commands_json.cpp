@@ -147,7 +147,7 @@ void from_json(const json& value, const Field& field, T& into) {
         if constexpr (requires { member.has_value(); }) {
             if (const json* found = members.find(inner.key))
                 from_json(*found, inner, member.emplace());
-        } else {
+        } else if (!inner.may_lack || members.find(inner.key)) {
             from_json(members.at(inner.key), inner, member);
         }
     };

@@ -24,8 +24,10 @@ inline bool is_translucent(const SurfaceAppearance& surface) {
 
 /// Colors by value: cells carry the value's place in its whole range (`index::CellPoint`).
 struct ValueColors {
-    GLuint map = 0;                       ///< GL_TEXTURE_1D in linear light, from low to high
-    float low = 0.0f, high = 1.0f;        ///< ends of the map, as fractions of the whole range
+    GLuint map = 0;                ///< GL_TEXTURE_1D in linear light, from low to high
+    float low = 0.0f, high = 1.0f; ///< ends of the map, as fractions of the whole range
+    /// The value at the high end over that at the low end where the map goes by logarithms, else 0.
+    float ratio = 0.0f;
     glm::vec3 no_value{0.5f, 0.5f, 0.5f}; ///< sRGB, where there is none
 };
 
@@ -53,6 +55,9 @@ struct CellAppearance {
     float outline = 0.35f;     ///< how much darker the surface is where it turns away, 0 to 1
     /// How much darker the far end of the volume is than its near end, 0 to 1.
     float depth_cue = 0.45f;
+    /// How much darker the surface is where it is surrounded by itself (index::SurroundingField), 0
+    /// to 1.
+    float occlusion = 0.6f;
     std::optional<NearFade> near_fade;
     /// A plane in the room, normal and offset: what lies above it is cut away, cells whole with
     /// quads and splats, exactly with surfaces.

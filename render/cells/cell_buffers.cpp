@@ -38,7 +38,7 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       styles_(gl, "colored cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       corner_values_(gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none),
       corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none),
-      mesh_(gl) {}
+      mesh_(gl), surroundings_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
     return takes_processor_ways(gl) ? index::Shading::cells : index::Shading::none;
@@ -270,6 +270,7 @@ void CellBuffers::show() {
     shown_ = std::move(arriving_);
     arriving_ = nullptr;
     version_ = next_version();
+    count_.surrounding_bytes += surroundings_.show(shown_->surroundings);
     if (std::exchange(sending_bricks_, false))
         volume_version_ = version_;
     if (std::exchange(sending_mesh_, false)) {

@@ -11,6 +11,7 @@
 #include "render/cells/mesh_buffers.h"
 #include "render/cells/ranked_points.h"
 #include "render/cells/slot_plan.h"
+#include "render/cells/surroundings.h"
 #include "render/cells/upload_count.h"
 #include "render/gl/staging_ring.h"
 
@@ -91,6 +92,8 @@ class CellBuffers {
     /// Whether the shown set came with meshes of its surfaces, as `Footprint::mesh` needs.
     bool has_mesh() const { return shown_ && mesh_version_ == version_; }
     const MeshBuffers& mesh() const { return mesh_; }
+    /// Of the shown set.
+    const Surroundings& surroundings() const { return surroundings_; }
 
     /// Whether the shown set's part of the volume is on the GPU, as the exact surface needs.
     bool has_volume() const { return volume_version_ == version_; }
@@ -137,6 +140,7 @@ class CellBuffers {
     StagingRing ring_;
     DeviceArray points_, message_, styles_, corner_values_, corner_gradients_;
     MeshBuffers mesh_;
+    Surroundings surroundings_;
     std::optional<BrickPool> bricks_;    ///< made when the type is known
     std::optional<CellCompute> compute_; ///< likewise
     index::ExtractionPtr shown_, refused_;

@@ -23,7 +23,8 @@ namespace isochron::render {
 
 namespace {
 
-constexpr GLuint kColorMapUnit = 7; ///< of appearance.glsl
+constexpr GLuint kColorMapUnit = 7;     ///< of appearance.glsl
+constexpr GLuint kSurroundingsUnit = 9; ///< of surroundings.glsl
 
 } // namespace
 
@@ -105,7 +106,8 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
                             const CellBuffers& cells, Footprint footprint, const Layer& layer,
                             const CellAppearance& appearance) {
     const bool blended = layer.blended;
-    FrameBlock frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended, placement);
+    FrameBlock frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended, placement,
+                                cells.surroundings());
     Sequence sequence;
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame.eyes[i] = eye_block(views[i], placement, appearance);
@@ -125,6 +127,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
     gl_->BindTextureUnit(0, cells.texture());
+    gl_->BindTextureUnit(kSurroundingsUnit, cells.surroundings().texture());
     if (appearance.values)
         gl_->BindTextureUnit(kColorMapUnit, appearance.values->map);
     // Display values go into the target as they are.
@@ -199,6 +202,26 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
     return {seen.size(), seen_texture_.name(), 0, 1};
 }
 
+/// Whether no voxel is so large in any view that the light within a triangle is seen to be straight.
+bool CellPass::triangles_are_small(std::span<const View> views, const Placement& placement) const {
+    constexpr float kFewPixels = 8.0f; ///< along a voxel
+    const glm::vec3 spacing = placement.spacing();
+    const float voxel = std::max({spacing.x, spacing.y, spacing.z});
+    return std::ranges::all_of(views, [&](const View& view) {
+        const glm::vec2 scale = 0.5f * glm::vec2(view.size) *
+                                glm::vec2(glm::length(glm::vec3(view.clip_from_eye[0])),
+                                          glm::length(glm::vec3(view.clip_from_eye[1])));
+        const float at_one_meter = voxel * std::max(scale.x, scale.y);
+        if (view.is_parallel())
+            return at_one_meter <= kFewPixels;
+        const glm::vec3 eye(glm::inverse(placement.room_from_index) *
+                            glm::vec4(view.eye_in_room(), 1.0f));
+        const glm::vec3 beside = eye - glm::clamp(eye, glm::vec3(0.0f), placement.extent);
+        const float distance = glm::length(glm::mat3(placement.room_from_index) * beside);
+        return at_one_meter <= kFewPixels * distance;
+    });
+}
+
 void CellPass::draw_mesh(std::span<const View> views, const Placement& placement,
                          const CellBuffers& cells, const Layer& layer,
                          const CellAppearance& appearance, const FrameBlock& frame) {
@@ -208,7 +231,8 @@ void CellPass::draw_mesh(std::span<const View> views, const Placement& placement
     const MeshPass::Look look{.surfaces = layer.surfaces,
                               .colors = frame.surfaces,
                               .colored = appearance.values.has_value(),
-                              .near = !hides_what_is_behind(opaque, placement)};
+                              .near = !hides_what_is_behind(opaque, placement),
+                              .small = triangles_are_small(views, placement)};
     if (layer.blended)
         mesh_.draw_blended(cells, look, orders_.order(cells, key_of(views.front(), placement)));
     else

@@ -102,6 +102,7 @@ class CellPass {
     /// Of one of the views that are drawn at once; `Sequence::cells` is the same in all of them.
     Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
                          Footprint footprint, bool blended, const CellAppearance& appearance);
+    bool triangles_are_small(std::span<const View> views, const Placement& placement) const;
     void draw_mesh(std::span<const View> views, const Placement& placement,
                    const CellBuffers& cells, const Layer& layer, const CellAppearance& appearance,
                    const FrameBlock& frame);

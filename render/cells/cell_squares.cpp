@@ -152,7 +152,8 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
     const V3 size{hn::Max(hn::Abs(normal.x), tiny), hn::Max(hn::Abs(normal.y), tiny),
                   hn::Max(hn::Abs(normal.z), tiny)};
     const V sum = hn::Add(size.x, hn::Add(size.y, size.z));
-    const V rest = hn::Max(hn::MulSub(half, sum, hn::Abs(offset)), zero);
+    const V rest =
+        hn::Max(hn::MulSub(half, sum, hn::Abs(offset)), hn::Set(d, SplatShape::kLeastRest));
     const V lower = hn::Min(size.x, size.y), upper = hn::Max(size.x, size.y);
     const V least = hn::Min(lower, size.z), median = hn::Max(lower, hn::Min(upper, size.z));
     const auto towards = [&](V of_size, V of_normal) HWY_ATTR {

@@ -98,7 +98,8 @@ bool hides_what_is_behind(const CellAppearance& look, const Placement& placement
 }
 
 FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
-                    std::int32_t surfaces, bool blended, const Placement& placement) {
+                    std::int32_t surfaces, bool blended, const Placement& placement,
+                    const Surroundings& around) {
     const bool gaussian = footprint == Footprint::gaussian;
     FrameBlock frame{
         .eyes = {},
@@ -116,7 +117,11 @@ FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, F
         .blended = blended,
         .drawn_surfaces = surfaces,
         .soft_near_eye = gaussian,
+        .color_ratio = look.values ? look.values->ratio : 0.0f,
         .index_from_normal = {},
+        .surroundings = glm::vec4(glm::vec3(around.per_voxel()),
+                                  around.size() == glm::ivec3(0) ? 0.0f : look.occlusion),
+        .surroundings_size = glm::vec4(glm::max(around.size(), 1), around.surfaces()),
     };
     const glm::mat3 rows = glm::transpose(placement.index_from_normal());
     for (int i = 0; i < 3; ++i)

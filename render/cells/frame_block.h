@@ -4,6 +4,7 @@
 #include "render/cells/cell_appearance.h"
 #include "render/cells/footprints.h"
 #include "render/cells/placement.h"
+#include "render/cells/surroundings.h"
 #include "render/cells/traversal_order.h"
 #include "render/gl/limits.h"
 #include "render/gl/view.h"
@@ -49,10 +50,13 @@ struct FrameBlock {
     std::int32_t blended;
     std::int32_t drawn_surfaces;
     std::int32_t soft_near_eye;
-    glm::vec2 padding{0.0f};
+    float color_ratio;
+    float padding = 0.0f;
     std::array<glm::vec4, 3> index_from_normal; ///< rows
+    glm::vec4 surroundings;                     ///< see frame.glsl
+    glm::vec4 surroundings_size;
 };
-static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 10) * 16);
+static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 12) * 16);
 static_assert(sizeof(FrameBlock) <= kUniformBlockBytes);
 
 EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance);
@@ -60,7 +64,8 @@ EyeBlock eye_block(const View& view, const Placement& placement, const CellAppea
 /// The part of the block that is the same for every eye.
 /// @param surfaces a bit for each that is drawn
 FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
-                    std::int32_t surfaces, bool blended, const Placement& placement);
+                    std::int32_t surfaces, bool blended, const Placement& placement,
+                    const Surroundings& around);
 
 /// Of the order in which this view's cells are drawn.
 TraversalKey key_of(const View& view, const Placement& placement);

@@ -4,30 +4,35 @@
 #include "index/extraction/mesh_cases.h"
 #include "render/gl/shader.h"
 
+#include <limits>
 #include <string>
 
 namespace isochron::render {
 
 constexpr GLuint kStylesUnit = 8; ///< of mesh.frag
 
+constexpr GLint kFirstVertices = 1; ///< of mesh.vert
+
 MeshPass::MeshPass(const Gl& gl, bool two_views_at_once)
     : gl_(&gl), vertex_array_(gl), styles_(gl), order_(gl), styles_texture_(gl, GL_TEXTURE_BUFFER) {
     for (const Kind kind : {Kind::plain, Kind::styled, Kind::blended})
-        for (const bool near : {false, true})
-            programs_[static_cast<std::size_t>(kind)][near] =
-                make_programs(kind, near, two_views_at_once && kind != Kind::blended);
+        for (const Way way : {Way::plain, Way::near, Way::small})
+            programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
+                make_programs(kind, way, two_views_at_once && kind != Kind::blended);
     gl.EnableVertexArrayAttrib(vertex_array_.name(), 0);
     gl.VertexArrayAttribIFormat(vertex_array_.name(), 0, 4, GL_UNSIGNED_INT, 0);
     gl.VertexArrayAttribBinding(vertex_array_.name(), 0, 0);
 }
 
-MeshPass::Programs MeshPass::make_programs(Kind kind, bool near, bool two_views_at_once) const {
+MeshPass::Programs MeshPass::make_programs(Kind kind, Way way, bool two_views_at_once) const {
     // What blends is always asked how near it is.
-    if (kind == Kind::blended && near)
+    if (kind == Kind::blended && way != Way::plain)
         return {};
     const std::string prelude = std::string(kind == Kind::plain ? "" : "#define STYLES\n") +
                                 (kind == Kind::blended ? "#define BLENDED\n" : "") +
-                                (near ? "#define NEAR\n" : "");
+                                (way == Way::near    ? "#define NEAR\n"
+                                 : way == Way::small ? "#define LIT_AT_VERTICES\n"
+                                                     : "");
     const std::vector sources{shader_file("mesh.vert"), shader_file("mesh.frag")};
     Programs programs;
     programs[0] = link_program(*gl_, sources, prelude);
@@ -36,9 +41,13 @@ MeshPass::Programs MeshPass::make_programs(Kind kind, bool near, bool two_views_
     return programs;
 }
 
-GLuint MeshPass::program(Kind kind, bool near, std::size_t views) const {
-    const bool asked = near && kind != Kind::blended;
-    return programs_[static_cast<std::size_t>(kind)][asked][views - 1]->name();
+GLuint MeshPass::program(Kind kind, const Look& look, std::size_t views) const {
+    const Way way = kind == Kind::blended ? Way::plain
+                    : look.near           ? Way::near
+                    : look.small          ? Way::small
+                                          : Way::plain;
+    return programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)][views - 1]
+        ->name();
 }
 
 /// Styles and places of the shown set's triangles.
@@ -56,6 +65,15 @@ void MeshPass::find_styles(const CellBuffers& cells) {
             first_of_cell_.push_back(static_cast<std::uint32_t>(style_of_triangle_.size()));
             style_of_triangle_.insert(style_of_triangle_.end(), count, style);
         }
+}
+
+/// Which vertices are whose.
+void MeshPass::tell_surfaces(GLuint program, const CellBuffers& cells) const {
+    const auto surfaces = cells.mesh().surfaces();
+    for (std::size_t i = 0; i < index::kMostSurfaces; ++i)
+        gl_->ProgramUniform1i(program, kFirstVertices + static_cast<GLint>(i),
+                              i < surfaces.size() ? static_cast<GLint>(surfaces[i].first_vertex)
+                                                  : std::numeric_limits<GLint>::max());
 }
 
 void MeshPass::draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
@@ -83,8 +101,9 @@ void MeshPass::draw(const CellBuffers& cells, const Look& look, std::size_t view
         }
         gl_->BindTextureUnit(kStylesUnit, styles_texture_.name());
     }
-    const GLuint of_look = program(look.colored ? Kind::styled : Kind::plain, look.near, views);
+    const GLuint of_look = program(look.colored ? Kind::styled : Kind::plain, look, views);
     gl_->UseProgram(of_look);
+    tell_surfaces(of_look, cells);
     const auto surfaces = cells.mesh().surfaces();
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const auto& [first_vertex, first_index, indices] = surfaces[i];
@@ -131,8 +150,9 @@ void MeshPass::draw_blended(const CellBuffers& cells, const Look& look,
     gl_->TextureBuffer(styles_texture_.name(), GL_R16UI, styles_.name());
     styles_version_ = 0; // of no set
     gl_->BindTextureUnit(kStylesUnit, styles_texture_.name());
-    const GLuint of_look = program(Kind::blended, look.near, 1);
+    const GLuint of_look = program(Kind::blended, look, 1);
     gl_->ProgramUniform1i(of_look, 0, 0);
+    tell_surfaces(of_look, cells);
     gl_->UseProgram(of_look);
     draw_triangles(cells, order_.name(), 0, indices.size(), 0, 1);
 }

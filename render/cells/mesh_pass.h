@@ -26,6 +26,7 @@ class MeshPass {
         std::span<const glm::vec4> colors; ///< of each surface, linear light
         bool colored = false;              ///< by the cells' coordinates
         bool near = false;                 ///< some may be cut away or fade, as they are near
+        bool small = false;                ///< triangles are of few pixels: lit at their vertices
     };
 
     /// Draw with the frame and viewports that CellPass has bound, and its depth and blend state.
@@ -38,16 +39,18 @@ class MeshPass {
 
   private:
     enum class Kind : std::uint8_t { plain, styled, blended };
+    enum class Way : std::uint8_t { plain, near, small }; ///< of Look
     /// [views - 1]
     using Programs = std::array<std::optional<Program>, 2>;
-    Programs make_programs(Kind kind, bool near, bool two_views_at_once) const;
-    GLuint program(Kind kind, bool near, std::size_t views) const;
+    Programs make_programs(Kind kind, Way way, bool two_views_at_once) const;
+    GLuint program(Kind kind, const Look& look, std::size_t views) const;
     void find_styles(const CellBuffers& cells);
+    void tell_surfaces(GLuint program, const CellBuffers& cells) const;
     void draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
                         std::size_t count, std::size_t base, std::size_t views) const;
 
     const Gl* gl_;
-    std::array<std::array<Programs, 2>, 3> programs_; ///< [kind][near]
+    std::array<std::array<Programs, 3>, 3> programs_; ///< [kind][way]
     VertexArray vertex_array_;
     Buffer styles_, order_; ///< by triangle; indices
     Texture styles_texture_;

@@ -6,13 +6,14 @@
 namespace isochron::render {
 
 struct UploadCount {
-    std::uint64_t sets = 0;        ///< shown
-    std::uint64_t ids = 0;         ///< sent for them
-    std::uint64_t whole_ids = 0;   ///< that they have: to send them whole
-    std::uint64_t id_bytes = 0;    ///< ids, with their slots where differences are sent
-    std::uint64_t brick_bytes = 0; ///< bricks of the volume with their pages
-    std::uint64_t color_bytes = 0; ///< color coordinates
-    std::uint64_t mesh_bytes = 0;  ///< vertices and triangles
+    std::uint64_t sets = 0;              ///< shown
+    std::uint64_t ids = 0;               ///< sent for them
+    std::uint64_t whole_ids = 0;         ///< that they have: to send them whole
+    std::uint64_t id_bytes = 0;          ///< ids, with their slots where differences are sent
+    std::uint64_t brick_bytes = 0;       ///< bricks of the volume with their pages
+    std::uint64_t color_bytes = 0;       ///< color coordinates
+    std::uint64_t mesh_bytes = 0;        ///< vertices and triangles
+    std::uint64_t surrounding_bytes = 0; ///< what darkens surrounded places
 
     UploadCount& operator+=(const UploadCount& other) {
         sets += other.sets;
@@ -22,6 +23,7 @@ struct UploadCount {
         brick_bytes += other.brick_bytes;
         color_bytes += other.color_bytes;
         mesh_bytes += other.mesh_bytes;
+        surrounding_bytes += other.surrounding_bytes;
         return *this;
     }
     /// @param before an earlier count of the same
@@ -32,7 +34,8 @@ struct UploadCount {
                 id_bytes - before.id_bytes,
                 brick_bytes - before.brick_bytes,
                 color_bytes - before.color_bytes,
-                mesh_bytes - before.mesh_bytes};
+                mesh_bytes - before.mesh_bytes,
+                surrounding_bytes - before.surrounding_bytes};
     }
     bool operator==(const UploadCount&) const = default;
 };

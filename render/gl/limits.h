@@ -27,7 +27,7 @@ struct Limits {
 };
 
 /// Bytes of the largest uniform block.
-inline constexpr std::size_t kUniformBlockBytes = 1024;
+inline constexpr std::size_t kUniformBlockBytes = 1280;
 /// Invocations of a work group, all along x: local_size_x of work.glsl.
 inline constexpr std::size_t kWorkGroup = 64;
 

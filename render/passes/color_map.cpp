@@ -1,122 +1,178 @@
-// Color maps from curves in CIE L*a*b*.
+// Color maps from control points and formulas.
 #include "render/passes/color_map.h"
 
+#include "render/gl/srgb.h"
 #include "render/passes/cielab.h"
 
 #include <glm/common.hpp>
-#include <glm/trigonometric.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace isochron::render {
 namespace {
 
-/// A curve through L*a*b* in cylindrical coordinates, straight in lightness and hue.
-struct Curve {
-    float lightness_low, lightness_high;
-    float hue_low, hue_high; ///< degrees
-    float chroma;            ///< at most, and where a display can show it
-    float fades_from;        ///< from here on, 0 to 1, chroma falls to none at the light end
+using Hex = std::span<const std::uint32_t>;
+
+// Colors at equal distances, as their authors publish the maps; straight in L*a*b* between them.
+/// S. van der Walt, N. Smith, "A better default colormap for Matplotlib", SciPy 2015.
+constexpr std::array kViridis{0x440154u, 0x482878u, 0x3e4989u, 0x31688eu, 0x26828eu,
+                              0x1f9e89u, 0x35b779u, 0x6ece58u, 0xb5de2bu, 0xfde725u};
+constexpr std::array kInferno{0x000004u, 0x1b0c41u, 0x4a0c6bu, 0x781c6du, 0xa52c60u,
+                              0xcf4446u, 0xed6925u, 0xfb9b06u, 0xf7d13du, 0xfcffa4u};
+/// J. Nunez, C. Anderton, R. Renslow, "Optimizing colormaps with consideration for color vision
+/// deficiency to enable accurate interpretation of scientific data", PLOS ONE 2018,
+/// doi:10.1371/journal.pone.0199239.
+constexpr std::array kCividis{0x00224eu, 0x123570u, 0x3b496cu, 0x575d6du, 0x707173u,
+                              0x8a8678u, 0xa59c74u, 0xc3b369u, 0xe1cc55u, 0xfee838u};
+
+/// A. Mikhailov, "Turbo, an improved rainbow colormap for visualization", Google AI blog 2019.
+constexpr std::array kTurbo{0x30123bu, 0x4145abu, 0x4675edu, 0x39a2fcu, 0x1bcfd4u,
+                            0x24eca6u, 0x61fc6cu, 0xa4fc3bu, 0xd1e834u, 0xf3c63au,
+                            0xfe9b2du, 0xf36315u, 0xd93806u, 0xb11901u, 0x7a0402u};
+
+constexpr float kGrayLow = 32.0f, kGrayHigh = 96.0f; ///< L*
+
+struct OldName {
+    std::string_view name;
+    ColorMap map;
 };
-// None starts darker than this: shading darkens a surface further, and next to a dark background
-// nothing would be left of the low end's shape, nor of its hue.
-constexpr float kDarkest = 32;
-constexpr Curve kDusk{kDarkest, 94, 303, 455, 60, 0.65f};
-constexpr Curve kLagoon{kDarkest, 93, 300, 108, 50, 0.65f};
-constexpr Curve kColdHalf{kDarkest, 88, 280, 265, 60, 0};
-constexpr Curve kWarmHalf{kDarkest, 88, 30, 50, 60, 0};
-constexpr Curve kGray{kDarkest, 96, 0, 0, 0, 0};
+constexpr std::array<OldName, 4> kOldNames{{{"lagoon", ColorMap::viridis},
+                                            {"dusk", ColorMap::inferno},
+                                            {"polar", ColorMap::coolwarm},
+                                            {"grey", ColorMap::gray}}};
 
-constexpr int kFine = 4096; ///< steps of a curve before it is divided evenly
-
-bool shown(const glm::vec3& light) {
-    constexpr float kRounding = 1e-4f;
-    return glm::all(glm::greaterThanEqual(light, glm::vec3(-kRounding))) &&
-           glm::all(glm::lessThanEqual(light, glm::vec3(1.0f + kRounding)));
+glm::vec3 light_of(std::uint32_t hex) {
+    return linear_from_srgb(glm::vec3(hex >> 16, hex >> 8 & 0xffu, hex & 0xffu) / 255.0f);
 }
 
-glm::vec3 lab(float lightness, float chroma, float hue) {
-    return {lightness, chroma * std::cos(glm::radians(hue)), chroma * std::sin(glm::radians(hue))};
+std::vector<glm::vec3> lights_of(Hex hex) {
+    std::vector<glm::vec3> lights(hex.size());
+    std::ranges::transform(hex, lights.begin(), light_of);
+    return lights;
 }
 
-/// The point of the curve, with less chroma where no display shows it.
-glm::vec3 point(const Curve& curve, float t) {
-    const float lightness = glm::mix(curve.lightness_low, curve.lightness_high, t);
-    const float hue = glm::mix(curve.hue_low, curve.hue_high, t);
-    const float faded = std::max(t - curve.fades_from, 0.0f) / (1.0f - curve.fades_from);
-    const float wanted = curve.chroma * (1.0f - faded * faded);
-    if (shown(linear_from_cielab(lab(lightness, wanted, hue))))
-        return lab(lightness, wanted, hue);
-    float low = 0.0f, high = wanted;
-    for (int halving = 0; halving < 24; ++halving) {
-        const float middle = 0.5f * (low + high);
-        (shown(linear_from_cielab(lab(lightness, middle, hue))) ? low : high) = middle;
-    }
-    return lab(lightness, low, hue);
+/// `share` of the whole map at each of its places.
+template <class Color>
+std::vector<glm::vec3> made_by(Color&& color) {
+    std::vector<glm::vec3> colors(kColorMapSize);
+    for (std::size_t i = 0; i < kColorMapSize; ++i)
+        colors[i] = glm::clamp(color(static_cast<float>(i) / static_cast<float>(kColorMapSize - 1)),
+                               0.0f, 1.0f);
+    return colors;
 }
 
-/// Places on the polyline at equal distances along it.
-std::vector<glm::vec3> evenly(const std::vector<glm::vec3>& fine, std::size_t count) {
-    std::vector<float> reached{0.0f};
-    for (std::size_t i = 1; i < fine.size(); ++i)
-        reached.push_back(reached.back() + color_difference(fine[i - 1], fine[i]));
-    std::vector<glm::vec3> result;
-    for (std::size_t k = 0; k < count; ++k) {
-        const float wanted = reached.back() * static_cast<float>(k) / static_cast<float>(count - 1);
-        const auto next =
-            std::clamp<std::ptrdiff_t>(std::ranges::lower_bound(reached, wanted) - reached.begin(),
-                                       1, static_cast<std::ptrdiff_t>(fine.size()) - 1);
-        const float from = reached[next - 1], to = reached[next];
-        result.push_back(
-            glm::mix(fine[next - 1], fine[next], to > from ? (wanted - from) / (to - from) : 0.0f));
-    }
-    return result;
+/// Polar coordinates of L*a*b*: magnitude, saturation, hue.
+struct Msh {
+    float m, s, h;
+};
+
+Msh msh_from(const glm::vec3& lab) {
+    const float m = glm::length(lab);
+    return {m, std::acos(lab.x / m), std::atan2(lab.z, lab.y)};
 }
 
-void append(std::vector<glm::vec3>& fine, const Curve& curve, bool backwards = false) {
-    for (int i = 0; i <= kFine; ++i) {
-        const float t = static_cast<float>(i) / kFine;
-        fine.push_back(point(curve, backwards ? 1.0f - t : t));
-    }
+glm::vec3 light_of(const Msh& msh) {
+    const float chroma = msh.m * std::sin(msh.s);
+    return linear_from_cielab(
+        {msh.m * std::cos(msh.s), chroma * std::cos(msh.h), chroma * std::sin(msh.h)});
+}
+
+/// The hue that an unsaturated color gets on the way to a saturated one, which is the darker: a
+/// spin that makes up for the change of magnitude.
+float spun_hue(const Msh& saturated, float unsaturated_m) {
+    if (saturated.m >= unsaturated_m)
+        return saturated.h;
+    const float spin = saturated.s *
+                       std::sqrt(unsaturated_m * unsaturated_m - saturated.m * saturated.m) /
+                       (saturated.m * std::sin(saturated.s));
+    constexpr float kThird = -1.0471976f; ///< of a half turn, backwards
+    return saturated.h > kThird ? saturated.h + spin : saturated.h - spin;
+}
+
+/// K. Moreland, "Diverging color maps for scientific visualization", ISVC 2009,
+/// doi:10.1007/978-3-642-10520-3_9: from blue and red, whose Msh are alike but for the hue, each
+/// straight in Msh to a white in the middle.
+glm::vec3 coolwarm(float share) {
+    constexpr float kMiddle = 88.0f;
+    const bool cold = share < 0.5f;
+    const Msh end = msh_from(cielab_from_linear(light_of(cold ? 0x3b4cc0u : 0xb40426u)));
+    const float white_m = std::max(kMiddle, end.m), to = cold ? 2 * share : 2 - 2 * share;
+    return light_of(Msh{glm::mix(end.m, white_m, to), glm::mix(end.s, 0.0f, to),
+                        glm::mix(end.h, spun_hue(end, white_m), to)});
 }
 
 } // namespace
 
 std::optional<ColorMap> color_map_from_name(std::string_view name) {
-    if (name == "grey") // as recordings of version 0.1 spell it
-        return ColorMap::gray;
+    if (const auto old = std::ranges::find(kOldNames, name, &OldName::name); old != kOldNames.end())
+        return old->map;
     const auto found = std::ranges::find(kColorMapNames, name);
     if (found == kColorMapNames.end())
         return std::nullopt;
     return static_cast<ColorMap>(found - kColorMapNames.begin());
 }
 
-std::vector<glm::vec3> color_map(ColorMap map) {
-    std::vector<glm::vec3> fine;
-    switch (map) {
-    case ColorMap::dusk: append(fine, kDusk); break;
-    case ColorMap::lagoon: append(fine, kLagoon); break;
-    case ColorMap::polar:
-        append(fine, kColdHalf);
-        append(fine, kWarmHalf, true);
-        break;
-    case ColorMap::gray: append(fine, kGray); break;
-    }
-    std::vector<glm::vec3> colors = evenly(fine, kColorMapSize);
-    for (glm::vec3& color : colors)
-        color = glm::clamp(linear_from_cielab(color), 0.0f, 1.0f);
-    return colors;
+std::vector<std::string_view> old_color_map_names() {
+    std::vector<std::string_view> names;
+    for (const OldName& old : kOldNames)
+        names.push_back(old.name);
+    return names;
 }
 
-Texture color_map_texture(const Gl& gl, ColorMap map) {
+std::vector<glm::vec3> color_map_between(const std::vector<glm::vec3>& colors) {
+    std::vector<glm::vec3> lab(colors.size());
+    std::ranges::transform(colors, lab.begin(), cielab_from_linear);
+    return made_by([&](float share) {
+        const float at = share * static_cast<float>(lab.size() - 1);
+        const auto below = static_cast<std::size_t>(at);
+        const glm::vec3& next = lab[std::min(below + 1, lab.size() - 1)];
+        return linear_from_cielab(glm::mix(lab[below], next, at - static_cast<float>(below)));
+    });
+}
+
+std::vector<glm::vec3> color_map(ColorMap map) {
+    switch (map) {
+    case ColorMap::viridis: return color_map_between(lights_of(kViridis));
+    case ColorMap::inferno: return color_map_between(lights_of(kInferno));
+    case ColorMap::cividis: return color_map_between(lights_of(kCividis));
+    case ColorMap::coolwarm: return made_by(coolwarm);
+    case ColorMap::turbo: return color_map_between(lights_of(kTurbo));
+    case ColorMap::gray: break;
+    }
+    return made_by([](float share) {
+        return linear_from_cielab({glm::mix(kGrayLow, kGrayHigh, share), 0.0f, 0.0f});
+    });
+}
+
+std::vector<glm::vec3> used(const std::vector<glm::vec3>& map, const ColorMapUse& use) {
+    std::vector<glm::vec3> colors = map;
+    if (use.reversed)
+        std::ranges::reverse(colors);
+    if (use.bands == 0)
+        return colors;
+    std::vector<glm::vec3> parts(colors.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        // From the first color to the last, so that the ends keep theirs.
+        const std::size_t band = i * use.bands / parts.size();
+        const std::size_t last = std::max(use.bands - 1, 1u);
+        parts[i] = use.bands == 1 ? colors[colors.size() / 2]
+                                  : colors[(band * (colors.size() - 1) + last / 2) / last];
+    }
+    return parts;
+}
+
+Texture color_map_texture(const Gl& gl, const std::vector<glm::vec3>& colors, bool bands) {
     Texture texture(gl, GL_TEXTURE_1D);
-    const std::vector<glm::vec3> colors = color_map(map);
-    gl.TextureStorage1D(texture.name(), 1, GL_RGB16F, kColorMapSize);
+    const auto size = static_cast<GLsizei>(colors.size());
+    const GLint filter = bands ? GL_NEAREST : GL_LINEAR;
+    gl.TextureStorage1D(texture.name(), 1, GL_RGB16F, size);
     gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-    gl.TextureSubImage1D(texture.name(), 0, 0, kColorMapSize, GL_RGB, GL_FLOAT, colors.data());
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TextureSubImage1D(texture.name(), 0, 0, size, GL_RGB, GL_FLOAT, colors.data());
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, filter);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, filter);
     gl.TextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     return texture;
 }

@@ -1,4 +1,4 @@
-// Color maps whose equal steps look equal, made from curves in CIE L*a*b*.
+// Color maps by the names that the field knows, made from their published definitions.
 #pragma once
 
 #include "index/volume/query.h"
@@ -15,26 +15,45 @@
 namespace isochron::render {
 
 enum class ColorMap : std::uint8_t {
-    dusk,   ///< violet over red to pale yellow, ever lighter
-    lagoon, ///< violet over green to yellow, ever lighter: readable with any color vision
-    polar,  ///< blue over light gray to red: for values about a middle
-    gray    ///< lightness alone
+    viridis,  ///< violet over green to yellow, ever lighter: readable with any color vision
+    inferno,  ///< black over red to pale yellow, ever lighter
+    cividis,  ///< blue to yellow, ever lighter: alike with and without red-green blindness
+    coolwarm, ///< blue over light gray to red: for values about a middle
+    turbo,    ///< the hues of a rainbow, lightest in the middle: tells most values apart
+    gray      ///< lightness alone
 };
-constexpr std::array<std::string_view, 4> kColorMapNames{"dusk", "lagoon", "polar", "gray"};
+inline constexpr std::array<std::string_view, 6> kColorMapNames{"viridis",  "inferno", "cividis",
+                                                                "coolwarm", "turbo",   "gray"};
 constexpr std::string_view name_of(ColorMap map) {
     return kColorMapNames[static_cast<std::size_t>(map)];
 }
+/// Knows the names of older versions too: `lagoon`, `dusk`, `polar`, `grey`.
 std::optional<ColorMap> color_map_from_name(std::string_view name);
+/// Those of older versions.
+std::vector<std::string_view> old_color_map_names();
 
-constexpr std::size_t kColorMapSize = 256;
+inline constexpr std::size_t kColorMapSize = 256;
 
-/// The map from low to high, linear light. Neighbors are equally far apart (Delta E*ab, within a
-/// fifth), and lightness L* grows all the way (`polar`: to the middle, and falls behind it) from 32
-/// on, so that low values still show their shape before a dark background.
+/// The map from low to high, linear light. Lightness L* grows all the way; of `coolwarm` and `turbo`
+/// up to their middle, and falls behind it. `gray` starts at 32, so that low values still show their
+/// shape before a dark background.
 std::vector<glm::vec3> color_map(ColorMap map);
 
-/// The map as GL_TEXTURE_1D that interpolates between its colors.
-Texture color_map_texture(const Gl& gl, ColorMap map);
+/// Colors at equal distances from low to high as the map's own kColorMapSize, straight in L*a*b*.
+/// @param colors linear light, at least one
+std::vector<glm::vec3> color_map_between(const std::vector<glm::vec3>& colors);
+
+/// How a map is used.
+struct ColorMapUse {
+    bool reversed = false;
+    std::uint32_t bands = 0; ///< so many colors that each fill a part; 0: they pass into each other
+    bool operator==(const ColorMapUse&) const = default;
+};
+std::vector<glm::vec3> used(const std::vector<glm::vec3>& map, const ColorMapUse& use);
+
+/// Colors as GL_TEXTURE_1D, between which it interpolates unless they are bands.
+/// @param colors kColorMapSize of them
+Texture color_map_texture(const Gl& gl, const std::vector<glm::vec3>& colors, bool bands = false);
 
 /// Colors for up to eight surfaces that stay apart with the common kinds of color blindness:
 /// the set of M. Okabe and K. Ito, "Color Universal Design", 2002 (jfly.uni-koeln.de/color), its

@@ -14,9 +14,11 @@ vec3 base_color(uint style) {
     uint coordinate = style >> 3;
     if (coordinate == kNoValue)
         return no_value.rgb;
-    float at = color_range.x * (float(coordinate) / float(kNoValue - 1u)) + color_range.y;
+    float at = clamp(color_range.x * (float(coordinate) / float(kNoValue - 1u)) + color_range.y, 0.0, 1.0);
+    if (color_ratio > 0.0)
+        at = log2(1.0 + at * (color_ratio - 1.0)) / log2(color_ratio);
     float size = float(textureSize(color_map, 0));
-    return textureLod(color_map, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).rgb;
+    return textureLod(color_map, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
 }
 
 vec3 written(vec3 light) {

@@ -17,6 +17,7 @@ layout(binding = 0) uniform usamplerBuffer cells;
 #include "lighting.glsl"
 #include "appearance.glsl"
 #include "plane.glsl"
+#include "surroundings.glsl"
 #include "footprint.glsl"
 
 flat out vec4 shaded;
@@ -63,6 +64,7 @@ void main() {
     uint style = cell.y >> 16;
     vec3 in_eye = (EYE(eye_from_index) * center).xyz;
     vec3 lit = shade(in_eye, normal, base_color(style));
+    lit *= unshadowed(center.xyz, toward_eye_in_index(center.xyz), normal, style & 7u);
     shaded = vec4(written(lit), surfaces[style & 7u].a * near_share(in_eye));
 
     if (!blended && shaded.a <= evenly(hash_of(cell))) {

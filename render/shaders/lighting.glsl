@@ -7,7 +7,8 @@
 
 #include "srgb.glsl"
 
-vec3 reflected(vec3 n, vec3 to_eye, vec3 to_light, vec3 base) {
+// All lights are white: what is sent is base x + y, with these shares x and y.
+vec2 reflected(vec3 n, vec3 to_eye, vec3 to_light) {
     float falling = max(dot(n, to_light), 0.0);
     vec3 between = to_eye + to_light;
     vec3 halfway = between * inversesqrt(max(dot(between, between), 1e-12));
@@ -15,14 +16,13 @@ vec3 reflected(vec3 n, vec3 to_eye, vec3 to_light, vec3 base) {
     float grazing2 = grazing * grazing;
     float mirrored = material.x + (1.0 - material.x) * grazing2 * grazing2 * grazing;
     float highlight = (material.y + 8.0) / 8.0 * pow(max(dot(n, halfway), 0.0), material.y);
-    return falling * (base * (1.0 - mirrored) + mirrored * highlight);
+    return falling * vec2(1.0 - mirrored, mirrored * highlight);
 }
 
-// The light that a point of the surface sends to the eye.
+// The light that a point of the surface sends to the eye, in the two shares.
 // @param at position, eye space [m]
 // @param normal in eye space, of any length; zero where there is none
-// @param base its color, linear light
-vec3 shade_in_eye(vec3 at, vec3 normal, vec3 base) {
+vec2 light_in_eye(vec3 at, vec3 normal) {
     float to_distance = inversesqrt(max(dot(at, at), 1e-12)); // 1 / it
     vec3 to_eye = EYE(eye_in_index).w == 0.0 ? vec3(0, 0, 1) : -at * to_distance;
     // Without a normal a cell faces the viewer; with one, both its sides are lit.
@@ -34,10 +34,10 @@ vec3 shade_in_eye(vec3 at, vec3 normal, vec3 base) {
 
     // From the eye: `reflected` towards where the light comes from.
     float highlight = (material.y + 8.0) / 8.0 * pow(facing, material.y);
-    vec3 lit = light.y * facing * (base * (1.0 - material.x) + material.x * highlight);
-    lit += light.z * reflected(n, to_eye, EYE(key_light).xyz, base);
+    vec2 lit = light.y * facing * vec2(1.0 - material.x, material.x * highlight);
+    lit += light.z * reflected(n, to_eye, EYE(key_light).xyz);
     // The sky gives more than the floor: upper and lower sides differ where no light falls.
-    lit += light.x * base * mix(material.z, 1.0, 0.5 + 0.5 * dot(n, EYE(up).xyz));
+    lit.x += light.x * mix(material.z, 1.0, 0.5 + 0.5 * dot(n, EYE(up).xyz));
     // Where the surface turns away, its outline.
     lit *= 1.0 - material.w * (1.0 - smoothstep(0.0, 0.5, facing));
     vec4 cue = EYE(depth_cue);
@@ -45,6 +45,8 @@ vec3 shade_in_eye(vec3 at, vec3 normal, vec3 base) {
 }
 
 // @param normal in physical space, else as above
+// @param base its color, linear light
 vec3 shade(vec3 at, vec3 normal, vec3 base) {
-    return shade_in_eye(at, mat3(EYE(eye_from_physical)) * normal, base);
+    vec2 lit = light_in_eye(at, mat3(EYE(eye_from_physical)) * normal);
+    return base * lit.x + lit.y;
 }

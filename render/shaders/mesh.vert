@@ -3,11 +3,21 @@
 
 #include "frame.glsl"
 #include "pixels.glsl"
+#include "surroundings.glsl"
+#ifdef LIT_AT_VERTICES
+#include "lighting.glsl"
+#endif
 
+layout(location = 1) uniform int first_vertices[MOST_SURFACES]; // of each surface, ascending
 layout(location = 0) in uvec4 vertex; // the lower end's x and y; z and axis; share; normal
 
+#ifdef LIT_AT_VERTICES
+out vec2 lit;
+#else
 out vec3 at_in_eye;
 out vec3 normal; // in eye space
+out float light_share;
+#endif
 #ifdef NEAR
 out vec3 at_in_index;
 #endif
@@ -25,8 +35,19 @@ void main() {
     vec3 low = vec3(vertex.x & 0xffffu, vertex.x >> 16, vertex.y & 0xffffu);
     uint axis = vertex.y >> 16;
     vec4 at = vec4(low + float(vertex.z) / 2147483648.0 * vec3(axis == 0u, axis == 1u, axis == 2u), 1.0);
-    at_in_eye = (EYE(eye_from_index) * at).xyz;
-    normal = mat3(EYE(eye_from_physical)) * unpacked(vertex.w);
+    vec3 n = unpacked(vertex.w);
+    uint surface = 0u;
+    for (int i = 1; i < MOST_SURFACES; ++i)
+        surface += uint(gl_VertexID >= first_vertices[i]);
+    float share = unshadowed(at.xyz, toward_eye_in_index(at.xyz), n, surface);
+    vec3 eye_at = (EYE(eye_from_index) * at).xyz, eye_normal = mat3(EYE(eye_from_physical)) * n;
+#ifdef LIT_AT_VERTICES
+    lit = share * light_in_eye(eye_at, eye_normal);
+#else
+    at_in_eye = eye_at;
+    normal = eye_normal;
+    light_share = share;
+#endif
 #ifdef NEAR
     at_in_index = at.xyz;
 #endif

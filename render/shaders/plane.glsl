@@ -22,7 +22,7 @@ vec3 plane_normal(uint word) {
 
 #ifdef PLANE
 // As render/cells/cell_shape.h has them.
-const float kThickness = 0.125, kLeastWidth = 0.15, kLengthwise = 1.3;
+const float kThickness = 0.125, kLeastWidth = 0.15, kLengthwise = 1.3, kLeastRest = 0.007;
 
 vec3 signs(vec3 v) { return vec3(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0, v.z < 0.0 ? -1.0 : 1.0); }
 
@@ -37,7 +37,7 @@ Splat splat_of(vec3 middle, vec3 normal, uint word) {
     n = flat_one ? normalize(n) : vec3(0, 0, 1);
     float offset = 0.87 / 127.0 * float(int(word) >> 24);
     vec3 size = max(abs(n), 1e-6);
-    float rest = max(0.5 * (size.x + size.y + size.z) - abs(offset), 0.0);
+    float rest = max(0.5 * (size.x + size.y + size.z) - abs(offset), kLeastRest);
     float least = min(size.x, min(size.y, size.z));
     float median = max(min(size.x, size.y), min(max(size.x, size.y), size.z));
 

@@ -9,6 +9,7 @@
 #include "lighting.glsl"
 #include "appearance.glsl"
 #include "surface.glsl"
+#include "surroundings.glsl"
 
 out vec4 result;
 
@@ -112,7 +113,11 @@ vec3 place_at(Ray ray, float s) { return ray.middle + s * ray.half_chord; }
 
 vec3 in_eye(vec3 p) { return center_in_eye + mat3(EYE(eye_from_index)) * p; }
 
-vec3 light_at(vec3 p) { return written(shade(in_eye(p), gradient(p), base.rgb)); }
+vec3 light_at(vec3 p) {
+    vec3 normal = gradient(p), at = center_in_index + p;
+    float share = unshadowed(at, toward_eye_in_index(at), normal, surface);
+    return written(share * shade(in_eye(p), normal, base.rgb));
+}
 
 // Pre-multiplied.
 vec4 layer_at(vec3 p) { return vec4(light_at(p), 1.0) * (base.a * near_share(in_eye(p))); }

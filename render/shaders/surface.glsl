@@ -10,6 +10,8 @@
 OF_CELL vec4 center; // in pixels from the middle of the viewport times w, z and w
 OF_CELL vec3 center_in_eye;
 OF_CELL uint hash;
+OF_CELL uint surface;
+OF_CELL vec3 center_in_index;
 OF_CELL vec4 base; // color in linear light, opacity
 // Trilinear interpolation as polynomials, coefficients of 1, x, y, z and of xy, xz, yz, xyz: of the
 // value, whatever its scale, and of the gradient towards lower values in physical space.

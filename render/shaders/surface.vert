@@ -165,6 +165,8 @@ void main() {
     hash = hash_of(cell);
     center_in_eye = (EYE(eye_from_index) * at).xyz;
     uint style = cell.y >> 16;
+    surface = style & 7u;
+    center_in_index = at.xyz;
     base = vec4(base_color(style), surfaces[style & 7u].a);
 
     vec4 low = texelFetch(corner_values, 2 * slot), high = texelFetch(corner_values, 2 * slot + 1);

@@ -8,6 +8,7 @@
 #include "render/cells/cell_compute.h"
 #include "render/cells/cell_pass.h"
 #include "render/gl/shader.h"
+#include "render/passes/background_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
 #include "render/passes/picture_pass.h"

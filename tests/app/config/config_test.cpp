@@ -1,4 +1,5 @@
 // Configuration files: what is shipped is valid, and what is wrong is named with its place.
+#include "app/config/color_map_file.h"
 #include "app/config/config.h"
 #include "app/config/toml_reader.h"
 #include "tests/app/config/config_error.h"
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 namespace isochron::app {
 namespace {
@@ -66,7 +68,68 @@ range = [0.1, 0.3]
     EXPECT_EQ(config.coloring.range, (std::array{0.1, 0.3}));
 }
 
+constexpr const char* kMaps = R"([
+  {"Name": "two", "ColorSpace": "RGB", "RGBPoints": [10, 0, 0, 0, 30, 1, 0.5, 0]},
+  {"Name": "steps", "ColorSpace": "Step", "RGBPoints": [0, 1, 0, 0, 0.5, 0, 1, 0, 1, 0, 0, 1]},
+  {"Name": "hues", "ColorSpace": "HSV", "RGBPoints": [0, 1, 0, 0, 1, 1, 0, 1]}])";
+
+TEST(ColorMapFiles, OfParaViewAreRead) {
+    const auto maps = parse_color_maps(kMaps, "maps.json");
+    ASSERT_EQ(maps.size(), 3u);
+    EXPECT_EQ(maps[0].name, "two");
+    ASSERT_EQ(maps[0].colors.size(), kLoadedColors);
+    EXPECT_EQ(maps[0].colors.front(), 0x000000u);
+    EXPECT_EQ(maps[0].colors.back(), 0xff8000u);
+    EXPECT_NEAR(maps[0].colors[kLoadedColors / 2] >> 16, 128, 2);
+    EXPECT_EQ(maps[1].colors[kLoadedColors / 2 - 2], 0xff0000u);
+    EXPECT_EQ(maps[1].colors[kLoadedColors / 2 + 2], 0x00ff00u);
+    // The short way from red to magenta has no green, and red all along.
+    for (const std::uint32_t color : maps[2].colors)
+        EXPECT_EQ(color & 0xffff00u, 0xff0000u);
+    EXPECT_EQ(parse_color_maps(R"({"Name": "one", "RGBPoints": [0, 1, 1, 1, 1, 0, 0, 0]})", "a")
+                  .front()
+                  .colors.front(),
+              0xffffffu);
+}
+
+TEST(ColorMapFiles, ThatAreDamagedSayWhatIsWrongInOneLine) {
+    const auto error = [](const std::string& text) -> std::string {
+        try {
+            parse_color_maps(text, "maps.json");
+        } catch (const ConfigError& problem) {
+            return problem.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(error("not JSON"), HasSubstr("maps.json: expected color maps"));
+    EXPECT_THAT(error("[]"), HasSubstr("got 0"));
+    EXPECT_THAT(error("[3]"), HasSubstr("map 0"));
+    EXPECT_THAT(error(R"([{"RGBPoints": []}])"), HasSubstr("Name"));
+    EXPECT_THAT(error(R"([{"Name": "m", "RGBPoints": [0, 1, 1, 1, 1, 0, 0]}])"), HasSubstr("four"));
+    EXPECT_THAT(error(R"([{"Name": "m", "RGBPoints": [0, 1, 1, 1, 0, 0, 0, 0]}])"),
+                HasSubstr("above 0"));
+    EXPECT_THAT(error(R"([{"Name": "m", "RGBPoints": [0, 1, 2, 1, 1, 0, 0, 0]}])"),
+                HasSubstr("got 2"));
+}
+
+TEST(ColorMapFiles, OfAConfigurationLieBesideIt) {
+    const test_support::TestFolder folder;
+    std::ofstream(folder.path() / "maps.json") << kMaps;
+    const std::string name = (folder.path() / "lab.toml").string();
+    const Config config = parse_config(
+        "[coloring]\nfile = \"maps.json\"\nmap = \"steps\"\nbands = 3\nreversed = true\n", name);
+    ASSERT_EQ(config.color_maps.size(), 3u);
+    EXPECT_EQ(config.coloring.map, "steps");
+    EXPECT_EQ(config.coloring.colors, config.color_maps[1].colors);
+    EXPECT_EQ(config.coloring.bands, 3u);
+    EXPECT_TRUE(config.coloring.reversed);
+    EXPECT_THAT(error_of("[coloring]\nfile = \"none.json\"\n"), HasSubstr("none.json"));
+    EXPECT_THAT(error_of("[coloring]\nlogarithmic = true\nrange = [0, 1]\n"), HasSubstr("above 0"));
+}
+
 TEST(Config, LooksThatCannotBeAreErrorsWithTheirPlace) {
+    EXPECT_THAT(error_of("[look]\nbackground = \"pink\"\n"), HasSubstr("lab.toml:2"));
+    EXPECT_THAT(error_of("[look]\nocclusion = 2\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[coloring]\nmap = \"rainbow\"\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[coloring]\nrange = [2, 1]\n"), HasSubstr("ascending"));
     EXPECT_THAT(error_of("[lighting]\nkey_direction = [0, 0, 0]\n"), HasSubstr("lab.toml:2"));

@@ -38,6 +38,37 @@ TEST(FrameLog, GpuTimesReachTheirFramesLater) {
     EXPECT_EQ(log.known(&FrameReport::gpu).worst, 8);
 }
 
+TEST(FrameLog, SaysHowOftenTheSurfaceItselfWasShownInMotionAndHowSoonAtRest) {
+    FrameLog log;
+    const auto add = [&](double time, Footprint footprint, QualityReason reason,
+                         bool redrawn = true, std::size_t cells = 100) {
+        FrameReport frame = frame_with(footprint, reason);
+        frame.time = interaction::Seconds(time);
+        frame.total = Milliseconds(20);
+        frame.redrawn = redrawn;
+        frame.cells = cells;
+        log.add(frame);
+    };
+    const auto moving = QualityReason::moving, rest = QualityReason::trial;
+    add(0.0, Footprint::quad, moving, true, 0); // nothing to see
+    add(0.1, Footprint::quad, moving);
+    add(0.2, Footprint::mesh, moving);
+    add(0.3, Footprint::surface, moving);
+    add(0.4, Footprint::surface, moving, false); // not drawn again
+    add(0.5, Footprint::gaussian, rest);
+    add(0.6, Footprint::surface, rest);
+    add(0.7, Footprint::surface, rest);
+    add(0.8, Footprint::quad, moving);
+    add(0.9, Footprint::gaussian, rest); // and never better
+    EXPECT_EQ(log.moving().frames, 4u);
+    EXPECT_EQ(log.moving().as_surface, 2u);
+    EXPECT_EQ(log.rests().count, 2u);
+    ASSERT_EQ(log.rests().exact_after.size(), 1u);
+    EXPECT_NEAR(log.rests().exact_after[0], 220, 1e-6);
+    EXPECT_THAT(log.table(), HasSubstr("4 frames, 50 % of them as mesh or surface"));
+    EXPECT_THAT(log.table(), HasSubstr("2 times, 1 of them exact after 220 ms"));
+}
+
 TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
     test_support::TestFolder folder;
     FrameLog log;

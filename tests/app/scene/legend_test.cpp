@@ -1,9 +1,13 @@
 // The legend fits into the picture, and its colors and numbers belong together.
 #include "app/scene/font.h"
 #include "app/scene/legend.h"
+#include "app/scene/ticks.h"
 
+#include "index/extraction/cell_colors.h"
 #include "render/gl/srgb.h"
 #include "tests/support/gl_test.h"
+
+#include <cmath>
 
 namespace isochron::app {
 namespace {
@@ -16,7 +20,7 @@ class LegendTest : public render::GlTest {
         return {.surfaces = {},
                 .value_unit = "K",
                 .scale = ColorScale{
-                    "temperature [K]", {280, 320}, {250, 400}, render::ColorMap::lagoon}};
+                    .title = "temperature [K]", .range = {280, 320}, .whole = {250, 400}}};
     }
     render::TextPass text_{gl_, room_font(32)};
 };
@@ -36,7 +40,7 @@ TEST_P(LegendTest, LiesWithinThePictureOrIsLeftOut) {
 
 TEST_P(LegendTest, ShowsTheMapFromLowToHigh) {
     const auto quads = legend_quads(of_temperature(), text_, {1000, 1000});
-    const auto colors = render::color_map(render::ColorMap::lagoon);
+    const auto colors = render::color_map(render::ColorMap::viridis);
     const auto has = [&](const glm::vec3& light) {
         const glm::vec3 color = render::srgb_from_linear(light);
         return std::ranges::find_if(quads, [&](const ScreenQuad& quad) {
@@ -56,6 +60,36 @@ TEST_P(LegendTest, IsNotNeededForOneSurfaceAndListsSeveral) {
     for (const auto& surface : two)
         EXPECT_TRUE(std::ranges::any_of(
             quads, [&](const ScreenQuad& quad) { return glm::vec3(quad.color) == surface.color; }));
+}
+
+TEST(ColorScales, GoByLogarithmsWhereValuesAreAboveZero) {
+    ColorScale scale{.title = "", .range = {0.1, 1000.0}, .whole = {0.0, 1000.0}};
+    EXPECT_NEAR(share_on(scale, 500.05), 0.5, 1e-9);
+    scale.logarithmic = true;
+    for (int decade = -1; decade <= 3; ++decade)
+        EXPECT_NEAR(share_on(scale, std::pow(10.0, decade)), (decade + 1) / 4.0, 1e-9);
+}
+
+TEST(ColorScales, SharesOfWhatIsShownMakeARange) {
+    index::Extraction shown;
+    EXPECT_FALSE(range_of_shares(shown, {0, 1}, {0.02, 0.98}));
+    for (std::uint16_t i = 0; i <= 1000; ++i) // a tenth of the range, and one far out
+        shown.colors.push_back(i == 1000 ? 8190 : static_cast<std::uint16_t>(819 * i / 1000));
+    shown.colors.insert(shown.colors.end(), 500, index::kNoColor);
+    const auto range = range_of_shares(shown, {100, 200}, {0.02, 0.98});
+    ASSERT_TRUE(range);
+    EXPECT_NEAR((*range)[0], 100.2, 0.05);
+    EXPECT_NEAR((*range)[1], 109.8, 0.05);
+    shown.colors.assign(10, 77);
+    EXPECT_FALSE(range_of_shares(shown, {0, 1}, {0.02, 0.98})) << "one value alone";
+}
+
+TEST(Ticks, OfLogarithmsArePowersOfTenOrPartsOfThem) {
+    EXPECT_EQ(logarithmic_ticks(0.1, 1000, 6).values, (std::vector<double>{0.1, 1, 10, 100, 1000}));
+    EXPECT_EQ(logarithmic_ticks(1, 10, 6).values, (std::vector<double>{1, 2, 5, 10}));
+    EXPECT_EQ(logarithmic_ticks(1e-6, 1e6, 6).values.size(), 5u); // every third
+    EXPECT_GE(logarithmic_ticks(3, 4, 6).values.size(), 2u);
+    EXPECT_TRUE(logarithmic_ticks(0, 4, 6).values.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(, LegendTest, render::both_contexts(), render::context_name);

@@ -196,7 +196,7 @@ TEST_P(SessionQuality, MeshesAreMadeWhereTheyAreDrawnAndWithinTheirBudget) {
         EXPECT_EQ(mesh_bytes(session), before) << "quads need none";
     }
     config.settled_footprint = Footprint::mesh;
-    for (const int megabytes : {192, 0}) {
+    for (const int megabytes : {96, 0}) {
         config.mesh_megabytes = megabytes;
         Session session(config, file_, *context_);
         start(session);

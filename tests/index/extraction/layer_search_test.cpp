@@ -135,6 +135,8 @@ TEST_F(LayerSearchTest, ExtractionsAreThoseOfWholeSteps) {
             ASSERT_EQ(whole->surfaces[i].ids, chunks->surfaces[i].ids);
         EXPECT_GT(whole->cells(), 0u);
         EXPECT_EQ(whole->colors, chunks->colors);
+        EXPECT_FALSE(whole->surroundings.shares.empty());
+        EXPECT_EQ(whole->surroundings.shares, chunks->surroundings.shares);
         EXPECT_EQ(whole->bricks.ids, chunks->bricks.ids);
         EXPECT_EQ(whole->bricks.bytes, chunks->bricks.bytes);
         EXPECT_TRUE(whole->bricks.digests == chunks->bricks.digests);

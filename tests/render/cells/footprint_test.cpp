@@ -72,7 +72,7 @@ struct PlaneEllipsoid {
         const glm::dvec3 n = glm::normalize(glm::transpose(room_from_index) * plane.normal);
         const glm::dvec3 size = glm::abs(n);
         const double rest =
-            std::max(0.5 * (size.x + size.y + size.z) - std::abs(plane.offset), 0.0);
+            std::max(0.5 * (size.x + size.y + size.z) - std::abs(plane.offset), 0.007);
         std::array<int, 3> by_size{0, 1, 2};
         std::ranges::sort(by_size, {}, [&](int i) { return size[i]; });
         const double length = 1.3 * rest / size[by_size[0]], width = rest / size[by_size[1]];

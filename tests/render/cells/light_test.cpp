@@ -145,8 +145,8 @@ TEST_P(Lights, OfFastQuadsPassThroughTheCellsThatAreLeftOut) {
 }
 
 TEST_P(Lights, TakeTheirColorFromTheMapAtTheValue) {
-    const Texture map = color_map_texture(gl_, ColorMap::dusk);
-    const auto colors = color_map(ColorMap::dusk);
+    const Texture map = color_map_texture(gl_, color_map(ColorMap::inferno));
+    const auto colors = color_map(ColorMap::inferno);
     look_.values =
         ValueColors{.map = map.name(), .low = 0.25f, .high = 0.75f, .no_value = {1, 0, 0}};
     const auto style = [](unsigned coordinate) { return std::uint16_t(coordinate << 3 | 3); };
@@ -161,6 +161,13 @@ TEST_P(Lights, TakeTheirColorFromTheMapAtTheValue) {
     expect(0, colors.front()); // below the range
     expect(8190, colors.back());
     expect(8191, {1, 0, 0}); // no value
+    // By logarithms: from 1 to 100, 10 is in the middle.
+    look_.values->low = 0.01f;
+    look_.values->high = 1.0f;
+    look_.values->ratio = 100.0f;
+    expect(819, 0.5f * (colors[127] + colors[128]));
+    expect(82, colors.front());
+    expect(8190, colors.back());
 }
 
 TEST_P(Lights, OfTheKeyStandStillInTheRoomWhileTheHeadTurns) {

@@ -69,7 +69,7 @@ TEST_P(DriverLimits, WhatADriverLacksIsSaidInOneLine) {
     EXPECT_EQ(complaint({{GL_MAX_COMPUTE_WORK_GROUP_SIZE, 32}}),
               "GL_MAX_COMPUTE_WORK_GROUP_SIZE is 32 with this GL, at least 64 is needed");
     EXPECT_EQ(complaint({{GL_MAX_UNIFORM_BLOCK_SIZE, 512}}),
-              "GL_MAX_UNIFORM_BLOCK_SIZE is 512 with this GL, at least 1024 is needed");
+              "GL_MAX_UNIFORM_BLOCK_SIZE is 512 with this GL, at least 1280 is needed");
     EXPECT_EQ(complaint({{GL_MAX_VIEWPORTS, 1}}),
               "GL_MAX_VIEWPORTS is 1 with this GL, at least 2 is needed");
 }

@@ -1,0 +1,60 @@
+// What a look comes to.
+#include "app/scene/look.h"
+
+namespace isochron::app {
+namespace {
+
+constexpr glm::vec3 kPaperWhite(0.94f, 0.945f, 0.95f);
+constexpr glm::vec3 kFloor(0.045f, 0.05f, 0.06f), kSky(0.30f, 0.36f, 0.45f);
+constexpr glm::vec3 kInk(0.13f, 0.15f, 0.18f);
+
+void turn_dark(glm::vec4& color) {
+    color = glm::vec4(kInk, color.w);
+}
+
+} // namespace
+
+void set_look(render::CellAppearance& appearance, const render::CellAppearance& configured,
+              const interaction::Look& look) {
+    appearance.reflectance = configured.reflectance;
+    appearance.shininess = configured.shininess;
+    appearance.ambient = configured.ambient;
+    switch (look.material) {
+    case interaction::Material::satin: break;
+    case interaction::Material::matte:
+        appearance.reflectance = 0.0f;
+        appearance.shininess = 1.0f;
+        break;
+    case interaction::Material::glossy:
+        appearance.reflectance = 0.08f;
+        appearance.shininess = 150.0f;
+        break;
+    case interaction::Material::metal:
+        appearance.reflectance = 0.35f;
+        appearance.shininess = 25.0f;
+        appearance.ambient = 0.6f * configured.ambient;
+        break;
+    }
+    appearance.occlusion = look.occlusion;
+}
+
+std::optional<render::BackgroundColors> background_of(const interaction::Look& look) {
+    switch (look.background) {
+    case interaction::Background::dark: break;
+    case interaction::Background::light: return render::BackgroundColors{kPaperWhite, kPaperWhite};
+    case interaction::Background::gradient: return render::BackgroundColors{kFloor, kSky};
+    }
+    return std::nullopt;
+}
+
+void darken(Axes& axes) {
+    for (render::Line& line : axes.ticks)
+        turn_dark(line.color);
+    for (AxisLabels& labels : axes.labels) {
+        turn_dark(labels.title.color);
+        for (AxisLabels::Number& number : labels.numbers)
+            turn_dark(number.label.color);
+    }
+}
+
+} // namespace isochron::app

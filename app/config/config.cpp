@@ -139,7 +139,9 @@ void read_root(TomlReader& reader, Config& config) {
     reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
     reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });
     reader.table("lighting", [&](TomlReader& inner) { read_lighting(inner, config.appearance); });
-    reader.table("coloring", [&](TomlReader& inner) { read_coloring(inner, config); });
+    reader.table("coloring", [&](TomlReader& inner) {
+        read_coloring(inner, config.name, config.coloring, config.color_maps);
+    });
     reader.table("look", [&](TomlReader& inner) { read_look(inner, config.look); });
     read_surfaces(reader, config);
     reader.table("memory", [&](TomlReader& inner) {

@@ -74,7 +74,7 @@ struct Config {
     int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
     int picture_samples = 0;  ///< likewise of pictures that are written; 0: 4, or more on displays
     int cache_megabytes = 0;  ///< what is kept of the index; 0: a quarter of what there may be
-    int mesh_megabytes = 96; ///< that the triangles of a set may take; 0: none are made
+    int mesh_megabytes = 96;  ///< that the triangles of a set may take; 0: none are made
     bool bounding_box = true; ///< with ticks and numbers
     bool wand_ray = true;
     bool picture_ray = false;     ///< pictures that are written show it, too

@@ -11,41 +11,36 @@
 namespace isochron::app {
 namespace {
 
-std::vector<std::string> map_names(const std::vector<LoadedColorMap>& loaded) {
-    std::vector<std::string> names{render::kColorMapNames.begin(), render::kColorMapNames.end()};
-    for (const LoadedColorMap& map : loaded)
-        names.push_back(map.name);
-    const auto old = render::old_color_map_names();
-    names.insert(names.end(), old.begin(), old.end());
-    return names;
-}
-
-void read_maps(TomlReader& reader, Config& config) {
-    std::string file;
-    reader.text("file", file);
-    if (!reader.has("file"))
-        return;
-    const auto folder = std::filesystem::path(config.name).parent_path();
+std::vector<LoadedColorMap> maps_of(const TomlReader& reader, const std::filesystem::path& path) {
     try {
-        config.color_maps = read_color_maps(folder / file);
+        return read_color_maps(path);
     } catch (const ConfigError& error) {
         reader.fail("file", error.what());
     }
+    return {};
 }
 
 } // namespace
 
-void read_coloring(TomlReader& reader, Config& config) {
-    interaction::Coloring& coloring = config.coloring;
+void read_coloring(TomlReader& reader, const std::string& name, interaction::Coloring& coloring,
+                   std::vector<LoadedColorMap>& color_maps) {
     reader.word("by", interaction::all_names<interaction::ColorBy>(), [&](const std::string& word) {
         coloring.by = *interaction::value_named<interaction::ColorBy>(word);
     });
-    read_maps(reader, config);
-    reader.given_word("map", map_names(config.color_maps), [&](const std::string& word) {
+    reader.word("map", {render::kColorMapNames.begin(), render::kColorMapNames.end()},
+                [&](const std::string& word) { coloring.map = word; });
+    std::string file;
+    reader.text("file", file);
+    if (reader.has("file"))
+        color_maps = maps_of(reader, std::filesystem::path(name).parent_path() / file);
+    std::vector<std::string> loaded;
+    for (const LoadedColorMap& map : color_maps)
+        loaded.push_back(map.name);
+    if (reader.has("file_map") && !reader.has("file"))
+        reader.fail("file_map", "a map of a file needs the file");
+    reader.given_word("file_map", loaded, [&](const std::string& word) {
         coloring.map = word;
-        const auto loaded = std::ranges::find(config.color_maps, word, &LoadedColorMap::name);
-        if (loaded != config.color_maps.end())
-            coloring.colors = loaded->colors;
+        coloring.colors = std::ranges::find(color_maps, word, &LoadedColorMap::name)->colors;
     });
     reader.flag("reversed", coloring.reversed);
     int bands = static_cast<int>(coloring.bands);

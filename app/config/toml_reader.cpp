@@ -44,11 +44,14 @@ std::string type_name(const toml::node& node) {
 }
 
 /// Keys and words that were spelled in another way up to version 0.1, and how they are now.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kSpellings{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSpellings{{
     {"colour", "color"},
     {"surface_colour", "surface_color"},
     {"colouring", "coloring"},
     {"grey", "gray"},
+    {"lagoon", "viridis"},
+    {"dusk", "inferno"},
+    {"polar", "coolwarm"},
 }};
 
 /// Empty where there was no other.

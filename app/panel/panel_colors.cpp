@@ -221,7 +221,14 @@ void coloring_section(const PanelModel& model, Commands& commands) {
     if (ImGui::Checkbox("box with numbers", &shown))
         commands.bounding_box = shown;
     tip("the data's box, with ticks in their units (O)");
-    look_section(model, commands);
+    // Folded: in the room nothing has to be scrolled to.
+    bool* const open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("look"), false);
+    ImGui::SameLine();
+    if (ImGui::SmallButton(*open ? "less of the look" : "more of the look"))
+        *open = !*open;
+    tip("materials, what is behind the data, and how dark surrounded places are");
+    if (*open)
+        look_section(model, commands);
 }
 
 } // namespace isochron::app

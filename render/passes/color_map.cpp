@@ -115,13 +115,6 @@ std::optional<ColorMap> color_map_from_name(std::string_view name) {
     return static_cast<ColorMap>(found - kColorMapNames.begin());
 }
 
-std::vector<std::string_view> old_color_map_names() {
-    std::vector<std::string_view> names;
-    for (const OldName& old : kOldNames)
-        names.push_back(old.name);
-    return names;
-}
-
 std::vector<glm::vec3> color_map_between(const std::vector<glm::vec3>& colors) {
     std::vector<glm::vec3> lab(colors.size());
     std::ranges::transform(colors, lab.begin(), cielab_from_linear);

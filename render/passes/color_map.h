@@ -29,8 +29,6 @@ constexpr std::string_view name_of(ColorMap map) {
 }
 /// Knows the names of older versions too: `lagoon`, `dusk`, `polar`, `grey`.
 std::optional<ColorMap> color_map_from_name(std::string_view name);
-/// Those of older versions.
-std::vector<std::string_view> old_color_map_names();
 
 inline constexpr std::size_t kColorMapSize = 256;
 

@@ -64,7 +64,7 @@ range = [0.1, 0.3]
     EXPECT_EQ(config.appearance.key_direction, glm::vec3(0, 1, 0));
     EXPECT_FLOAT_EQ(config.appearance.reflectance, 0.1f);
     EXPECT_EQ(config.coloring.by, interaction::ColorBy::value);
-    EXPECT_EQ(config.coloring.map, "polar");
+    EXPECT_EQ(config.coloring.map, "coolwarm"); // by its older name
     EXPECT_EQ(config.coloring.range, (std::array{0.1, 0.3}));
 }
 
@@ -117,7 +117,8 @@ TEST(ColorMapFiles, OfAConfigurationLieBesideIt) {
     std::ofstream(folder.path() / "maps.json") << kMaps;
     const std::string name = (folder.path() / "lab.toml").string();
     const Config config = parse_config(
-        "[coloring]\nfile = \"maps.json\"\nmap = \"steps\"\nbands = 3\nreversed = true\n", name);
+        "[coloring]\nfile = \"maps.json\"\nfile_map = \"steps\"\nbands = 3\nreversed = true\n",
+        name);
     ASSERT_EQ(config.color_maps.size(), 3u);
     EXPECT_EQ(config.coloring.map, "steps");
     EXPECT_EQ(config.coloring.colors, config.color_maps[1].colors);

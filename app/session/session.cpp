@@ -53,13 +53,6 @@ bool Session::should_close() const {
     return outputs_.windows().should_close() || frames_->close_wanted();
 }
 
-std::string Session::drawing() const {
-    std::string text = outputs_.windows().drawing().description();
-    for (const std::string& line : scene_.given_up())
-        text += "; " + line;
-    return text;
-}
-
 std::string Session::failure() const {
     return frames_->failure(extractor_);
 }

@@ -14,6 +14,13 @@ constexpr std::size_t kShownFrames = 120;
 
 } // namespace
 
+std::string Session::drawing() const {
+    std::string text = outputs_.windows().drawing().description();
+    for (const std::string& line : scene_.given_up())
+        text += "; " + line;
+    return text;
+}
+
 std::optional<glm::dvec3> Session::parallel_center() const {
     if (!state_.orthographic)
         return std::nullopt;

@@ -53,18 +53,6 @@ std::vector<glm::vec3> used(const std::vector<glm::vec3>& map, const ColorMapUse
 /// @param colors kColorMapSize of them
 Texture color_map_texture(const Gl& gl, const std::vector<glm::vec3>& colors, bool bands = false);
 
-/// How a map is used.
-struct ColorMapUse {
-    bool reversed = false;
-    std::uint32_t bands = 0; ///< so many colors that each fill a part; 0: they pass into each other
-    bool operator==(const ColorMapUse&) const = default;
-};
-std::vector<glm::vec3> used(const std::vector<glm::vec3>& map, const ColorMapUse& use);
-
-/// Colors as GL_TEXTURE_1D, between which it interpolates unless they are bands.
-/// @param colors kColorMapSize of them
-Texture color_map_texture(const Gl& gl, const std::vector<glm::vec3>& colors, bool bands = false);
-
 /// Colors for up to eight surfaces that can be told apart with the common kinds of color blindness:
 /// the set of M. Okabe and K. Ito, "Color Universal Design", 2002 (jfly.uni-koeln.de/color), with
 /// light gray instead of black because the background is dark. sRGB, 0 to 1.

@@ -13,7 +13,7 @@ namespace {
 
 using index::CellId;
 
-constexpr index::Grid kGrid{.vertices = {9, 7, 8}};
+const index::Grid kGrid{.vertices = {9, 7, 8}};
 constexpr CellId kCells = 8 * 6 * 7;
 
 /// What a GPU holds that obeys the messages.

@@ -103,6 +103,7 @@ void make_all_passes(const Gl& gl) {
     const render::CellPass cells(gl), spheres(gl, {.shape = render::CellShape::voxel});
     if (!cells.draws_two_views_at_once())
         throw render::Error("shader_texts: cells should be drawn for two eyes at once, too");
+    const render::BackgroundPass background(gl);
     const render::LinePass lines(gl);
     const render::PanelPass panels(gl);
     const render::PicturePass pictures(gl);

@@ -245,7 +245,8 @@ class Bench {
         constexpr double kSoon = 3e3; // ms
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());
         const render::SendVolume volume = volume_for(footprint);
-        index::Extractor extractor(extraction(footprint == Footprint::mesh));
+        index::Extractor extractor(extract_);
+        const std::uint64_t mesh_room = footprint == Footprint::mesh ? kPlentyOfRoom : 0;
         std::vector<double> over, noise;
         const double start = wall_ms();
         const auto enough = [&](std::size_t i) {
@@ -259,7 +260,8 @@ class Bench {
                 options_.isovalue * (1.0 + kDragged * std::sin(2.0 * std::numbers::pi * turn));
             Frames frame, still;
             frame.time([&] {
-                extractor.request({{step, {isovalue}}, index::StepsAhead{(step + 1) % steps}});
+                extractor.request({{.step = step, .isovalues = {isovalue}, .mesh_room = mesh_room},
+                                   index::StepsAhead{(step + 1) % steps}});
                 cells_.upload(extractor.newest(), kUploadBytes, volume);
                 draw(pass_, footprint);
             });

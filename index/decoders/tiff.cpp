@@ -103,28 +103,12 @@ class TiffVolume final : public DecodedFile {
         if (plane.page >= file.pages())
             throw Error(fmt::format("{}: truncated: {} pages, page {} is described", file.name(),
                                     file.pages(), plane.page));
-        const std::size_t values = std::size_t{first_.shape().width} * first_.shape().height;
-        const StoredType stored = first_.shape().type;
-        const bool magnitude = chosen_.component == ChosenScalar::kMagnitude;
-        if (!magnitude && stored_type_of(chosen_.value_type()) == stored)
-            return file.read(plane.page, chosen_.component, out);
-        const std::size_t size = size_of(stored);
-        const std::uint32_t samples = magnitude ? first_.shape().samples : 1;
-        page_.resize(values * size);
-        tuples_.resize(values * size * samples);
-        for (std::uint32_t s = 0; s < samples; ++s) {
-            file.read(plane.page, magnitude ? s : chosen_.component, page_);
-            for (std::size_t i = 0; i < values; ++i)
-                std::copy_n(&page_[i * size], size, &tuples_[(i * samples + s) * size]);
-        }
-        ChosenScalar of_tuples = chosen_;
-        if (!magnitude) {
-            of_tuples.array.components = 1;
-            of_tuples.component = 0;
-        }
         Grid slice = info_.grid;
         slice.vertices[2] = 1;
-        convert(of_tuples, tuples_, slice, out, file.name());
+        convert_planes(chosen_, slice, out, file.name(),
+                       [&](std::size_t component, std::span<std::byte> samples) {
+                           file.read(plane.page, static_cast<std::uint32_t>(component), samples);
+                       });
     }
 
     TiffFile& file_of(const TiffPlane& plane) {
@@ -154,7 +138,6 @@ class TiffVolume final : public DecodedFile {
     bool frames_are_slices_ = false;
     std::unique_ptr<TiffFile> other_;
     fs::path other_path_;
-    std::vector<std::byte> page_, tuples_;
 };
 
 } // namespace

@@ -177,26 +177,12 @@ class ZarrVolume final : public DecodedFile {
     }
 
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
-        const StoredType stored = *array_->type();
         Grid slab = info_.grid;
         slab.vertices[2] = slices.count;
-        const bool magnitude = chosen_.component == ChosenScalar::kMagnitude;
-        if (!magnitude && stored_type_of(chosen_.value_type()) == stored)
-            return load(step, slices, channel_, out);
-        const std::size_t size = size_of(stored), values = slab.vertex_count();
-        const std::size_t count = magnitude ? chosen_.array.components : 1;
-        std::vector<std::byte> tuples(values * size * count), plane(values * size);
-        for (std::size_t c = 0; c < count; ++c) {
-            load(step, slices, magnitude ? c : channel_, plane);
-            for (std::size_t i = 0; i < values; ++i)
-                std::copy_n(&plane[i * size], size, &tuples[(i * count + c) * size]);
-        }
-        ChosenScalar of_tuples = chosen_;
-        if (!magnitude) {
-            of_tuples.array.components = 1;
-            of_tuples.component = 0;
-        }
-        convert(of_tuples, tuples, slab, out, name_);
+        convert_planes(chosen_, slab, out, name_,
+                       [&](std::size_t component, std::span<std::byte> plane) {
+                           load(step, slices, first_channel_ + component, plane);
+                       });
     }
 
   private:
@@ -308,11 +294,10 @@ class ZarrVolume final : public DecodedFile {
         chosen_ = choose_scalar(offered, options, name_);
         if (info_.arrays.empty())
             info_.arrays = chosen_.offered;
-        channel_ = by_components
-                       ? chosen_.component
-                       : static_cast<std::size_t>(
-                             std::ranges::find(offered, chosen_.array.name, &StoredArray::name) -
-                             offered.begin());
+        if (!by_components) // each channel is offered as an array
+            first_channel_ = static_cast<std::size_t>(
+                std::ranges::find(offered, chosen_.array.name, &StoredArray::name) -
+                offered.begin());
         std::array<std::int64_t, 3> sizes{};
         glm::dmat3 spacing(0.0);
         for (std::size_t a = 0; a < 3; ++a) {
@@ -383,7 +368,7 @@ class ZarrVolume final : public DecodedFile {
     ZarrLayout layout_;
     ChosenScalar chosen_;
     SeriesInfo info_;
-    std::size_t channel_ = 0;
+    std::size_t first_channel_ = 0; ///< of the chosen array's components
 };
 
 } // namespace

@@ -244,10 +244,10 @@ SearchInto search_into(std::shared_ptr<const IndexFile> file, std::optional<Sear
 
 Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
                  Shading shading) {
-    return [search = std::make_shared<IndexSearch>(std::move(file), method, shading)](
+    return [search = search_into(std::move(file), method, shading)](
                const Query& query, const std::stop_token& stop) -> CellSetPtr {
         auto set = std::make_shared<CellSet>();
-        return (*search)(query, stop, *set) ? set : nullptr;
+        return search(query, stop, *set) ? set : nullptr;
     };
 }
 

@@ -240,4 +240,27 @@ void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, cons
     });
 }
 
+void convert_planes(
+    const ChosenScalar& chosen, const Grid& grid, std::span<std::byte> out, const std::string& file,
+    const std::function<void(std::size_t component, std::span<std::byte> plane)>& load) {
+    const StoredType stored = *chosen.array.type;
+    const bool magnitude = chosen.component == ChosenScalar::kMagnitude;
+    if (!magnitude && stored_type_of(chosen.value_type()) == stored)
+        return load(chosen.component, out);
+    const std::size_t size = size_of(stored), values = grid.vertex_count();
+    ChosenScalar of_tuples = chosen;
+    if (!magnitude) {
+        of_tuples.array.components = 1;
+        of_tuples.component = 0;
+    }
+    const std::size_t components = of_tuples.array.components;
+    std::vector<std::byte> tuples(values * size * components), plane(values * size);
+    for (std::size_t c = 0; c < components; ++c) {
+        load(magnitude ? c : chosen.component, plane);
+        for (std::size_t i = 0; i < values; ++i)
+            std::copy_n(&plane[i * size], size, &tuples[(i * components + c) * size]);
+    }
+    convert(of_tuples, tuples, grid, out, file);
+}
+
 } // namespace isochron::index

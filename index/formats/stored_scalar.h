@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -79,5 +80,12 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
 void convert(const ChosenScalar& chosen, std::span<const std::byte> tuples, const Grid& grid,
              std::span<std::byte> out, const std::string& file,
              std::span<const std::uint8_t> missing = {});
+
+/// As `convert`, for arrays on vertices whose components are stored apart. Calls `load` for the
+/// chosen component, or for every component from 0 on if the magnitude is chosen; `plane` has room
+/// for one stored value (native byte order) at each vertex of `grid`.
+void convert_planes(
+    const ChosenScalar& chosen, const Grid& grid, std::span<std::byte> out, const std::string& file,
+    const std::function<void(std::size_t component, std::span<std::byte> plane)>& load);
 
 } // namespace isochron::index

@@ -56,12 +56,18 @@ glm::vec2 on_view(const glm::vec3& direction, const interaction::Pose& head) {
 AxisScale axis_scale(const index::SeriesInfo& info, int axis) {
     const index::Grid& grid = info.grid;
     const std::string unit = info.length_unit.empty() ? "" : fmt::format(" [{}]", info.length_unit);
+    const auto titled = [&](int physical) {
+        const std::string& name = info.axis_names[static_cast<std::size_t>(physical)];
+        if (name.ends_with(')')) // a unit of its own
+            return name;
+        return (name.empty() ? std::string(1, "xyz"[physical]) : name) + unit;
+    };
     const double length = grid.spacing[axis] * (grid.vertices[axis] - 1);
     for (int physical = 0; physical < 3; ++physical) {
         const double along = grid.direction[axis][physical];
         constexpr double kParallel = 1.0 - 1e-6;
         if (std::abs(along) > kParallel)
-            return {fmt::format("{}{}", "xyz"[physical], unit), grid.origin[physical],
+            return {titled(physical), grid.origin[physical],
                     grid.origin[physical] + std::copysign(length, along)};
     }
     return {fmt::format("{}{}", "ijk"[axis], unit), 0.0, length};

@@ -18,7 +18,9 @@ namespace isochron::app {
 /// The scale along one edge: physical coordinates if the edge is parallel to a physical axis, else
 /// the distance from the first vertex.
 struct AxisScale {
-    std::string title;        ///< `x [mm]`; an oblique axis has its index letter: `i [mm]`
+    /// `x [mm]`, or as the file calls the axis, `longitude (degrees)`; an oblique axis has its index
+    /// letter: `i [mm]`.
+    std::string title;
     double low = 0, high = 0; ///< values at the axis' first and last vertex
 };
 AxisScale axis_scale(const index::SeriesInfo& info, int axis);

@@ -40,7 +40,7 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       mesh_room_(
           render::CellBuffers::wanted_shading(gl) == index::Shading::none ? 0 : config.mesh_room()),
       configured_(config.appearance), appearance_(configured_), cells_(gl, info.grid),
-      cell_pass_(gl, {.shape = config.cell_shape}), line_pass_(gl),
+      cell_pass_(gl, {.shape = config.cell_shape}, render::prelude_for(info.grid)), line_pass_(gl),
       text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
       veil_pass_(gl) {
     appearance_.linear_light = blends_light(gl, config.blending);

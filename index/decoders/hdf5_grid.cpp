@@ -231,9 +231,14 @@ class Placing {
         }
         set_axes(info_.grid, steps, file_.name());
         for (std::size_t a = 0; a < 3; ++a)
-            if (axes_[a].spread.note)
+            if (axes_[a].spread.uneven)
                 set_positions(info_.grid, a, axes_[a].at);
-        if (axes_[0].unit == axes_[1].unit && axes_[0].unit == axes_[2].unit)
+        const bool one_unit = axes_[0].unit == axes_[1].unit && axes_[0].unit == axes_[2].unit;
+        for (std::size_t a = 0; a < 3; ++a)
+            if (!axes_[a].label.empty())
+                info_.axis_names[static_cast<std::size_t>(physical[a])] =
+                    with_own_unit(last_name(axes_[a].label), one_unit ? "" : axes_[a].unit);
+        if (one_unit)
             info_.length_unit = axes_[0].unit;
         else if (!options_.spacing)
             info_.notes.push_back(fmt::format("units differ: {} ({}), {} ({}), {} ({}); --spacing "

@@ -18,7 +18,7 @@ namespace {
 
 /// The positions of the vertices along a dimension, in its own unit.
 struct Positions {
-    std::string label;          ///< `z (lev)`
+    std::string name, label;    ///< `lev`, `z (lev)`
     double first = 0, step = 1; ///< the step may be negative
     std::string unit;           ///< tidy; empty: none
     bool downwards = false;
@@ -107,6 +107,7 @@ Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable
                           const NetcdfDimension& dimension, int physical,
                           const ReadOptions& options, std::vector<std::string>& notes) {
     Positions positions;
+    positions.name = dimension.name;
     positions.label = fmt::format("{} ({})", "xyz"[physical], dimension.name);
     const NetcdfVariable* coordinate = file.coordinate(variable, dimension);
     if (!coordinate)
@@ -120,10 +121,10 @@ Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable
         const AxisSpread spread = spread_of(at, positions.label, positions.unit, file.name());
         positions.first = spread.first;
         positions.step = spread.step;
-        if (spread.note) {
+        if (spread.note)
             notes.push_back(*spread.note);
+        if (spread.uneven)
             positions.at = at;
-        }
     } catch (const Error&) {
         if (!options.spacing)
             throw;
@@ -141,6 +142,13 @@ double to_go_with(const Positions& x, const Positions& other) {
     if (meters_of_x && meters_of_other)
         return *meters_of_other / *meters_of_x;
     return std::pow(10.0, std::round(std::log10(std::abs(x.step / other.step))));
+}
+
+/// ` / 1000` where numbers are divided by it.
+std::string scaled_by(double factor) {
+    return factor == 1  ? ""
+           : factor < 1 ? fmt::format(" / {:g}", 1 / factor)
+                        : fmt::format(" * {:g}", factor);
 }
 
 bool in_one_unit(const std::array<Positions, 3>& axes) {
@@ -221,17 +229,20 @@ void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const Ne
         if (!axis.at.empty())
             set_positions(info.grid, a, axis.at, to_go_with(axes[0], axis));
     }
-    if (in_one_unit(axes)) {
+    const bool one_unit = in_one_unit(axes);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Positions& axis = axes[a];
+        info.axis_names[a] = with_own_unit(
+            (axis.downwards ? "-" : "") + axis.name,
+            one_unit || options.spacing ? "" : axis.unit + scaled_by(to_go_with(axes[0], axis)));
+    }
+    if (one_unit) {
         info.length_unit = axes[0].unit;
     } else if (!options.spacing) {
         std::vector<std::string> units;
-        for (const Positions& axis : axes) {
-            const double factor = to_go_with(axes[0], axis);
-            units.push_back(axis.label + with_blank(axis.unit));
-            if (factor != 1)
-                units.back() += factor < 1 ? fmt::format(" / {:g}", 1 / factor)
-                                           : fmt::format(" * {:g}", factor);
-        }
+        for (const Positions& axis : axes)
+            units.push_back(axis.label + with_blank(axis.unit) +
+                            scaled_by(to_go_with(axes[0], axis)));
         info.notes.push_back(fmt::format("units differ: {}; --spacing sets other proportions",
                                          fmt::join(units, ", ")));
     }

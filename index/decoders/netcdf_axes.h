@@ -22,9 +22,7 @@ struct NetcdfLayout {
 /// @return none unless exactly three dimensions are left for space
 std::optional<NetcdfLayout> layout_of(const NetcdfFile& file, const NetcdfVariable& variable);
 
-/// Sets grid, unit of length, space and notes from the coordinate variables. The grid is uniform:
-/// if coordinates are not, vertices are spread evenly between the first and the last, and a note
-/// says so. If axes have units of different kinds, a power of ten brings them into proportion, and
+/// Sets grid, unit of length, names of axes, space and notes from the coordinate variables. If axes have units of different kinds, a power of ten brings them into proportion, and
 /// a note says which.
 /// @throws Error: coordinates that neither increase nor decrease, unless `options` have a spacing
 void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,

@@ -159,7 +159,7 @@ class VtkDataFile final : public DecodedFile {
                     spread_of(at[axis], std::string(1, "xyz"[axis]), "", name);
                 steps[i][i] = spread.step;
                 info_.grid.origin[i] = spread.first;
-                uneven[axis] = spread.note.has_value();
+                uneven[axis] = spread.uneven;
                 if (spread.note)
                     info_.notes.push_back(*spread.note);
             } catch (const Error&) {

@@ -26,7 +26,7 @@ struct MeshVertex {
 };
 static_assert(sizeof(MeshVertex) == 16);
 
-/// The vertex's position in vertex index coordinates.
+/// The vertex's position in vertex index coordinates; `Grid::physical` has its place in space.
 glm::dvec3 position_of(const MeshVertex& vertex);
 /// The unit normal, or zero if the vertex has none.
 glm::dvec3 normal_of(const MeshVertex& vertex);

@@ -48,7 +48,9 @@ class PlaneMaker {
 
     /// @param around differences around the cells, at any scale
     /// @param own, rise see CellSlope; both at the same scale
-    HWY_INLINE void write(V3 around, V3 own, V rise, std::uint32_t* out) const {
+    /// @param size of the cells in even coordinates; null: 1
+    HWY_INLINE void write(V3 around, V3 own, V rise, std::uint32_t* out,
+                          const V3* size = nullptr) const {
         const D d;
         const V largest = largest_of(around);
         const V sum = sum_of(around); // keeps every NaN
@@ -75,6 +77,9 @@ class PlaneMaker {
                                     hn::Set(d, Real{packed_plane::kZero}));
             return rounded(hn::IfThenElseZero(usable, at));
         };
+        if (size) // per even coordinate until here, now per cell
+            around = {hn::Mul(around.x, size->x), hn::Mul(around.y, size->y),
+                      hn::Mul(around.z, size->z)};
         // Along the vector of the differences, which points towards larger stored values.
         const V along = dot(own, around);
         const V around2 = dot(around, around);
@@ -129,15 +134,18 @@ class PlaneMaker {
     std::array<std::array<Real, 3>, 3> matrix_;
 };
 
-/// A batch of cells given by their differences, in double: for every type, also at the border.
+/// A batch of cells given by their differences, in double: for every type, also at the border, and
+/// where vertices are uneven.
 class DifferenceBatch {
   public:
     using Maker = PlaneMaker<double>;
 
-    void set(std::size_t slot, const glm::dvec3& around, const CellSlope& slope) {
+    void set(std::size_t slot, const glm::dvec3& around, const CellSlope& slope,
+             const glm::dvec3& size) {
         for (int axis = 0; axis < 3; ++axis) {
             around_[axis][slot] = around[axis];
             own_[axis][slot] = slope.own[axis];
+            size_[axis][slot] = size[axis];
         }
         rise_[slot] = slope.rise;
     }
@@ -148,12 +156,14 @@ class DifferenceBatch {
                              hn::LoadU(d, from[1].data() + slot),
                              hn::LoadU(d, from[2].data() + slot)};
         };
-        maker.write(three(around_), three(own_), hn::LoadU(Maker::D(), rise_.data() + slot), out);
+        const auto size = three(size_);
+        maker.write(three(around_), three(own_), hn::LoadU(Maker::D(), rise_.data() + slot), out,
+                    &size);
     }
 
   private:
     using Three = std::array<std::array<double, kBatch>, 3>;
-    Three around_{}, own_{};
+    Three around_{}, own_{}, size_{};
     std::array<double, kBatch> rise_{};
 };
 

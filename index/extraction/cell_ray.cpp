@@ -142,15 +142,22 @@ std::optional<double> first_root(const Cubic& k) {
     return std::nullopt;
 }
 
+/// A ray in even coordinates (`Grid::physical_from_index`).
+struct EvenRay {
+    glm::dvec3 origin, direction;
+};
+
 /// Visits the cells that a ray passes through, in order, with the part of the ray in each.
 class CellRay {
   public:
-    /// In vertex index coordinates.
-    CellRay(const glm::dvec3& origin, const glm::dvec3& direction, const glm::ivec3& cells)
-        : origin_(origin), direction_(direction), cells_(cells) {
+    CellRay(const Grid& grid, const EvenRay& ray)
+        : grid_(grid), origin_(ray.origin), direction_(ray.direction) {
+        const auto cells = grid.cells();
+        cells_ = glm::ivec3(cells[0], cells[1], cells[2]);
+        const auto& [origin, direction] = ray;
         double leave = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
-            const double far = cells[axis];
+            const double far = plane(axis, cells_[axis]);
             if (direction[axis] == 0) {
                 if (!(origin[axis] >= 0 && origin[axis] <= far))
                     leave = -1;
@@ -164,12 +171,21 @@ class CellRay {
         inside_ = enter_ <= leave;
         const glm::dvec3 start = origin + enter_ * direction;
         for (int axis = 0; axis < 3 && inside_; ++axis)
-            cell_[axis] = std::clamp(static_cast<int>(std::floor(start[axis])), 0, cells[axis] - 1);
+            cell_[axis] = std::clamp(
+                static_cast<int>(std::floor(grid.index_at(axis, start[axis] * grid.spacing[axis]))),
+                0, cells_[axis] - 1);
     }
     bool inside() const { return inside_; }
     const glm::ivec3& cell() const { return cell_; }
     double enter() const { return enter_; }
     double leave() const { return end_of(next_axis()); }
+    /// The cell's lowest vertex.
+    glm::dvec3 low() const { return {plane(0, cell_.x), plane(1, cell_.y), plane(2, cell_.z)}; }
+    glm::dvec3 size() const {
+        return grid_.even_size({static_cast<std::uint32_t>(cell_.x),
+                                static_cast<std::uint32_t>(cell_.y),
+                                static_cast<std::uint32_t>(cell_.z)});
+    }
 
     void advance() {
         const int axis = next_axis();
@@ -179,18 +195,23 @@ class CellRay {
     }
 
   private:
+    double plane(int axis, int vertex) const {
+        return grid_.even_place(axis, static_cast<std::uint32_t>(vertex));
+    }
     double end_of(int axis) const {
         if (direction_[axis] == 0)
             return std::numeric_limits<double>::infinity();
-        return (cell_[axis] + (direction_[axis] > 0 ? 1 : 0) - origin_[axis]) / direction_[axis];
+        return (plane(axis, cell_[axis] + (direction_[axis] > 0 ? 1 : 0)) - origin_[axis]) /
+               direction_[axis];
     }
     int next_axis() const {
         const double x = end_of(0), y = end_of(1), z = end_of(2);
         return x <= y && x <= z ? 0 : y <= z ? 1 : 2;
     }
 
+    const Grid& grid_;
     glm::dvec3 origin_, direction_;
-    glm::ivec3 cells_, cell_{0};
+    glm::ivec3 cells_{0}, cell_{0};
     double enter_ = 0;
     bool inside_ = false;
 };
@@ -199,47 +220,40 @@ bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-struct IndexRay {
-    glm::dvec3 origin, direction; ///< vertex index coordinates
-};
-/// The ray in vertex index coordinates; nothing if it is not finite or has length 0.
-std::optional<IndexRay> in_index(const Grid& grid, const Ray& ray) {
+/// The ray in even coordinates; nothing if it is not finite or has length 0.
+std::optional<EvenRay> in_even(const Grid& grid, const Ray& ray) {
     const glm::dmat4 index_from_physical = glm::inverse(grid.physical_from_index());
-    const IndexRay result{glm::dvec3(index_from_physical * glm::dvec4(ray.origin, 1.0)),
-                          glm::dvec3(index_from_physical * glm::dvec4(ray.direction, 0.0))};
+    const EvenRay result{glm::dvec3(index_from_physical * glm::dvec4(ray.origin, 1.0)),
+                         glm::dvec3(index_from_physical * glm::dvec4(ray.direction, 0.0))};
     if (!is_finite(result.origin) || !is_finite(result.direction) ||
         result.direction == glm::dvec3(0.0))
         return std::nullopt;
     return result;
 }
 
-CellRay through_cells(const Grid& grid, const IndexRay& ray) {
-    const auto cells = grid.cells();
-    return {ray.origin, ray.direction, glm::ivec3(cells[0], cells[1], cells[2])};
-}
-
 } // namespace
 
 std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const Ray& ray,
                                 std::uint32_t surfaces) {
-    const auto indexed = in_index(grid, ray);
+    const auto indexed = in_even(grid, ray);
     if (!indexed)
         return std::nullopt;
     const auto& [origin, direction] = *indexed;
     BrickVertices vertices(shown.bricks, grid);
-    for (CellRay at = through_cells(grid, *indexed); at.inside(); at.advance()) {
+    for (CellRay at(grid, *indexed); at.inside(); at.advance()) {
         const auto corners = vertices.of_cell(at.cell());
         if (!corners)
             continue;
         const double length = at.leave() - at.enter();
-        const glm::dvec3 from = origin + at.enter() * direction - glm::dvec3(at.cell());
+        const glm::dvec3 size = at.size();
+        const glm::dvec3 from = (origin + at.enter() * direction - at.low()) / size;
         std::optional<RayHit> nearest;
         for (std::size_t i = 0; i < shown.levels.size(); ++i) {
             const bool counts = (surfaces >> i & 1) && std::isfinite(shown.query.isovalues[i]);
             if (!counts || !is_active(*corners, shown.levels[i]))
                 continue;
             const auto s =
-                first_root(cubic_along(*corners, shown.levels[i], from, length * direction));
+                first_root(cubic_along(*corners, shown.levels[i], from, length * direction / size));
             const double along = at.enter() + length * s.value_or(0.0);
             if (s && along >= 0 && (!nearest || along < nearest->along))
                 nearest = RayHit{i, along, ray.origin + along * ray.direction};
@@ -251,10 +265,10 @@ std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const
 }
 
 std::optional<glm::dvec3> entry_into(const Grid& grid, const Ray& ray) {
-    const auto indexed = in_index(grid, ray);
+    const auto indexed = in_even(grid, ray);
     if (!indexed)
         return std::nullopt;
-    const CellRay first = through_cells(grid, *indexed);
+    const CellRay first(grid, *indexed);
     if (!first.inside())
         return std::nullopt;
     return ray.origin + first.enter() * ray.direction;

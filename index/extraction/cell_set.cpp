@@ -39,7 +39,7 @@ CellPlane cell_plane(const StepValues& values, const Query& query, CellId cell) 
         const CellDifferences<T> differences(values, query.step, at[1], at[2]);
         const glm::dvec3 around = unit(differences(at[0]));
         const CellSlope slope = differences.slope(at[0], level);
-        const double along = glm::dot(slope.own, around);
+        const double along = glm::dot(slope.own, unit(around * values.grid.even_size(at)));
         // `rise` is towards larger stored values; these are larger scaled ones if the slope is
         // positive.
         const double least = CellPlane::kLeastCosine2 * glm::dot(slope.own, slope.own);

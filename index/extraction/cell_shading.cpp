@@ -70,7 +70,7 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     const std::size_t row_size = values.grid.vertices[0];
     const std::size_t slice_size = row_size * values.grid.vertices[1];
     const T* const volume = values.step<T>(set.query.step).data();
-    const bool float_is_enough = kSmall && smallest >= kFloatIsEnough;
+    const bool float_is_enough = kSmall && smallest >= kFloatIsEnough && !values.grid.rectilinear();
     CellWalk walk(values.grid);
     // The current row:
     std::uint32_t y = 0, z = 0, inner_width = 0; // number of cells, from the second on, for `fast`
@@ -103,7 +103,8 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
             }
         if (!differences)
             differences.emplace(values, set.query.step, y, z);
-        exact.add(points[i], (*differences)(x), differences->slope(x, level));
+        exact.add(points[i], (*differences)(x), differences->slope(x, level),
+                  values.grid.even_size({x, y, z}));
     }
     fast.finish();
     exact.finish();

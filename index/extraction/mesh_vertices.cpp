@@ -48,13 +48,13 @@ template <class T, class Real = RealFor<T>>
 class VertexPlacer {
   public:
     VertexPlacer(const StepValues& values, const Query& query, std::uint32_t first_plane)
-        : counts_(values.grid.vertices),
+        : grid_(values.grid), counts_(values.grid.vertices),
           first_plane_(first_plane), steps_{1, std::ptrdiff_t{counts_[0]},
                                             std::ptrdiff_t{counts_[0]} * counts_[1]},
           volume_(values.step<T>(query.step).data()),
           level_(stored_value(values.scaling, query.isovalue)) {
         for (std::size_t axis = 0; axis < 3; ++axis)
-            inner_[axis] = std::max(counts_[axis], 3u) - 3;
+            inner_[axis] = grid_.rectilinear() ? 0 : std::max(counts_[axis], 3u) - 3;
         double smallest = 0;
         const glm::dmat3 matrix = scaled_to_one(normal_from_difference(values), smallest);
         for (int row = 0; row < 3; ++row)
@@ -114,16 +114,31 @@ class VertexPlacer {
             result[axis] = static_cast<Real>(v[steps_[axis]]) - static_cast<Real>(v[-steps_[axis]]);
         return result;
     }
-    /// The same, but one-sided at the border.
+    /// The same, but one-sided at the border, and twice the slope where vertices are uneven.
     Vector<Real> difference(const T* v, const std::array<std::uint32_t, 3>& at) const {
         Vector<Real> result;
         for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!grid_.positions[axis].even()) {
+                result[axis] = static_cast<Real>(2 * slope(v, axis, at[axis]));
+                continue;
+            }
             const std::ptrdiff_t below = at[axis] > 0 ? -steps_[axis] : 0;
             const std::ptrdiff_t above = at[axis] + 1 < counts_[axis] ? steps_[axis] : 0;
             const Real part = below != 0 && above != 0 ? 1 : 2;
             result[axis] = part * (static_cast<Real>(v[above]) - static_cast<Real>(v[below]));
         }
         return result;
+    }
+
+    double slope(const T* v, std::size_t axis, std::uint32_t at) const {
+        const auto weights = grid_.slope_weights(static_cast<int>(axis), at);
+        const auto here = static_cast<double>(*v);
+        double sum = 0;
+        if (at > 0)
+            sum += weights.before * (here - static_cast<double>(v[-steps_[axis]]));
+        if (at + 1 < counts_[axis])
+            sum += weights.behind * (static_cast<double>(v[steps_[axis]]) - here);
+        return sum;
     }
 
     static Vector<Real> finite_or_zero(const Vector<Real>& v) {
@@ -140,6 +155,7 @@ class VertexPlacer {
         return pack_normal(n);
     }
 
+    const Grid& grid_;
     std::array<std::uint32_t, 3> counts_, inner_{};
     std::uint32_t first_plane_;
     std::array<std::ptrdiff_t, 3> steps_;

@@ -148,7 +148,7 @@ void StepSlab::begin(std::uint32_t step, std::uint32_t layer, std::stop_token st
 }
 
 StepValues StepSlab::planes(std::uint32_t first, std::uint32_t end) const {
-    StepValues values{.grid = grid_,
+    StepValues values{.grid = grid_.planes(first, end),
                       .type = store_.info().type,
                       .scaling = store_.info().scaling,
                       .steps = store_.info().steps(),
@@ -157,7 +157,6 @@ StepValues StepSlab::planes(std::uint32_t first, std::uint32_t end) const {
         std::uint64_t{grid_.vertices[0]} * grid_.vertices[1] * size_of(values.type);
     values.first = values_.get() + (first - first_plane_) * plane;
     values.stride = (end - first) * plane;
-    values.grid.vertices[2] = end - first;
     return values;
 }
 

@@ -1,4 +1,4 @@
-// Even and uneven axes: the mean step, and a note if the spacing is uneven.
+// Even and uneven axes: the mean step, and a note if the spacing is very uneven.
 #include "index/formats/axis_positions.h"
 
 #include "index/error.h"
@@ -27,12 +27,16 @@ AxisSpread spread_of(const std::vector<double>& at, const std::string& label,
         off = std::max(off, std::abs(at[i] - first - static_cast<double>(i) * step));
     }
     AxisSpread spread{first, step};
-    constexpr double kEven = 0.02; // of the spacing: admits Gaussian latitudes, coordinates in f32
-    const std::string of_unit = unit.empty() ? "" : " " + unit;
-    if (off > kEven * std::abs(step))
-        spread.note = fmt::format("{} is not uniform: vertices {:.4g} to {:.4g}{} apart are "
-                                  "shown evenly, {:.4g}{} apart; --resample makes it uniform",
-                                  label, least, most, of_unit, std::abs(step), of_unit);
+    // Rounding does not make vertices uneven: of the spacing, and of coordinates in f32.
+    constexpr double kOfSpacing = 1e-5, kOfCoordinates = 4 * 0x1p-23;
+    const double rounding =
+        std::max(kOfSpacing * std::abs(step),
+                 kOfCoordinates * std::max(std::abs(first), std::abs(at.back())));
+    spread.uneven = off > rounding;
+    constexpr double kWorthANote = 0.02; // of the spacing; Gaussian latitudes stay below
+    if (off > kWorthANote * std::abs(step))
+        spread.note = fmt::format("{} is not uniform: vertices {:.4g} to {:.4g}{} apart", label,
+                                  least, most, unit.empty() ? "" : " " + unit);
     return spread;
 }
 
@@ -41,6 +45,10 @@ void set_positions(Grid& grid, std::size_t axis, const std::vector<double>& at, 
     for (const double coordinate : at)
         distances.push_back(std::abs(coordinate - at.front()) * std::abs(factor));
     grid.positions[axis] = AxisPositions(std::move(distances));
+}
+
+std::string with_own_unit(const std::string& name, const std::string& unit) {
+    return unit.empty() ? name : fmt::format("{} ({})", name, unit);
 }
 
 } // namespace isochron::index

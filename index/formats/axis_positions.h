@@ -10,11 +10,12 @@
 
 namespace isochron::index {
 
-/// Evenly spread vertices along an axis.
+/// Vertices along an axis.
 struct AxisSpread {
-    double first = 0; ///< coordinate of the first vertex
-    double step = 1;  ///< mean distance to the next; negative if coordinates decrease
-    /// A note for the user, if the coordinates are not evenly spread.
+    double first = 0;    ///< coordinate of the first vertex
+    double step = 1;     ///< mean distance to the next; negative if coordinates decrease
+    bool uneven = false; ///< the grid needs positions, see `set_positions`
+    /// A note for the user, if the coordinates are far from even.
     std::optional<std::string> note = {};
 };
 
@@ -27,5 +28,8 @@ AxisSpread spread_of(const std::vector<double>& at, const std::string& label,
 /// Sets the positions of an axis that is not even; spacing and direction are already set.
 /// @param factor of the coordinates' unit
 void set_positions(Grid& grid, std::size_t axis, const std::vector<double>& at, double factor = 1);
+
+/// An axis' name as it is shown: `longitude (degrees)`; without a unit of its own the name alone.
+std::string with_own_unit(const std::string& name, const std::string& unit);
 
 } // namespace isochron::index

@@ -17,24 +17,44 @@
 namespace isochron::index {
 
 /// Weights of the four planes around a cell in the differences along one axis: the planes of its
-/// two vertices and their outer neighbors. At the border, differences are one-sided.
+/// two vertices and their outer neighbors. At the border, differences are one-sided. On a rectilinear
+/// grid they are the slopes per even coordinate (`Grid::slope_weights`).
 struct AxisTaps {
-    AxisTaps(std::uint32_t cell, std::uint32_t vertices, std::ptrdiff_t step) {
+    AxisTaps(const Grid& grid, int axis, std::uint32_t cell, std::ptrdiff_t step) {
+        const std::uint32_t vertices = grid.vertices[static_cast<std::size_t>(axis)];
         const bool first = cell == 0, last = cell + 2 == vertices;
         below = first ? 0 : -step;
         above = last ? step : 2 * step;
         low_weight = first ? 1.0 : 0.5;
         high_weight = last ? 1.0 : 0.5;
         next = step;
+        even = grid.positions[static_cast<std::size_t>(axis)].even();
+        if (!even) {
+            low = grid.slope_weights(axis, cell);
+            high = grid.slope_weights(axis, cell + 1);
+        }
     }
     /// Sum of the differences at the cell's two vertices of one edge along this axis.
     template <class T>
     double operator()(const T* edge) const {
+        if (!even) {
+            const double own = static_cast<double>(edge[next]) - static_cast<double>(edge[0]);
+            double sum = (low.behind + high.before) * own;
+            if (below != 0)
+                sum +=
+                    low.before * (static_cast<double>(edge[0]) - static_cast<double>(edge[below]));
+            if (above != next)
+                sum += high.behind *
+                       (static_cast<double>(edge[above]) - static_cast<double>(edge[next]));
+            return sum;
+        }
         return low_weight * (static_cast<double>(edge[next]) - static_cast<double>(edge[below])) +
                high_weight * (static_cast<double>(edge[above]) - static_cast<double>(edge[0]));
     }
     std::ptrdiff_t below, next, above;
     double low_weight, high_weight;
+    Grid::SlopeWeights low, high; ///< where vertices are uneven
+    bool even;
 };
 
 /// The slope of a cell's own eight values, and the way from their mean to the isovalue.
@@ -54,14 +74,14 @@ class CellDifferences {
   public:
     CellDifferences(const StepValues& values, std::uint32_t step, std::uint32_t y, std::uint32_t z)
         : nx_(values.grid.vertices[0]), row_(nx_),
-          slice_(std::ptrdiff_t{nx_} * values.grid.vertices[1]),
-          dy_(y, values.grid.vertices[1], row_), dz_(z, values.grid.vertices[2], slice_),
+          slice_(std::ptrdiff_t{nx_} * values.grid.vertices[1]), grid_(values.grid),
+          dy_(grid_, 1, y, row_), dz_(grid_, 2, z, slice_),
           first_(values.step<T>(step).data() + y * row_ + z * slice_) {}
 
-    /// Four times the mean of the eight vertices' differences along every axis, in index space.
+    /// Four times the mean of the eight vertices' differences along every axis, per even coordinate.
     glm::dvec3 operator()(std::uint32_t x) const {
         const T* v = first_ + x;
-        const AxisTaps dx(x, nx_, 1);
+        const AxisTaps dx(grid_, 0, x, 1);
         return {dx(v) + dx(v + row_) + dx(v + slice_) + dx(v + row_ + slice_),
                 dy_(v) + dy_(v + 1) + dy_(v + slice_) + dy_(v + 1 + slice_),
                 dz_(v) + dz_(v + 1) + dz_(v + row_) + dz_(v + 1 + row_)};
@@ -85,6 +105,7 @@ class CellDifferences {
   private:
     std::uint32_t nx_;
     std::ptrdiff_t row_, slice_;
+    const Grid& grid_;
     AxisTaps dy_, dz_;
     const T* first_;
 };

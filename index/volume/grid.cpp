@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace isochron::index {
 
@@ -15,19 +16,40 @@ glm::dmat4 Grid::physical_from_index() const {
     return m;
 }
 
-glm::dmat4 Grid::physical_from_index_in(const std::array<std::uint32_t, 3>& cell) const {
-    glm::dmat4 m = physical_from_index();
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const std::vector<double>& at = positions[a].distances();
-        if (at.empty())
-            continue;
-        const std::uint32_t i = cell[a];
-        const double step = at[i + 1] - at[i];
-        m[axis] = glm::dvec4(direction[axis] * step, 0.0);
-        m[3] += glm::dvec4(direction[axis] * (at[i] - step * i), 0.0);
+double Grid::even_place(int axis, std::uint32_t vertex) const {
+    const std::vector<double>& at = positions[static_cast<std::size_t>(axis)].distances();
+    return at.empty() ? vertex : at[vertex] / spacing[axis];
+}
+
+glm::dvec3 Grid::even_size(const std::array<std::uint32_t, 3>& cell) const {
+    glm::dvec3 size(1.0);
+    for (std::size_t a = 0; a < 3; ++a)
+        if (const std::vector<double>& at = positions[a].distances(); !at.empty())
+            size[static_cast<int>(a)] =
+                (at[cell[a] + 1] - at[cell[a]]) / spacing[static_cast<int>(a)];
+    return size;
+}
+
+Grid Grid::planes(std::uint32_t first, std::uint32_t end) const {
+    Grid part = *this;
+    part.vertices[2] = end - first;
+    if (const std::vector<double>& at = positions[2].distances(); !at.empty()) {
+        std::vector<double> distances(at.begin() + first, at.begin() + end);
+        for (double& distance : distances)
+            distance -= at[first];
+        part.positions[2] = AxisPositions(std::move(distances));
     }
-    return m;
+    return part;
+}
+
+Grid::SlopeWeights Grid::slope_weights(int axis, std::uint32_t vertex) const {
+    const double here = even_place(axis, vertex);
+    const bool first = vertex == 0, last = vertex + 1 == vertices[static_cast<std::size_t>(axis)];
+    const double before = first ? 0 : here - even_place(axis, vertex - 1);
+    const double behind = last ? 0 : even_place(axis, vertex + 1) - here;
+    if (first || last)
+        return {last ? 1 / before : 0, first ? 1 / behind : 0};
+    return {behind / (before * (before + behind)), before / (behind * (before + behind))};
 }
 
 double Grid::distance(int axis, double index) const {
@@ -56,6 +78,8 @@ glm::dvec3 Grid::physical(const glm::dvec3& index) const {
 }
 
 glm::dvec3 Grid::index_of(const glm::dvec3& physical) const {
+    if (!rectilinear())
+        return glm::dvec3(glm::inverse(physical_from_index()) * glm::dvec4(physical, 1.0));
     const glm::dvec3 distances = glm::inverse(direction) * (physical - origin);
     return {index_at(0, distances.x), index_at(1, distances.y), index_at(2, distances.z)};
 }

@@ -68,11 +68,25 @@ struct Grid {
     bool rectilinear() const {
         return !(positions[0].even() && positions[1].even() && positions[2].even());
     }
-    /// Maps vertex index coordinates (a cell's center is its lowest vertex + 0.5) to physical
-    /// space; on a rectilinear grid as if vertices were even.
+    /// Maps even coordinates to physical space. An even coordinate is the distance from the first
+    /// vertex along an axis, in spacings: on a regular grid the vertex index coordinate (a cell's
+    /// center is its lowest vertex + 0.5), on a rectilinear grid what `even_place` makes of that.
     glm::dmat4 physical_from_index() const;
-    /// The same within one cell, and exact there.
-    glm::dmat4 physical_from_index_in(const std::array<std::uint32_t, 3>& cell) const;
+    /// The even coordinate of a vertex.
+    double even_place(int axis, std::uint32_t vertex) const;
+    /// Lengths of a cell's sides in even coordinates.
+    glm::dvec3 even_size(const std::array<std::uint32_t, 3>& cell) const;
+    /// The part of the grid between some planes of vertices along z, seen for itself: its vertices
+    /// count from 0, and so do its distances along z. The origin stays.
+    Grid planes(std::uint32_t first, std::uint32_t end) const;
+
+    /// Factors of the differences to the vertices before and behind one, so that their sum is the
+    /// slope there per even coordinate: exact for a parabola through the three; at the border
+    /// one-sided.
+    struct SlopeWeights {
+        double before = 0, behind = 0;
+    };
+    SlopeWeights slope_weights(int axis, std::uint32_t vertex) const;
 
     /// From the first vertex to a place in index coordinates along an axis; between vertices, and
     /// beyond them, in proportion.

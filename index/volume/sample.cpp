@@ -2,7 +2,6 @@
 #include "index/volume/sample.h"
 
 #include <glm/common.hpp>
-#include <glm/matrix.hpp>
 
 #include <cmath>
 
@@ -12,7 +11,7 @@ std::optional<double> value_at(const Grid& grid, const glm::dvec3& at,
                                const ScaledVertex& vertex_value) {
     const auto cells = grid.cells();
     const glm::dvec3 extent(cells[0], cells[1], cells[2]);
-    const glm::dvec3 place(glm::inverse(grid.physical_from_index()) * glm::dvec4(at, 1.0));
+    const glm::dvec3 place = grid.index_of(at);
     for (int axis = 0; axis < 3; ++axis)
         if (!(place[axis] >= 0 && place[axis] <= extent[axis]))
             return std::nullopt;

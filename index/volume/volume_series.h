@@ -29,7 +29,8 @@ struct SeriesInfo {
     std::string time_unit;   ///< `s`, `ms`, ... or empty
     Anatomy anatomy = Anatomy::none;
     Grid grid;
-    /// What the axes of physical space are called, `longitude` and so on; empty: x, y, z.
+    /// What the axes of physical space are called, `depth`; `longitude (degrees)` where they have
+    /// units of their own. Empty: x, y, z.
     std::array<std::string, 3> axis_names;
     ValueType type = ValueType::f32;
     Scaling scaling;

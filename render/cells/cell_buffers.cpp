@@ -31,7 +31,7 @@ std::size_t rounded_to_units(std::size_t bytes) {
 } // namespace
 
 CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t staging_bytes)
-    : gl_(&gl), grid_(grid),
+    : gl_(&gl), grid_(grid), axes_(std::make_unique<AxisTable>(gl, grid)),
       ring_(gl, rounded_to_units(staging_bytes), passes_fences(gl) ? Fences::pass : Fences::never),
       points_(gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole),
       message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
@@ -62,7 +62,7 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
 
 void CellBuffers::prepare(index::ValueType held) {
     bricks_.emplace(*gl_, grid_, held);
-    compute_.emplace(*gl_, grid_, held);
+    compute_.emplace(*gl_, grid_, *axes_, held);
     const index::Extraction none;
     compute_->enter_pages(*bricks_);
     compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, message_, points_);

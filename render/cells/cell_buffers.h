@@ -6,6 +6,7 @@
 #pragma once
 
 #include "index/extraction/extraction.h"
+#include "render/cells/axis_table.h"
 #include "render/cells/brick_pool.h"
 #include "render/cells/cell_compute.h"
 #include "render/cells/mesh_buffers.h"
@@ -94,6 +95,7 @@ class CellBuffers {
     /// Whether the shown set came with meshes of its surfaces, as `Footprint::mesh` needs.
     bool has_mesh() const { return shown_ && mesh_version_ == version_; }
     const MeshBuffers& mesh() const { return mesh_; }
+    const AxisTable& axes() const { return *axes_; }
     /// Of the shown set.
     const Surroundings& surroundings() const { return surroundings_; }
 
@@ -139,6 +141,7 @@ class CellBuffers {
 
     const Gl* gl_;
     index::Grid grid_;
+    std::unique_ptr<const AxisTable> axes_;
     StagingRing ring_;
     DeviceArray points_, message_, styles_, corner_values_, corner_gradients_;
     MeshBuffers mesh_;

@@ -39,6 +39,10 @@ std::string_view sampler_of(index::ValueType held) {
     }
 }
 
+std::string prelude_of(const index::Grid& grid, index::ValueType held) {
+    return prelude_for(grid) + std::string(sampler_of(held));
+}
+
 /// Rows of the matrix from differences of values along the axes to gradients (covectors) in
 /// physical space, towards lower values. Scaled so that the largest entry is 1.
 std::array<glm::vec4, 3> from_difference(const index::Grid& grid) {
@@ -63,14 +67,15 @@ float gradient_scale(float range) {
 
 } // namespace
 
-CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType held)
-    : gl_(&gl), grid_(grid), at_once_(work_at_once(Limits(gl), kMostBytes)),
+CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, const AxisTable& axes,
+                         index::ValueType held)
+    : gl_(&gl), grid_(grid), axes_(&axes), at_once_(work_at_once(Limits(gl), kMostBytes)),
       pages_(link_program(gl, {shader_file("brick_pages.comp")})),
       places_(link_program(gl, {shader_file("cell_places.comp")})),
       styles_(link_program(gl, {shader_file("cell_styles.comp")})),
-      planes_(link_program(gl, {shader_file("cell_planes.comp")}, sampler_of(held))),
-      corners_(link_program(gl, {shader_file("cell_corners.comp")}, sampler_of(held))), volume_(gl),
-      work_(gl) {}
+      planes_(link_program(gl, {shader_file("cell_planes.comp")}, prelude_of(grid, held))),
+      corners_(link_program(gl, {shader_file("cell_corners.comp")}, prelude_of(grid, held))),
+      volume_(gl), work_(gl) {}
 
 void CellCompute::use_volume(const index::Extraction& set, const BrickPool& bricks) const {
     const auto& n = grid_.vertices;
@@ -79,13 +84,14 @@ void CellCompute::use_volume(const index::Extraction& set, const BrickPool& bric
                       .vertices = {n[0], n[1], n[2]},
                       .factor = set.bricks.factor,
                       .tiles = {tiles[0], tiles[1], tiles[2]},
-                      .gradient_scale = gradient_scale(set.bricks.range),
+                      .gradient_scale = gradient_scale(set.bricks.range) * axes_->smallest(),
                       .levels = {}};
     std::ranges::copy(set.levels, block.levels.begin());
     gl_->NamedBufferData(volume_.name(), sizeof(block), &block, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, volume_.name());
     gl_->BindTextureUnit(0, bricks.pages().texture());
     gl_->BindTextureUnit(1, bricks.values().texture());
+    axes_->bind();
 }
 
 void CellCompute::bind(GLuint binding, const DeviceArray& array) const {

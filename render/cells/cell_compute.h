@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/extraction/extraction.h"
+#include "render/cells/axis_table.h"
 #include "render/cells/brick_pool.h"
 #include "render/cells/slot_plan.h"
 
@@ -16,7 +17,8 @@ class CellCompute {
   public:
     /// @param held type of the values in bricks
     /// @throws Error when a shader does not compile, or the driver's limits are too small
-    CellCompute(const Gl& gl, const index::Grid& grid, index::ValueType held);
+    CellCompute(const Gl& gl, const index::Grid& grid, const AxisTable& axes,
+                index::ValueType held);
 
     /// Applies the changes of the new set to the pool's page table.
     void enter_pages(const BrickPool& bricks) const;
@@ -60,6 +62,7 @@ class CellCompute {
 
     const Gl* gl_;
     index::Grid grid_;
+    const AxisTable* axes_;
     std::size_t at_once_; ///< most items in one dispatch
     Program pages_, places_, styles_, planes_, corners_;
     Buffer volume_, work_;

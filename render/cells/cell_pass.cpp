@@ -31,9 +31,10 @@ constexpr GLuint kSurroundingsUnit = 9; ///< of surroundings.glsl
 CellPass::Programs CellPass::programs(std::string_view fragment_shader,
                                       const std::string& prelude) const {
     const std::vector sources{shader_file("cell.vert"), shader_file(fragment_shader)};
-    Programs programs{link_program(*gl_, sources, prelude), std::nullopt};
+    const std::string all = grid_prelude_ + prelude;
+    Programs programs{link_program(*gl_, sources, all), std::nullopt};
     if (two_views_at_once_)
-        programs.two = link_program(*gl_, sources, std::string(kTwoEyes) + prelude);
+        programs.two = link_program(*gl_, sources, std::string(kTwoEyes) + all);
     return programs;
 }
 
@@ -46,13 +47,14 @@ CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragme
             programs(fragment_shader, prelude + "#define POINTS\n"), std::nullopt};
 }
 
-CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes)
-    : gl_(&gl), shapes_(shapes), two_views_at_once_(draws_to_two_viewports(gl)),
-      seen_only_(takes_processor_ways(gl)), largest_point_(Limits(gl).largest_point),
+CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::string& grid_prelude)
+    : gl_(&gl), shapes_(shapes), grid_prelude_(grid_prelude),
+      two_views_at_once_(draws_to_two_viewports(gl)), seen_only_(takes_processor_ways(gl)),
+      largest_point_(Limits(gl).largest_point),
       quad_programs_(footprint_programs("cell_quad.frag", is_round(Footprint::quad))),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", is_round(Footprint::gaussian))),
-      mesh_(gl, two_views_at_once_), surface_(gl, two_views_at_once_), quads_(gl), orders_(gl),
-      seen_slots_(gl), seen_texture_(gl, GL_TEXTURE_BUFFER), frame_(gl) {
+      mesh_(gl, two_views_at_once_, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude),
+      quads_(gl), orders_(gl), seen_slots_(gl), seen_texture_(gl, GL_TEXTURE_BUFFER), frame_(gl) {
     if (shapes.shape == CellShape::voxel)
         quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
     const float falloff = gaussian_falloff();
@@ -129,6 +131,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_.name());
     gl_->BindTextureUnit(0, cells.texture());
     gl_->BindTextureUnit(kSurroundingsUnit, cells.surroundings().texture());
+    cells.axes().bind();
     if (appearance.values)
         gl_->BindTextureUnit(kColorMapUnit, appearance.values->map);
     // Without linear light the shader writes display values, which the target must not convert.
@@ -186,7 +189,7 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
     // Splats are not culled in linear light: there, even a contribution below a step of the
     // display's values shows in dark places.
     const bool leaves_out =
-        seen_only_ && !all_cells_ && !has_layers(footprint) &&
+        seen_only_ && !all_cells_ && !has_layers(footprint) && !placement.rectilinear &&
         !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&
         (shapes_.shape == CellShape::voxel || cells.slots().planes.size() == cells.size());
     if (!leaves_out)
@@ -205,9 +208,10 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
 }
 
 /// Whether no voxel is so large in any view that the light within a triangle is seen to be straight.
-bool CellPass::triangles_are_small(std::span<const View> views, const Placement& placement) const {
+bool CellPass::triangles_are_small(std::span<const View> views, const Placement& placement,
+                                   const CellBuffers& cells) const {
     constexpr float kFewPixels = 8.0f; ///< along a voxel
-    const glm::vec3 spacing = placement.spacing();
+    const glm::vec3 spacing = placement.spacing() * cells.axes().largest();
     const float voxel = std::max({spacing.x, spacing.y, spacing.z});
     return std::ranges::all_of(views, [&](const View& view) {
         const glm::vec2 scale = 0.5f * glm::vec2(view.size) *
@@ -234,7 +238,7 @@ void CellPass::draw_mesh(std::span<const View> views, const Placement& placement
                               .colors = frame.surfaces,
                               .colored = appearance.values.has_value(),
                               .near = !hides_what_is_behind(opaque, placement),
-                              .small = triangles_are_small(views, placement)};
+                              .small = triangles_are_small(views, placement, cells)};
     if (layer.blended)
         mesh_.draw_blended(cells, look, orders_.order(cells, key_of(views.front(), placement)));
     else

@@ -28,8 +28,10 @@ namespace isochron::render {
 
 class CellPass {
   public:
+    /// @param grid_prelude of the grid whose cells are drawn: `prelude_for`
     /// @throws Error when a shader does not compile
-    explicit CellPass(const Gl& gl, const FootprintShapes& shapes = {});
+    explicit CellPass(const Gl& gl, const FootprintShapes& shapes = {},
+                      const std::string& grid_prelude = {});
 
     /// Draws the cells into the views' viewports of the bound framebuffer, two views in one pass if
     /// the driver can; does nothing without cells. Quads and opaque surfaces test and write depth.
@@ -102,7 +104,8 @@ class CellPass {
     /// The sequence of one view; `Sequence::cells` is the same in all views that are drawn at once.
     Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
                          Footprint footprint, bool blended, const CellAppearance& appearance);
-    bool triangles_are_small(std::span<const View> views, const Placement& placement) const;
+    bool triangles_are_small(std::span<const View> views, const Placement& placement,
+                             const CellBuffers& cells) const;
     void draw_mesh(std::span<const View> views, const Placement& placement,
                    const CellBuffers& cells, const Layer& layer, const CellAppearance& appearance,
                    const FrameBlock& frame);
@@ -111,6 +114,7 @@ class CellPass {
 
     const Gl* gl_;
     FootprintShapes shapes_;
+    std::string grid_prelude_;
     bool two_views_at_once_;
     /// Whether to cull occluded cells, and draw quads nearest first: on software GL this saves far
     /// more time than it takes. A GPU is faster with all quads in any order.

@@ -45,8 +45,10 @@ glm::vec4 near_fade_of(const NearFade& fade, const glm::vec3& spacing) {
 } // namespace
 
 TraversalKey key_of(const View& view, const Placement& placement) {
-    return traversal_key(eye_in_index(view, placement), glm::ivec3(placement.extent),
-                         placement.spacing());
+    glm::vec4 eye = eye_in_index(view, placement);
+    if (eye.w != 0.0f)
+        eye = glm::vec4(placement.index_at(glm::vec3(eye)), eye.w);
+    return traversal_key(eye, glm::ivec3(glm::round(placement.extent)), placement.spacing());
 }
 
 EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance) {

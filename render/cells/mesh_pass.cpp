@@ -13,22 +13,23 @@ constexpr GLuint kStylesUnit = 8; ///< of mesh.frag
 
 constexpr GLint kFirstVertices = 1; ///< of mesh.vert
 
-MeshPass::MeshPass(const Gl& gl, bool two_views_at_once)
+MeshPass::MeshPass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude)
     : gl_(&gl), vertex_array_(gl), styles_(gl), order_(gl), styles_texture_(gl, GL_TEXTURE_BUFFER) {
     for (const Kind kind : {Kind::plain, Kind::styled, Kind::blended})
         for (const Way way : {Way::plain, Way::near, Way::small})
             programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
-                make_programs(kind, way, two_views_at_once && kind != Kind::blended);
+                make_programs(kind, way, two_views_at_once && kind != Kind::blended, grid_prelude);
     gl.EnableVertexArrayAttrib(vertex_array_.name(), 0);
     gl.VertexArrayAttribIFormat(vertex_array_.name(), 0, 4, GL_UNSIGNED_INT, 0);
     gl.VertexArrayAttribBinding(vertex_array_.name(), 0, 0);
 }
 
-MeshPass::Programs MeshPass::make_programs(Kind kind, Way way, bool two_views_at_once) const {
+MeshPass::Programs MeshPass::make_programs(Kind kind, Way way, bool two_views_at_once,
+                                           const std::string& grid_prelude) const {
     // What blends is always asked how near it is.
     if (kind == Kind::blended && way != Way::plain)
         return {};
-    const std::string prelude = std::string(kind == Kind::plain ? "" : "#define STYLES\n") +
+    const std::string prelude = grid_prelude + (kind == Kind::plain ? "" : "#define STYLES\n") +
                                 (kind == Kind::blended ? "#define BLENDED\n" : "") +
                                 (way == Way::near    ? "#define NEAR\n"
                                  : way == Way::small ? "#define LIT_AT_VERTICES\n"

@@ -4,6 +4,7 @@
 #include "render/cells/cell_buffers.h"
 
 #include <glm/vec4.hpp>
+#include <string>
 
 #include <array>
 #include <cstddef>
@@ -17,8 +18,9 @@ namespace isochron::render {
 class MeshPass {
   public:
     /// @param two_views_at_once also makes the programs that draw two views in one pass
+    /// @param grid_prelude see CellPass
     /// @throws Error when a shader does not compile
-    MeshPass(const Gl& gl, bool two_views_at_once);
+    MeshPass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude);
 
     /// How triangles are drawn, apart from their order.
     struct Look {
@@ -42,7 +44,8 @@ class MeshPass {
     enum class Way : std::uint8_t { plain, near, small }; ///< of Look
     /// [views - 1]
     using Programs = std::array<std::optional<Program>, 2>;
-    Programs make_programs(Kind kind, Way way, bool two_views_at_once) const;
+    Programs make_programs(Kind kind, Way way, bool two_views_at_once,
+                           const std::string& grid_prelude) const;
     GLuint program(Kind kind, const Look& look, std::size_t views) const;
     void find_styles(const CellBuffers& cells);
     void tell_surfaces(GLuint program, const CellBuffers& cells) const;

@@ -6,7 +6,16 @@ namespace isochron::render {
 Placement Placement::of(const index::Grid& grid, const glm::dmat4& room_from_physical) {
     const auto cells = grid.cells();
     return {glm::mat4(room_from_physical * grid.physical_from_index()),
-            glm::mat3(room_from_physical), glm::vec3(cells[0], cells[1], cells[2])};
+            glm::mat3(room_from_physical), glm::vec3(cells[0], cells[1], cells[2]),
+            grid.rectilinear() ? std::optional(grid) : std::nullopt};
+}
+
+glm::vec3 Placement::index_at(const glm::vec3& even) const {
+    glm::vec3 index = even;
+    for (int axis = 0; rectilinear && axis < 3; ++axis)
+        index[axis] = static_cast<float>(
+            rectilinear->index_at(axis, even[axis] * rectilinear->spacing[axis]));
+    return index;
 }
 
 } // namespace isochron::render

@@ -9,14 +9,19 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include <optional>
+
 namespace isochron::render {
 
 struct Placement {
-    glm::mat4 room_from_index{1.0f};    ///< affine, from vertex index coordinates; may mirror
+    /// Affine, from even coordinates (`index::Grid::physical_from_index`): those of vertices' indices
+    /// where the grid is regular. May mirror.
+    glm::mat4 room_from_index{1.0f};
     glm::mat3 room_from_physical{1.0f}; ///< linear part, for normals: rotation times scale
-    glm::vec3 extent{1.0f};             ///< the volume spans [0, extent] in index coordinates
+    glm::vec3 extent{1.0f};             ///< the volume spans [0, extent] in even coordinates
+    std::optional<index::Grid> rectilinear = {}; ///< the grid if it is
 
-    /// Size of the voxels in the room [m].
+    /// Mean size of the voxels in the room [m].
     glm::vec3 spacing() const {
         const glm::mat3 axes(room_from_index);
         return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
@@ -26,6 +31,9 @@ struct Placement {
     glm::mat3 index_from_normal() const {
         return glm::transpose(glm::inverse(room_from_physical) * glm::mat3(room_from_index));
     }
+
+    /// Vertex index coordinates from even ones.
+    glm::vec3 index_at(const glm::vec3& even) const;
 
     /// Multiplies in double precision, as physical origins may be far away.
     /// @param room_from_physical rotation, uniform scale and translation

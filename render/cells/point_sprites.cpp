@@ -29,7 +29,7 @@ bool nearly_even(const glm::vec3& spacing) {
 
 bool points_serve(const View& view, const Placement& placement, float radius, float reach,
                   float largest_point) {
-    if (!nearly_even(placement.spacing()))
+    if (placement.rectilinear || !nearly_even(placement.spacing()))
         return false;
     const glm::mat4 clip_from_index =
         view.clip_from_eye * view.eye_from_room * placement.room_from_index;

@@ -11,7 +11,7 @@ namespace isochron::render {
 /// volume could have may cross an edge, or come so near to the eye's plane that its outline is no
 /// ellipse.
 /// A point is as wide as the longest side of the footprint, so with very uneven spacing quads are
-/// smaller, and this is false.
+/// smaller, and this is false; so it is on a rectilinear grid.
 /// @param radius of the footprint, voxels
 /// @param reach of its outline, in radii: 1 for the ellipse itself
 /// @param largest_point widest point that the driver draws, pixels

@@ -7,16 +7,18 @@
 
 namespace isochron::render {
 
-SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once) : gl_(&gl) {
+SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude)
+    : gl_(&gl) {
     const std::vector sources{shader_file("surface.vert"), shader_file("surface.frag")};
     for (const bool each_sample : {false, true})
         for (const bool blended : {false, true})
             for (const bool two : {false, true})
                 if (!two || two_views_at_once)
-                    programs_[each_sample][blended][two] = link_program(
-                        gl, sources,
-                        std::string(two ? kTwoEyes : "") + (blended ? "#define BLENDED\n" : "") +
-                            (each_sample ? "#define EACH_SAMPLE\n" : ""));
+                    programs_[each_sample][blended][two] =
+                        link_program(gl, sources,
+                                     grid_prelude + std::string(two ? kTwoEyes : "") +
+                                         (blended ? "#define BLENDED\n" : "") +
+                                         (each_sample ? "#define EACH_SAMPLE\n" : ""));
 }
 
 void SurfacePass::draw(const QuadIndices& quads, const CellBuffers& cells, bool blended,

@@ -7,14 +7,16 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 
 namespace isochron::render {
 
 class SurfacePass {
   public:
     /// @param two_views_at_once also makes the programs that draw two views in one pass
+    /// @param grid_prelude see CellPass
     /// @throws Error when a shader does not compile
-    SurfacePass(const Gl& gl, bool two_views_at_once);
+    SurfacePass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude);
 
     /// Draws with the frame, cells, orders and viewports that CellPass has bound, and its depth and
     /// blend state. The fragment shader writes the surface's own depth; glDepthRange has no effect.

@@ -14,6 +14,7 @@ layout(binding = 0) uniform usamplerBuffer cells;
 #include "frame.glsl"
 #include "pixels.glsl"
 #include "cell_order.glsl"
+#include "cell_place.glsl"
 #include "lighting.glsl"
 #include "appearance.glsl"
 #include "plane.glsl"
@@ -56,15 +57,16 @@ void main() {
     disc = kCorners[gl_VertexID & 3];
 #endif
     uvec3 cell = texelFetch(cells, slot).xyz;
-    vec3 middle = vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5;
+    ivec3 place = ivec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu);
     vec3 normal = plane_normal(cell.z);
-    Splat splat = splat_of(middle, normal, cell.z);
-    vec4 center = vec4(splat.center, 1.0);
+    Splat splat = splat_of(cell_size(place), normal, cell.z);
+    vec4 center = vec4(cell_middle(place) + splat.size * splat.center, 1.0);
 
     uint style = cell.y >> 16;
     vec3 in_eye = (EYE(eye_from_index) * center).xyz;
     vec3 lit = shade(in_eye, normal, base_color(style));
-    lit *= unshadowed(center.xyz, toward_eye_in_index(center.xyz), normal, style & 7u);
+    lit *= unshadowed(vec3(place) + 0.5 + splat.center, toward_eye_in_index(center.xyz), splat.size, normal,
+                      style & 7u);
     shaded = vec4(written(lit), surfaces[style & 7u].a * near_share(in_eye));
 
     if (!blended && shaded.a <= evenly(hash_of(cell))) {
@@ -77,7 +79,7 @@ void main() {
     float d = p.w * p.w - form(splat, row_w, row_w);
     vec3 from_center = EYE(eye_in_index).xyz - center.xyz;
     if (soft_near_eye && EYE(eye_in_index).w != 0.0)
-        shaded.a *= smoothstep(1.0, 2.0, length(from_center) / radius);
+        shaded.a *= smoothstep(1.0, 2.0, length(from_center / splat.size) / radius);
 
     if (p.w > 0.0 && d > 0.1 * p.w * p.w) {
         // Coordinates relative to the center's image keep small ellipses precise.
@@ -114,7 +116,7 @@ void main() {
 #ifndef POINTS // points are not used if a cell comes that near
     } else {
         // The eye in coordinates in which the ellipsoid is the unit sphere.
-        vec3 eye = stretched(splat, from_center, 1.0 / splat.half_axes);
+        vec3 eye = stretched(splat, from_center / splat.size, 1.0 / splat.half_axes);
         float eye_distance2 = dot(eye, eye);
         if (EYE(eye_in_index).w == 0.0 || eye_distance2 <= 1.0) {
             gl_Position = vec4(0, 0, -2, 1); // the eye is inside: draw nothing
@@ -129,7 +131,7 @@ void main() {
         vec3 e1 = normalize(cross(eye, least));
         vec3 e2 = normalize(cross(eye, e1));
         vec3 at = along * eye + size * (disc.x * e1 + disc.y * e2);
-        vec4 q = to_pixels(vec4(center.xyz + stretched(splat, at, splat.half_axes), 1.0));
+        vec4 q = to_pixels(vec4(center.xyz + splat.size * stretched(splat, at, splat.half_axes), 1.0));
         gl_Position = vec4(q.xy * EYE(clip_per_pixel).xy, q.zw);
 #endif
     }

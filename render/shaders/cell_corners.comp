@@ -38,15 +38,13 @@ void main() {
     corner_values[2u * to] = vec4(row_11.yz, row_21.yz) - level;
     corner_values[2u * to + 1u] = vec4(row_12.yz, row_22.yz) - level;
     // Differences at the two vertices of a row, for each of the four rows.
-    vec2 wx = difference_weights(cell.x, vertices.x);
-    vec2 wy = difference_weights(cell.y, vertices.y);
-    vec2 wz = difference_weights(cell.z, vertices.z);
-    write_row(4u * to, wx * (row_11.zw - row_11.xy), wy.x * (row_21.yz - row_01),
-              wz.x * (row_12.yz - row_10));
-    write_row(4u * to + 1u, wx * (row_21.zw - row_21.xy), wy.y * (row_31 - row_11.yz),
-              wz.x * (row_22.yz - row_20));
-    write_row(4u * to + 2u, wx * (row_12.zw - row_12.xy), wy.x * (row_22.yz - row_02),
-              wz.y * (row_13 - row_11.yz));
-    write_row(4u * to + 3u, wx * (row_22.zw - row_22.xy), wy.y * (row_32 - row_12.yz),
-              wz.y * (row_23 - row_21.yz));
+    Slopes x = slopes_along(0, cell), y = slopes_along(1, cell), z = slopes_along(2, cell);
+    write_row(4u * to, in_row(x, row_11), at_low(y, row_01, row_11.yz, row_21.yz),
+              at_low(z, row_10, row_11.yz, row_12.yz));
+    write_row(4u * to + 1u, in_row(x, row_21), at_high(y, row_11.yz, row_21.yz, row_31),
+              at_low(z, row_20, row_21.yz, row_22.yz));
+    write_row(4u * to + 2u, in_row(x, row_12), at_low(y, row_02, row_12.yz, row_22.yz),
+              at_high(z, row_11.yz, row_12.yz, row_13));
+    write_row(4u * to + 3u, in_row(x, row_22), at_high(y, row_12.yz, row_22.yz, row_32),
+              at_high(z, row_21.yz, row_22.yz, row_23));
 }

@@ -17,7 +17,7 @@ uint byte_of(float offset) {
 }
 
 // Distance from the cell's middle at which the value, which rises along the vector of differences
-// `d`, reaches the isovalue [voxels].
+// `d` per cell, reaches the isovalue [voxels].
 float rise_along(vec3 d, uint slot) {
     uint surface = surface_of(slot);
     float level = levels[surface >> 2][surface & 3u];
@@ -37,16 +37,13 @@ void main() {
         return;
     ivec3 cell = cell_of(slot);
     read_around(cell);
-    vec2 wx = difference_weights(cell.x, vertices.x);
-    vec2 wy = difference_weights(cell.y, vertices.y);
-    vec2 wz = difference_weights(cell.z, vertices.z);
+    Slopes along_x = slopes_along(0, cell), along_y = slopes_along(1, cell), along_z = slopes_along(2, cell);
     // Take differences before sums: values may be large and close to each other.
-    vec2 x = wx * ((row_11.zw - row_11.xy) + (row_21.zw - row_21.xy) +
-                   (row_12.zw - row_12.xy) + (row_22.zw - row_22.xy));
-    vec2 y = wy.x * ((row_21.yz - row_01) + (row_22.yz - row_02)) +
-             wy.y * ((row_31 - row_11.yz) + (row_32 - row_12.yz));
-    vec2 z = wz.x * ((row_12.yz - row_10) + (row_22.yz - row_20)) +
-             wz.y * ((row_13 - row_11.yz) + (row_23 - row_21.yz));
+    vec2 x = in_row(along_x, row_11) + in_row(along_x, row_21) + in_row(along_x, row_12) + in_row(along_x, row_22);
+    vec2 y = (at_low(along_y, row_01, row_11.yz, row_21.yz) + at_low(along_y, row_02, row_12.yz, row_22.yz)) +
+             (at_high(along_y, row_11.yz, row_21.yz, row_31) + at_high(along_y, row_12.yz, row_22.yz, row_32));
+    vec2 z = (at_low(along_z, row_10, row_11.yz, row_12.yz) + at_low(along_z, row_20, row_21.yz, row_22.yz)) +
+             (at_high(along_z, row_11.yz, row_12.yz, row_13) + at_high(along_z, row_21.yz, row_22.yz, row_23));
     vec3 d = vec3(x.x + x.y, y.x + y.y, z.x + z.y);
     float most = max(max(abs(d.x), abs(d.y)), abs(d.z));
     uint word = 0u;
@@ -57,7 +54,7 @@ void main() {
         vec2 at = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
         vec2 folded = (1.0 - abs(at.yx)) * vec2(at.x < 0.0 ? -1.0 : 1.0, at.y < 0.0 ? -1.0 : 1.0);
         at = n.z < 0.0 ? folded : at;
-        word = coordinate(at.x) | coordinate(at.y) << 12 | byte_of(-rise_along(d, slot));
+        word = coordinate(at.x) | coordinate(at.y) << 12 | byte_of(-rise_along(cell_size(cell) * d, slot));
     }
     points[3u * slot + 2u] = word;
 }

@@ -42,6 +42,12 @@ layout(std140, binding = 0) uniform Frame {
     vec4 surroundings_size; // its places along x, y and z of a surface, and of how many
 };
 
+// A normal in even coordinates, of any length.
+vec3 to_index(vec3 normal) {
+    return vec3(dot(index_from_normal[0].xyz, normal), dot(index_from_normal[1].xyz, normal),
+                dot(index_from_normal[2].xyz, normal));
+}
+
 #ifdef TWO_EYES
 // Reading both and selecting one is cheaper than an index that differs between invocations.
 #define EYE(field) (EYE_INDEX == 0 ? eyes[0].field : eyes[1].field)

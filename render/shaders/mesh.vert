@@ -3,6 +3,7 @@
 
 #include "frame.glsl"
 #include "pixels.glsl"
+#include "cell_place.glsl"
 #include "surroundings.glsl"
 #ifdef LIT_AT_VERTICES
 #include "lighting.glsl"
@@ -32,14 +33,16 @@ vec3 unpacked(uint word) {
 
 void main() {
     start_eye();
-    vec3 low = vec3(vertex.x & 0xffffu, vertex.x >> 16, vertex.y & 0xffffu);
+    ivec3 low = ivec3(vertex.x & 0xffffu, vertex.x >> 16, vertex.y & 0xffffu);
     uint axis = vertex.y >> 16;
-    vec4 at = vec4(low + float(vertex.z) / 2147483648.0 * vec3(axis == 0u, axis == 1u, axis == 2u), 1.0);
+    vec3 in_cell = float(vertex.z) / 2147483648.0 * vec3(axis == 0u, axis == 1u, axis == 2u);
+    vec3 size = cell_size(low);
+    vec4 at = vec4(vertex_place(low) + size * in_cell, 1.0);
     vec3 n = unpacked(vertex.w);
     uint surface = 0u;
     for (int i = 1; i < MOST_SURFACES; ++i)
         surface += uint(gl_VertexID >= first_vertices[i]);
-    float share = unshadowed(at.xyz, toward_eye_in_index(at.xyz), n, surface);
+    float share = unshadowed(vec3(low) + in_cell, toward_eye_in_index(at.xyz), size, n, surface);
     vec3 eye_at = (EYE(eye_from_index) * at).xyz, eye_normal = mat3(EYE(eye_from_physical)) * n;
 #ifdef LIT_AT_VERTICES
     lit = share * light_in_eye(eye_at, eye_normal);
@@ -49,7 +52,7 @@ void main() {
     light_share = share;
 #endif
 #ifdef NEAR
-    at_in_index = at.xyz;
+    at_in_index = vec3(low) + in_cell;
 #endif
     vec4 p = to_pixels(at);
     gl_Position = vec4(p.xy * EYE(clip_per_pixel).xy, p.zw);

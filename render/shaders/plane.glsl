@@ -1,10 +1,11 @@
-// The ellipsoid in index space that a cell's quad or splat stands for; needs frame.glsl.
+// The ellipsoid that a cell's quad or splat stands for, in the cell; needs frame.glsl.
 //
 // With PLANE it is flat: it lies on the plane of the surface in the cell (index::CellPlane), around
 // the part of that plane inside the cell. Without PLANE it is the voxel's sphere.
 
 struct Splat {
-    vec3 center;
+    vec3 center; // voxels from the cell's middle
+    vec3 size;   // of the cell, even coordinates
 #ifdef PLANE
     vec3 normal, lengthwise; // two axes; the third is at right angles to both
 #endif
@@ -32,9 +33,8 @@ vec3 signs(vec3 v) { return vec3(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0,
 // gives the ellipsoid's length; the second gives its width, whose ends overlap the neighbors'. From
 // the corner, a third of each distance along its edge leads to a point near the middle of the
 // plane's part in the cell.
-Splat splat_of(vec3 middle, vec3 normal, uint word) {
-    vec3 n = vec3(dot(index_from_normal[0].xyz, normal), dot(index_from_normal[1].xyz, normal),
-                  dot(index_from_normal[2].xyz, normal));
+Splat splat_of(vec3 voxel, vec3 normal, uint word) {
+    vec3 n = voxel * to_index(normal);
     bool flat_one = dot(n, n) > 0.0;
     n = flat_one ? normalize(n) : vec3(0, 0, 1);
     float offset = 0.87 / 127.0 * float(int(word) >> 24);
@@ -47,24 +47,26 @@ Splat splat_of(vec3 middle, vec3 normal, uint word) {
     at += (offset - dot(n, at)) * n;
     vec3 edge = size.x == least ? vec3(1, 0, 0) : size.y == least ? vec3(0, 1, 0) : vec3(0, 0, 1);
     vec2 lengths = clamp(rest * vec2(kLengthwise / least, 1.0 / median), kLeastWidth, 1.0);
-    return Splat(middle + (flat_one ? at : vec3(0)), n, normalize(edge - dot(edge, n) * n),
+    return Splat(flat_one ? at : vec3(0), voxel, n, normalize(edge - dot(edge, n) * n),
                  radius * (flat_one ? vec3(kThickness, lengths) : vec3(1)));
 }
 
-// The bilinear form of the ellipsoid's shape: u . v for the unit sphere.
+// The bilinear form of the ellipsoid's shape in even coordinates: u . v for the unit sphere.
 float form(Splat s, vec3 u, vec3 v) {
+    u *= s.size;
+    v *= s.size;
     vec3 squares = s.half_axes * s.half_axes;
     return squares.z * dot(u, v) + (squares.x - squares.z) * dot(u, s.normal) * dot(v, s.normal) +
            (squares.y - squares.z) * dot(u, s.lengthwise) * dot(v, s.lengthwise);
 }
 
-// Stretches a vector along the ellipsoid's axes.
+// Stretches a vector in the cell along the ellipsoid's axes.
 vec3 stretched(Splat s, vec3 v, vec3 by) {
     return by.z * v + (by.x - by.z) * dot(v, s.normal) * s.normal +
            (by.y - by.z) * dot(v, s.lengthwise) * s.lengthwise;
 }
 #else
-Splat splat_of(vec3 middle, vec3 normal, uint word) { return Splat(middle, vec3(radius)); }
-float form(Splat s, vec3 u, vec3 v) { return s.half_axes.x * s.half_axes.x * dot(u, v); }
+Splat splat_of(vec3 voxel, vec3 normal, uint word) { return Splat(vec3(0), voxel, vec3(radius)); }
+float form(Splat s, vec3 u, vec3 v) { return s.half_axes.x * s.half_axes.x * dot(s.size * u, s.size * v); }
 vec3 stretched(Splat s, vec3 v, vec3 by) { return by * v; }
 #endif

@@ -42,10 +42,14 @@ Ray ray_in_cell() {
     vec3 direction = ahead.xyz + perspective * (pixel.x * right + pixel.y * up);
     vec2 shift = pixel * center.w - center.xy;
     vec3 origin = shift.x * right + shift.y * up;
+#ifdef UNEVEN
+    direction /= voxel;
+    origin /= voxel;
+#endif
 
-    vec3 size = abs(direction);
-    float tiny = 1e-8 * max(size.x, max(size.y, size.z)); // replaces 0, as it is divided by
-    direction = mix(direction, vec3(tiny), lessThan(size, vec3(tiny)));
+    vec3 length_along = abs(direction);
+    float tiny = 1e-8 * max(length_along.x, max(length_along.y, length_along.z)); // replaces 0, as it is divided by
+    direction = mix(direction, vec3(tiny), lessThan(length_along, vec3(tiny)));
     vec3 inverse = 1.0 / direction;
     vec3 middle = -origin * inverse, reach = kHalf * abs(inverse);
     vec3 enter = middle - reach, leave = middle + reach;
@@ -113,11 +117,17 @@ float depth_at(Ray ray, float s) {
 
 vec3 place_at(Ray ray, float s) { return ray.middle + s * ray.half_chord; }
 
-vec3 in_eye(vec3 p) { return center_in_eye + mat3(EYE(eye_from_index)) * p; }
+#ifndef UNEVEN
+const vec3 voxel = vec3(1);
+#define center_place center_in_index
+#endif
+
+vec3 in_eye(vec3 p) { return center_in_eye + mat3(EYE(eye_from_index)) * (voxel * p); }
 
 vec3 light_at(vec3 p) {
-    vec3 normal = gradient(p), at = center_in_index + p;
-    float share = unshadowed(at, toward_eye_in_index(at), normal, surface);
+    vec3 normal = gradient(p);
+    vec3 toward_eye = toward_eye_in_index(center_place + voxel * p);
+    float share = unshadowed(center_in_index + p, toward_eye, voxel, normal, surface);
     return written(share * shade(in_eye(p), normal, base.rgb));
 }
 

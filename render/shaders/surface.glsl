@@ -11,7 +11,10 @@ OF_CELL vec4 center; // in pixels from the middle of the viewport times w, z and
 OF_CELL vec3 center_in_eye;
 OF_CELL uint hash;
 OF_CELL uint surface;
-OF_CELL vec3 center_in_index;
+OF_CELL vec3 center_in_index; // vertex index coordinates
+#ifdef UNEVEN
+OF_CELL vec3 voxel, center_place; // the cell's size and middle, even coordinates
+#endif
 OF_CELL vec4 base; // color in linear light, opacity
 // Polynomials of the trilinear interpolation, with coefficients of 1, x, y, z and of xy, xz, yz,
 // xyz:

@@ -12,6 +12,7 @@ layout(binding = 4) uniform usamplerBuffer corner_gradients;
 #include "frame.glsl"
 #include "pixels.glsl"
 #include "cell_order.glsl"
+#include "cell_place.glsl"
 #include "srgb.glsl"
 #include "appearance.glsl"
 #include "surface.glsl"
@@ -120,12 +121,12 @@ vec3 least_axis(vec3 v) {
 
 // A quad's corner in clip space. Its depth is not used, and keeps away from the near and far
 // planes.
-vec4 corner_around(Slab slab, vec3 cell_center, vec2 corner) {
-    vec4 seen = to_pixels(vec4(cell_center + slab.middle, 1.0));
-    vec3 row_w = EYE(row_w).xyz;
+vec4 corner_around(Slab slab, vec3 cell_center, vec3 voxel, vec2 corner) {
+    vec4 seen = to_pixels(vec4(cell_center + voxel * slab.middle, 1.0));
+    vec3 row_w = voxel * EYE(row_w).xyz;
     // The projection to the screen, turned so that a long cell gets a narrow rectangle.
     vec2 at = seen.xy / seen.w;
-    vec3 right = EYE(row_x).xyz - at.x * row_w, up = EYE(row_y).xyz - at.y * row_w;
+    vec3 right = voxel * EYE(row_x).xyz - at.x * row_w, up = voxel * EYE(row_y).xyz - at.y * row_w;
     vec3 lengths = right * right + up * up;
     vec2 longest = lengths.x >= lengths.y && lengths.x >= lengths.z ? vec2(right.x, up.x)
                    : lengths.y >= lengths.z                         ? vec2(right.y, up.y)
@@ -135,7 +136,7 @@ vec4 corner_around(Slab slab, vec3 cell_center, vec2 corner) {
 
     // For a box that reaches behind the eye's plane: a projection along the direction to the box's
     // nearest point, for which the whole box is ahead of the eye.
-    vec3 to_middle = cell_center + slab.middle - EYE(eye_in_index).xyz;
+    vec3 to_middle = (cell_center + voxel * slab.middle - EYE(eye_in_index).xyz) / voxel;
     vec3 nearest = to_middle - clamp(to_middle, -slab.half_size, slab.half_size);
     bool around_eye = nearest == vec3(0);
     vec3 ahead = normalize(around_eye ? vec3(1) : nearest);
@@ -153,7 +154,7 @@ vec4 corner_around(Slab slab, vec3 cell_center, vec2 corner) {
     enclose(to, slab, least, most);
     vec2 q = mix(least, most, 0.5 + 0.5 * corner);
     vec2 pixel = at + q.x * u + q.y * v;
-    vec4 towards = to_pixels(vec4(ahead + (offset.x + q.x) * e1 + (offset.y + q.y) * e2, 0.0));
+    vec4 towards = to_pixels(vec4(voxel * (ahead + (offset.x + q.x) * e1 + (offset.y + q.y) * e2), 0.0));
     if (in_front)
         return vec4(pixel * EYE(clip_per_pixel).xy * seen.w, 0.0, seen.w);
     return around_eye ? vec4(corner, 0.0, 1.0) : vec4(towards.xy * EYE(clip_per_pixel).xy, 0.0, towards.w);
@@ -163,13 +164,19 @@ void main() {
     start_eye();
     int slot = slot_in_order(gl_VertexID >> 2);
     uvec3 cell = texelFetch(cells, slot).xyz;
-    vec4 at = vec4(vec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu) + 0.5, 1.0);
+    ivec3 place = ivec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu);
+    vec3 of_cell = cell_size(place);
+    vec4 at = vec4(cell_middle(place), 1.0);
     center = to_pixels(at);
     hash = hash_of(cell);
     center_in_eye = (EYE(eye_from_index) * at).xyz;
     uint style = cell.y >> 16;
     surface = style & 7u;
-    center_in_index = at.xyz;
+    center_in_index = vec3(place) + 0.5;
+#ifdef UNEVEN
+    voxel = of_cell;
+    center_place = at.xyz;
+#endif
     base = vec4(base_color(style), surfaces[style & 7u].a);
 
     vec4 low = texelFetch(corner_values, 2 * slot), high = texelFetch(corner_values, 2 * slot + 1);
@@ -186,5 +193,5 @@ void main() {
     bool has_surface = x.x <= x.y && y.x <= y.y && z.x <= z.y; // false if a value is not finite
     has_surface = has_surface && (drawn_surfaces >> (style & 7u) & 1) != 0;
     Slab slab = slab_in(vec3(x.x, y.x, z.x) - kMargin, vec3(x.y, y.y, z.y) + kMargin);
-    gl_Position = has_surface ? corner_around(slab, at.xyz, kCorners[gl_VertexID & 3]) : vec4(0, 0, 0, 1);
+    gl_Position = has_surface ? corner_around(slab, at.xyz, of_cell, kCorners[gl_VertexID & 3]) : vec4(0, 0, 0, 1);
 }

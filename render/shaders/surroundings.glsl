@@ -12,20 +12,18 @@ const float kPlane = 0.125;     // what is found so far before a plane,
 const float kSteepness = 2.0;   // and how fast what is more than that darkens,
 const float kDarkest = 0.85;    // at most
 
-vec3 to_index(vec3 normal) {
-    return vec3(dot(index_from_normal[0].xyz, normal), dot(index_from_normal[1].xyz, normal),
-                dot(index_from_normal[2].xyz, normal));
-}
-
 // The share of light that reaches a point of the surface.
-// @param at, toward_eye index space
+// @param at vertex index coordinates
+// @param toward_eye even coordinates
+// @param size of the cell, even coordinates
 // @param normal physical space, towards lower values
-float unshadowed(vec3 at, vec3 toward_eye, vec3 normal, uint surface) {
+float unshadowed(vec3 at, vec3 toward_eye, vec3 size, vec3 normal, uint surface) {
     vec3 n = to_index(normal);
+    bool outside = dot(n, toward_eye) >= 0.0;
+    n *= size;
     float size2 = dot(n, n);
     if (surroundings.w == 0.0 || size2 == 0.0)
         return 1.0;
-    bool outside = dot(n, toward_eye) >= 0.0;
     n *= (outside ? kBefore : -kBefore) * inversesqrt(size2);
     vec3 places = surroundings_size.xyz;
     vec3 place = clamp(at * surroundings.xyz + n, vec3(0), places - 1.0) + 0.5;

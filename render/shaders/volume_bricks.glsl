@@ -1,6 +1,8 @@
 // Reads the values around a cell from volume bricks; needs BRICKS, the sampler of their type.
 // A volume brick has 8^3 vertices (index/extraction/volume_bricks.h), x fastest.
 
+#include "cell_place.glsl"
+
 layout(binding = 0) uniform usamplerBuffer pages; // slots by brick id
 layout(binding = 1) uniform BRICKS bricks;        // held values by slot
 
@@ -82,11 +84,35 @@ void read_around(ivec3 cell) {
 #undef START
 }
 
-// Weights of the differences at a cell's two vertices along one axis: 0.5 for central differences,
-// 1 for one-sided ones at the border.
-vec2 difference_weights(int cell, int count) {
-    return vec2(cell == 0 ? 1.0 : 0.5, cell + 2 == count ? 1.0 : 0.5);
+// Slopes per even coordinate at a cell's two vertices along one axis, from the values there and
+// before and behind them.
+#ifdef UNEVEN
+struct Slopes {
+    vec2 before, behind; // index::Grid::SlopeWeights of the two vertices
+};
+Slopes slopes_along(int axis, ivec3 cell) {
+    ivec3 next = cell + 1;
+    return Slopes(vec2(of_axes(cell, 2)[axis], of_axes(next, 2)[axis]),
+                  vec2(of_axes(cell, 3)[axis], of_axes(next, 3)[axis]));
 }
+vec2 in_row(Slopes s, vec4 row) { return s.before * (row.yz - row.xy) + s.behind * (row.zw - row.yz); }
+vec2 at_low(Slopes s, vec2 before, vec2 here, vec2 behind) {
+    return s.before.x * (here - before) + s.behind.x * (behind - here);
+}
+vec2 at_high(Slopes s, vec2 before, vec2 here, vec2 behind) {
+    return s.before.y * (here - before) + s.behind.y * (behind - here);
+}
+#else
+struct Slopes {
+    vec2 weights; // 0.5 for central differences, 1 for one-sided ones at the border
+};
+Slopes slopes_along(int axis, ivec3 cell) {
+    return Slopes(vec2(cell[axis] == 0 ? 1.0 : 0.5, cell[axis] + 2 == vertices[axis] ? 1.0 : 0.5));
+}
+vec2 in_row(Slopes s, vec4 row) { return s.weights * (row.zw - row.xy); }
+vec2 at_low(Slopes s, vec2 before, vec2 here, vec2 behind) { return s.weights.x * (behind - before); }
+vec2 at_high(Slopes s, vec2 before, vec2 here, vec2 behind) { return s.weights.y * (behind - before); }
+#endif
 
 // Neither infinite nor NaN; works even if the compiler assumes that these do not occur.
 bool is_finite(vec3 v) {

@@ -97,10 +97,17 @@ Gl listening_driver() {
 /// Everything that links programs, in each of its variants.
 void make_all_passes(const Gl& gl) {
     using index::ValueType;
-    for (const ValueType held : {ValueType::u8, ValueType::i16, ValueType::f32}) {
-        const render::CellCompute compute(gl, {.vertices = {2, 2, 2}}, held);
-    }
+    const index::Grid even{.vertices = {2, 2, 2}};
+    index::Grid uneven{.vertices = {3, 2, 2}, .spacing = {1.5, 1, 1}};
+    uneven.positions[0] = index::AxisPositions({0, 1, 3});
+    for (const index::Grid& grid : {even, uneven})
+        for (const ValueType held : {ValueType::u8, ValueType::i16, ValueType::f32}) {
+            const render::AxisTable axes(gl, grid);
+            const render::CellCompute compute(gl, grid, axes, held);
+        }
     const render::CellPass cells(gl), spheres(gl, {.shape = render::CellShape::voxel});
+    const render::CellPass uneven_cells(gl, {}, render::prelude_for(uneven)),
+        uneven_spheres(gl, {.shape = render::CellShape::voxel}, render::prelude_for(uneven));
     if (!cells.draws_two_views_at_once())
         throw render::Error("shader_texts: cells should be drawn for two eyes at once, too");
     const render::BackgroundPass background(gl);

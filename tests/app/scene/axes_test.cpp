@@ -47,6 +47,18 @@ TEST(Axes, RunInPhysicalCoordinatesAlongPhysicalAxes) {
     EXPECT_EQ(axis_scale(info, 1).high, 20);
 }
 
+TEST(Axes, AreCalledAsTheFileCallsThem) {
+    index::SeriesInfo info = info_of_box();
+    info.axis_names = {"depth", "grid_longitude (degrees)", ""};
+    EXPECT_EQ(axis_scale(info, 0).title, "depth [mm]");
+    EXPECT_EQ(axis_scale(info, 1).title, "grid_longitude (degrees)") << "a unit of its own";
+    EXPECT_EQ(axis_scale(info, 2).title, "z [mm]");
+    // The names are of axes of space, whatever the order in which values are stored.
+    info.grid.direction =
+        glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1));
+    EXPECT_EQ(axis_scale(info, 1).title, "depth [mm]");
+}
+
 TEST(Axes, ThatAreObliqueRunFromTheirFirstVertex) {
     index::SeriesInfo info = info_of_box();
     const double s = std::sqrt(0.5);

@@ -2,7 +2,6 @@
 #include "tests/index/formats/netcdf_writer.h"
 #include "tests/support/reader_fixtures.h"
 
-#include <glm/vec4.hpp>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -24,8 +23,7 @@ glm::dvec3 brightest(const std::filesystem::path& file) {
     const auto at = static_cast<std::uint32_t>(std::ranges::max_element(values) - values.begin());
     const auto [nx, ny, nz] = series->info().grid.vertices;
     EXPECT_EQ(nx * ny * nz, values.size());
-    const glm::dvec4 index(at % nx, at / nx % ny, at / (nx * ny), 1);
-    return glm::dvec3(series->info().grid.physical_from_index() * index);
+    return series->info().grid.physical({at % nx, at / nx % ny, at / (nx * ny)});
 }
 
 /// One bright value at the fourth x, the second y and the third z, whatever the order of the
@@ -188,6 +186,7 @@ TEST(NetcdfAxes, InOtherUnitsAreBroughtInProportionByAPowerOfTen) {
     const SeriesInfo& info = series->info();
     EXPECT_EQ(info.grid.spacing, glm::dvec3(2, 3, 4));
     EXPECT_EQ(info.length_unit, "");
+    EXPECT_THAT(info.axis_names, ElementsAre("lon (degrees)", "lat (degrees)", "height (m / 100)"));
     EXPECT_THAT(info.notes, ElementsAre("units differ: x (lon) degrees, y (lat) degrees, "
                                         "z (height) m / 100; --spacing sets other proportions"));
     ReadOptions options;
@@ -197,10 +196,10 @@ TEST(NetcdfAxes, InOtherUnitsAreBroughtInProportionByAPowerOfTen) {
     EXPECT_THAT(chosen->info().notes, IsEmpty());
 }
 
-TEST(NetcdfAxes, ThatAreNotUniformAreSpreadEvenlyAndSaySo) {
+TEST(NetcdfAxes, ThatAreNotUniformKeepTheirPositionsAndNames) {
     TestFolder folder;
     NetcdfWriter out(folder.path() / "stretched.nc", NC_CLASSIC_MODEL);
-    out.axis("x", {0, 1.01, 2, 3, 4}, "m"); // near enough
+    out.axis("x", {0, 1.01, 2, 3, 4}, "m"); // not worth a note
     out.axis("y", kY, "m");
     out.axis("z", {5, 6, 11}, "m");
     put_landmark(out, {"z", "y", "x"}, false);
@@ -208,9 +207,12 @@ TEST(NetcdfAxes, ThatAreNotUniformAreSpreadEvenlyAndSaySo) {
     const auto series = open_series({file});
     EXPECT_EQ(series->info().grid.spacing, glm::dvec3(1, 3, 3));
     EXPECT_EQ(series->info().grid.origin, glm::dvec3(0, 20, 5));
-    EXPECT_THAT(series->info().notes,
-                ElementsAre("z (z) is not uniform: vertices 1 to 5 m apart are shown evenly, 3 m "
-                            "apart; --resample makes it uniform"));
+    EXPECT_THAT(series->info().notes, ElementsAre("z (z) is not uniform: vertices 1 to 5 m apart"));
+    const index::Grid& grid = series->info().grid;
+    EXPECT_EQ(grid.positions[0].distances(), (std::vector<double>{0, 1.01, 2, 3, 4}));
+    EXPECT_TRUE(grid.positions[1].even());
+    EXPECT_EQ(grid.positions[2].distances(), (std::vector<double>{0, 1, 6}));
+    EXPECT_EQ(grid.physical({1, 0, 1}), glm::dvec3(1.01, 20, 6));
 }
 
 TEST(NetcdfAxes, OfLongitudesMayPassGreenwich) {

@@ -51,7 +51,8 @@ TEST_P(Bricks, ThePagesLeadToTheVolumeForEveryType) {
         Extractions extractions(values);
         const index::ValueType held = extractions.brick_values().held();
         BrickPool pool(gl_, values.grid, held);
-        const CellCompute compute(gl_, values.grid, held);
+        const AxisTable axes(gl_, values.grid);
+        const CellCompute compute(gl_, values.grid, axes, held);
         StagingRing ring(gl_, 8192);
         index::ExtractionPtr shown;
         for (int round = 0; round < 25; ++round) {
@@ -86,7 +87,8 @@ TEST_P(Bricks, WhatThePoolHasIsNotSentAgain) {
         });
     Extractions extractions(field.view());
     BrickPool pool(gl_, field.view().grid, ValueType::u8);
-    const CellCompute compute(gl_, field.view().grid, ValueType::u8);
+    const AxisTable axes(gl_, field.view().grid);
+    const CellCompute compute(gl_, field.view().grid, axes, ValueType::u8);
     StagingRing ring(gl_, 1 << 20);
     std::vector<CellId> all(field.view().grid.cell_count());
     for (std::size_t i = 0; i < all.size(); ++i)

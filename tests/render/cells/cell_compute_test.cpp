@@ -65,7 +65,14 @@ TEST_P(CellComputing, PlanesAreTheCpusForEveryTypeSpacingAndBorder) {
                 const TestField field({19, 10, 17}, 2, type,
                                       index::scaled(index::white_noise(random_), 50, 60),
                                       {slope, 3.0});
-                const StepValues values = turned(field.view(), spacing);
+                StepValues values = turned(field.view(), spacing);
+                if (spacing.x != 1.0 && slope < 0) // rectilinear
+                    values.grid.positions = {
+                        index::AxisPositions({0, 0.1, 0.3, 0.4, 0.8, 1.6, 2.1, 2.2, 3.9, 4.3, 4.4,
+                                              5.2, 5.3, 6.1, 6.4, 7.0, 7.9, 8.1, 9}),
+                        {},
+                        index::AxisPositions(
+                            {0, 1, 9, 14, 17, 19, 20, 23, 30, 36, 41, 43, 52, 66, 69, 71, 80})};
                 Extractions extractions(values);
                 std::vector<CellId> all(values.grid.cell_count());
                 for (std::size_t i = 0; i < all.size(); ++i)

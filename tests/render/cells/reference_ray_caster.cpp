@@ -41,7 +41,8 @@ void roots(const Bernstein& c, double from, double to, std::vector<double>& foun
 
 /// Where the segment from `a` to `b` meets planes of vertices within the volume, with both ends of
 /// its part in there; sorted.
-std::vector<double> crossings(const glm::dvec3& a, const glm::dvec3& b, const glm::ivec3& cells) {
+std::vector<double> crossings(const glm::dvec3& a, const glm::dvec3& b, const VertexField& field) {
+    const glm::ivec3 cells = field.cells();
     double from = 0.0, to = 1.0;
     std::vector<double> all;
     for (int axis = 0; axis < 3; ++axis) {
@@ -55,7 +56,7 @@ std::vector<double> crossings(const glm::dvec3& a, const glm::dvec3& b, const gl
         from = std::max(from, std::min(low, high));
         to = std::min(to, std::max(low, high));
         for (int plane = 0; plane <= cells[axis]; ++plane)
-            all.push_back((plane - a[axis]) / step);
+            all.push_back((field.place(axis, plane) - a[axis]) / step);
     }
     if (from >= to)
         return {};
@@ -85,24 +86,31 @@ glm::dvec3 ReferenceRayCaster::point(glm::dvec2 pixel, double depth) const {
 
 void ReferenceRayCaster::cast(glm::dvec2 pixel, bool first_only, std::vector<RayHit>& found) const {
     const glm::dvec3 near = point(pixel, 0.0), far = point(pixel, 1.0);
-    const std::vector<double> planes = crossings(near, far, field_->cells());
+    const std::vector<double> planes = crossings(near, far, *field_);
     std::vector<double> in_cell;
     for (std::size_t i = 0; i + 1 < planes.size(); ++i) {
         const glm::dvec3 a = glm::mix(near, far, planes[i]), b = glm::mix(near, far, planes[i + 1]);
-        const glm::ivec3 cell =
-            glm::clamp(glm::ivec3(glm::floor(0.5 * (a + b))), glm::ivec3(0), field_->cells() - 1);
-        const glm::dvec3 corner(cell);
+        const glm::dvec3 within = 0.5 * (a + b);
+        glm::ivec3 cell(0);
+        glm::dvec3 corner, size;
+        for (int axis = 0; axis < 3; ++axis) {
+            while (cell[axis] + 1 < field_->cells()[axis] &&
+                   field_->place(axis, cell[axis] + 1) <= within[axis])
+                ++cell[axis];
+            corner[axis] = field_->place(axis, cell[axis]);
+            size[axis] = field_->place(axis, cell[axis] + 1) - corner[axis];
+        }
         std::array<double, 4> f;
         for (int j = 0; j < 4; ++j)
-            f[j] = field_->value(cell, glm::mix(a, b, j / 3.0) - corner);
+            f[j] = field_->value(cell, (glm::mix(a, b, j / 3.0) - corner) / size);
         in_cell.clear();
         if (std::isfinite(f[0] + f[1] + f[2] + f[3]))
             roots(through(f), 0.0, 1.0, in_cell);
         for (const double t : in_cell) {
             const glm::dvec3 at = glm::mix(a, b, t);
             const glm::dvec4 clip = clip_from_index_ * glm::dvec4(at, 1.0);
-            found.push_back(
-                {at, 0.5 + 0.5 * clip.z / clip.w, cell, field_->gradient(cell, at - corner)});
+            found.push_back({at, 0.5 + 0.5 * clip.z / clip.w, cell,
+                             field_->gradient(cell, (at - corner) / size)});
             if (first_only)
                 return;
         }

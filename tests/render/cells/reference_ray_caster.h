@@ -15,7 +15,7 @@
 namespace isochron::render {
 
 struct RayHit {
-    glm::dvec3 at{0.0};     ///< vertex index coordinates
+    glm::dvec3 at{0.0};     ///< even coordinates
     double depth = 0.0;     ///< window depth, 0 to 1
     glm::ivec3 cell{0};     ///< that the ray was in
     glm::dvec3 normal{0.0}; ///< gradient interpolated between the cell's vertices, as VertexField's
@@ -33,7 +33,7 @@ class ReferenceRayCaster {
     std::vector<RayHit> hits(glm::dvec2 pixel) const;
     std::optional<RayHit> first_hit(glm::dvec2 pixel) const;
 
-    /// The point that window coordinates stand for, in vertex index coordinates.
+    /// The point that window coordinates stand for, in even coordinates.
     glm::dvec3 point(glm::dvec2 pixel, double depth) const;
 
   private:

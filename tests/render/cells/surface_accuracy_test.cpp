@@ -81,6 +81,36 @@ TEST_P(SurfaceAccuracy, OfASpacingOfOneToTen) {
     }
 }
 
+/// Vertices at distances that grow from one to the next, with gaps from `first` on.
+index::AxisPositions growing(std::uint32_t vertices, double first, double factor) {
+    std::vector<double> at{0.0};
+    for (double gap = first; at.size() < vertices; gap *= factor)
+        at.push_back(at.back() + gap);
+    return index::AxisPositions(std::move(at));
+}
+
+index::Grid stretched(index::Grid grid) {
+    grid.positions = {
+        growing(grid.vertices[0], 0.2, 1.12), {}, growing(grid.vertices[2], 3.0, 0.85)};
+    for (int axis : {0, 2})
+        grid.spacing[axis] =
+            grid.positions[std::size_t(axis)].distances().back() / grid.cells()[std::size_t(axis)];
+    return grid;
+}
+
+TEST_P(SurfaceAccuracy, OfARectilinearGrid) {
+    const TestField field({24, 20, 22}, 1, ValueType::f32, index::turbulence(random_, 24));
+    index::StepValues values = field.view();
+    values.grid = stretched(values.grid);
+    std::vector<View> views = outside();
+    views.push_back(perspective_view({0.1f, 0.05f, 0.1f}, direction())); // inside
+    views.back().clip_from_eye = glm::perspective(1.6f, 1.0f, 0.004f, 3.0f);
+    views.push_back(views.front());
+    views.back().clip_from_eye = glm::ortho(-0.8f, 0.7f, -0.6f, 0.9f, 0.2f, 5.0f);
+    expect_agreement("rectilinear", values, 0.03, views,
+                     glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(0.3, 0.5, 0.8)));
+}
+
 TEST_P(SurfaceAccuracy, FromInsideTheVolume) {
     const TestField field({24, 20, 22}, 1, ValueType::f32, index::turbulence(random_, 24));
     std::vector<View> views;

@@ -8,6 +8,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,7 +41,11 @@ class SurfaceTest : public GlTest {
     SurfacePicture draw(const VertexField& field, const Placement& placement,
                         std::span<const View> views, glm::ivec2 target_size,
                         const CellAppearance& appearance = {}) {
-        return draw(pass_, field, placement, views, target_size, appearance);
+        const bool uneven = field.values().grid.rectilinear();
+        if (uneven && !uneven_pass_)
+            uneven_pass_.emplace(normals_gl_, FootprintShapes{}, prelude_for(field.values().grid));
+        return draw(uneven ? *uneven_pass_ : pass_, field, placement, views, target_size,
+                    appearance);
     }
     SurfacePicture draw(const VertexField& field, const Placement& placement, const View& view) {
         return draw(field, placement, std::span(&view, 1), view.corner + view.size);
@@ -50,6 +55,7 @@ class SurfaceTest : public GlTest {
   private:
     Gl normals_gl_; ///< compiles `shade` to return the normal
     CellPass pass_;
+    std::optional<CellPass> uneven_pass_; ///< for rectilinear grids
 };
 
 } // namespace isochron::render

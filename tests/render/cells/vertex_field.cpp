@@ -24,7 +24,14 @@ glm::dvec3 VertexField::gradient(glm::ivec3 vertex) const {
         glm::ivec3 below = vertex, above = vertex;
         below[axis] = std::max(vertex[axis] - 1, 0);
         above[axis] = std::min(vertex[axis] + 1, cells_[axis]);
-        slope[axis] = (value(above) - value(below)) / (above[axis] - below[axis]);
+        const double to_below = place(axis, vertex[axis]) - place(axis, below[axis]);
+        const double to_above = place(axis, above[axis]) - place(axis, vertex[axis]);
+        const double fall = to_below > 0 ? (value(vertex) - value(below)) / to_below : 0;
+        const double rise = to_above > 0 ? (value(above) - value(vertex)) / to_above : 0;
+        // The slope of the parabola through the three; at the border there are two.
+        slope[axis] = to_below > 0 && to_above > 0
+                          ? (to_above * fall + to_below * rise) / (to_below + to_above)
+                          : fall + rise;
     }
     return -(physical_gradient_from_index_ * slope);
 }

@@ -22,6 +22,10 @@ class VertexField {
 
     /// Value less the isovalue.
     double value(glm::ivec3 vertex) const { return at_vertex_[index_of(vertex)]; }
+    /// Where vertices of a plane lie along an axis, in even coordinates.
+    double place(int axis, int vertex) const {
+        return values_.grid.distance(axis, vertex) / values_.grid.spacing[axis];
+    }
     /// Central differences, one-sided at the border, towards lower values, in physical space.
     glm::dvec3 gradient(glm::ivec3 vertex) const;
 

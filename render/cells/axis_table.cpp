@@ -1,0 +1,55 @@
+// Fills the table of a rectilinear grid's axes.
+#include "render/cells/axis_table.h"
+
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace isochron::render {
+namespace {
+
+constexpr GLuint kUnit = 10; ///< of cell_place.glsl
+
+} // namespace
+
+const char* prelude_for(const index::Grid& grid) {
+    return grid.rectilinear() ? "#define UNEVEN\n" : "";
+}
+
+AxisTable::AxisTable(const Gl& gl, const index::Grid& grid) : gl_(&gl) {
+    if (!grid.rectilinear())
+        return;
+    const std::size_t longest = std::ranges::max(grid.vertices);
+    std::vector<glm::vec4> texels(4 * longest, glm::vec4(0.0f));
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::uint32_t count = grid.vertices[static_cast<std::size_t>(axis)];
+        float& largest = largest_[axis] = 0.0f;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t cell = std::min(i, count - 2); // the last vertex has none behind it
+            const double low = grid.even_place(axis, cell);
+            const auto size = static_cast<float>(grid.even_place(axis, cell + 1) - low);
+            const auto weights = grid.slope_weights(axis, i);
+            glm::vec4* const of_vertex = &texels[std::size_t{4} * i];
+            of_vertex[0][axis] = static_cast<float>(grid.even_place(axis, i));
+            of_vertex[1][axis] = size;
+            of_vertex[2][axis] = static_cast<float>(weights.before);
+            of_vertex[3][axis] = static_cast<float>(weights.behind);
+            largest = std::max(largest, size);
+            smallest_ = std::min(smallest_, size);
+        }
+    }
+    buffer_.emplace(gl);
+    texture_.emplace(gl, GL_TEXTURE_BUFFER);
+    gl.NamedBufferData(buffer_->name(), static_cast<GLsizeiptr>(texels.size() * sizeof(glm::vec4)),
+                       texels.data(), GL_STATIC_DRAW);
+    gl.TextureBuffer(texture_->name(), GL_RGBA32F, buffer_->name());
+}
+
+void AxisTable::bind() const {
+    if (texture_)
+        gl_->BindTextureUnit(kUnit, texture_->name());
+}
+
+} // namespace isochron::render

@@ -73,6 +73,8 @@ enum class Action : std::uint8_t {
     axis_view,
     isometric_view,
     quality_paper,
+    exaggerate,
+    flatten,
     count
 };
 static_assert(static_cast<int>(Action::count) <= 64); // recordings keep one bit each of 64

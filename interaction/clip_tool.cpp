@@ -20,16 +20,11 @@ glm::dvec3 ahead_of(const Pose& ray) {
     return glm::normalize(glm::dquat(ray.orientation)) * glm::dvec3(0, 0, -1);
 }
 
-glm::dvec3 in_data(const Similarity& room_from_physical, const glm::dvec3& p) {
-    return glm::conjugate(room_from_physical.rotation) * (p - room_from_physical.translation) /
-           room_from_physical.scale;
-}
-
 /// The point in the room where a ray meets the plane within the data's box or just outside it.
 std::optional<glm::dvec3> met(const Pose& ray, const ClipPlane& plane, const ToolContext& now) {
     const Similarity& room = now.room_from_physical;
     const glm::dvec3 from(ray.position), way = ahead_of(ray);
-    const glm::dvec3 normal = room.rotation * plane.normal;
+    const glm::dvec3 normal = normal_in_room(room, plane.normal);
     const double rate = glm::dot(way, normal);
     if (rate == 0)
         return std::nullopt;
@@ -37,7 +32,7 @@ std::optional<glm::dvec3> met(const Pose& ray, const ClipPlane& plane, const Too
     if (!(along > 0))
         return std::nullopt;
     const glm::dvec3 at = from + along * way;
-    const glm::dvec3 in_box = now.session.data.in_box(in_data(room, at));
+    const glm::dvec3 in_box = now.session.data.in_box(in_physical(room, at));
     for (int axis = 0; axis < 3; ++axis)
         if (!(in_box[axis] >= -kBeside && in_box[axis] <= 1 + kBeside))
             return std::nullopt;
@@ -74,9 +69,9 @@ void ClipTool::move_with(const ToolHand& hand, const ToolContext& now, Commands&
     const Similarity before{transform(room, held_->plane.point), {1, 0, 0, 0}, 1.0};
     const Similarity after = carried(before, held_->hand, *hand.ray);
     ClipPlane plane = held_->plane;
-    plane.point = in_data(room, after.translation);
-    plane.normal = glm::normalize(glm::conjugate(room.rotation) *
-                                  (after.rotation * (room.rotation * held_->plane.normal)));
+    plane.point = in_physical(room, after.translation);
+    plane.normal = glm::normalize(
+        normal_in_physical(room, after.rotation * normal_in_room(room, held_->plane.normal)));
     if (plane != now.session.state.clip)
         commands.clip = plane;
 }
@@ -88,7 +83,7 @@ void ClipTool::pull_with(const ToolHand& hand, const ToolContext& now, Commands&
         const auto at = met(*hand.ray, shown, now);
         pulled_.reset();
         if (at)
-            pulled_ = Pulled{shown, *at, room.rotation * shown.normal};
+            pulled_ = Pulled{shown, *at, normal_in_room(room, shown.normal)};
     }
     if (!pulled_)
         return;
@@ -96,7 +91,7 @@ void ClipTool::pull_with(const ToolHand& hand, const ToolContext& now, Commands&
     if (!along)
         return;
     ClipPlane plane = pulled_->plane;
-    plane.point += (*along / room.scale) * plane.normal;
+    plane.point += (*along * physical_per_meter(room, plane.normal)) * plane.normal;
     if (plane != shown)
         commands.clip = plane;
 }
@@ -112,9 +107,9 @@ ToolOutcome ClipTool::update(std::span<const ToolHand> hands, const ToolContext&
                                    ? now.session.find_surface(*hand.ray)
                                    : std::nullopt;
             if (found)
-                outcome.commands.clip = ClipPlane{true, found->point.position,
-                                                  glm::conjugate(now.room_from_physical.rotation) *
-                                                      -ahead_of(*hand.ray)};
+                outcome.commands.clip =
+                    ClipPlane{true, found->point.position,
+                              normal_in_physical(now.room_from_physical, -ahead_of(*hand.ray))};
             else if (hand.chosen)
                 outcome.note = "no surface there to lay the clip plane through";
             continue;

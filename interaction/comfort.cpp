@@ -1,6 +1,8 @@
 // Computes vignette and fade from motion and tracking.
 #include "interaction/comfort.h"
 
+#include "interaction/navigation.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,9 +34,7 @@ double Comfort::wanted_vignette(const glm::dvec3& head, const Similarity& volume
     const glm::dquat turn = volume.rotation * glm::conjugate(before_.rotation);
     const double angle = 2 * std::acos(std::clamp(std::abs(turn.w), 0.0, 1.0));
     // The place in the data where the head is: where it was before the volume moved, and is now.
-    const glm::dvec3 in_data =
-        glm::conjugate(before_.rotation) * (head - before_.translation) / before_.scale;
-    const glm::dvec3 now = volume.translation + volume.scale * (volume.rotation * in_data);
+    const glm::dvec3 now = transform(volume, in_physical(before_, head));
     const double speed = glm::length(now - head) / seconds;
     return std::max(ramp(speed, options_.vignette_speed, options_.vignette_full),
                     ramp(angle / seconds, options_.vignette_turn, options_.vignette_turn_full));

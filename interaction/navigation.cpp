@@ -14,18 +14,60 @@ constexpr double kShortestSpan = 0.01; ///< [m] between hands; a shorter span te
 } // namespace
 
 glm::dvec3 transform(const Similarity& similarity, const glm::dvec3& p) {
-    return similarity.translation + similarity.scale * (similarity.rotation * p);
+    return similarity.translation +
+           similarity.scale *
+               (similarity.rotation * glm::dvec3(p.x, p.y, similarity.exaggeration * p.z));
+}
+
+glm::dvec3 in_physical(const Similarity& similarity, const glm::dvec3& p) {
+    glm::dvec3 at =
+        glm::conjugate(similarity.rotation) * (p - similarity.translation) / similarity.scale;
+    at.z /= similarity.exaggeration;
+    return at;
+}
+
+glm::dvec3 normal_in_room(const Similarity& similarity, const glm::dvec3& normal) {
+    glm::dvec3 n = normal;
+    if (similarity.exaggeration != 1) {
+        n.z /= similarity.exaggeration;
+        n = glm::normalize(n);
+    }
+    return similarity.rotation * n;
+}
+
+glm::dvec3 normal_in_physical(const Similarity& similarity, const glm::dvec3& normal) {
+    glm::dvec3 n = glm::conjugate(similarity.rotation) * normal;
+    if (similarity.exaggeration != 1) {
+        n.z *= similarity.exaggeration;
+        n = glm::normalize(n);
+    }
+    return n;
+}
+
+double physical_per_meter(const Similarity& similarity, const glm::dvec3& normal) {
+    if (similarity.exaggeration == 1)
+        return 1 / similarity.scale;
+    return glm::length(glm::dvec3(normal.x, normal.y, normal.z / similarity.exaggeration)) /
+           similarity.scale;
+}
+
+Similarity exaggerated(const Similarity& from, const glm::dvec3& center, double exaggeration) {
+    Similarity result = from;
+    if (exaggeration > 0)
+        result.exaggeration = std::clamp(exaggeration, kLeastExaggeration, kMostExaggeration);
+    result.translation += transform(from, center) - transform(result, center);
+    return result;
 }
 
 Similarity turned(const Similarity& from, const glm::dvec3& center, const glm::dvec3& axis,
                   double angle) {
     const glm::dquat turn = glm::angleAxis(angle, axis);
     return {center + turn * (from.translation - center), glm::normalize(turn * from.rotation),
-            from.scale};
+            from.scale, from.exaggeration};
 }
 
 Similarity moved(const Similarity& from, const glm::dvec3& offset) {
-    return {from.translation + offset, from.rotation, from.scale};
+    return {from.translation + offset, from.rotation, from.scale, from.exaggeration};
 }
 
 Similarity scaled(const Similarity& from, const glm::dvec3& center, double factor, double low,
@@ -34,7 +76,8 @@ Similarity scaled(const Similarity& from, const glm::dvec3& center, double facto
         return from;
     const double scale = std::clamp(from.scale * factor, low, high);
     const double applied = scale / from.scale;
-    return {center + applied * (from.translation - center), from.rotation, scale};
+    return {center + applied * (from.translation - center), from.rotation, scale,
+            from.exaggeration};
 }
 
 Similarity carried(const Similarity& from, const Pose& before, const Pose& after) {
@@ -42,7 +85,7 @@ Similarity carried(const Similarity& from, const Pose& before, const Pose& after
                             glm::conjugate(glm::normalize(glm::dquat(before.orientation)));
     const glm::dvec3 offset = from.translation - glm::dvec3(before.position);
     return {glm::dvec3(after.position) + turn * offset, glm::normalize(turn * from.rotation),
-            from.scale};
+            from.scale, from.exaggeration};
 }
 
 glm::dquat rotation_onto(const Span& from, const Span& to) {
@@ -59,7 +102,7 @@ Similarity stretched(const Similarity& from, const Span& before, const Span& aft
                           std::max(glm::length(before.direction()), kShortestSpan);
     const Similarity grown = scaled(from, before.middle(), growth, low, high);
     return {after.middle() + turn * (grown.translation - before.middle()),
-            glm::normalize(turn * grown.rotation), grown.scale};
+            glm::normalize(turn * grown.rotation), grown.scale, grown.exaggeration};
 }
 
 std::optional<glm::dvec3> floor_point(const Pose& pose, double reach) {
@@ -82,7 +125,8 @@ bool is_valid(const Similarity& similarity) {
     for (const double value : {t.x, t.y, t.z, r.x, r.y, r.z, r.w, similarity.scale})
         if (!std::isfinite(value))
             return false;
-    return similarity.scale > 0.0;
+    return similarity.scale > 0.0 && similarity.exaggeration >= kLeastExaggeration &&
+           similarity.exaggeration <= kMostExaggeration;
 }
 
 } // namespace isochron::interaction

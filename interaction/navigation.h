@@ -9,6 +9,13 @@ namespace isochron::interaction {
 
 /// Physical point `p` in the room.
 glm::dvec3 transform(const Similarity& similarity, const glm::dvec3& p);
+/// The physical point that is at `p` in the room.
+glm::dvec3 in_physical(const Similarity& similarity, const glm::dvec3& p);
+/// Unit normal, in the room, of a plane whose physical unit normal is `normal`; and the other way.
+glm::dvec3 normal_in_room(const Similarity& similarity, const glm::dvec3& normal);
+glm::dvec3 normal_in_physical(const Similarity& similarity, const glm::dvec3& normal);
+/// How far a plane moves along its physical unit normal where it moves 1 m along that in the room.
+double physical_per_meter(const Similarity& similarity, const glm::dvec3& normal);
 
 /// Turned by `angle` [rad] about the room line through `center` along the unit vector `axis`.
 Similarity turned(const Similarity& from, const glm::dvec3& center, const glm::dvec3& axis,
@@ -23,6 +30,12 @@ Similarity scaled(const Similarity& from, const glm::dvec3& center, double facto
                   double high);
 
 inline constexpr double kScaleRange = 1e3; ///< largest factor between the scale and home's
+
+inline constexpr double kLeastExaggeration = 0.01, kMostExaggeration = 1000;
+
+/// With heights exaggerated by `exaggeration`, within the limits above; the physical point `center`
+/// stays where it is.
+Similarity exaggerated(const Similarity& from, const glm::dvec3& center, double exaggeration);
 
 /// Carried along rigidly by a hand that went from pose `before` to pose `after`.
 Similarity carried(const Similarity& from, const Pose& before, const Pose& after);
@@ -47,7 +60,7 @@ std::optional<glm::dvec3> floor_point(const Pose& pose, double reach);
 /// Heading of a pose [rad], counter-clockwise from ahead (-Z) as seen from above.
 double heading(const Pose& pose);
 
-/// Whether every component is finite and the scale positive.
+/// Whether every component is finite, the scale positive and the exaggeration within its limits.
 bool is_valid(const Similarity& similarity);
 
 } // namespace isochron::interaction

@@ -8,6 +8,7 @@
 namespace isochron::interaction {
 namespace {
 
+constexpr double kHigher = 1.25;          ///< factor of one press
 constexpr double kOrbit = 3.14159265;     ///< [rad per window height dragged]
 constexpr double kViewHeight = 0.966;     ///< window height at distance 1, for a view of 0.9 rad
 constexpr double kNotch = 1.1;            ///< scale per notch of the wheel
@@ -132,7 +133,8 @@ std::optional<glm::dvec3> teleport_target(const InputState& input) {
     return aims(now) ? aimed_at(now) : std::nullopt;
 }
 
-/// The volume's place if a button asks for one: home, recentered, a viewpoint or an axis view.
+/// The volume's place if a button asks for one: home, recentered, a viewpoint, an axis view, or the
+/// same with other heights.
 std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlContext& context) {
     if (now.pressed(Action::reset) || now.pressed(GamepadButton::x))
         return context.home;
@@ -148,6 +150,12 @@ std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlCon
             axis ? axis_view_after(context.room_from_physical, now.viewer()) : kIsometric;
         return seen_from(axis_views()[view], context.room_from_physical, context.pivot,
                          now.viewer());
+    }
+    const bool higher = now.pressed(Action::exaggerate);
+    if (higher || now.pressed(Action::flatten)) {
+        const double exaggeration = context.room_from_physical.exaggeration;
+        return exaggerated(context.room_from_physical, context.pivot,
+                           higher ? exaggeration * kHigher : exaggeration / kHigher);
     }
     return std::nullopt;
 }

@@ -14,7 +14,8 @@ glm::mat4 room_from(const Pose& pose) {
 glm::dmat4 matrix(const Similarity& similarity) {
     return glm::translate(glm::dmat4(1.0), similarity.translation) *
            glm::mat4_cast(similarity.rotation) *
-           glm::scale(glm::dmat4(1.0), glm::dvec3(similarity.scale));
+           glm::scale(glm::dmat4(1.0),
+                      similarity.scale * glm::dvec3(1, 1, similarity.exaggeration));
 }
 
 bool is_finite(const Pose& pose) {

@@ -32,11 +32,13 @@ bool is_finite(const Velocity& velocity);
 /// Rotation vector [rad], at most pi long, that turns `from` into `to`, in the room.
 glm::dvec3 rotation_between(const glm::quat& from, const glm::quat& to);
 
-/// Where the data stands in the room: room = translation + scale * rotation * physical.
+/// Where the data stands in the room: room = translation + scale * rotation * physical. It is a
+/// similarity of data whose heights (physical z) are exaggerated before.
 struct Similarity {
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
-    double scale = 1.0; ///< > 0, finite
+    double scale = 1.0;        ///< > 0, finite
+    double exaggeration = 1.0; ///< of physical z: 0.01 to 1000
     bool operator==(const Similarity&) const = default;
 };
 glm::dmat4 matrix(const Similarity& similarity);

@@ -2,6 +2,7 @@
 #include "app/frame/explorer_state.h"
 
 #include "interaction/command_fields.h"
+#include "interaction/navigation.h"
 #include "render/passes/color_map.h"
 
 #include <glm/geometric.hpp>
@@ -53,7 +54,7 @@ bool holds(const Field&, const interaction::PlaybackState& playback) {
     return holds(Field{"", interaction::kSlowest, interaction::kFastest}, playback.speed);
 }
 bool holds(const Field&, const interaction::Similarity& similarity) {
-    return std::isfinite(similarity.scale) && similarity.scale > 0;
+    return interaction::is_valid(similarity);
 }
 bool holds(const Field&, const interaction::RoomPanel& panel) {
     return is_finite(panel.pose);

@@ -11,6 +11,7 @@
 #include "app/scene/mark.h"
 #include "app/text.h"
 #include "interaction/axis_views.h"
+#include "interaction/navigation.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -205,6 +206,13 @@ void view_buttons(const PanelModel& model, Commands& commands) {
     if (ImGui::Checkbox("parallel", &orthographic))
         commands.orthographic = orthographic;
     tip("parallel (orthographic) projection (0)");
+    auto exaggeration = static_cast<float>(model.asked.room_from_physical.exaggeration);
+    ImGui::SetNextItemWidth(-60.0f);
+    if (ImGui::SliderFloat("heights", &exaggeration, 0.1f, 100.0f, "x %.3g",
+                           ImGuiSliderFlags_Logarithmic))
+        commands.room_from_physical = exaggerated(model.asked.room_from_physical,
+                                                  physical_center(model.info.grid), exaggeration);
+    tip("vertical exaggeration, along z (Ctrl+E, Ctrl+Shift+E)");
 }
 
 void view_section(const PanelModel& model, Commands& commands) {

@@ -108,7 +108,11 @@ Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
         const auto sides = labeled_edge(axis, placement, head);
         if (!sides)
             continue;
-        const AxisScale scale = axis_scale(info, axis);
+        AxisScale scale = axis_scale(info, axis);
+        const double higher = glm::length(placement.room_from_physical[2]) /
+                              glm::length(placement.room_from_physical[0]);
+        if (std::abs(info.grid.direction[axis].z) > 0.5 && std::abs(higher - 1) > 1e-4)
+            scale.title += fmt::format(", {:.3g}x", higher);
         const int most = std::max(2, static_cast<int>(kMostTicks * lengths[axis] / longest));
         const auto [low, high] = std::minmax(scale.low, scale.high);
         const Ticks ticks = nice_ticks(low, high, most);

@@ -141,7 +141,7 @@ void Scene::set_tools(const interaction::ToolDrawing& drawing, const interaction
 std::optional<glm::vec4> Scene::cut_in(const interaction::Similarity& room_from_physical) const {
     if (!clip_.shown)
         return std::nullopt;
-    const glm::dvec3 normal = room_from_physical.rotation * clip_.normal;
+    const glm::dvec3 normal = interaction::normal_in_room(room_from_physical, clip_.normal);
     const glm::dvec3 at = interaction::transform(room_from_physical, clip_.point);
     return glm::vec4(glm::dvec4(normal, -glm::dot(normal, at)));
 }

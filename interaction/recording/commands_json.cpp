@@ -87,9 +87,12 @@ json to_json(const Pose& pose) {
 }
 json to_json(const Similarity& similarity) {
     const glm::dquat& r = similarity.rotation;
-    return {{"translation", to_json(similarity.translation)},
-            {"rotation", {r.x, r.y, r.z, r.w}},
-            {"scale", similarity.scale}};
+    json result = {{"translation", to_json(similarity.translation)},
+                   {"rotation", {r.x, r.y, r.z, r.w}},
+                   {"scale", similarity.scale}};
+    if (similarity.exaggeration != 1)
+        result["exaggeration"] = similarity.exaggeration;
+    return result;
 }
 
 template <class T>
@@ -118,7 +121,13 @@ void from_json(const json& value, const Field& field, Similarity& into) {
     into.scale = number(scale, "scale");
     if (!(into.scale > 0))
         fail("scale", "a positive number", scale);
-    members.done({"translation", "rotation", "scale"});
+    into.exaggeration = 1;
+    if (const json* exaggeration = members.find("exaggeration")) {
+        into.exaggeration = number(*exaggeration, "exaggeration");
+        if (!(into.exaggeration >= kLeastExaggeration && into.exaggeration <= kMostExaggeration))
+            fail("exaggeration", "a number from 0.01 to 1000", *exaggeration);
+    }
+    members.done({"translation", "rotation", "scale", "exaggeration"});
 }
 
 // Parts. An optional field that is not set is left out.

@@ -72,7 +72,7 @@ EyeBlock eye_block(const View& view, const Placement& placement, const CellAppea
         .ray_ahead = glm::vec4(glm::dvec4(glm::dvec3(ahead), ahead_z)),
         .eye_from_index = eye_from_index,
         .eye_from_physical =
-            glm::mat4(glm::mat3(view.eye_from_room) * placement.room_from_physical),
+            glm::mat4(glm::mat3(view.eye_from_room) * placement.room_from_normal()),
         .eye_in_index = eye_in_index(view, placement),
         .clip_per_pixel = glm::vec4(1.0f / half_size, 0.0f, 0.0f),
         .viewport = glm::vec4(view.corner, view.size),

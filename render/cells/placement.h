@@ -17,7 +17,7 @@ struct Placement {
     /// Affine, from even coordinates (`index::Grid::physical_from_index`): those of vertices' indices
     /// where the grid is regular. May mirror.
     glm::mat4 room_from_index{1.0f};
-    glm::mat3 room_from_physical{1.0f}; ///< linear part, for normals: rotation times scale
+    glm::mat3 room_from_physical{1.0f}; ///< linear part
     glm::vec3 extent{1.0f};             ///< the volume spans [0, extent] in even coordinates
     std::optional<index::Grid> rectilinear = {}; ///< the grid if it is
 
@@ -27,6 +27,8 @@ struct Placement {
         return {glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])};
     }
 
+    /// Transforms planes' normals (of any length) from physical space to the room.
+    glm::mat3 room_from_normal() const;
     /// Transforms planes' normals (covectors, of any length) from physical to index space.
     glm::mat3 index_from_normal() const {
         return glm::transpose(glm::inverse(room_from_physical) * glm::mat3(room_from_index));
@@ -36,7 +38,7 @@ struct Placement {
     glm::vec3 index_at(const glm::vec3& even) const;
 
     /// Multiplies in double precision, as physical origins may be far away.
-    /// @param room_from_physical rotation, uniform scale and translation
+    /// @param room_from_physical rotation, scale and translation
     static Placement of(const index::Grid& grid, const glm::dmat4& room_from_physical);
 };
 

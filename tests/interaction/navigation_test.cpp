@@ -208,6 +208,50 @@ TEST(Controls, AKeyGoesThroughTheAxisViewsAndOneIsIsometric) {
         << "the panel in the room is read in perspective";
 }
 
+TEST(Controls, KeysExaggerateHeightsAboutTheCenterAndTakeThatBack) {
+    Desk desk;
+    const Similarity before = desk.volume();
+    const glm::dvec3 center = transform(before, desk.context.pivot);
+    desk.tap(bit(Action::exaggerate));
+    desk.tap(bit(Action::exaggerate));
+    EXPECT_DOUBLE_EQ(desk.volume().exaggeration, 1.5625);
+    EXPECT_LT(glm::distance(transform(desk.volume(), desk.context.pivot), center), 1e-12);
+    const glm::dvec3 up =
+        transform(desk.volume(), desk.context.pivot + glm::dvec3(0, 0, 1)) - center;
+    EXPECT_NEAR(glm::length(up), 1.5625 * before.scale, 1e-12);
+    const glm::dvec3 at(3, -7, 11);
+    EXPECT_LT(glm::distance(in_physical(desk.volume(), transform(desk.volume(), at)), at), 1e-9);
+    EXPECT_LT(glm::distance(glm::dvec3(matrix(desk.volume()) * glm::dvec4(at, 1)),
+                            transform(desk.volume(), at)),
+              1e-12);
+    for (int i = 0; i < 2; ++i)
+        desk.tap(bit(Action::flatten));
+    EXPECT_EQ(desk.volume().exaggeration, 1);
+    for (int i = 0; i < 60; ++i)
+        desk.tap(bit(Action::exaggerate));
+    EXPECT_EQ(desk.volume().exaggeration, kMostExaggeration);
+    desk.tap(bit(Action::reset));
+    EXPECT_EQ(desk.volume(), desk.context.home);
+}
+
+TEST(Navigation, MovingTurningAndScalingKeepHeightsExaggerated) {
+    Similarity volume{{1, 2, 3}, {1, 0, 0, 0}, 0.5, 4};
+    const Pose pose{{0, 1, 0}, {1, 0, 0, 0}};
+    const Span span{{0, 0, 0}, {1, 0, 0}};
+    EXPECT_EQ(moved(volume, {1, 0, 0}).exaggeration, 4);
+    EXPECT_EQ(turned(volume, {0, 0, 0}, {0, 1, 0}, 1).exaggeration, 4);
+    EXPECT_EQ(scaled(volume, {0, 0, 0}, 2, 0.1, 10).exaggeration, 4);
+    EXPECT_EQ(carried(volume, pose, pose).exaggeration, 4);
+    EXPECT_EQ(stretched(volume, span, span, {1, 0, 0, 0}, 0.1, 10).exaggeration, 4);
+    // A plane's normal stays at right angles to it.
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(1, 2, 3)), in_plane(2, -1, 0);
+    const glm::dvec3 steep = glm::cross(normal, in_plane);
+    const glm::dvec3 shown = normal_in_room(volume, normal);
+    for (const glm::dvec3& v : {in_plane, steep})
+        EXPECT_NEAR(glm::dot(shown, transform(volume, v) - transform(volume, {0, 0, 0})), 0, 1e-12);
+    EXPECT_LT(glm::distance(normal_in_physical(volume, shown), normal), 1e-12);
+}
+
 TEST(Controls, PageKeysMoveTheIsovalueByTheSameStepsAsArrows) {
     Desk desk;
     desk.tap(bit(Action::isovalue_rise));

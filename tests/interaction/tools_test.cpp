@@ -112,6 +112,7 @@ TEST(Tools, AClipPlaneGoesWithTheHandThatHoldsIt) {
     Random random(test_seed());
     for (int round = 0; round < 100; ++round) {
         ToolDesk desk;
+        desk.context.room_from_physical.exaggeration = round % 2 ? 1.0 : 3.0;
         desk.context.tools.wand = ToolKind::clip;
         desk.context.state.clip = {true, {30, 25, 30}, {0, 0, 1}};
         const Pose before{{0.1f, 1.2f, -0.3f}, random_rotation(random)};
@@ -123,7 +124,7 @@ TEST(Tools, AClipPlaneGoesWithTheHandThatHoldsIt) {
             const glm::dquat into = glm::conjugate(glm::dquat(hand.orientation));
             const glm::dvec3 at =
                 into * (transform(desk.volume(), plane.point) - glm::dvec3(hand.position));
-            return std::pair(at, into * (desk.volume().rotation * plane.normal));
+            return std::pair(at, into * normal_in_room(desk.volume(), plane.normal));
         };
         const auto [place, normal] = seen(before, {true, {30, 25, 30}, {0, 0, 1}});
         const auto [now_at, now_normal] = seen(after, desk.context.state.clip);
@@ -145,6 +146,23 @@ TEST(Tools, TheMousePullsTheClipPlaneUnderItsRayAndTurnsNothing) {
     ASSERT_TRUE(pulled.clip);
     EXPECT_NEAR(glm::dot(pulled.clip->point - glm::dvec3(30, 25, 30), normal), 8.0, 1e-3);
     EXPECT_EQ(pulled.clip->normal, normal);
+}
+
+TEST(Tools, AClipPlaneIsUnderTheMouseWhereHeightsAreExaggerated) {
+    ToolDesk desk;
+    desk.context.room_from_physical =
+        exaggerated(desk.context.room_from_physical, desk.context.pivot, 2.5);
+    desk.context.tools.mouse = ToolKind::clip;
+    const glm::dvec3 point(30, 25, 30);
+    desk.context.state.clip = {true, point, glm::normalize(glm::dvec3(1, 0.4, 0.6))};
+    const Similarity& room = desk.context.room_from_physical;
+    const glm::dvec3 normal = normal_in_room(room, desk.context.state.clip.normal);
+    const glm::dvec3 to = in_physical(room, transform(room, point) + 0.05 * normal);
+    desk.mouse(desk.in_room(point), bit(MouseBit::left));
+    const Commands pulled = desk.mouse(desk.in_room(to), bit(MouseBit::left), 0.1f);
+    ASSERT_TRUE(pulled.clip);
+    EXPECT_NEAR(glm::dot(transform(room, pulled.clip->point) - transform(room, point), normal),
+                0.05, 1e-5);
 }
 
 TEST(Tools, AClipPlaneSnapsToTheAxesInTurn) {

@@ -59,6 +59,21 @@ TEST(Axes, AreCalledAsTheFileCallsThem) {
     EXPECT_EQ(axis_scale(info, 1).title, "depth [mm]");
 }
 
+TEST(Axes, SayHowFarHeightsAreExaggerated) {
+    const index::SeriesInfo info = info_of_box();
+    const auto titles = [&](double higher) {
+        const auto placement = render::Placement::of(
+            info.grid, glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(0, -4, -2)),
+                                  0.05 * glm::dvec3(1, 1, higher)));
+        std::string all;
+        for (const AxisLabels& labels : axes_for(info, placement, head_at({2, 3.5f, 1})).labels)
+            all += labels.title.text + "; ";
+        return all;
+    };
+    EXPECT_EQ(titles(1), "x [mm]; y [mm]; z [mm]; ");
+    EXPECT_EQ(titles(2.5), "x [mm]; y [mm]; z [mm], 2.5x; ");
+}
+
 TEST(Axes, ThatAreObliqueRunFromTheirFirstVertex) {
     index::SeriesInfo info = info_of_box();
     const double s = std::sqrt(0.5);

@@ -17,7 +17,8 @@ namespace isochron::interaction {
 inline Similarity random_similarity(Random& random) {
     return {{uniform(random, -9, 9), uniform(random, -9, 9), uniform(random, -9, 9)},
             glm::normalize(glm::dquat(random_rotation(random))),
-            std::exp(uniform(random, -9, 9))};
+            std::exp(uniform(random, -9, 9)),
+            random() % 2 ? 1 : std::exp(uniform(random, -4, 6))};
 }
 
 /// Any value that a field may have.

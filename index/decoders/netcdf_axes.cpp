@@ -232,9 +232,10 @@ void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const Ne
     const bool one_unit = in_one_unit(axes);
     for (std::size_t a = 0; a < 3; ++a) {
         const Positions& axis = axes[a];
-        info.axis_names[a] = with_own_unit(
-            (axis.downwards ? "-" : "") + axis.name,
-            one_unit || options.spacing ? "" : axis.unit + scaled_by(to_go_with(axes[0], axis)));
+        std::string unit = axis.unit + scaled_by(to_go_with(axes[0], axis));
+        unit.erase(0, unit.find_first_not_of(' ')); // of a number without a unit
+        info.axis_names[a] = with_own_unit((axis.downwards ? "-" : "") + axis.name,
+                                           one_unit || options.spacing ? "" : unit);
     }
     if (one_unit) {
         info.length_unit = axes[0].unit;

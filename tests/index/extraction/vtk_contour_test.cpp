@@ -48,8 +48,8 @@ TEST(Rectilinear, SurfacesHaveThePlacesOfVtksContour) {
     const auto file = IndexFile::open(path);
     const Grid& grid = file->info().grid;
     EXPECT_TRUE(grid.rectilinear());
-    const ExtractionPtr shown =
-        extract_from(file)({.step = 0, .isovalues = {kIsovalue}, .mesh_room = 1 << 28}, {});
+    const ExtractionPtr shown = extract_from(file, std::nullopt, Shading::cells)(
+        {.step = 0, .isovalues = {kIsovalue}, .mesh_room = 1 << 28}, {});
     ASSERT_TRUE(shown);
     ASSERT_TRUE(shown->surfaces.front().mesh);
     std::vector<glm::dvec3> places;

@@ -10,8 +10,8 @@ namespace {
 /// The lines of --version that help with reports of errors.
 std::string version_details() {
     std::string details = "\ncommit " + std::string(kCommit) + "\nwith " ISOCHRON_PARTS_WITH;
-    constexpr std::string_view without = ISOCHRON_PARTS_WITHOUT;
-    return without.empty() ? details : details.append("; without ").append(without);
+    constexpr std::string_view kWithout = ISOCHRON_PARTS_WITHOUT;
+    return kWithout.empty() ? details : details.append("; without ").append(kWithout);
 }
 
 } // namespace

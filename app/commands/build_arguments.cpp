@@ -126,27 +126,25 @@ std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOp
 
 void add_reading_options(Command& command, BuildArguments& arguments) {
     index::ReadOptions& read = arguments.read;
-    command.option("--array", read.array, "Scalar array to read, where files hold several")
+    command.option("--array", read.array, "Array to read, if the files hold several")
         .group("Reading");
     command
         .option("--component", read.component,
-                "Component of a vector array: a number from 0, or magnitude")
+                "Component of a vector array: a number from 0, or `magnitude`")
         .group("Reading");
     command
         .flag("--allow-surplus", read.allow_surplus,
-              "Read files in which data are left over after the values that the header says")
+              "Accept files with more data than their header says")
         .group("Reading");
     command
-        .flag(
-            "--extra-axis-is-time", read.extra_axis_is_time,
-            "Read the axis that is none of space as time, whatever a file says of it, or where it "
-            "may be components")
+        .flag("--extra-axis-is-time", read.extra_axis_is_time,
+              "Read the axis that is not x, y or z as time, even if the file says otherwise or "
+              "leaves it open")
         .group("Reading");
     command
-        .option(
-            "--resample", arguments.resample,
-            "Make a regular grid of so many vertices of one that is not (rectilinear, curvilinear, "
-            "unstructured): its values are interpolated")
+        .option("--resample", arguments.resample,
+                "Interpolate a rectilinear, curvilinear or unstructured grid onto a regular grid "
+                "of this many vertices")
         .values(3)
         .type_name("NX NY NZ")
         .between(2u, 65537u)
@@ -184,15 +182,14 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
 
     const char* colors = "Colors";
     const Option color =
-        command
-            .option("--color", arguments.color, "A second array of the files to color surfaces by")
+        command.option("--color", arguments.color, "A second array, to color the surfaces by")
             .group(colors);
     command
         .option("--color-component", arguments.color_component,
-                "Its component, where it is a vector array: a number from 0, or magnitude")
+                "Component of the second array, if it is a vector: a number from 0, or `magnitude`")
         .needs(color)
         .group(colors);
-    command.option("--color-unit", arguments.color_unit, "Unit of its values")
+    command.option("--color-unit", arguments.color_unit, "Unit of the second array's values")
         .needs(color)
         .group(colors);
 
@@ -205,7 +202,7 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
     command.option("--type", arguments.type, "Type of the stored values")
         .one_of({"i8", "u8", "i16", "u16", "i32", "f32", "f64"})
         .group(raw);
-    command.flag("--big-endian", read.big_endian, "Most significant byte first (default: least)")
+    command.flag("--big-endian", read.big_endian, "Big-endian values (default: little-endian)")
         .group(raw);
     command.option("--header-bytes", read.header_bytes, "Bytes to skip at the start of each file")
         .shows_default()

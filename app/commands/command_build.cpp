@@ -154,7 +154,7 @@ void run_build(const BuildArguments& arguments) {
 void add_build(Command& program) {
     auto arguments = std::make_shared<BuildArguments>();
     Command command =
-        program.subcommand("build", "Read a series of volume files and write its index, one file.");
+        program.subcommand("build", "Build an index of a series of volume files: one file.");
     command
         .option(
             "files", arguments->files,
@@ -164,7 +164,9 @@ void add_build(Command& program) {
                 index::known_extensions())
         .required()
         .type_name("FILES");
-    command.option("-o,--out", arguments->out, "Index to write; replaced when complete")
+    command
+        .option("-o,--out", arguments->out,
+                "Index to write. An existing one is replaced when the new one is complete")
         .required()
         .type_name("NAME.isochron");
     add_reading_options(command, *arguments);
@@ -172,58 +174,54 @@ void add_build(Command& program) {
     const char* index_group = "Index";
     command
         .option("--tiers", arguments->tiers,
-                "Search structures instead of the planner's choice: some of "
-                "bricks,cells,deltas,tree, or none")
+                "Search structures to build: a list of bricks, cells, deltas and tree, or `none` "
+                "(default: chosen by cost)")
         .type_name("LIST")
         .group(index_group);
     command
         .option("--codec", arguments->codec,
-                "How values are packed, instead of what suits each chunk of them best")
+                "How values are compressed (default: what suits each chunk best)")
         .one_of({"none", "lz4", "zstd"})
         .group(index_group);
     command
         .flag("--append", arguments->append,
-              "Add the steps that NAME.isochron does not hold yet, if any; FILES are all of "
-              "them, those that it holds first. It stays as it was built in all that is not "
-              "asked for")
+              "Add the steps that NAME.isochron does not hold yet. FILES are all steps, the held "
+              "ones first. Options that are not given stay as they were")
         .group(index_group);
     command
         .flag("--refer", arguments->refer,
-              "Refer to FILES instead of carrying a copy of their values")
+              "Store references to FILES instead of a copy of their values")
         .group(index_group);
     command
         .option("--threads", arguments->build.threads,
-                "Threads to build with (default 0: as many as there are processors)")
+                "Threads to build with (0: one for each processor)")
         .between(0u, 1024u)
         .group(index_group);
     command
         .option("--timeout", arguments->timeout,
-                "In an MPI job: seconds without a sign of life after which a process is lost, "
-                "and the job ends")
+                "In an MPI job: end the job when a process is silent for this many seconds")
         .between(0.1, 86400.0)
         .shows_default()
         .group(index_group);
     const Option lattice =
         command
-            .option("--lattice", arguments->build.tree.lattice,
-                    "Add the paper's tree, of SpanSpaceSize L: the lattice has L x L elements, "
-                    "1 to 4096")
+            .option(
+                "--lattice", arguments->build.tree.lattice,
+                "Add the paper's tree; its lattice has L x L elements (the paper's SpanSpaceSize)")
             .between(1u, 4096u)
             .shows_default()
             .group(index_group);
-    const Option variation =
-        command
-            .option("--max-variation", arguments->build.tree.max_variation,
-                    "Add the paper's tree: most distinct lattice elements of a cell that is "
-                    "stored once for a time span, 1 to 64")
-            .between(1u, 64u)
-            .shows_default()
-            .group(index_group);
-    command.flag("--quiet", arguments->quiet, "Print nothing but errors");
-    command.footer(
-        "Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "
-        "0, no file is left behind\nand an older index stays as it was. mpirun -n N isochron "
-        "build ... spreads the work over N processes that\nshare a file system.");
+    const Option variation = command
+                                 .option("--max-variation", arguments->build.tree.max_variation,
+                                         "Add the paper's tree; a cell is stored once for a time "
+                                         "span in which it has at most this many lattice elements")
+                                 .between(1u, 64u)
+                                 .shows_default()
+                                 .group(index_group);
+    command.flag("--quiet", arguments->quiet, "Print errors only");
+    command.footer("Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Otherwise no "
+                   "file is left behind\nand an older index is unchanged. mpirun -n N isochron "
+                   "build ... spreads the work over N processes that\nshare a file system.");
     command.on_run([arguments, lattice, variation] {
         arguments->build.with_tree = lattice.given() || variation.given();
         run_build(with_path_within(*arguments));

@@ -115,9 +115,9 @@ void run_change(const ChangeArguments& arguments) {
 
 void add_change(Command& program) {
     auto arguments = std::make_shared<ChangeArguments>();
-    Command command = program.subcommand(
-        "change", "Find the cells that become active and those that cease to be, from one step or "
-                  "isovalue to another.");
+    Command command =
+        program.subcommand("change", "List the cells that become active, and those that stop being "
+                                     "active, between two steps or isovalues.");
     command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
     command.option("--isovalue", arguments->isovalue, "From this isovalue").required();
     command.option("--step", arguments->step, "From this step").required();
@@ -128,15 +128,18 @@ void add_change(Command& program) {
                 "Write the ids of the cells that become active, as `query --ids` does")
         .type_name("OUT.bin");
     command
-        .option("--removed", arguments->removed, "Write the ids of those that cease to be active")
+        .option("--removed", arguments->removed,
+                "Write the ids of the cells that stop being active")
         .type_name("OUT.bin");
-    command.option("--repeat", arguments->repeats, "Repetitions to take the median of")
+    command
+        .option("--repeat", arguments->repeats,
+                "Number of repetitions; the median of their times is printed")
         .between(1u, 1000u)
         .shows_default();
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer("JSON keys: file, step, isovalue, to_step, to_isovalue, added, removed (numbers "
-                   "of cells), searched_anew\n(true where that was cheaper than finding what "
-                   "differs), change_ms (median).");
+                   "of cells), searched_anew\n(true if that was cheaper than finding the changes), "
+                   "change_ms (median).");
     command.on_run([arguments] { run_change(*arguments); });
 }
 

@@ -77,12 +77,11 @@ void import(ImportOptions options) {
 } // namespace
 
 void add_config(Command& program) {
-    Command config =
-        program.subcommand("config", "Make configurations, and tell what they may hold.");
+    Command config = program.subcommand("config", "Import configurations and print their schema.");
     config.require_subcommand();
     auto options = std::make_shared<ImportOptions>();
-    Command command = config.subcommand(
-        "import", "Write what ParaView's .pvx file describes as a TOML configuration.");
+    Command command =
+        config.subcommand("import", "Convert ParaView's .pvx file to a TOML configuration.");
     command.option("file", options->file, "ParaView's description of a CAVE (.pvx)").required();
     command.option("-o,--out", options->out, "Configuration to write (default: to the terminal)");
     command
@@ -92,14 +91,14 @@ void add_config(Command& program) {
         .shows_default();
     command
         .option("--origin", options->origin,
-                "Where the file's origin is in the room, meters: 0 1.6 0 where corners are "
-                "given from the eyes")
+                "Position of the file's origin in the room, in meters; 0 1.6 0 if its corners are "
+                "relative to the eyes")
         .values(3);
     command.footer("Exit status: 0 done, 1 bad input, 2 bad usage.");
     command.on_run([options] { import(*options); });
     Command schema = config.subcommand(
         "schema",
-        "Print the JSON schema of configurations, by which editors check and complete them.");
+        "Print the JSON schema of configurations; editors check and complete files with it.");
     schema.on_run([] { fmt::print("{}", config_schema()); });
 }
 

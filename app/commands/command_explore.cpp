@@ -12,6 +12,7 @@
 #include "app/config/check_config.h"
 #include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
+#include "app/config/user_folders.h"
 #include "app/session/data_choice.h"
 #include "app/session/live_loop.h"
 #include "app/session/recording_file.h"

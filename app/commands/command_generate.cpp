@@ -28,8 +28,7 @@ std::pair<Command, std::shared_ptr<Request<Series>>> add_series(Command& generat
     const std::string name = Series::kName;
     Command command = generate_command.subcommand(name, description);
     auto request = std::make_shared<Request<Series>>();
-    command.option("-o,--out", request->dir, "Folder to write into; made where it is missing")
-        .required();
+    command.option("-o,--out", request->dir, "Output folder; created if missing").required();
     command.option("--type", request->type, "Stored type: f32 (default), or u8 (rounded)")
         .one_of({"f32", "u8"});
     command.option("--steps", request->series.steps, "Number of time steps")
@@ -72,7 +71,8 @@ void add_generate(Command& program) {
         add_series<VorticitySeries>(command, "Vorticity magnitude of decaying turbulence");
     add_cube_options(vorticity, flow, 256);
     auto [fourier, modes] = add_series<FourierSeries>(
-        command, "Vorticity magnitude of random Fourier modes: turbulence of any size, soon made");
+        command,
+        "Vorticity magnitude of random Fourier modes: turbulence of any size, made quickly");
     add_cube_options(fourier, modes, 1024);
     fourier.option("--modes", modes->series.modes, "How many modes")
         .between(std::size_t{1}, std::size_t{4096})

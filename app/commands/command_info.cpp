@@ -51,16 +51,13 @@ void run_info(const InfoArguments& given) {
 
 void add_info(Command& program) {
     auto arguments = std::make_shared<InfoArguments>();
-    Command command =
-        program.subcommand("info", "Print what an index holds, or what files of values are.");
-    command
-        .option("files", arguments->sources.files,
-                "Index, or the files that `build` would make one of")
+    Command command = program.subcommand("info", "Describe an index, or the files of a series.");
+    command.option("files", arguments->sources.files, "Index, or files that `build` accepts")
         .required()
         .type_name("FILES");
     command.flag("--tree", arguments->tree,
-                 "Print the cells stored at every time node: of the paper's tree where there "
-                 "is one, else of the cells");
+                 "Print the number of cells stored at every time node: of the paper's tree if "
+                 "there is one, else of the cells tier");
     command.flag("--json", arguments->json, "Print one JSON object");
     add_reading_options(command, arguments->sources);
     command.footer(

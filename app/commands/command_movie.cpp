@@ -213,26 +213,26 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
 void add_movie(Command& program) {
     auto options = std::make_shared<MovieOptions>();
     Command command = program.subcommand(
-        "movie", "Make a movie of a recording, by the program ffmpeg, or its frames.");
+        "movie", "Make a movie of a recording with ffmpeg, or write its frames.");
     add_replay_source(command, *options);
     command
-        .option("-o,--out", options->out,
-                "Movie to write: .mp4, .mkv or .mov (H.264), .gif, or a folder for its frames "
-                "(.png)")
+        .option(
+            "-o,--out", options->out,
+            "Movie to write: .mp4, .mkv or .mov (H.264), .gif, or a folder for its frames (.png)")
         .required();
     command.option("--rate", options->rate, "Frames per second").positive().shows_default();
     command
         .option("--eyes", options->eyes,
-                "window: as the stereo mode composes it; each: a movie for each eye and viewport, "
-                "their names behind that of --out")
+                "window: one movie, composed by the stereo mode; each: one movie per eye and "
+                "viewport, whose names are added to that of --out")
         .one_of({"window", "each"})
         .shows_default();
-    command.flag("--force", options->force, "Replace a movie that is there");
+    command.flag("--force", options->force, "Replace an existing movie");
     command.flag("--background", options->background,
                  "Make way for other programs, end with the one that started this, and say how far "
                  "it is in lines: as the panel's movies are made");
-    command.footer("Each frame of the movie shows what the recording shows at its time; `replay "
-                   "--every` writes single pictures.\nExit status: 0 done, 1 bad input, 2 bad "
+    command.footer("Frames are drawn at the movie's rate; `replay --every` writes single "
+                   "pictures.\nExit status: 0 done, 1 bad input, 2 bad "
                    "usage.");
     command.on_run(
         [options] { run_in_cluster([&](ClusterJob& job) { make_movie(*options, job); }); });

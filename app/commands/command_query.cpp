@@ -191,37 +191,40 @@ void add_query(Command& program) {
     Command command = program.subcommand(
         "query", "Find the active cells of an isovalue at a step: min < isovalue <= max.");
     command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
-    command.option("--isovalue", arguments->isovalue, "In the values' unit, compared after scaling")
+    command
+        .option("--isovalue", arguments->isovalue,
+                "Isovalue, in the unit of the values (after scaling)")
         .required();
-    command.option("--step", arguments->step, "From 0 to the number of steps - 1").required();
+    command.option("--step", arguments->step, "Step, from 0").required();
     command
         .option("--ids", arguments->ids,
                 "Write the cell ids: u32 (u64 where there are 2^32 cells or more), little-endian, "
                 "ascending; id = (z * (ny - 1) + y) * (nx - 1) + x")
         .type_name("OUT.bin");
-    command.option("--repeat", arguments->repeats, "Warm repetitions to take the median of")
+    command
+        .option("--repeat", arguments->repeats,
+                "Number of repetitions; the median of their times is printed")
         .between(0u, 1000u)
         .shows_default();
     command
         .option("--level", arguments->level,
-                "Level of detail, 0 the finest; isochron info lists them. Ids count in the "
-                "level's own grid")
+                "Level of detail, 0 is the finest; `isochron info` lists them. Ids are those of "
+                "the level's own grid")
         .shows_default();
     command
         .option("--method", arguments->method,
-                "Search by cells, bricks, tree or scan (default: the cheapest that the index "
-                "has)")
+                "Search structure to use (default: the cheapest in the index)")
         .one_of(std::vector<std::string>(index::kSearchMethodNames.begin(),
                                          index::kSearchMethodNames.end()));
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer(
         "JSON keys: file, step, time, time_unit, isovalue (null unless finite), value_unit,\n"
         "level (of detail), method (cells, bricks, tree or scan), active_cells, id_bits (32, or 64 "
-        "where ids do not fit),\ncandidates (before the exact test), "
+        "where ids do not fit),\ncandidates (tested exactly), "
         "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
         "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
-        "file), resident_bytes and read_bytes (of the process after that run: memory with mapped\n"
-        "files, and what came from disk instead of the page cache), repetitions, search_ms and "
+        "file), resident_bytes and read_bytes (of the process after that run: its memory, and the "
+        "bytes\nread from disk and not from the page cache), repetitions, search_ms and "
         "shading_ms (medians of the repetitions, each a full\n"
         "search; absent with --repeat 0), reading (what was read of the file and kept), ids (only "
         "with\n--ids). Search includes the exact test;\n"

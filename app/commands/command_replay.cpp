@@ -216,31 +216,31 @@ void replay(const Options& options, ClusterJob& job) {
 void add_replay(Command& program) {
     auto options = std::make_shared<Options>();
     Command command = program.subcommand(
-        "replay", "Replay a recording: to pictures, to a timing report, or live in a window.");
+        "replay",
+        "Replay a recording: write pictures, measure times, or play it live in a window.");
     add_replay_source(command, *options);
-    command.option("-o,--out", options->out, "Folder for the pictures; made where it is missing");
+    command.option("-o,--out", options->out, "Folder for the pictures; created if missing");
     command.option("--every", options->every, "Write a picture every N frames").positive();
     command.flag("--stamps", options->stamps, "Write a picture at every stamp");
     command
         .option("--eyes", options->eyes,
-                "window: one picture, composed as the stereo mode says; "
-                "each: one picture per eye and viewport")
+                "window: one picture, composed by the stereo mode; each: one picture per eye and "
+                "viewport")
         .one_of({"window", "each"})
         .shows_default();
     command.option("--format", options->format, "png, or exr (linear)")
         .one_of({"png", "exr"})
         .shows_default();
     command.option("--report", options->report,
-                   "Write times and states of every frame to this JSON file");
+                   "Write the times and the state of every frame to this JSON file");
     command.flag("--from-devices", options->from_devices,
-                 "Recompute the commands from the recorded devices; differences are an error");
+                 "Compute the commands again from the recorded devices; a difference is an error");
     command.flag("--test-pattern", options->test_pattern,
-                 "Show the pattern that tells eyes, walls and trackers apart; needs no index");
+                 "Show a test pattern that identifies eyes, walls and trackers; needs no index");
     command.flag("--live", options->live,
-                 "Play on the wall clock in a window; frames wait for nothing");
-    command.footer("In every process of a job: mpirun -n N isochron replay ...: each writes the "
-                   "pictures of its "
-                   "own windows. Exit status: 0 done, 1 bad input, 2 bad usage.");
+                 "Play in a window at the recorded speed; frames wait for nothing");
+    command.footer("In a cluster (mpirun -n N isochron replay ...) each process writes the "
+                   "pictures of its own windows. Exit status: 0 done, 1 bad input, 2 bad usage.");
     command.on_run([options] { run_in_cluster([&](ClusterJob& job) { replay(*options, job); }); });
 }
 

@@ -4,6 +4,7 @@
 #include "app/commands/replay_source.h"
 #include "app/commands/subcommands.h"
 #include "app/output/picture_parts.h"
+#include "app/session/replay.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
@@ -93,6 +94,7 @@ void settle(Session& session, const PictureNote& note) {
     const Latch latch = note.latched.devices.empty() ? Latch{} : [&note] { return note.latched; };
     for (int i = 0; i < kMost; ++i) {
         const FrameReport& frame = session.frame(input, {}, Waiting::for_cells, latch);
+        expect_cells(session);
         if (frame.final && name_of(frame.footprint) == note.footprint && !frame.redrawn)
             return;
         input.time += interaction::Seconds(0.1);
@@ -213,17 +215,17 @@ void reproduce(const ReproduceOptions& options) {
 void add_reproduce(Command& program) {
     auto options = std::make_shared<ReproduceOptions>();
     Command command = program.subcommand(
-        "reproduce", "Make a written picture again from what it holds, and compare.");
-    command.option("picture", options->picture, ".png or .exr that isochron has written")
+        "reproduce", "Draw a saved picture again from the settings stored in it, and compare.");
+    command.option("picture", options->picture, "Picture (.png or .exr) written by isochron")
         .required();
     command.option("--data", options->data,
-                   "Index that it shows (default: of that name beside the picture, or here)");
-    command.option("-o,--out", options->out, "Keep the new picture under this name");
+                   "Index to use (default: the named one beside the picture, or in this folder)");
+    command.option("-o,--out", options->out, "Save the new picture under this name");
     command.option("--context", options->context, "GL context to draw with")
         .one_of({"egl", "osmesa"})
         .shows_default();
-    command.footer("Prints that the bytes are the same, or what differs: data, program, driver, "
-                   "pixels.\nExit status: 0 the same, 1 other or bad input, 2 bad usage.");
+    command.footer("Prints whether the pictures are equal, or what differs: data, program, driver, "
+                   "pixels.\nExit status: 0 equal, 1 different or bad input, 2 bad usage.");
     command.on_run([options] { reproduce(*options); });
 }
 

@@ -37,11 +37,12 @@ void run_verify(const std::filesystem::path& path) {
 
 void add_verify(Command& program) {
     auto path = std::make_shared<std::filesystem::path>();
-    Command command =
-        program.subcommand("verify", "Compare every checksum of an index: reads the whole file.");
+    Command command = program.subcommand(
+        "verify", "Check every checksum of an index; this reads the whole file.");
     command.option("file", *path, "Index").required().type_name("NAME.isochron");
-    command.footer("Reads the sources too where the index refers to them. Exit status: 0 intact, "
-                   "1 damaged, and one line that says where.");
+    command.footer(
+        "If the index refers to its source files, they are read too. Exit status: 0 intact, "
+        "1 damaged, and one line that says where.");
     command.on_run([path] { run_verify(*path); });
 }
 

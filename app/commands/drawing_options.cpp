@@ -6,8 +6,8 @@ namespace isochron::app {
 void add_shape_option(Command& command, std::optional<std::string>& shape) {
     command
         .option("--shape", shape,
-                "What quads and splats stand for, instead of the configured: plane (flat "
-                "ellipses on the surface) or voxel (the paper's spheres)")
+                "Shape of quads and splats, instead of the configured one: plane (flat ellipses on "
+                "the surface) or voxel (the paper's spheres)")
         .one_of(cell_shape_names());
 }
 

@@ -2,6 +2,7 @@
 #include "app/commands/explored_data.h"
 
 #include "app/commands/kept_index.h"
+#include "app/config/user_folders.h"
 #include "index/file/index_series.h"
 
 #include <fmt/format.h>

@@ -15,7 +15,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 namespace isochron::app {
@@ -105,24 +104,12 @@ void make_room(const fs::path& folder, const fs::path& stays, std::uint64_t most
 
 } // namespace
 
-std::optional<fs::path> user_cache_folder() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): before threads
-        return std::string(value ? value : "");
-    };
-    if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty())
-        return fs::path(cache) / "isochron";
-    if (const std::string home = variable("HOME"); !home.empty())
-        return fs::path(home) / ".cache/isochron";
-    return std::nullopt;
-}
-
 fs::path kept_index(const BuildArguments& arguments, const fs::path& folder,
                     std::uint64_t most_bytes) {
     const std::vector<fs::path> files = expand_patterns(arguments.files);
     BuildSources sources = open_sources(files, arguments);
     index::make_folder(folder);
-    const fs::path path = folder / name_of_kept(files, arguments);
+    fs::path path = folder / name_of_kept(files, arguments);
     std::error_code ignored;
     if (still_holds(path, *sources.volume)) {
         fs::last_write_time(path, fs::file_time_type::clock::now(), ignored); // when it was used

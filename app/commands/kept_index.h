@@ -5,12 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 
 namespace isochron::app {
-
-/// $XDG_CACHE_HOME/isochron, else ~/.cache/isochron. Nothing where there is no home.
-std::optional<std::filesystem::path> user_cache_folder();
 
 /// Of all kept indexes together; the one in use stays however large it is.
 constexpr std::uint64_t kMostKeptBytes = std::uint64_t{20} << 30;

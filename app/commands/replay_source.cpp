@@ -17,40 +17,39 @@ void add_replay_source(Command& command, ReplaySource& source) {
     command.option("recording", source.recording, "Recording made by `explore --record`")
         .required();
     command.option("--data", source.data,
-                   "Index to use instead of the recorded path (which may also be relative "
-                   "to the recording)");
+                   "Index to use instead of the recorded one (a relative path is tried from the "
+                   "recording's folder, too)");
     command.flag("--any-data", source.any_data,
-                 "Accept data other than the recorded (another hash)");
+                 "Accept data that differ from the recorded ones (another hash)");
     command
-        .option(
-            "--size", source.size,
-            "Size of every window's pictures, or of the room's, in pixels (default: as recorded)")
+        .option("--size", source.size,
+                "Size in pixels of each window's pictures, or of the room with --emulate (default: "
+                "as recorded)")
         .values(2)
         .between(16, 16384);
     command
-        .option("--samples", source.samples,
-                "Samples of each pixel of the pictures (default: as configured, 4 where "
-                "nothing is)")
+        .option("--samples", source.samples, "Samples per pixel (default: as configured, else 4)")
         .between(1, 64);
     command.flag("--emulate", source.emulate,
-                 "Show the room from outside, with what every wall shows, instead");
+                 "Show the room from outside instead, with the picture on every wall");
     command.option("--stereo", source.stereo, "Stereo mode instead of the recorded one")
         .one_of(stereo_mode_names());
     command.option("--quality", source.quality, "Quality mode instead of the recorded one")
         .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option("--footprint", source.footprint,
-                "What a settled picture is drawn with, instead of the configured: auto (the "
-                "best there is; with --live the best that fits the frame budget), gaussian, mesh "
-                "or surface")
+                "Footprint of settled pictures, instead of the configured one: auto (the best; "
+                "with --live the best within the frame budget), gaussian, mesh or surface")
         .one_of(settled_footprint_names());
-    command.flag("--ray", source.ray,
-                 "Show the wand's ray and what is under the cursor, which pictures leave out");
+    command.flag(
+        "--ray", source.ray,
+        "Show the wand's ray and what is under the cursor; pictures leave them out otherwise");
     command.flag("--caption", source.caption,
-                 "Write isovalue and time into the pictures, with axes and a scale bar");
+                 "Add isovalue, time, axes and a scale bar to the pictures");
     add_shape_option(command, source.shape);
-    command.option("--config", source.config,
-                   "TOML file or shipped name instead of the recorded configuration");
+    command.option(
+        "--config", source.config,
+        "Configuration to use instead of the recorded one: a TOML file or a shipped name");
     command
         .option("--context", source.context,
                 "GL context: egl (default), osmesa, glfw (default with --live)")

@@ -115,7 +115,7 @@ std::unique_ptr<stereo::Headset> open_headset(const OpenXrConfig& config) {
         return nullptr;
     // This function reports a missing runtime in one line; the loader would add five.
     if (!config.verbose)
-        setenv("XR_LOADER_DEBUG", "none", 0); // NOLINT(concurrency-mt-unsafe): before threads
+        setenv("XR_LOADER_DEBUG", "none", 0);
     stereo::OpenXrOptions options = config.options;
     options.wait = config.fallback == WithoutRuntime::wait;
     try {

@@ -43,8 +43,13 @@ void MovieFolder::add(const render::Image& image, const std::string& note) {
 }
 
 void MovieFolder::finish() {
-    index::make_folder(path_);
     std::error_code error;
+    fs::rename(temporary_, path_, error); // where nothing is, or an empty folder: all or nothing
+    if (!error)
+        return;
+    if (!fs::is_directory(path_))
+        throw index::Error(fmt::format("{}: {}", path_.string(), error.message()));
+    error.clear();
     for (const fs::directory_entry& entry : fs::directory_iterator(path_, error))
         if (is_frame(entry.path()))
             fs::remove(entry.path(), error);

@@ -64,7 +64,7 @@ std::optional<fs::path> FileWindow::draw_folder() {
     if (!complaint_.empty())
         note(complaint_, kWarning);
     else if (files_.empty())
-        note("no index (.isochron) here; `isochron build` makes one of data", kDim);
+        note("no index (.isochron) in this folder; `isochron build` makes one", kDim);
     if (!next.empty())
         go_to(next);
     return chosen;

@@ -107,12 +107,11 @@ void isovalue_section(const PanelModel& model, Commands& commands) {
     if (ImGui::SliderScalar("##isovalue", ImGuiDataType_Double, &value, &low, &high,
                             slider_format(model.info.value_unit).c_str()))
         commands.isovalue = value;
-    tip("isovalue of the surface that is marked below (Up, Down); Ctrl + click takes a typed "
-        "number");
+    tip("isovalue of the selected surface (Up, Down); Ctrl + click to type it");
     const auto& shown = model.frame.shown;
     const double asked = model.asked.isovalue();
     if (asked < model.stats.low || asked > model.stats.high)
-        return state_note(fmt::format("beyond the data, {} to {}: nothing is there",
+        return state_note(fmt::format("outside the data's range, {} to {}",
                                       human_number(model.stats.low),
                                       with_unit(model.stats.high, model.info.value_unit)),
                           kWarning);
@@ -153,7 +152,7 @@ void playback_buttons(const PanelModel& model, Commands& commands) {
     tip("play backwards (R)");
     ImGui::SameLine();
     ImGui::Checkbox("loop", &playback.loop);
-    tip("begin again at the end (L)");
+    tip("start again after the last step (L)");
     auto speed = static_cast<float>(playback.speed);
     if (is_narrow())
         ImGui::SameLine();
@@ -169,7 +168,7 @@ void playback_buttons(const PanelModel& model, Commands& commands) {
         if (follow)
             commands.step = last;
     }
-    tip("show the last step as new ones come (End)");
+    tip("always show the newest step (End)");
     if (playback != model.asked.playback)
         commands.playback = playback;
 }
@@ -184,7 +183,7 @@ void time_section(const PanelModel& model, Commands& commands) {
     const std::string format = fmt::format("step {} of {}", step + 1, last + 1);
     if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
         commands.step = static_cast<std::uint32_t>(step);
-    tip("step that is shown (Left, Right); marked below: those that are at hand");
+    tip("step (Left, Right); marks below: steps in memory");
     mark_steps_at_hand(model, last);
     const auto& shown = model.frame.shown;
     asked_and_shown("time", with_unit(times[model.asked.step], model.info.time_unit),
@@ -199,7 +198,7 @@ void view_buttons(const PanelModel& model, Commands& commands) {
         if (ImGui::SmallButton(view.name))
             commands.room_from_physical = seen_from(view, model.asked.room_from_physical,
                                                     physical_center(model.info.grid), model.head);
-        tip("see the data from there (8, 9)");
+        tip("look along this axis (8, 9)");
         ImGui::SameLine();
     }
     bool orthographic = model.asked.orthographic;
@@ -238,7 +237,7 @@ void view_section(const PanelModel& model, Commands& commands) {
     const std::string current(stereo::name_of(model.asked.stereo));
     const bool open = ImGui::BeginCombo("stereo", current.c_str());
     if (!open)
-        tip("how both eyes' pictures share the window (V)");
+        tip("stereo mode (V)");
     if (open) {
         for (stereo::StereoMode candidate : stereo::all_stereo_modes()) {
             if (upright(candidate) == stereo::StereoMode::quadbuffer && !model.quad_buffered)
@@ -266,9 +265,9 @@ void mark_section(const PanelModel& model, Commands& commands) {
     if (!point)
         return;
     note(fmt::format("picked: {}", mark_text(*point, model.info)), kDim);
-    if (ImGui::SmallButton("isovalue through it"))
+    if (ImGui::SmallButton("isovalue here"))
         commands.isovalue = point->value;
-    tip("show the surface that goes through the picked place");
+    tip("set the isovalue to that of the picked point");
     ImGui::SameLine();
     if (ImGui::SmallButton("forget it"))
         commands.mark = interaction::Mark{};
@@ -284,7 +283,7 @@ void page_buttons(PanelPages& pages) {
         ImGui::SameLine();
     }
     pages.help = ImGui::Button("?");
-    tip("what the devices at hand do (F1)");
+    tip("help: keys, mouse and devices (F1)");
 }
 
 } // namespace
@@ -336,7 +335,7 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
     ImGui::SameLine();
     if (ImGui::Button("Screenshot"))
         commands.screenshot = true;
-    tip("of every window, with more samples (P)");
+    tip("save a picture of every window (P)");
     if (model.place != PanelPlace::in_room)
         page_buttons(pages);
     isovalue_section(model, commands);

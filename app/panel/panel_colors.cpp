@@ -47,7 +47,7 @@ bool surface_line(const PanelModel& model, std::uint32_t i, std::vector<Isosurfa
     ImGui::SetNextItemWidth(90.0f);
     ImGui::SliderFloat("##opacity", &surface.opacity, 0.0f, 1.0f, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
-    tip("its opacity: 0 is invisible");
+    tip("opacity: 0 is invisible");
     ImGui::SameLine();
     ImGui::TextUnformatted(value.c_str());
     bool removed = false;
@@ -77,40 +77,42 @@ void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
 void text_of_rule(const std::vector<Isosurface>& surfaces) {
     const bool through = std::ranges::any_of(
         surfaces, [](const Isosurface& surface) { return surface.opacity < 1.0f; });
-    note(through ? "lower isovalues lie outside: those are see-through, so that all are seen"
-                 : "lower isovalues lie outside: less opacity lets see what they hide",
+    note(through
+             ? "surfaces of lower isovalues lie outside and are made translucent, to show the "
+               "inner ones"
+             : "surfaces of lower isovalues lie outside: lower their opacity to see the inner ones",
          kDim);
 }
 
 /// How the map is used.
 void way_of_map(interaction::Coloring& coloring) {
     ImGui::Checkbox("reversed", &coloring.reversed);
-    tip("the colors run from the high to the low end");
+    tip("reverse the color map");
     ImGui::SameLine();
     ImGui::Checkbox("logarithmic", &coloring.logarithmic);
-    tip("equal ratios of values are equally far apart; for values above 0");
+    tip("logarithmic scale, for values above 0");
     int bands = static_cast<int>(coloring.bands);
     ImGui::SetNextItemWidth(-60.0f);
     if (ImGui::SliderInt("bands", &bands, 0, 20, bands == 0 ? "none" : "%d",
                          ImGuiSliderFlags_AlwaysClamp))
         coloring.bands = static_cast<std::uint32_t>(bands);
-    tip("so many colors that each fill a part of the range; none: they pass into each other");
+    tip("number of discrete colors; 0: continuous");
 }
 
 void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
     bool automatic = !coloring.range;
-    if (ImGui::Checkbox("all values", &automatic)) {
+    if (ImGui::Checkbox("automatic range", &automatic)) {
         coloring.range.reset();
         if (!automatic)
             coloring.range = model.whole_range;
     }
-    tip("the colors span all values; off: a range of your own");
+    tip("the range is that of all values; off: set it yourself");
     if (model.cells) {
         ImGui::SameLine();
-        if (ImGui::SmallButton("2 to 98 % of what is shown"))
+        if (ImGui::SmallButton("2nd to 98th percentile"))
             if (const auto range = range_of_shares(*model.cells, model.whole_range, {0.02, 0.98}))
                 coloring.range = range;
-        tip("the colors span the values on these surfaces, but the least and the largest 2 %");
+        tip("set the range to the 2nd and 98th percentile of the values on the surfaces");
     }
     if (!coloring.range)
         return;
@@ -120,7 +122,7 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
                             "%.6g") &&
         range[0] < range[1])
         coloring.range = range;
-    tip("values at the two ends of the colors");
+    tip("lowest and highest value of the range");
 }
 
 } // namespace
@@ -139,7 +141,7 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
     const bool more = surfaces.size() < interaction::kMostIsosurfaces;
     const bool added = more && ImGui::SmallButton("add a surface");
     if (more)
-        tip("one more isovalue beside these; it is seen at once");
+        tip("add another isosurface");
     if (added) {
         commands.picked = static_cast<std::uint32_t>(surfaces.size());
         surfaces.push_back(another(model));
@@ -171,7 +173,7 @@ void look_section(const PanelModel& model, Commands& commands) {
     choice("behind", look.background, "what is behind the data");
     ImGui::SetNextItemWidth(-60.0f);
     ImGui::SliderFloat("depth", &look.occlusion, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    tip("how much darker a surface is where it is surrounded by itself");
+    tip("ambient occlusion: how dark crevices are");
     if (look != model.asked.look)
         commands.look = look;
 }
@@ -193,7 +195,7 @@ void coloring_section(const PanelModel& model, Commands& commands) {
     constexpr std::array<std::string_view, 3> kWords{"which surface", "second array",
                                                      "first crossing"};
     choice("color", std::string(kWords[static_cast<std::size_t>(coloring.by)]), kWords,
-           "what the colors of surfaces say (U)", [&](std::size_t i) {
+           "what surfaces are colored by (U)", [&](std::size_t i) {
                const auto by = static_cast<interaction::ColorBy>(i);
                if (by == interaction::ColorBy::value && !model.second_array)
                    return;
@@ -207,7 +209,7 @@ void coloring_section(const PanelModel& model, Commands& commands) {
         const std::size_t own = names.size();
         for (const LoadedColorMap& map : model.color_maps)
             names.push_back(map.name);
-        choice("map", coloring.map, names, "colors from the low to the high end",
+        choice("map", coloring.map, names, "color map, from the lowest to the highest value",
                [&](std::size_t i) {
                    coloring.map = names[i];
                    coloring.colors =
@@ -225,9 +227,9 @@ void coloring_section(const PanelModel& model, Commands& commands) {
     // Folded: in the room nothing has to be scrolled to.
     bool* const open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("look"), false);
     ImGui::SameLine();
-    if (ImGui::SmallButton(*open ? "less of the look" : "more of the look"))
+    if (ImGui::SmallButton(*open ? "hide lighting" : "lighting ..."))
         *open = !*open;
-    tip("materials, what is behind the data, and how dark surrounded places are");
+    tip("material, background and ambient occlusion");
     if (*open)
         look_section(model, commands);
 }

@@ -48,7 +48,7 @@ bool help_window(const PanelModel& model) {
     ImGui::SetNextWindowSize({std::min(0.96f * picture.x, 620.0f), 0.92f * picture.y});
     ImGui::SetNextWindowBgAlpha(0.97f);
     bool open = true;
-    ImGui::Begin("What the devices at hand do (F1)###help", &open,
+    ImGui::Begin("Keys, mouse and devices (F1)###help", &open,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoSavedSettings);
     controls_of(model.at_hand, model.controls);
@@ -69,7 +69,7 @@ void first_use_window(float left) {
     for (const char* line : {"Drag with the left button to turn the data; the wheel scales them.",
                              "Up and Down change the isovalue, or drag in the histogram.",
                              "Space plays the steps; Left and Right go through them.",
-                             "F1 tells what all keys do. This goes away once you begin."})
+                             "F1 lists all keys. This hint disappears when you begin."})
         ImGui::TextUnformatted(line);
     ImGui::PopTextWrapPos();
     ImGui::End();

@@ -29,7 +29,7 @@ void measurements(const PanelModel& model) {
                      frame.gather.count()),
          kDim);
     const index::ReadUse& use = model.reading;
-    note(fmt::format("read {}   kept {} of {}   {} of {} at hand",
+    note(fmt::format("read {}   cache {} of {}   {} of {} steps ready",
                      human_bytes(static_cast<double>(use.bytes)),
                      human_bytes(static_cast<double>(use.held)),
                      human_bytes(static_cast<double>(use.budget)), use.hits, use.hits + use.misses),

@@ -40,7 +40,7 @@ bool tool_choice(const char* hand, ToolKind& tool) {
         }
         ImGui::EndCombo();
     } else {
-        tip("what a click, or this hand's first button, does (4, 5, 6)");
+        tip("tool of the mouse, or of the wand's first button (4, 5, 6)");
     }
     return tool != before;
 }
@@ -59,7 +59,7 @@ void clip_buttons(const PanelModel& model, Commands& commands) {
     if (ImGui::SmallButton("no clip plane"))
         commands.clip = interaction::ClipPlane{};
     ImGui::EndDisabled();
-    tip("show all of the data again (Delete)");
+    tip("remove the clip plane (Delete)");
 }
 
 } // namespace
@@ -79,9 +79,9 @@ void mark_steps_at_hand(const PanelModel& model, int last) {
 }
 
 void history_section(const PanelModel& model, Commands& commands) {
-    step_button("Undo", "take back what changed last (Ctrl + Z)", model.undo, commands);
+    step_button("Undo", "undo (Ctrl + Z)", model.undo, commands);
     ImGui::SameLine();
-    step_button("Redo", "do again what was taken back (Ctrl + Shift + Z)", model.redo, commands);
+    step_button("Redo", "redo (Ctrl + Shift + Z)", model.redo, commands);
 }
 
 void tools_section(const PanelModel& model, Commands& commands) {
@@ -111,25 +111,24 @@ std::optional<MovieWish> movie_section(const PanelModel& model) {
     if (model.movies.progress) {
         ImGui::ProgressBar(*model.movies.progress, {-90.0f, 0.0f});
         ImGui::SameLine();
-        if (ImGui::Button("Give up"))
+        if (ImGui::Button("Cancel"))
             wish = MovieWish::give_up;
-        tip("nothing is left of the movie");
+        tip("stop and delete the movie");
         return wish;
     }
     ImGui::BeginDisabled(!model.movies.recorded);
     if (ImGui::Button("recording so far"))
         wish = MovieWish::recording;
     ImGui::EndDisabled();
-    tip(model.movies.recorded ? "movie of this session, in the folder of the screenshots"
-                              : "movie of this session; `isochron explore --record FILE` records "
-                                "it");
+    tip(model.movies.recorded
+            ? "movie of this session; saved in the screenshot folder"
+            : "movie of this session; needs a recording (`isochron explore --record FILE`)");
     ImGui::SameLine();
     ImGui::BeginDisabled(model.asked.known_steps(model.info.steps()) < 2);
     if (ImGui::Button("series, this view"))
         wish = MovieWish::series;
     ImGui::EndDisabled();
-    tip("movie of all steps as they are seen now, at the speed of playback, in the folder of the "
-        "screenshots");
+    tip("movie of all steps with this view, at the playback speed; saved in the screenshot folder");
     return wish;
 }
 
@@ -164,9 +163,9 @@ void leaving_window(const PanelModel& model, Commands& commands) {
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
     if (model.recording)
-        ImGui::TextUnformatted("The recording ends and is kept.");
+        ImGui::TextUnformatted("The recording ends and is saved.");
     if (model.movies.progress)
-        ImGui::TextUnformatted("The movie that is being made is given up.");
+        ImGui::TextUnformatted("The movie that is being made is discarded.");
     if (ImGui::Button("Leave (Enter)"))
         commands.quit = true;
     ImGui::SameLine();

@@ -64,11 +64,11 @@ Ticks logarithmic_ticks(double low, double high, int most) {
         return ticks;
     };
     const auto count = [](const Ticks& ticks) { return static_cast<int>(ticks.values.size()); };
-    if (const Ticks dense = within({1, 2, 5}, 1); count(dense) <= most)
+    if (Ticks dense = within({1, 2, 5}, 1); count(dense) <= most)
         // Within one decade there may be none of them: then as on a straight axis.
         return count(dense) < 2 ? nice_ticks(low, high, most) : dense;
     for (int every = 1;; ++every)
-        if (const Ticks ticks = within({1}, every); count(ticks) <= most)
+        if (Ticks ticks = within({1}, every); count(ticks) <= most)
             return ticks;
 }
 

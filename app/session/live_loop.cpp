@@ -68,7 +68,7 @@ void LiveLoop::take_new_steps(Session& session, Commands& asked) {
 /// Empty: nothing keeps them from being opened.
 std::string LiveLoop::why_not_open(const std::filesystem::path& data) const {
     if (movies_ && movies_->busy())
-        return "a movie is being made: other data are opened when it is whole, or given up";
+        return "a movie is being made: open other data when it is finished, or cancel it";
     return options_.why_not_open ? options_.why_not_open(data)
                                  : "other data are not opened in this session";
 }

@@ -206,7 +206,7 @@ void MovieMaker::end(int status) {
         messages_.push_back(fmt::format("given up: {}", movie_.string()));
     else
         messages_.push_back(
-            last_.empty() ? fmt::format("{}: its process ended without a word", movie_.string())
+            last_.empty() ? fmt::format("{}: its process ended without a message", movie_.string())
                           : last_);
 }
 

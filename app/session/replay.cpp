@@ -1,6 +1,8 @@
 // Replays a recording.
 #include "app/session/replay.h"
 
+#include "index/error.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -41,6 +43,11 @@ ExplorerState start_of(const interaction::RecordingHeader& header, const Explore
     return state;
 }
 
+void expect_cells(const Session& session) {
+    if (const std::string failure = session.failure(); !failure.empty())
+        throw index::Error(failure);
+}
+
 std::vector<std::string> replay_fixed_step(Session& session,
                                            const interaction::Recording& recording,
                                            const ReplayOptions& options, const FrameDone& done) {
@@ -57,6 +64,7 @@ std::vector<std::string> replay_fixed_step(Session& session,
         }
         session.frame(frame.input, obeyed(frame.commands, options), Waiting::for_cells,
                       latch_of(frame));
+        expect_cells(session);
         done(number, frame);
     }
     return different;

@@ -20,9 +20,14 @@ struct ReplayOptions {
 /// Called after each frame, with its number from 0.
 using FrameDone = std::function<void(std::size_t number, const interaction::RecordedFrame& frame)>;
 
+/// @throws index::Error when the cells of the last frame could not be found: its picture is not of
+/// what it says
+void expect_cells(const Session& session);
+
 /// Replays with fixed steps: each recorded frame once, at its recorded time; each waits for its
 /// cells.
 /// @return one line per frame whose recomputed commands differ (none without `from_devices`)
+/// @throws index::Error as expect_cells, after each frame
 std::vector<std::string> replay_fixed_step(Session& session,
                                            const interaction::Recording& recording,
                                            const ReplayOptions& options, const FrameDone& done);

@@ -1,7 +1,7 @@
 // Saves and reads sessions.
 #include "app/session/session_file.h"
 
-#include "app/session/user_memory.h"
+#include "app/config/user_folders.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"

@@ -104,7 +104,7 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .message = message_,
             .messages = messages_,
             .standing = outputs_.headset() && outputs_.shows_windows()
-                            ? "No picture in the headset: this window shows the data meanwhile. " +
+                            ? "No picture in the headset: the window shows the data instead. " +
                                   outputs_.headset()->description()
                             : std::string(),
             .controls = documentation_,

@@ -6,7 +6,6 @@
 #include "index/system/new_file.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <span>
 #include <string>
 
@@ -25,20 +24,7 @@ void write_text(const fs::path& path, const std::string& text) {
     }
 }
 
-std::string variable(const char* name) {
-    const char* value = std::getenv(name); // NOLINT(concurrency-mt-unsafe): before threads
-    return value ? value : "";
-}
-
 } // namespace
-
-std::optional<fs::path> user_state_folder() {
-    if (const std::string state = variable("XDG_STATE_HOME"); !state.empty())
-        return fs::path(state) / "isochron";
-    if (const std::string home = variable("HOME"); !home.empty())
-        return fs::path(home) / ".local/state/isochron";
-    return std::nullopt;
-}
 
 UserMemory::UserMemory(std::optional<fs::path> folder) : folder_(std::move(folder)) {}
 

@@ -7,9 +7,6 @@
 
 namespace isochron::app {
 
-/// $XDG_STATE_HOME/isochron, else ~/.local/state/isochron. Empty if there is no home folder.
-std::optional<std::filesystem::path> user_state_folder();
-
 /// Files that it cannot read or write are no error: then it remembers nothing.
 class UserMemory {
   public:

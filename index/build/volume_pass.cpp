@@ -31,7 +31,7 @@ class Observer {
 
     bool lossless() const { return chooser_.lossless(); }
 
-    VolumeFindings agreed(std::vector<std::uint64_t> states, Team& team) {
+    VolumeFindings agreed(const std::vector<std::uint64_t>& states, Team& team) {
         LevelChooser chooser(info_.type);
         const std::vector<std::uint64_t> seen = chooser_.state();
         for (const auto& bytes : team.gather(std::as_bytes(std::span(seen)))) {
@@ -99,7 +99,7 @@ VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t 
         for (std::size_t step = fresh + begin; step < fresh + end; ++step)
             states.push_back(series.state(step));
     });
-    VolumeFindings found = observer.agreed(std::move(states), team);
+    VolumeFindings found = observer.agreed(states, team);
     found.steps =
         placed_steps(*parts, std::move(steps), detail_grids(info.grid).size(), target.end, team);
     return found;

@@ -68,6 +68,7 @@ class VertexPlacer {
         const T* const low = volume_ + at[0] + at[1] * steps_[1] + at[2] * steps_[2];
         const T* const high = low + steps_[axis];
         const double share = share_between(static_cast<double>(*low), static_cast<double>(*high));
+        // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and lround costs a call
         vertex.share = static_cast<std::uint32_t>(share * MeshVertex::kWhole + 0.5);
         Vector<Real> from, to;
         if (is_inner(at)) {

@@ -36,12 +36,12 @@ ChunkBricks bricks_of_chunk(const BrickGrid& grid, std::uint32_t layers,
 }
 
 /// Copies rows whose length is a compile-time constant, which is faster.
-template <std::size_t Bytes>
+template <std::size_t kBytes>
 void copy_rows(const std::byte* from, std::size_t row, std::size_t plane,
                const std::array<std::uint32_t, 3>& extent, std::byte* to) {
     for (std::uint32_t z = 0; z < extent[2]; ++z)
-        for (std::uint32_t y = 0; y < extent[1]; ++y, to += Bytes)
-            std::memcpy(to, from + z * plane + y * row, Bytes);
+        for (std::uint32_t y = 0; y < extent[1]; ++y, to += kBytes)
+            std::memcpy(to, from + z * plane + y * row, kBytes);
 }
 
 /// @param from the chunk's first value @param row bytes of a row of the step @param size of a value

@@ -40,8 +40,7 @@ void parse_number(std::string_view word, std::byte* out, const std::string& file
 } // namespace
 
 TextValues::TextValues(const std::filesystem::path& path, std::uint64_t offset, StoredType type)
-    : name_(path.string()), offset_(offset), type_(type),
-      stream_(open_data(path, offset, Compression::none)) {
+    : name_(path.string()), type_(type), stream_(open_data(path, offset, Compression::none)) {
     const std::uint64_t size = file_bytes(path);
     bytes_ = size > offset ? size - offset : 0;
 }

@@ -26,7 +26,7 @@ class TextValues {
     bool refill(std::size_t begin);
 
     std::string name_;
-    std::uint64_t offset_, bytes_; ///< start of the text in the file, and its length
+    std::uint64_t bytes_; ///< length of the text
     StoredType type_;
     std::unique_ptr<DataStream> stream_;
     std::string text_;           ///< a part of the file

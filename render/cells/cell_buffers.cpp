@@ -76,9 +76,14 @@ bool CellBuffers::upload(const index::ExtractionPtr& newest, std::size_t byte_bu
     const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
     std::size_t sent = 0;
     bool changed = false;
-    while (take_up(newest, volume, most, sent) && send_on(most, sent)) {
-        show();
-        changed = true;
+    const bool volume_of_shown = !arriving_ && (sending_bricks_ || !newest || newest == shown_);
+    try {
+        while (take_up(newest, volume, most, sent) && send_on(most, sent)) {
+            show();
+            changed = true;
+        }
+    } catch (const OutOfMemory& why) {
+        give_up(arriving_ ? arriving_ : volume_of_shown ? nullptr : newest, why);
     }
     ring_.end_frame();
     return changed;
@@ -87,16 +92,40 @@ bool CellBuffers::upload(const index::ExtractionPtr& newest, std::size_t byte_bu
 bool CellBuffers::stage(const index::ExtractionPtr& set, std::size_t byte_budget) {
     const std::size_t most = std::max(byte_budget, StagingRing::kUnit);
     std::size_t sent = 0;
-    const bool complete = take_up(set, SendVolume::with_cells, most, sent)
-                              ? send_on(most, sent)
-                              : set == refused_ || (set == shown_ && !wants_volume());
+    bool complete = false;
+    try {
+        complete = take_up(set, SendVolume::with_cells, most, sent)
+                       ? send_on(most, sent)
+                       : set == refused_ || (set == shown_ && !wants_volume());
+    } catch (const OutOfMemory& why) {
+        give_up(arriving_ ? arriving_ : set, why);
+        complete = true;
+    }
     ring_.end_frame();
     return complete;
 }
 
 /// Whether the shown set's volume is missing and could be sent.
 bool CellBuffers::wants_volume() const {
-    return !has_volume() && shown_->bricks.ids.size() <= bricks_->values().limit();
+    return !has_volume() && no_volume_version_ != version_ &&
+           shown_->bricks.ids.size() <= bricks_->values().limit();
+}
+
+/// Drops what is being sent: the set, or without one the volume of the shown set.
+void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& why) {
+    if (set && set != shown_) {
+        refused_ = set;
+        refusal_ = fmt::format("step {}: {}, so the last cells stay", set->query.step, why.what());
+    } else {
+        no_volume_version_ = version_;
+    }
+    arriving_ = nullptr;
+    ranked_ = nullptr;
+    plan_ = nullptr;
+    sending_bricks_ = sending_mesh_ = false;
+    volume_version_ = 0; // of no set
+    if (bricks_)         // which may have got only a part
+        bricks_.emplace(*gl_, grid_, (set ? set : shown_)->bricks.held);
 }
 
 /// Begins to send a new set, or the volume of the shown one, if there is anything to send.
@@ -196,7 +225,7 @@ bool CellBuffers::send_mesh(std::size_t bytes, std::size_t& sent) {
 
 /// Like a set, a volume whose transfer has begun is completed before a newer set begins.
 void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
-    if (!shown_ || has_volume())
+    if (!shown_ || has_volume() || no_volume_version_ == version_)
         return;
     if (!sending_bricks_) {
         if (!make_room_for(shown_->bricks))

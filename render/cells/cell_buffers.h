@@ -60,8 +60,8 @@ class CellBuffers {
     /// Sends at most `byte_budget` bytes (at least StagingRing::kUnit), fewer if the GPU has not
     /// yet copied what was sent before; never waits. A set whose transfer has begun is completed
     /// before a newer one begins, so that the picture still changes in a stream of new sets; sets
-    /// in between are skipped. A set that is too large for the driver's buffers is refused, and the
-    /// last one stays: see `refused`. If only its volume is too large, its cells are shown without
+    /// in between are skipped. A set that is too large for the driver's buffers or memory is refused,
+    /// and the last one stays: see `refused`. If only its volume is too large, its cells are shown without
     /// it.
     /// @param newest null changes nothing
     /// @param volume `never`: cells with normals are shown without their volume. It follows with a
@@ -125,6 +125,7 @@ class CellBuffers {
     const BrickPool* bricks() const { return bricks_ ? &*bricks_ : nullptr; }
 
   private:
+    void give_up(const index::ExtractionPtr& set, const OutOfMemory& why);
     bool take_up(const index::ExtractionPtr& newest, SendVolume volume, std::size_t bytes,
                  std::size_t& sent);
     bool begin(index::ExtractionPtr set, SendVolume volume);
@@ -152,6 +153,7 @@ class CellBuffers {
     std::string refusal_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
     std::uint64_t version_ = 0, corners_version_ = 0, volume_version_ = 0, mesh_version_ = 0;
+    std::uint64_t no_volume_version_ = 0; ///< of the set whose volume found no memory
     UploadCount count_;
     bool sending_mesh_ = false;   ///< of the arriving set
     bool sending_bricks_ = false; ///< of the arriving set, or later of the shown one

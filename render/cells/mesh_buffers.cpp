@@ -1,6 +1,10 @@
 // Sends meshes to the GPU in portions.
 #include "render/cells/mesh_buffers.h"
 
+#include "render/gl/gl_memory.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -11,8 +15,11 @@ namespace {
 void fit(const Gl& gl, const Buffer& buffer, std::size_t bytes, std::size_t& room) {
     if (bytes <= room)
         return;
-    room = bytes + bytes / 2;
-    gl.NamedBufferData(buffer.name(), static_cast<GLsizeiptr>(room), nullptr, GL_DYNAMIC_DRAW);
+    room = 0; // until there is memory for it
+    const std::size_t wanted = bytes + bytes / 2;
+    gl.NamedBufferData(buffer.name(), static_cast<GLsizeiptr>(wanted), nullptr, GL_DYNAMIC_DRAW);
+    expect_memory(gl, fmt::format("a mesh of {} bytes", bytes));
+    room = wanted;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // A growing array on the GPU.
 #include "render/gl/device_array.h"
 
+#include "render/gl/gl_memory.h"
 #include "render/gl/limits.h"
 
 #include <fmt/format.h>
@@ -31,6 +32,7 @@ void DeviceArray::reserve(std::size_t elements, Contents contents) {
     Buffer larger(*gl_);
     gl_->NamedBufferData(larger.name(), static_cast<GLsizeiptr>(capacity * element_bytes()),
                          nullptr, GL_DYNAMIC_COPY);
+    expect_memory(*gl_, fmt::format("{} {}", elements, what_));
     if (contents == Contents::kept)
         gl_->CopyNamedBufferSubData(buffer_.name(), larger.name(), 0, 0,
                                     static_cast<GLsizeiptr>(capacity_ * element_bytes()));

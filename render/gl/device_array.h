@@ -21,7 +21,8 @@ class DeviceArray {
     enum class Contents : bool { dropped, kept };
     /// Makes room for at least `elements`. To keep the contents the GPU copies them; if they are
     /// dropped, the GPU may still draw from the old memory while the new one is written.
-    /// @throws Error when `elements` is more than `limit()`
+    /// @throws Error when `elements` is more than `limit()`; OutOfMemory, with all as it was, when
+    /// the GL has no memory for them
     void reserve(std::size_t elements, Contents contents);
 
     std::size_t capacity() const { return capacity_; }

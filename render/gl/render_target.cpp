@@ -2,6 +2,7 @@
 #include "render/gl/render_target.h"
 
 #include "render/gl/driver.h"
+#include "render/gl/gl_memory.h"
 #include "render/gl/limits.h"
 #include "render/gl/srgb.h"
 
@@ -59,6 +60,8 @@ void RenderTarget::allocate_samples() {
 }
 
 void RenderTarget::expect_complete(GLuint framebuffer) const {
+    expect_memory(
+        *gl_, fmt::format("render target: {}x{} pixels of {} samples", size_.x, size_.y, samples_));
     const GLenum status = gl_->CheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
         throw Error(fmt::format("render target: {}x{} pixels of {} samples, framebuffer status "

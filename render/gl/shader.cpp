@@ -15,6 +15,7 @@ namespace isochron::render {
 namespace {
 
 struct ShaderKind {
+    static constexpr const char* kName = "shader";
     static GLuint create(const Gl& gl, GLenum stage) { return gl.CreateShader(stage); }
     static void destroy(const Gl& gl, GLuint name) { gl.DeleteShader(name); }
 };

@@ -88,8 +88,14 @@ void StagingRing::copy(std::size_t bytes, GLuint buffer, std::size_t offset) {
 void StagingRing::end_frame() {
     if (written_ == fenced_)
         return;
-    flights_.push_back({gl_->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0), written_});
     fenced_ = written_;
+    if (const GLsync fence = gl_->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {
+        flights_.push_back({fence, written_});
+    } else { // rather a frame that waits than a transfer that never ends
+        gl_->Finish();
+        land();
+        landed_ = written_;
+    }
 }
 
 } // namespace isochron::render

@@ -19,7 +19,7 @@ std::function<void()>& what_saves() {
 }
 
 [[noreturn]] void end(const char* why) {
-    const char* display = std::getenv("DISPLAY"); // NOLINT(concurrency-mt-unsafe): nobody sets it
+    const char* display = std::getenv("DISPLAY"); // nobody sets it
     fmt::print(stderr, "isochron: the X server {} {}\n", display ? display : "", why);
     if (const auto save = std::exchange(what_saves(), {}))
         save();

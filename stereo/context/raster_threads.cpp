@@ -29,7 +29,7 @@ std::optional<unsigned> number_in(std::string_view text) {
 /// Number of earlier processes of the job on this machine, by Open MPI; each process begins at
 /// another processor.
 std::size_t processes_before() {
-    const char* rank = std::getenv("OMPI_COMM_WORLD_LOCAL_RANK"); // NOLINT(concurrency-mt-unsafe)
+    const char* rank = std::getenv("OMPI_COMM_WORLD_LOCAL_RANK");
     return rank ? number_in(rank).value_or(0) : 0;
 }
 

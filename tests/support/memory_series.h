@@ -13,7 +13,7 @@ namespace isochron::index {
 
 class MemorySeries : public VolumeSeries {
   public:
-    explicit MemorySeries(StepValues values) : values_(values) {
+    explicit MemorySeries(const StepValues& values) : values_(values) {
         info_.array = "test";
         info_.grid = values.grid;
         info_.type = values.type;

@@ -104,7 +104,7 @@ class Soak : public ExploreTest {
                                              int(120 + random_() % 500));
             [[fallthrough]];
         default:
-            const std::string key = kKeys[random_() % kKeys.size()];
+            const std::string& key = kKeys[random_() % kKeys.size()];
             screen_.xdotool({"key", key});
             if (key == "Escape")
                 screen_.xdotool({"sleep", "0.2", "key", "Escape"}); // takes the question back

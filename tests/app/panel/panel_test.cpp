@@ -119,10 +119,10 @@ class MovieButtons : public PanelTest {
     }
     std::set<MovieWish> wishes() {
         std::set<MovieWish> all;
-        for (float y = 25; y < 100; y += 6)
-            for (float x = 10; x < 380; x += 20)
+        for (int y = 25; y < 100; y += 6)
+            for (int x = 10; x < 380; x += 20)
                 for (const bool down : {false, false, true, false})
-                    if (const auto wish = frame(x, y, down))
+                    if (const auto wish = frame(float(x), float(y), down))
                         all.insert(*wish);
         return all;
     }

@@ -2,6 +2,7 @@
 #include "tests/support/session_fixture.h"
 
 #include "app/session/replay.h"
+#include "index/error.h"
 
 #include <gmock/gmock.h>
 
@@ -171,6 +172,21 @@ TEST_P(SessionTest, AFailingExtractionLeavesThePictureAndSaysWhy) {
     EXPECT_EQ(report.cells, cells);
     EXPECT_EQ(report.shown->step, 0u);
     EXPECT_EQ(session.failure(), "step 2 cannot be read");
+}
+
+TEST_P(SessionTest, AReplayEndsWithAnErrorWhereCellsAreNotFound) {
+    const index::Extract extract = [](const index::SurfacesQuery&,
+                                      const std::stop_token&) -> index::ExtractionPtr {
+        throw std::runtime_error("step 0 cannot be read");
+    };
+    Session session(small_config(), file_, *context_, extract);
+    interaction::Recording recording;
+    recording.frames.push_back({head_at_rest(0), {}, {}});
+    int pictures = 0;
+    EXPECT_THROW(
+        replay_fixed_step(session, recording, {}, [&](std::size_t, const auto&) { ++pictures; }),
+        index::Error);
+    EXPECT_EQ(pictures, 0);
 }
 
 TEST_P(SessionTest, SettlesIntoSplatsAndMovesInQuads) {

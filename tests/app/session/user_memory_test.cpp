@@ -30,7 +30,7 @@ TEST(UserMemory, SaysOnceThatTheFirstLinesWereSeenAndNothingWithoutAFolder) {
     EXPECT_FALSE(UserMemory(folder.path()).introduced());
     UserMemory(folder.path()).set_introduced();
     EXPECT_TRUE(UserMemory(folder.path()).introduced());
-    for (const std::optional<std::filesystem::path> nowhere :
+    for (const std::optional<std::filesystem::path>& nowhere :
          {std::optional<std::filesystem::path>(), {"/proc/nothing"}}) {
         UserMemory memory(nowhere);
         memory.remember(folder.path() / "a.isochron");

@@ -27,7 +27,7 @@ namespace {
 /// Gives its steps in pieces of any length.
 class PiecewiseSeries final : public MemorySeries {
   public:
-    PiecewiseSeries(StepValues values, std::mt19937& random)
+    PiecewiseSeries(const StepValues& values, std::mt19937& random)
         : MemorySeries(values), stored_(values), random_(random) {}
 
     void stream(std::size_t step, const TakePiece& take) override {
@@ -81,7 +81,7 @@ class SharedSeries final : public MemorySeries {
         unsigned reading = 0, most = 0, expected = 1;
         std::size_t bad = ~std::size_t{0}; ///< a step that cannot be read
     };
-    SharedSeries(StepValues values, std::shared_ptr<Readers> readers)
+    SharedSeries(const StepValues& values, std::shared_ptr<Readers> readers)
         : MemorySeries(values), stored_(values), readers_(std::move(readers)) {}
 
     std::unique_ptr<VolumeSeries> another() const override {

@@ -94,8 +94,8 @@ TEST_F(NrrdAxesTest, AListThatTheUserCallsTimeIsASeries) {
     EXPECT_EQ(series->info().array, "values");
     EXPECT_EQ(series->info().grid.spacing, glm::dvec3(2, 2, 3));
     ASSERT_EQ(series->info().steps(), 3u);
-    for (const std::uint8_t step : {2, 0, 1})
-        EXPECT_EQ(values_of<std::uint8_t>(*series, step), every(3, step));
+    for (const std::size_t step : {2, 0, 1})
+        EXPECT_EQ(values_of<std::uint8_t>(*series, step), every(3, static_cast<std::uint8_t>(step)));
 }
 
 TEST_F(NrrdAxesTest, TimeIsWhereAKindOrAUnitSaysSo) {

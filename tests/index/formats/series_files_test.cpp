@@ -45,15 +45,15 @@ TEST(RawSeries, OfOneStepAFileCanBeReadByManyAtOnce) {
     TestFolder folder;
     std::vector<std::filesystem::path> files;
     for (int i = 0; i < 4; ++i)
-        files.push_back(folder.write("t" + std::to_string(i) + ".raw", std::string(8, 'a' + i)));
+        files.push_back(folder.write("t" + std::to_string(i) + ".raw", std::string(8, "abcd"[i])));
     const auto series = open_series(files, raw_u8(2, 2, 2));
     const auto other = series->another();
     ASSERT_TRUE(other);
     EXPECT_EQ(other->info().sources, series->info().sources);
     for (const std::size_t step : {3, 0, 2, 1}) {
-        EXPECT_EQ(values_of<std::uint8_t>(*other, step), std::vector<std::uint8_t>(8, 'a' + step));
+        EXPECT_EQ(values_of<std::uint8_t>(*other, step), std::vector<std::uint8_t>(8, "abcd"[step]));
         EXPECT_EQ(values_of<std::uint8_t>(*series, 3 - step),
-                  std::vector<std::uint8_t>(8, 'd' - step));
+                  std::vector<std::uint8_t>(8, "dcba"[step]));
         EXPECT_EQ(other->state(step), series->state(step));
     }
     folder.write("t1.raw", std::string(9, 'x'));

@@ -338,7 +338,7 @@ TEST(DTrackInput, AnAddressThatCannotBeBoundIsNamed) {
     UdpSocket taken({"127.0.0.1", 0});
     const auto message = [](const Endpoint& endpoint) -> std::string {
         try {
-            DTrackInput input({endpoint, {}});
+            DTrackInput input({endpoint, {}, {}});
         } catch (const Error& error) {
             return error.what();
         }

@@ -5,6 +5,7 @@
 #include "render/passes/cielab.h"
 #include "tests/support/test_seed.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,7 +90,7 @@ TEST(ColorMaps, HaveThePublishedColors) {
         const auto colors = color_map(known.map);
         const double at = known.share * double(colors.size() - 1);
         const glm::vec3 light =
-            glm::mix(colors[std::size_t(at)], colors[std::size_t(at + 0.5)], 0.5f);
+            glm::mix(colors[std::size_t(at)], colors[std::size_t(std::lround(at))], 0.5f);
         const glm::vec3 shown = 255.0f * srgb_from_linear(light);
         for (int channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(shown[channel], known.rgb[std::size_t(channel)], 4)

@@ -4,6 +4,8 @@
 //
 //     ISOCHRON_FAULT=write:3:ENOSPC    from the third write on the disk is full
 //     ISOCHRON_FAULT_MARK=FILE         appears once the fault has been met
+//     ISOCHRON_CALL_LOG=FILE           gets a line for each call on a file that is written: open, write, size, sync (with
+//                                      the file's number), rename
 //
 // Kinds: open, read, write, sync, rename, size, new. Faults: ENOSPC and EIO (from then on), EINTR and short (once).
 #include <dlfcn.h>
@@ -21,6 +23,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <string>
 
 namespace {
 
@@ -68,6 +71,26 @@ void mark() {
                   ::syscall(SYS_openat, AT_FDCWD, file, O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
 }
 
+/// Notes a call on a file that is written: what changes it after the call, a flush before it.
+void note(const char* line) {
+    static const char* const name = std::getenv("ISOCHRON_CALL_LOG");
+    if (!name || !in_main)
+        return;
+    static const long log =
+        ::syscall(SYS_openat, AT_FDCWD, name, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    ::syscall(SYS_write, log, line, std::strlen(line));
+}
+void note(const char* kind, int file) {
+    std::array<char, 32> line{};
+    std::snprintf(line.data(), line.size(), "%s %d\n", kind, file);
+    note(line.data());
+}
+void note(const char* kind, const char* path, const char* other) {
+    std::array<char, 4096> line{};
+    std::snprintf(line.data(), line.size(), "%s %s %s\n", kind, path, other);
+    note(line.data());
+}
+
 /// What this call shall do: none for most.
 How fault_of(const char* kind) {
     if (!in_main || plan().how == How::none || std::strcmp(kind, plan().kind.data()) != 0)
@@ -111,15 +134,26 @@ int open_with(const char* name, const char* path, int flags, unsigned mode) {
         errno = error_of(how);
         return -1;
     }
-    return opened(call(path, flags, mode), watch);
+    const int file = opened(call(path, flags, mode), watch);
+    if (watch && file >= 0 && (flags & O_ACCMODE) != O_RDONLY)
+        note("open", std::to_string(file).c_str(), path);
+    return file;
 }
 
 /// Runs a transfer of `bytes`: fails it, or shortens it to a half.
 template <class Call>
 ssize_t transfer(const char* kind, int file, std::size_t bytes, Call call) {
     const How how = is_watched(file) ? fault_of(kind) : How::none;
-    if (how == How::none)
-        return call(bytes);
+    const bool noted = is_watched(file) && std::strcmp(kind, "read") != 0;
+    const bool flushes = std::strcmp(kind, "sync") == 0;
+    if (how == How::none) {
+        if (noted && flushes)
+            note(kind, file);
+        const ssize_t done = call(bytes);
+        if (noted && !flushes)
+            note(kind, file);
+        return done;
+    }
     if (how == How::part)
         return call((bytes + 1) / 2);
     errno = error_of(how);
@@ -168,6 +202,11 @@ FILE* fopen(const char* path, const char* mode) {
 FILE* fopen64(const char* path, const char* mode) {
     return fopen(path, mode);
 }
+int close(int file) {
+    static const auto call = real<int(int)>("close");
+    opened(file, false); // its number may be a socket's next
+    return call(file);
+}
 ssize_t read(int file, void* to, size_t bytes) {
     static const auto call = real<ssize_t(int, void*, size_t)>("read");
     return transfer("read", file, bytes, [&](size_t part) { return call(file, to, part); });
@@ -206,6 +245,8 @@ int rename(const char* from, const char* to) {
         errno = error_of(how);
         return -1;
     }
+    if (counts(to))
+        note("rename", from, to);
     return call(from, to);
 }
 int ftruncate(int file, off_t bytes) {

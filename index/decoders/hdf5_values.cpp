@@ -9,6 +9,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace isochron::index {
 namespace {
@@ -57,7 +58,8 @@ Hdf5Values::Hdf5Values(const Hdf5File& file, const Hdf5Dataset& dataset,
     for (std::size_t i = 0; i < rank; ++i) {
         bytes *= static_cast<double>(chunk_[i]);
         if (i != *shared)
-            chunks *= static_cast<double>((dataset.dimensions[i] + chunk_[i] - 1) / chunk_[i]);
+            chunks *= std::ceil(static_cast<double>(dataset.dimensions[i]) /
+                                static_cast<double>(chunk_[i]));
     }
     constexpr double kMostBytes = 512.0 * (1 << 20), kMostChunks = 1e6;
     if (bytes * chunks > kMostBytes || chunks > kMostChunks)

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMostPlanes = 1 << 22;
 
-std::string tidy_length(std::string unit) {
+std::string tidy_length(const std::string& unit) {
     if (unit == "micron" || unit == "microns" || unit == "\\u00B5m" || unit == "\u00b5m" ||
         unit == "\u03bcm" || unit == "\xb5m")
         return "um";

@@ -87,7 +87,7 @@ std::vector<StoredArray> without_flags(std::vector<StoredArray> arrays) {
 
 std::vector<std::uint8_t> hidden_by_flags(vtkDataSet& image, const ChosenScalar& chosen,
                                           const Grid& grid) {
-    const std::vector<std::uint8_t> cells =
+    std::vector<std::uint8_t> cells =
         flagged(image.GetCellData(),
                 vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
                     vtkDataSetAttributes::HIDDENCELL,

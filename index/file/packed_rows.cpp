@@ -22,6 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t kRow = 16; ///< numbers in a row, which has its own number of bits
 constexpr unsigned kMostBits = 8;
 
+#if HWY_TARGET == HWY_SCALAR
 std::uint8_t folded(std::uint8_t number) {
     return static_cast<std::uint8_t>(number << 1 ^ (number & 0x80 ? 0xff : 0));
 }
@@ -29,7 +30,6 @@ std::uint8_t unfolded(std::uint8_t number) {
     return static_cast<std::uint8_t>(number >> 1 ^ (number & 1 ? 0xff : 0));
 }
 
-#if HWY_TARGET == HWY_SCALAR
 /// @param planes set to the bit planes @return number of bits, and planes, of the largest number
 unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostBits>& planes) {
     planes = {};

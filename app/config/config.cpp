@@ -89,7 +89,7 @@ void read_lighting(TomlReader& reader, render::CellAppearance& look) {
 }
 
 void read_rendering(TomlReader& reader, Config& config) {
-    reader.word("footprint", cell_shape_names(),
+    reader.word("shape", cell_shape_names(),
                 [&](const std::string& word) { config.cell_shape = cell_shape_from_name(word); });
     reader.word("context", {"glfw", "egl", "osmesa"}, [&](const std::string& word) {
         config.context = *stereo::context_kind_from_name(word);
@@ -181,7 +181,7 @@ render::CellShape cell_shape_from_name(const std::string& name) {
     for (const render::CellShape shape : kCellShapes)
         if (name == render::name_of(shape))
             return shape;
-    throw ConfigError(fmt::format("unknown footprint '{}', expected plane or voxel", name));
+    throw ConfigError(fmt::format("unknown shape '{}', expected plane or voxel", name));
 }
 
 std::vector<std::string> cell_shape_names() {

@@ -48,6 +48,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSpelling
     {"colour", "color"},
     {"surface_colour", "surface_color"},
     {"colouring", "coloring"},
+    {"footprint", "shape"},
     {"grey", "gray"},
     {"lagoon", "viridis"},
     {"dusk", "inferno"},

@@ -1,10 +1,13 @@
-// A user who does anything at random in the window, and a program that is killed under them. ISOCHRON_SOAK_SECONDS in
+// A user who does anything at random in the window, while trackers send anything and files vanish and
+// come back; and a program that is killed under them. ISOCHRON_SOAK_SECONDS in
 // the environment says how long the user plays, a few seconds otherwise; ISOCHRON_KILLS how often it is killed.
 #include "tests/app/commands/explore_fixture.h"
 
+#include "app/config/shipped_configs.h"
 #include "app/session/recording_file.h"
 #include "stereo/image_file.h"
 #include "tests/support/test_seed.h"
+#include "tests/support/tracker_packets.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,6 +17,7 @@
 #include <fstream>
 #include <future>
 #include <iterator>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -90,7 +94,12 @@ class Soak : public ExploreTest {
                                                     "F1",
                                                     "Escape"};
         const auto place = [&](int most) { return std::to_string(random_() % most); };
-        switch (random_() % 8) {
+        switch (random_() % 10) {
+        case 8: return send_packets();
+        case 9:
+            if (random_() % 4 == 0)
+                vanish_for_a_while();
+            return;
         case 0:
             return screen_.xdotool({"mousemove", place(640), place(480), "mousedown", "1",
                                     "mousemove", place(640), place(480), "mouseup", "1"});
@@ -111,16 +120,53 @@ class Soak : public ExploreTest {
         }
     }
 
+    /// Poses of a head and a hand, some of them cut short or overwritten at random.
+    void send_packets() {
+        const auto number = [&](double most) {
+            return double(random_() % 2001) * most / 1000 - most;
+        };
+        for (int i = 0; i < 20; ++i) {
+            const interaction::Pose pose{
+                {float(number(1)), float(1.5 + number(0.5)), float(number(1))},
+                glm::angleAxis(float(number(3)), glm::vec3(0, 1, 0))};
+            std::string packet =
+                test_support::osc_pose(i % 2 ? "/isochron/head/pose" : "/isochron/wand/pose", pose);
+            if (random_() % 4 == 0)
+                packet.resize(random_() % packet.size());
+            if (random_() % 4 == 0 && !packet.empty())
+                packet[random_() % packet.size()] = char(random_());
+            sender_->send(packet);
+        }
+    }
+    /// Takes the data away and brings them back, as a share that is unmounted does.
+    void vanish_for_a_while() {
+        fs::rename(file("sphere.isochron"), file("gone"));
+        screen_.xdotool({"key", "Right", "sleep", "0.05", "key", "Up"});
+        fs::rename(file("gone"), file("sphere.isochron"));
+    }
+    /// Writes a configuration whose head and wand are tracked by OSC. @return its name
+    std::string tracked_config() {
+        const interaction::UdpSocket free({"127.0.0.1", 0});
+        sender_.emplace(free.endpoint());
+        folder_.write("tracked.toml",
+                      std::string(*shipped_config("desktop")) +
+                          fmt::format("\n[[osc]]\nport = {}\n[[osc.devices]]\nname = \"head\"\n"
+                                      "[[osc.devices]]\nname = \"wand\"\n",
+                                      free.endpoint().port));
+        return file("tracked.toml");
+    }
+
     static std::size_t entries(const fs::path& folder) {
         return std::size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
     }
 
     std::mt19937 random_{test_seed()};
+    std::optional<test_support::UdpSender> sender_;
 };
 
 TEST_F(Soak, ARandomUserIsFollowedAndReplayed) {
-    const auto program = explore(
-        {"--record", file("walk.jsonl"), "--isovalue", "8", "--screenshots", file("shots")});
+    const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8",
+                                  "--screenshots", file("shots"), "--config", tracked_config()});
     const fs::path process = fmt::format("/proc/{}", program->pid());
     const auto play = [&](double seconds) {
         const auto end = Clock::now() + std::chrono::duration<double>(seconds);
@@ -155,8 +201,8 @@ TEST_F(Soak, ARandomUserIsFollowedAndReplayed) {
 
 TEST_F(Soak, AKilledExplorerLeavesWholeFiles) {
     for (int i = 0; i < setting("ISOCHRON_KILLS", 2); ++i) {
-        const auto program = explore(
-            {"--record", file("walk.jsonl"), "--force", "--session", file("s.isochron-session")});
+        const auto program = explore({"--record", file("walk.jsonl"), "--force", "--session",
+                                      file("s.isochron-session"), "--config", tracked_config()});
         const auto end = Clock::now() + std::chrono::milliseconds(random_() % 1000);
         while (Clock::now() < end)
             act();

@@ -182,7 +182,7 @@ still_budget_ms = 200
 TEST(Config, WhatASettledPictureIsDrawnWithIsMeasuredUnlessItIsNamed) {
     EXPECT_EQ(parse_config("", "lab.toml").settled_footprint, std::nullopt);
     EXPECT_EQ(parse_config("", "lab.toml").cell_shape, render::CellShape::plane);
-    EXPECT_EQ(parse_config("[rendering]\nfootprint = \"voxel\"\n", "lab.toml").cell_shape,
+    EXPECT_EQ(parse_config("[rendering]\nshape = \"voxel\"\n", "lab.toml").cell_shape,
               render::CellShape::voxel);
     EXPECT_EQ(parse_config("[quality]\nsettled = \"auto\"\n", "lab.toml").settled_footprint,
               std::nullopt);

@@ -44,7 +44,7 @@ std::string type_name(const toml::node& node) {
 }
 
 /// Keys and words that were spelled in another way up to version 0.1, and how they are now.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSpellings{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kSpellings{{
     {"colour", "color"},
     {"surface_colour", "surface_color"},
     {"colouring", "coloring"},

@@ -8,16 +8,15 @@
 
 namespace isochron::app {
 
-/// A color map that a configuration brings along.
+/// A color map from a file that a configuration names.
 struct LoadedColorMap {
     std::string name;
-    /// At equal distances from low to high: sRGB, eight bits each of red, green and blue from the
-    /// highest.
+    /// Colors at equal distances from the lowest to the highest value: sRGB, 0xRRGGBB.
     std::vector<std::uint32_t> colors;
     bool operator==(const LoadedColorMap&) const = default;
 };
 
-/// Places at which a loaded map is kept: straight in L*a*b* between them.
+/// Number of colors kept of a loaded map; between them colors are interpolated in L*a*b*.
 inline constexpr std::size_t kLoadedColors = 128;
 
 /// The maps of a file, in its order: `Name`, `RGBPoints` (place, red, green and blue in turn, places
@@ -26,7 +25,7 @@ inline constexpr std::size_t kLoadedColors = 128;
 /// @param name of the file, for messages
 /// @throws ConfigError in one line: what is wrong with which map
 std::vector<LoadedColorMap> parse_color_maps(const std::string& text, const std::string& name);
-/// @throws ConfigError likewise, or when the file cannot be read
+/// @throws ConfigError in one line, also when the file cannot be read
 std::vector<LoadedColorMap> read_color_maps(const std::filesystem::path& path);
 
 } // namespace isochron::app

@@ -26,11 +26,11 @@ struct MovieOrders {
     interaction::RecordingHeader header; ///< of the session
 };
 
-/// One at a time: `isochron_movie_0001.mp4` and so on, and beside it the recording that it is made
-/// of. When it is given up, or fails, nothing is left of either.
+/// Makes one movie at a time: `isochron_movie_0001.mp4` and so on. The recording that it is made of
+/// lies beside it. If the movie is canceled or fails, both are deleted.
 class MovieMaker {
   public:
-    /// Writes the recording under that name. Throws where it cannot.
+    /// Writes the recording under that name; throws if it cannot.
     using Write = std::function<void(const std::filesystem::path&)>;
 
     explicit MovieMaker(MovieOrders orders);
@@ -43,15 +43,15 @@ class MovieMaker {
     /// Begins one, unless one is being made. @param write runs on another thread
     void make(const Write& write, BackgroundWork& writing);
     void give_up();
-    /// Gives up what is not whole, and waits until nothing of it is left.
+    /// Cancels an unfinished movie, and waits until its files are deleted.
     void finish();
     /// Once a frame; never waits.
     void update();
 
     bool busy() const { return written_.valid() || process_ > 0; }
-    /// Of the one that is being made, 0 to 1.
+    /// How much of the movie is finished, 0 to 1.
     std::optional<float> progress() const;
-    /// What came of them since the last call: a line each.
+    /// One line for each movie that ended since the last call: its name, or the error.
     std::vector<std::string> messages();
 
   private:
@@ -64,9 +64,9 @@ class MovieMaker {
     std::future<void> written_;               ///< its recording
     bool given_up_ = false;
     pid_t process_ = -1;
-    int words_ = -1;   ///< what the process says
-    std::string said_; ///< the line that has not ended yet
-    std::string last_; ///< the newest line that is no progress
+    int words_ = -1;   ///< the end of the pipe from the process
+    std::string said_; ///< an incomplete line from the process
+    std::string last_; ///< the newest line that does not report progress
     float progress_ = 0;
     std::vector<std::string> messages_;
 };

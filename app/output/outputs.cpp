@@ -4,6 +4,7 @@
 #include "app/output/picture_names.h"
 #include "app/version.h"
 #include "render/gl/driver.h"
+#include "render/gl/gl_memory.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>
@@ -114,6 +115,7 @@ DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& ove
         headset_display_->draw(audience.eyes, [&](std::span<const render::View> views) {
             counted(ScenePlace{}, views);
         });
+    render::expect_memory(gl(), "drawing a frame");
     end_headset_frame(false);
     if (!in_windows)
         headset_display_->mirror(overlay);

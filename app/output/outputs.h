@@ -115,6 +115,7 @@ class Outputs {
     /// @param scene draws the same until the next call: pictures to keep call it again
     /// @param overlay drawn over the first window, or over a headset's mirror; empty: none
     /// @return load of one cell in every view: the number of views, and their pixels
+    /// @throws render::OutOfMemory when the GL had no memory for something that was drawn
     DrawLoad draw(const Audience& audience, Scene scene, const Overlay& overlay);
     /// Keeps each eye's last picture, and draws a new overlay.
     void draw_again(const Audience& audience, const Overlay& overlay);

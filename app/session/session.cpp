@@ -5,7 +5,6 @@
 #include "interaction/device_reading.h"
 #include "interaction/navigator.h"
 #include "interaction/tool_table.h"
-#include "render/gl/gl_memory.h"
 
 #include <chrono>
 #include <utility>
@@ -314,7 +313,6 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
             draw_views(place, views);
         };
         const DrawLoad of_cell = outputs_.draw(now.audience, scene, panel);
-        render::expect_memory(outputs_.gl(), "drawing a frame");
         quality_.end(report, of_cell, report.upload + watch.lap());
     } else {
         outputs_.draw_again(now.audience, panel);

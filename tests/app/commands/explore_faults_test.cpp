@@ -15,7 +15,6 @@ class ExploreFaults : public Faults {
   protected:
     ExploreFaults() {
         setenv("XDG_STATE_HOME", state_.path().c_str(), 1);
-        setenv("XDG_CACHE_HOME", state_.path().c_str(), 1);
         set_growth(1.0);
         EXPECT_EQ(isochron(build_of("t[01].raw")).status, 0);
         const ChildResult explored = isochron(explore_to("walk.jsonl"));

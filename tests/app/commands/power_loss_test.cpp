@@ -14,7 +14,6 @@ class PowerLoss : public Faults {
   protected:
     PowerLoss() {
         setenv("XDG_STATE_HOME", state_.path().c_str(), 1);
-        setenv("XDG_CACHE_HOME", state_.path().c_str(), 1);
         folder.write("cave.pvx", "<pvx><Process Type=\"client\"/><Process Type=\"server\">"
                                  "<Machine Name=\"a\" Environment=\"DISPLAY=:0\" "
                                  "LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\" "

@@ -215,6 +215,26 @@ TEST(NetcdfAxes, ThatAreNotUniformKeepTheirPositionsAndNames) {
     EXPECT_EQ(grid.physical({1, 0, 1}), glm::dvec3(1.01, 20, 6));
 }
 
+TEST(NetcdfAxes, OfOneSeriesMayDifferByRounding) {
+    TestFolder folder;
+    const auto open_with = [&](double second) {
+        std::vector<std::filesystem::path> files;
+        for (const double x : {1.0, second}) {
+            const std::string name = x == 1 ? "t1.nc" : "t2.nc";
+            NetcdfWriter out(folder.path() / name, NC_CLASSIC_MODEL);
+            out.axis("x", {0, x, 2, 3, 4}, "m");
+            out.axis("y", kY, "m");
+            out.axis("z", kZ, "m");
+            put_landmark(out, {"z", "y", "x"}, false);
+            files.push_back(out.done());
+        }
+        return open_series(files);
+    };
+    EXPECT_EQ(open_with(1.00005)->info().steps(), 2u) << "one is even, the other is not";
+    EXPECT_THAT(error_of([&] { open_with(1.001); }),
+                HasSubstr("t2.nc: other positions of vertices along axis 0 than"));
+}
+
 TEST(NetcdfAxes, OfLongitudesMayPassGreenwich) {
     TestFolder folder;
     NetcdfWriter out(folder.path() / "wrap.nc", NC_CLASSIC_MODEL);

@@ -52,21 +52,30 @@ LayerSearch::LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t leve
 }
 
 /// @param places gives the places of a layer whose chunks will be needed
-bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, const Work& work,
-                                 const std::stop_token& stop) {
+bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, const Prepare& prepare,
+                                 const Work& work, const std::stop_token& stop) {
     const std::uint32_t layers = StepSlab::layers(store_.info().grid);
     ReadAhead ahead(layers, [&](std::uint32_t layer) {
         if (stop.stop_requested())
             throw Stopped();
         return store_.expect(step, layer, places(layer));
     });
+    const auto threads = static_cast<unsigned>(slabs_.size());
+    // Each item prepares a layer, and works on one that has been prepared a while ago.
+    const unsigned before = prepare ? threads : 0;
     try {
-        parallel_for(layers, static_cast<unsigned>(slabs_.size()),
-                     [&](std::size_t at, unsigned worker) {
+        parallel_for(std::size_t{layers} + before, threads,
+                     [&](std::size_t item, unsigned worker) {
                          if (stop.stop_requested())
                              throw Stopped();
-                         const auto layer = static_cast<std::uint32_t>(at);
-                         ahead.reach(layer);
+                         if (item < layers) {
+                             ahead.reach(static_cast<std::uint32_t>(item));
+                             if (prepare)
+                                 prepare(static_cast<std::uint32_t>(item));
+                         }
+                         if (item < before)
+                             return;
+                         const auto layer = static_cast<std::uint32_t>(item - before);
                          if (!slabs_[worker])
                              slabs_[worker] = std::make_unique<StepSlab>(store_);
                          slabs_[worker]->begin(step, layer, stop);
@@ -96,7 +105,7 @@ bool LayerSearch::for_each_layer_of(std::uint32_t step, std::span<const CellId> 
                 found.push_back(place);
         return found;
     };
-    return for_each_layer(step, places, work, stop);
+    return for_each_layer(step, places, {}, work, stop);
 }
 
 std::span<const CellId> LayerSearch::of_layer(std::span<const CellId> ids,
@@ -118,10 +127,17 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
     LayerResults results(set, StepSlab::layers(store_.info().grid));
     const auto places = [&](std::uint32_t layer) {
         if (cut)
-            return StepSlab::candidate_chunks(*store_.layer(query.step, layer), *cut);
+            return LayerCandidates::places_of(*store_.layer(query.step, layer), *cut);
         std::vector<std::uint32_t> all(store_.grid().chunks_of_layer());
         std::iota(all.begin(), all.end(), 0u);
         return all;
+    };
+    PreparedCandidates candidates(StepSlab::layers(store_.info().grid), [&](std::uint32_t layer) {
+        return LayerCandidates(store_, query.step, layer, *cut, shaded, stop);
+    });
+    const auto prepare = [&](std::uint32_t layer) {
+        if (cut)
+            candidates.prepare(layer);
     };
     const auto work = [&](StepSlab& slab, std::uint32_t layer) {
         LayerResult result = results.begin();
@@ -131,20 +147,25 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
             slab.fill_all();
             scan(slab.cells(), query, ids);
             result.cells.candidates = ids.size();
-        } else if (slab.fill_candidates(*cut)) {
-            result.cells.candidates = test_bricks(slab.cells(), *levels, slab.bricks(), query, ids);
-            sort_ids(ids, slab.cells().grid.cell_count());
+        } else {
+            LayerCandidates prepared = candidates.take(layer);
+            result.searching = prepared.time();
+            if (slab.fill_candidates(std::move(prepared))) {
+                result.cells.candidates =
+                    test_bricks(slab.cells(), *levels, slab.bricks(), query, ids);
+                sort_ids(ids, slab.cells().grid.cell_count());
+            }
         }
         result.first = slab.first_around();
         result.first_plane = slab.first_plane();
         for (CellId& id : ids)
             id += slab.first_cell() - slab.first_around();
-        result.searching = Clock::now() - begun;
+        result.searching += Clock::now() - begun;
         if (shaded && !ids.empty())
             shade(slab, query, result, stop);
         results.add(layer, std::move(result));
     };
-    if (!for_each_layer(query.step, places, work, stop))
+    if (!for_each_layer(query.step, places, prepare, work, stop))
         return false;
     // Search and shading ran in parallel: the elapsed time is divided by their shares.
     const auto passed = std::chrono::duration<double>(Clock::now() - started);

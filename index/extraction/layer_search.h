@@ -42,12 +42,14 @@ class LayerSearch {
 
   private:
     using Work = std::function<void(StepSlab& slab, std::uint32_t layer)>;
+    /// Called for a layer some layers before the work on it; may be empty.
+    using Prepare = std::function<void(std::uint32_t layer)>;
     static void shade(StepSlab& slab, const Query& query, LayerResult& result,
                       const std::stop_token& stop);
     /// Gives the places of the chunks of a layer, ascending.
     using PlacesOf = std::function<std::vector<std::uint32_t>(std::uint32_t layer)>;
-    bool for_each_layer(std::uint32_t step, const PlacesOf& places, const Work& work,
-                        const std::stop_token& stop);
+    bool for_each_layer(std::uint32_t step, const PlacesOf& places, const Prepare& prepare,
+                        const Work& work, const std::stop_token& stop);
     bool for_each_layer_of(std::uint32_t step, std::span<const CellId> cells, const Work& work,
                            const std::stop_token& stop);
     std::span<const CellId> of_layer(std::span<const CellId> ids, std::uint32_t layer) const;

@@ -16,37 +16,6 @@ namespace {
 /// Planes of a slab: those of a chunk, one below, and two above, which cells and normals need.
 constexpr std::uint32_t kMostPlanes = kChunkEdge + 3;
 
-/// The chunks that hold vertices of each brick of a chunk: bit d is the chunk at the offset whose
-/// x, y and z are the bits of d.
-constexpr std::array<std::uint8_t, kBricksOfChunk> kReach = [] {
-    std::array<std::uint8_t, kBricksOfChunk> reach{};
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
-        const std::array<std::uint32_t, 3> at{i % kChunkBricks[0],
-                                              i / kChunkBricks[0] % kChunkBricks[1],
-                                              i / kChunkBricks[0] / kChunkBricks[1]};
-        unsigned axes = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            axes |= (at[axis] + 1 == kChunkBricks[axis] ? 1u : 0u) << axis;
-        for (unsigned d = 0; d < 8; ++d)
-            if ((d & ~axes) == 0)
-                reach[i] |= static_cast<std::uint8_t>(1u << d);
-    }
-    return reach;
-}();
-
-/// Whether cells with ranks from `low` to `high` may be active.
-bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
-    return low + (cut.exact ? 1 : 0) <= cut.level && high >= cut.level;
-}
-
-/// A bit for each brick of a chunk: whether it is a candidate.
-std::uint32_t candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
-    std::uint32_t bits = 0;
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
-        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
-    return bits;
-}
-
 /// Chunks next to each other along x: the addresses of their values, and their number.
 struct Neighbors {
     static constexpr std::size_t kMost = 8; ///< streams that a processor can prefetch
@@ -139,7 +108,7 @@ void StepSlab::begin(std::uint32_t step, std::uint32_t layer, std::stop_token st
     for (auto& of_layer : state_)
         std::ranges::fill(of_layer, std::uint8_t{vacant});
     stop_ = std::move(stop);
-    asked_.reset();
+    candidates_.reset();
     step_ = step;
     layer_ = layer;
     const std::uint32_t first = layer * kChunkEdge;
@@ -185,43 +154,30 @@ void StepSlab::set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y,
     }
 }
 
-std::vector<std::uint32_t> StepSlab::candidate_chunks(const ChunkLayer& table,
-                                                      const LevelMap::Cut& cut) {
-    std::vector<std::uint32_t> places;
-    for (std::uint32_t place = 0; place < table.low.size(); ++place)
-        if (may_hold(table.low[place], table.high[place], cut))
-            places.push_back(place);
-    return places;
-}
-
-bool StepSlab::fill_candidates(const LevelMap::Cut& cut) {
-    asked_ = cut;
-    const std::vector<std::uint32_t> places = candidate_chunks(*store_.layer(step_, layer_), cut);
-    if (places.empty())
+bool StepSlab::fill_candidates(LayerCandidates candidates) {
+    candidates_ = std::move(candidates);
+    if (candidates_->places().empty())
         return false;
     const BrickGrid grid(cells().grid);
     bricks_.assign(grid.bytes_per_step(), 0);
     std::fill_n(bricks_.begin(), grid.count(), std::uint8_t{255});
-    const std::vector<ChunkPtr> chunks = store_.chunks(step_, layer_, places, stop_);
     std::vector<std::uint32_t> own_places;
     std::vector<ChunkPtr> own;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const std::uint32_t candidates = candidates_of(chunks[i]->bricks, cut);
-        if (candidates == 0)
+    for (std::size_t i = 0; i < candidates_->places().size(); ++i) {
+        const std::uint32_t place = candidates_->places()[i];
+        if (candidates_->bricks(i) == 0)
             continue;
-        const auto [x, y] = chunks_.at(places[i]);
-        set_bricks(*chunks[i], x, y, candidates);
-        unsigned reach = 0;
-        for (std::uint32_t bits = candidates; bits; bits &= bits - 1)
-            reach |= kReach[static_cast<std::size_t>(std::countr_zero(bits))];
+        const auto [x, y] = chunks_.at(place);
+        set_bricks(*candidates_->chunk(i), x, y, candidates_->bricks(i));
+        const unsigned reach = candidates_->reach(i);
         for (unsigned d = 0; d < 8; ++d) {
             const std::array<std::uint32_t, 3> at{x + (d & 1), y + (d >> 1 & 1), layer_ + (d >> 2)};
             const auto& n = chunks_.counts();
             if (reach >> d & 1 && at[0] < n[0] && at[1] < n[1] && at[2] < n[2])
                 need(at[0], at[1], at[2]);
         }
-        own_places.push_back(places[i]); // already read: copied without another look-up
-        own.push_back(chunks[i]);
+        own_places.push_back(place); // already read: copied without another look-up
+        own.push_back(candidates_->chunk(i));
     }
     copy(layer_, own_places, own);
     fill();
@@ -279,8 +235,11 @@ void StepSlab::fill() {
         for (std::uint32_t place = 0; place < state_[i].size(); ++place)
             if (state_[i][place] == needed)
                 places[i].push_back(place);
-        if (!places[i].empty()) // announces all of them before waiting for any
-            expect(layer_ + i - 1, places[i]);
+        std::vector<std::uint32_t> others = places[i];
+        if (candidates_)
+            candidates_->keep_unannounced(layer_ + i - 1, others);
+        if (!others.empty()) // announces all of them before waiting for any
+            store_.expect(step_, layer_ + i - 1, others);
     }
     for (std::uint32_t i = 0; i < state_.size(); ++i) {
         if (places[i].empty())
@@ -288,18 +247,6 @@ void StepSlab::fill() {
         const std::uint32_t layer = layer_ + i - 1;
         copy(layer, places[i], store_.chunks(step_, layer, places[i], stop_));
     }
-}
-
-/// Announces the chunks that have not been announced as candidates.
-void StepSlab::expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
-    if (!asked_)
-        return void(store_.expect(step_, layer, places));
-    const ChunkLayerPtr table = store_.layer(step_, layer);
-    std::vector<std::uint32_t> others;
-    std::ranges::copy_if(places, std::back_inserter(others), [&](std::uint32_t place) {
-        return !may_hold(table->low[place], table->high[place], *asked_);
-    });
-    store_.expect(step_, layer, others);
 }
 
 /// Copies chunks into the slab, as far as it reaches, unless they are filled already.

@@ -2,6 +2,7 @@
 // only where they are needed.
 #pragma once
 
+#include "index/extraction/layer_candidates.h"
 #include "index/file/chunk_store.h"
 #include "index/system/huge_pages.h"
 #include "index/volume/level_map.h"
@@ -36,13 +37,11 @@ class StepSlab {
     /// Moves to a layer of a step. @param stop when it is set, functions that fill throw Stopped
     void begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop = {});
 
-    /// The chunks of a layer that may hold active cells according to their ranks, ascending.
-    static std::vector<std::uint32_t> candidate_chunks(const ChunkLayer& table,
-                                                       const LevelMap::Cut& cut);
     /// Fills what a search with bricks needs. The caller should have announced the candidates of
     /// this layer and of the next ones (ChunkStore::expect).
+    /// @param candidates of this layer; kept until the next `begin`
     /// @return whether any brick may hold active cells
-    bool fill_candidates(const LevelMap::Cut& cut);
+    bool fill_candidates(LayerCandidates candidates);
     /// The bricks of `cells()`, as from `build_bricks`; only those that may hold active cells are
     /// set.
     std::span<const std::uint8_t> bricks() const { return bricks_; }
@@ -71,7 +70,6 @@ class StepSlab {
     }
     void set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y, std::uint32_t candidates);
     void fill();
-    void expect(std::uint32_t layer, std::span<const std::uint32_t> places) const;
     void copy(std::uint32_t layer, std::span<const std::uint32_t> places,
               std::span<const ChunkPtr> chunks);
 
@@ -86,7 +84,7 @@ class StepSlab {
     std::vector<std::uint64_t> sides_;               ///< of each column: where its cells lie
     std::vector<const Chunk*> by_column_;            ///< chunks to copy
     std::stop_token stop_;
-    std::optional<LevelMap::Cut> asked_; ///< the cut whose candidate chunks have been announced
+    std::optional<LayerCandidates> candidates_; ///< have been announced, with what lies around
 };
 
 } // namespace isochron::index

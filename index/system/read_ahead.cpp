@@ -7,8 +7,9 @@
 namespace isochron::index {
 namespace {
 
-/// Bytes that are announced before they are needed.
-constexpr std::uint64_t kAhead = 32 << 20;
+/// Bytes that are announced before they are needed: a disk is busy with them for some milliseconds,
+/// and what was not foreseen waits behind them no longer.
+constexpr std::uint64_t kAhead = 4 << 20;
 
 } // namespace
 

@@ -1,0 +1,141 @@
+// Reads the candidates of a layer, and finds what lies around their bricks.
+#include "index/extraction/layer_candidates.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace isochron::index {
+namespace {
+
+/// Sets of the chunks at offsets dx, dy, dz of -1 to 1: bit (dz + 1) * 9 + (dy + 1) * 3 + dx + 1.
+using ChunksAround = std::array<std::uint32_t, kBricksOfChunk>;
+constexpr std::uint32_t kOwnChunk = 1u << 13;
+
+/// By brick of a chunk: the chunks that hold vertices of its cells, and, for normals, the neighbors
+/// of these along each axis.
+constexpr ChunksAround chunks_around(bool normals) {
+    ChunksAround around{};
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
+        const std::array<std::uint32_t, 3> at{i % kChunkBricks[0],
+                                              i / kChunkBricks[0] % kChunkBricks[1],
+                                              i / kChunkBricks[0] / kChunkBricks[1]};
+        for (int bit = 0; bit < 27; ++bit) {
+            const std::array<int, 3> d{bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
+            int below = 0; // axes along which only a neighbor's normal needs it
+            bool reached = true;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                below += d[axis] < 0 ? 1 : 0;
+                reached = reached && (d[axis] == 0 || (d[axis] < 0 && at[axis] == 0) ||
+                                      (d[axis] > 0 && at[axis] + 1 == kChunkBricks[axis]));
+            }
+            if (reached && below <= (normals ? 1 : 0))
+                around[i] |= 1u << bit;
+        }
+    }
+    return around;
+}
+constexpr ChunksAround kChunksOfBrick = chunks_around(false), kWithNormals = chunks_around(true);
+
+std::uint32_t joined(BricksOfChunk bricks, const ChunksAround& around) {
+    std::uint32_t chunks = 0;
+    for (; bricks; bricks &= bricks - 1)
+        chunks |= around[static_cast<std::size_t>(std::countr_zero(bricks))];
+    return chunks;
+}
+
+/// Whether cells with ranks from `low` to `high` may be active.
+bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
+    return low + (cut.exact ? 1 : 0) <= cut.level && high >= cut.level;
+}
+
+BricksOfChunk candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
+    BricksOfChunk bits = 0;
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
+        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
+    return bits;
+}
+
+} // namespace
+
+LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
+                                 const LevelMap::Cut& cut, bool normals,
+                                 const std::stop_token& stop)
+    : layer_(layer), places_(places_of(*store.layer(step, layer), cut)), cut_(cut) {
+    if (places_.empty())
+        return;
+    const auto started = std::chrono::steady_clock::now();
+    const ChunkGrid& grid = store.grid();
+    for (std::uint32_t i = 0; i < tables_.size(); ++i)
+        if (layer + i > 0 && layer + i - 1 < grid.layers())
+            tables_[i] = store.layer(step, layer + i - 1);
+    chunks_ = store.chunks(step, layer, places_, stop);
+    const auto& n = grid.counts();
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        bricks_.push_back(candidates_of(chunks_[i]->bricks, cut));
+        const auto [x, y] = grid.at(places_[i]);
+        std::uint32_t around =
+            joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick) & ~kOwnChunk;
+        for (; around; around &= around - 1) {
+            const auto bit = static_cast<std::uint32_t>(std::countr_zero(around));
+            // Coordinates plus 1; chunks outside the grid do not exist.
+            const std::array<std::uint32_t, 2> at{x + bit % 3, y + bit / 3 % 3};
+            if (at[0] > 0 && at[0] <= n[0] && at[1] > 0 && at[1] <= n[1] && tables_[bit / 9])
+                around_[bit / 9].push_back(grid.place(at[0] - 1, at[1] - 1));
+        }
+    }
+    for (std::uint32_t i = 0; i < around_.size(); ++i) {
+        std::vector<std::uint32_t>& places = around_[i];
+        std::ranges::sort(places);
+        const auto repeated = std::ranges::unique(places);
+        places.erase(repeated.begin(), repeated.end());
+        std::erase_if(places, [&](std::uint32_t place) { // candidates have been announced
+            return may_hold(tables_[i]->low[place], tables_[i]->high[place], cut);
+        });
+        store.expect(step, layer + i - 1, places);
+    }
+    time_ = std::chrono::steady_clock::now() - started;
+}
+
+std::vector<std::uint32_t> LayerCandidates::places_of(const ChunkLayer& table,
+                                                      const LevelMap::Cut& cut) {
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t place = 0; place < table.low.size(); ++place)
+        if (may_hold(table.low[place], table.high[place], cut))
+            places.push_back(place);
+    return places;
+}
+
+unsigned LayerCandidates::reach(std::size_t i) const {
+    const std::uint32_t chunks = joined(bricks_[i], kChunksOfBrick);
+    unsigned reach = 0;
+    for (unsigned d = 0; d < 8; ++d)
+        reach |= (chunks >> (13 + (d & 1) + 3 * (d >> 1 & 1) + 9 * (d >> 2)) & 1) << d;
+    return reach;
+}
+
+void LayerCandidates::keep_unannounced(std::uint32_t layer,
+                                       std::vector<std::uint32_t>& places) const {
+    const std::size_t i = layer + 1 - layer_;
+    if (!tables_[i])
+        return;
+    std::erase_if(places, [&](std::uint32_t place) {
+        return may_hold(tables_[i]->low[place], tables_[i]->high[place], cut_) ||
+               std::ranges::binary_search(around_[i], place);
+    });
+}
+
+void PreparedCandidates::prepare(std::uint32_t layer) {
+    Layer& it = of_[layer];
+    const std::scoped_lock lock(it.mutex);
+    if (it.there)
+        return;
+    it.candidates = read_(layer);
+    it.there = true;
+}
+
+LayerCandidates PreparedCandidates::take(std::uint32_t layer) {
+    prepare(layer);
+    return std::exchange(of_[layer].candidates, {});
+}
+
+} // namespace isochron::index

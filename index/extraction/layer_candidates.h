@@ -1,0 +1,82 @@
+// The chunks of a layer that may hold active cells, read before the layer is searched, with what
+// lies around them announced.
+#pragma once
+
+#include "index/file/chunk_store.h"
+#include "index/volume/level_map.h"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+namespace isochron::index {
+
+/// A set of bricks of a chunk: bit i is brick i in the order of `ChunkBricks`.
+using BricksOfChunk = std::uint32_t;
+static_assert(kBricksOfChunk == 32);
+
+/// Functions that read throw as ChunkStore does.
+class LayerCandidates {
+  public:
+    LayerCandidates() = default;
+    /// Reads the candidates and announces what a search and normals will need around them: read one
+    /// after the other when they turn out to be needed, each would wait behind all that the disk
+    /// has been asked for.
+    /// @param normals whether normals will be made, too
+    LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
+                    const LevelMap::Cut& cut, bool normals, const std::stop_token& stop);
+
+    /// The chunks that may hold active cells according to their ranks, ascending.
+    static std::vector<std::uint32_t> places_of(const ChunkLayer& table, const LevelMap::Cut& cut);
+
+    /// Ascending.
+    const std::vector<std::uint32_t>& places() const { return places_; }
+    const ChunkPtr& chunk(std::size_t i) const { return chunks_[i]; }
+    /// The bricks of a chunk that may hold active cells.
+    BricksOfChunk bricks(std::size_t i) const { return bricks_[i]; }
+    /// The chunks at offsets of 0 or 1 that hold vertices of these bricks: bit d is the chunk at
+    /// the offset whose x, y and z are the bits of d.
+    unsigned reach(std::size_t i) const;
+    /// Time that it took to read them.
+    std::chrono::nanoseconds time() const { return time_; }
+    /// Takes out of the places of a layer next to this one, or of this one, what has been
+    /// announced.
+    void keep_unannounced(std::uint32_t layer, std::vector<std::uint32_t>& places) const;
+
+  private:
+    std::uint32_t layer_ = 0;
+    std::vector<std::uint32_t> places_;
+    std::vector<ChunkPtr> chunks_;
+    std::vector<BricksOfChunk> bricks_;
+    std::array<std::vector<std::uint32_t>, 3> around_; ///< announced: below, this layer, above
+    std::array<ChunkLayerPtr, 3> tables_;              ///< null where there is no layer
+    LevelMap::Cut cut_{};
+    std::chrono::nanoseconds time_{0};
+};
+
+/// The candidates of layers, each read once by whoever comes first. Thread-safe.
+class PreparedCandidates {
+  public:
+    using Read = std::function<LayerCandidates(std::uint32_t layer)>;
+    PreparedCandidates(std::uint32_t layers, Read read) : read_(std::move(read)), of_(layers) {}
+
+    void prepare(std::uint32_t layer);
+    /// Waits for whoever prepares the layer. Not twice for a layer.
+    LayerCandidates take(std::uint32_t layer);
+
+  private:
+    struct Layer {
+        std::mutex mutex;
+        bool there = false;
+        LayerCandidates candidates;
+    };
+    Read read_;
+    std::vector<Layer> of_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,124 @@
+// What a search of a layer reads is announced before, when its candidates are read.
+#include "index/build/index_build.h"
+#include "index/extraction/cell_set.h"
+#include "index/extraction/id_sort.h"
+#include "index/extraction/step_slab.h"
+#include "index/file/index_file.h"
+#include "index/scan/bricks.h"
+#include "tests/support/memory_series.h"
+#include "tests/support/reader_fixtures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+namespace isochron::index {
+namespace {
+
+/// A file that remembers what it has been asked for.
+class WatchedSource final : public ByteSource {
+  public:
+    explicit WatchedSource(const std::filesystem::path& path)
+        : bytes_(read_file(path)), announced_(bytes_.size()) {}
+
+    const std::string& name() const override { return name_; }
+    std::uint64_t size() const override { return bytes_.size(); }
+    void expect(std::uint64_t offset, std::uint64_t bytes) const override {
+        std::fill_n(announced_.begin() + static_cast<std::ptrdiff_t>(offset), bytes, true);
+        announcements += bytes;
+    }
+    void forget() const { std::fill(announced_.begin(), announced_.end(), false); }
+
+    mutable std::uint64_t announcements = 0;         ///< bytes
+    mutable std::uint64_t ends = 0;                  ///< bytes from here on are not watched
+    mutable std::uint64_t read = 0, unannounced = 0; ///< bytes
+
+  protected:
+    std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
+        std::memcpy(out.data(), bytes_.data() + offset, out.size());
+        for (std::uint64_t i = offset; i < std::min(offset + out.size(), ends); ++i) {
+            ++read;
+            unannounced += announced_[i] ? 0 : 1;
+        }
+        return out.size();
+    }
+
+  private:
+    std::string name_ = "watched.isochron", bytes_;
+    mutable std::vector<bool> announced_;
+};
+
+class LayerCandidatesTest : public testing::TestWithParam<bool> {};
+
+TEST_P(LayerCandidatesTest, NothingIsReadThatWasNotAnnouncedWithTheCandidates) {
+    const bool normals = GetParam();
+    std::mt19937 random(test_seed());
+    const test_support::TestFolder folder;
+    const TestField field({83, 70, 67}, 1, ValueType::u8, scaled(turbulence(random), 60, 120));
+    MemorySeries series(field.view());
+    const auto path = folder.path() / "a.isochron";
+    build_index(series, path, {.tiers = TierSet().with(Tier::bricks), .codec = Codec::none});
+    auto made = std::make_unique<WatchedSource>(path);
+    const WatchedSource& source = *made;
+    const auto file = IndexFile::open(std::move(made), 1); // keeps nothing
+    const ChunkStore& store = file->chunks();
+    const std::uint32_t layers = StepSlab::layers(store.info().grid);
+    const auto sorted = sorted_values(field.view());
+    for (const double isovalue : {sorted[sorted.size() / 200] + 0.5, quantiles(sorted, 3)[1]}) {
+        const auto cut = *store.levels(0)->cut(store.info().scaling, isovalue);
+        std::uint64_t found = 0, wanted = BruteForce(field.view(), 0).active(isovalue).size();
+        for (std::uint32_t layer = 0; layer < layers; ++layer) {
+            source.ends = store.layer(0, store.grid().layers() - 1)->offsets.back();
+            source.forget();
+            for (std::uint32_t near = layer - std::min(layer, 1u);
+                 near < std::min(layer + 2, store.grid().layers()); ++near)
+                store.expect(0, near, LayerCandidates::places_of(*store.layer(0, near), cut));
+            LayerCandidates candidates(store, 0, layer, cut, normals, {});
+            const std::uint64_t announced = source.announcements;
+            source.unannounced = 0;
+            StepSlab slab(store);
+            slab.begin(0, layer);
+            std::vector<CellId> ids;
+            if (slab.fill_candidates(std::move(candidates)))
+                test_bricks(slab.cells(), *store.levels(0), slab.bricks(), {0, isovalue}, ids);
+            sort_ids(ids, slab.cells().grid.cell_count());
+            for (CellId& id : ids)
+                id += slab.first_cell() - slab.first_around();
+            if (!ids.empty())
+                slab.fill_around(ids, normals);
+            found += ids.size();
+            EXPECT_EQ(source.unannounced, 0u)
+                << "of " << source.read << " bytes so far, in layer " << layer;
+            EXPECT_EQ(source.announcements, announced) << "announced twice";
+        }
+        EXPECT_EQ(found, wanted);
+        EXPECT_GT(source.read, 0u);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutNormals, LayerCandidatesTest, testing::Bool());
+
+TEST(PreparedCandidates, AreReadOnceByWhoeverComesFirst) {
+    std::array<std::atomic<int>, 50> reads{};
+    PreparedCandidates prepared(reads.size(), [&](std::uint32_t layer) {
+        ++reads[layer];
+        return LayerCandidates();
+    });
+    {
+        std::jthread other([&] {
+            for (std::uint32_t layer = 0; layer < reads.size(); ++layer)
+                prepared.prepare(layer);
+        });
+        for (std::uint32_t layer = 0; layer < reads.size(); ++layer)
+            prepared.take(layer);
+    }
+    for (const auto& count : reads)
+        EXPECT_EQ(count, 1);
+}
+
+} // namespace
+} // namespace isochron::index

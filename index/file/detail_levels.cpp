@@ -1,4 +1,5 @@
-// Makes coarser levels plane by plane: sums along x, then y, then z.
+// Makes coarser levels plane by plane: floating-point values are summed along x, then y, then z;
+// sums of integers do not depend on the order, and rows of three planes come first.
 #include "index/file/detail_levels.h"
 
 #include "index/file/chunk_grid.h"
@@ -174,25 +175,65 @@ void finish_plane(Coarsener::Work& work, const Taps& taps,
         const std::size_t at = std::size_t{y} * width;
         sum_of(at, &Coarsener::Plane::values, row);
         const int yz = taps.weight() * Taps(y, work.from[1]).weight();
-        if constexpr (std::is_floating_point_v<T>) {
-            if (gaps) {
-                sum_of(at, &Coarsener::Plane::weights, weight);
-            } else {
-                std::fill_n(weight, width, S(4 * yz));
-                weight[0] = weight[width - 1] = S(3 * yz);
-            }
-            for (std::uint32_t x = 0; x < width; ++x)
-                out[x] = static_cast<T>(row[x] / weight[x]);
+        if (gaps) {
+            sum_of(at, &Coarsener::Plane::weights, weight);
         } else {
-            if (yz == 16)
-                for (std::uint32_t x = 0; x < width; ++x)
-                    out[x] = static_cast<T>((row[x] + 32) >> 6); // most values have the weight 64
-            else
-                for (std::uint32_t x = 1; x + 1 < width; ++x)
-                    out[x] = static_cast<T>(rounded(row[x], 4 * yz));
-            for (const std::uint32_t x : {0u, width - 1})
-                out[x] = static_cast<T>(rounded(row[x], 3 * yz));
+            std::fill_n(weight, width, S(4 * yz));
+            weight[0] = weight[width - 1] = S(3 * yz);
         }
+        for (std::uint32_t x = 0; x < width; ++x)
+            out[x] = static_cast<T>(row[x] / weight[x]);
+    }
+}
+
+/// Sums of the rows around one, with weights of 1 or 2 along y and z, without rows that do not
+/// exist. @param middle the row
+template <class T, class S>
+void sum_rows_around(const T* HWY_RESTRICT middle, const Taps& y, const Taps& z, std::size_t row,
+                     std::size_t plane, S* HWY_RESTRICT out) {
+    if (y.below && y.above && z.below && z.above) {
+        const T* const below = middle - plane;
+        const T* const above = middle + plane;
+        const auto across = [row](const T* at) {
+            return (S(at[-static_cast<std::ptrdiff_t>(row)]) + S(at[row])) + 2 * S(at[0]);
+        };
+        for (std::size_t x = 0; x < row; ++x)
+            out[x] =
+                static_cast<S>((across(below + x) + across(above + x)) + 2 * across(middle + x));
+        return;
+    }
+    std::fill_n(out, row, S(0));
+    for (int dz = z.below ? -1 : 0; dz <= (z.above ? 1 : 0); ++dz)
+        for (int dy = y.below ? -1 : 0; dy <= (y.above ? 1 : 0); ++dy) {
+            const T* const from = middle + dz * static_cast<std::ptrdiff_t>(plane) +
+                                  dy * static_cast<std::ptrdiff_t>(row);
+            const auto weight = static_cast<S>((dz == 0 ? 2 : 1) * (dy == 0 ? 2 : 1));
+            for (std::size_t x = 0; x < row; ++x)
+                out[x] = static_cast<S>(out[x] + weight * S(from[x]));
+        }
+}
+
+/// Makes one plane of the next level of integers. @param plane in the middle of those around it
+template <class T>
+void make_plane_of_integers(Coarsener::Work& work, const Taps& z, const T* plane, T* out) {
+    using S = Sum<T>;
+    const std::size_t length = work.from[0], size = length * work.from[1];
+    const std::uint32_t width = work.to[0];
+    S* const sums = room<S>(work.rows, length);
+    S* const row = room<S>(work.values, width);
+    for (std::uint32_t y = 0; y < work.to[1]; ++y, out += width) {
+        const Taps taps(y, work.from[1]);
+        sum_rows_around(plane + taps.middle * length, taps, z, length, size, sums);
+        reduce_row(sums, work.from[0], width, row);
+        const int yz = z.weight() * taps.weight();
+        if (yz == 16)
+            for (std::uint32_t x = 0; x < width; ++x)
+                out[x] = static_cast<T>((row[x] + 32) >> 6); // most values have the weight 64
+        else
+            for (std::uint32_t x = 1; x + 1 < width; ++x)
+                out[x] = static_cast<T>(rounded(row[x], 4 * yz));
+        for (const std::uint32_t x : {0u, width - 1})
+            out[x] = static_cast<T>(rounded(row[x], 3 * yz));
     }
 }
 
@@ -204,6 +245,11 @@ void make_planes(Coarsener::Work& work, const T* held, std::uint32_t first, std:
         plane.number.reset(); // it may be of another step
     for (std::uint32_t z = begin; z < end; ++z) {
         const Taps taps(z, work.from[2]);
+        T* const to = out + std::size_t{z - begin} * work.to[0] * work.to[1];
+        if constexpr (std::is_integral_v<T>) {
+            make_plane_of_integers(work, taps, held + (taps.middle - first) * size, to);
+            continue;
+        }
         std::array<Coarsener::Plane*, 3> planes{};
         for (std::uint32_t i = taps.below ? 0 : 1; i < (taps.above ? 3u : 2u); ++i) {
             const std::uint32_t number = taps.middle + i - 1;
@@ -213,7 +259,7 @@ void make_planes(Coarsener::Work& work, const T* held, std::uint32_t first, std:
             plane.number = number;
             planes[i] = &plane;
         }
-        finish_plane(work, taps, planes, out + std::size_t{z - begin} * work.to[0] * work.to[1]);
+        finish_plane(work, taps, planes, to);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace isochron::index {
@@ -33,21 +34,41 @@ int exponent_for(ValueType type, double low, double high) {
     }
 }
 
-/// Counts each byte. Equal bytes often follow each other, and increments of one counter wait for
-/// each other, so there are four sets of counters.
+/// Counts each byte. Counts pairs of bytes where they are many: half as many counters are changed.
+/// Equal bytes often follow each other, and increments of one counter wait for each other, so there
+/// are four sets of counters for the others.
 std::array<std::uint64_t, 256> numbers_of_bytes(std::span<const std::byte> bytes) {
+    constexpr std::size_t kWorthPairs = 1 << 20; ///< their counters have to be cleared and summed
+    constexpr std::size_t kPairs = 1 << 16;
+    constexpr std::size_t kMostAtOnce = std::size_t{1} << 31; ///< so that no counter overflows
     std::array<std::array<std::uint64_t, 256>, 4> parts{};
+    std::array<std::uint64_t, 256>& numbers = parts[0];
     const auto* const in = reinterpret_cast<const std::uint8_t*>(bytes.data());
     std::size_t i = 0;
+    std::vector<std::uint32_t> pairs;
+    while (bytes.size() - i >= kWorthPairs) {
+        pairs.assign(kPairs, 0);
+        const std::size_t end = i + std::min(bytes.size() - i, kMostAtOnce) / 8 * 8;
+        for (; i < end; i += 8) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, in + i, sizeof word);
+            for (unsigned shift = 0; shift < 64; shift += 16)
+                ++pairs[word >> shift & 0xffff];
+        }
+        for (std::size_t pair = 0; pair < kPairs; ++pair) {
+            numbers[pair & 0xff] += pairs[pair];
+            numbers[pair >> 8] += pairs[pair];
+        }
+    }
     for (; i + 4 <= bytes.size(); i += 4)
         for (std::size_t part = 0; part < 4; ++part)
             ++parts[part][in[i + part]];
     for (; i < bytes.size(); ++i)
-        ++parts[0][in[i]];
+        ++numbers[in[i]];
     for (std::size_t part = 1; part < 4; ++part)
         for (std::size_t value = 0; value < 256; ++value)
-            parts[0][value] += parts[part][value];
-    return parts[0];
+            numbers[value] += parts[part][value];
+    return numbers;
 }
 
 /// The place of a value in a histogram. Halves keep the width finite for any two doubles.

@@ -56,6 +56,24 @@ TEST(ValueCounts, AreTheSameInAnyOrderAndMergedInAnyParts) {
     }
 }
 
+TEST(ValueCounts, OfManyBytesAreThoseOfTheSameInSmallPieces) {
+    std::mt19937 random(test_seed());
+    std::vector<std::uint8_t> values((5 << 20) / 4 + 13); // pairs, and some that are left over
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<std::uint8_t>(i % 7 == 0 ? random() : 100 + random() % 4);
+    ValueCounts whole, pieces;
+    whole.add(ValueType::u8, {}, bytes_of_all(values));
+    const std::span<const std::byte> all = bytes_of_all(values);
+    for (std::size_t first = 0; first < all.size(); first += 1009)
+        pieces.add(ValueType::u8, {},
+                   all.subspan(first, std::min<std::size_t>(1009, all.size() - first)));
+    EXPECT_EQ(whole, pieces);
+    for (std::size_t i = 0; i < whole.bins.size(); ++i)
+        EXPECT_EQ(whole.bins[i],
+                  static_cast<std::uint64_t>(std::ranges::count(
+                      values, static_cast<std::uint8_t>(whole.first + static_cast<int>(i)))));
+}
+
 TEST(ValueCounts, OfBytesGiveTheirHistogramExactly) {
     std::mt19937 random(test_seed());
     for (const Scaling scaling : {Scaling{}, Scaling{-0.5, 3}, Scaling{0.1, -7}}) {

@@ -105,6 +105,17 @@ std::string sizes(const index::IndexFile& file) {
     return text;
 }
 
+/// How a step is searched that is asked for the first time, and why.
+std::string first_visit_text(const index::IndexFile& file) {
+    if (!file.cells() || !file.plan().tiers.has(index::Tier::bricks))
+        return {};
+    const auto held = file.cells()->hold();
+    return fmt::format("a first look at a step is searched by what has fewer bytes left to read: "
+                       "cells of step 0 take about {} besides the values, bricks come with these; "
+                       "another look by cells, the fastest",
+                       human_bytes(static_cast<double>(file.cells()->missing_bytes(0))));
+}
+
 std::string as_text(const IndexReport& report) {
     const index::IndexFile& file = report.file;
     const SeriesInfo& info = file.info();
@@ -127,6 +138,8 @@ std::string as_text(const IndexReport& report) {
                          fmt::join(file.chunks(level).info().grid.vertices, " x ")));
     for (const std::string& reason : file.plan().reasons)
         line("plan", reason);
+    if (const std::string visits = first_visit_text(file); !visits.empty())
+        line("plan", visits);
     if (file.plan().steps < info.steps())
         line("plan",
              fmt::format("made when it had {} of its {} steps", file.plan().steps, info.steps()));

@@ -137,6 +137,29 @@ void CellTier::search(std::uint32_t step, LevelMap::Cut cut, std::vector<IdRun>&
         step, [&](const CellUnit& unit) { unit.search(path, cut, certain_runs, ambiguous_runs); });
 }
 
+std::uint64_t CellTier::missing_bytes(std::uint32_t step) const {
+    constexpr std::uint32_t kSampled = 8;
+    if (!pages_)
+        return 0;
+    const std::uint32_t epoch = step / kEpoch, chunks = chunking_.count();
+    const LazyPart& pages = *(*pages_)[epoch];
+    const std::uint32_t sampled = std::min(kSampled, chunks);
+    std::uint64_t missing = 0;
+    for (std::uint32_t i = 0; i < sampled; ++i) {
+        const auto chunk =
+            static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) * chunks / (2 * sampled));
+        const CellUnit& unit = cells_[std::size_t{epoch} * chunks + chunk];
+        const auto head = unit.head_bytes(epoch_steps(epoch));
+        missing += pages.missing(head);
+        pages.need(head);
+        if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
+            return 0;
+        for (const std::uint32_t node : path_to(step))
+            missing += pages.missing(unit.table_bytes(node));
+    }
+    return missing * chunks / sampled;
+}
+
 void CellTier::change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut,
                       std::vector<IdRun>& added, std::vector<IdRun>& removed) const {
     assert(std::max(from, to) == std::min(from, to) + 1 && cut.exact && has_deltas());

@@ -66,6 +66,10 @@ class CellTier {
     void level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
                           std::vector<IdRun>& added, std::vector<IdRun>& removed) const;
 
+    /// About how many bytes `search` would read of the file, from a few chunks: reads their heads.
+    /// 0 if it would read none, or if one of these is damaged. Call it while a lock is held.
+    std::uint64_t missing_bytes(std::uint32_t step) const;
+
     /// Entries of every time node of every epoch, over all chunks, in depth-first order.
     std::vector<TimeNodeCells> nodes() const;
     /// Checks everything, even what no search has needed yet. @throws Error when damaged

@@ -2,6 +2,7 @@
 #include "index/extraction/index_search.h"
 
 #include "index/error.h"
+#include "index/extraction/first_visit.h"
 #include "index/extraction/id_sort.h"
 #include "index/extraction/layer_search.h"
 #include "index/extraction/mesh_parts.h"
@@ -27,7 +28,8 @@ class IndexSearch {
     IndexSearch(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> forced,
                 Shading shading)
         : file_(std::move(file)), method_(forced ? *forced : cheapest_method(*file_)),
-          shading_(shading), keys_(file_->info().type, file_->info().scaling), layers_(file_) {}
+          free_(!forced), shading_(shading), answered_(file_->info().steps()),
+          keys_(file_->info().type, file_->info().scaling), layers_(file_) {}
 
     bool operator()(const Query& query, const std::stop_token& stop, CellSet& set) {
         const std::size_t steps = file_->info().steps();
@@ -35,7 +37,7 @@ class IndexSearch {
             throw Error(fmt::format("step {}: expected 0 to {}", query.step, steps - 1));
         const auto started = Clock::now();
         set.query = query;
-        set.method = method_at(query.step);
+        set.method = method_at(query);
         by_chunks_ = !file_->better_whole(query.step);
         step_.reset();
         try {
@@ -55,17 +57,25 @@ class IndexSearch {
             return false;
         }
         file_->chunks().worked_on(query.step);
+        answered_[query.step] = true;
         return true;
     }
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    /// The method for a step: appended steps may not have cells yet.
-    SearchMethod method_at(std::uint32_t step) const {
-        if (method_ != SearchMethod::cells || file_->has_cells(step))
+    /// The method for a query: appended steps may not have cells yet, and those of a step may not
+    /// have been read.
+    SearchMethod method_at(const Query& query) const {
+        if (method_ != SearchMethod::cells)
             return method_;
-        return can_search(*file_, SearchMethod::bricks) ? SearchMethod::bricks : SearchMethod::scan;
+        const bool bricks = can_search(*file_, SearchMethod::bricks);
+        if (!file_->has_cells(query.step))
+            return bricks ? SearchMethod::bricks : SearchMethod::scan;
+        if (!free_ || !bricks || answered_[query.step] || !std::isfinite(query.isovalue))
+            return method_;
+        const MissingBytes missing = missing_bytes(*file_, query, shading_ != Shading::none);
+        return missing.bricks < missing.cells ? SearchMethod::bricks : method_;
     }
 
     bool search(CellSet& set, const std::stop_token& stop) {
@@ -201,7 +211,9 @@ class IndexSearch {
 
     std::shared_ptr<const IndexFile> file_;
     SearchMethod method_;
+    bool free_; ///< to search by bricks instead of cells
     Shading shading_;
+    std::vector<bool> answered_; ///< by step
     KeyMap keys_;
     ThiTree::Cursor cursor_;
     LayerSearch layers_;

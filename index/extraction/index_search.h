@@ -28,8 +28,10 @@ bool can_search(const IndexFile& file, SearchMethod method);
 /// stays a list of ids.
 enum class Shading : std::uint8_t { none, cells };
 
-/// The search over an open index. Copies share their state.
-/// @param method instead of the cheapest; the file must have that tier
+/// The search over an open index. Copies share their state. Where the file has cells and bricks, a
+/// step is searched by what has fewer bytes left to read when it is asked for the first time, and
+/// by cells, which are fastest, when it is asked for again.
+/// @param method instead of these; the file must have that tier
 /// @param shading what completes the sets: `shade_cells`, and `make_mesh` within the query's room
 Search search_in(std::shared_ptr<const IndexFile> file,
                  std::optional<SearchMethod> method = std::nullopt,

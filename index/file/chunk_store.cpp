@@ -339,6 +339,20 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
             .owner = held};
 }
 
+std::uint64_t ChunkStore::missing_bytes(std::uint32_t step, std::uint32_t layer,
+                                        std::span<const std::uint32_t> places) const {
+    const std::vector<bool> held = cache_.held(keys(step, layer, places));
+    const ChunkLayerPtr table = this->layer(step, layer);
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        bytes += held[i] ? 0 : table->offsets[places[i] + 1] - table->offsets[places[i]];
+    return bytes;
+}
+
+std::uint64_t ChunkStore::missing_bytes(std::uint32_t step) const {
+    return cache_.held({{key(whole_kept, step)}})[0] ? 0 : array_.steps[step].bytes;
+}
+
 bool ChunkStore::better_whole(std::uint32_t step) const {
     const std::uint64_t bytes = array_.info.step_bytes();
     if (bytes > cache_.use().budget / 4)

@@ -72,6 +72,12 @@ class ChunkStore {
     /// The values and bricks of one whole step, for work that needs all of it.
     /// @throws Stopped as well
     LoadedStep whole(std::uint32_t step, const std::stop_token& stop = {}) const;
+    /// Bytes of records of chunks that are not in the cache.
+    std::uint64_t missing_bytes(std::uint32_t step, std::uint32_t layer,
+                                std::span<const std::uint32_t> places) const;
+    /// Bytes that `whole` would read.
+    std::uint64_t missing_bytes(std::uint32_t step) const;
+
     /// Whether work on the whole step is faster than on the needed chunks alone: if the step is
     /// small, or of moderate size and `worked_on` before, and fits into a quarter of the cache.
     bool better_whole(std::uint32_t step) const;

@@ -63,6 +63,16 @@ void LazyPart::need(std::span<const std::byte> part) const {
     }
 }
 
+std::uint64_t LazyPart::missing(std::span<const std::byte> part) const {
+    if (part.empty())
+        return 0;
+    const auto begin = static_cast<std::uint64_t>(part.data() - memory_);
+    std::uint64_t bytes = 0;
+    for (std::uint64_t page = begin / kPage; page * kPage < begin + part.size(); ++page)
+        bytes += has(page) ? 0 : std::min((page + 1) * kPage, bytes_) - page * kPage;
+    return bytes;
+}
+
 void LazyPart::expect(std::span<const std::byte> part) const {
     const auto begin = static_cast<std::uint64_t>(part.data() - memory_);
     if (!part.empty() && !has(begin / kPage))

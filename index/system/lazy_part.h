@@ -23,6 +23,8 @@ class LazyPart {
     std::span<const std::byte> bytes() const { return {memory_, bytes_}; }
     /// Reads the missing pages of a part of `bytes()`. @throws Error as the source does
     void need(std::span<const std::byte> part) const;
+    /// Bytes that `need` would read.
+    std::uint64_t missing(std::span<const std::byte> part) const;
     /// Announces that a part will be needed soon.
     void expect(std::span<const std::byte> part) const;
     /// Number of bytes in memory.

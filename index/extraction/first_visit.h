@@ -1,0 +1,22 @@
+// What a search at a step has to read of the file, by cells and by bricks.
+#pragma once
+
+#include "index/file/index_file.h"
+#include "index/volume/query.h"
+
+#include <cstdint>
+
+namespace isochron::index {
+
+/// Bytes that are not in memory yet; estimated from a few chunks of cells, exact for bricks but for
+/// the chunks next to the candidates.
+struct MissingBytes {
+    std::uint64_t cells = 0, bricks = 0;
+};
+
+/// @param shaded whether the values around the cells are needed, too, as they are for normals: a
+///        search by bricks has read them
+/// The index must have both tiers. @throws Error as ChunkStore does
+MissingBytes missing_bytes(const IndexFile& file, const Query& query, bool shaded);
+
+} // namespace isochron::index

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace isochron::app {
 namespace {
@@ -36,13 +37,17 @@ struct Times {
 
 struct Measured {
     index::CellSetPtr set;
-    Times cold, warm;   ///< warm: medians; zero without repetitions
+    Times cold, warm; ///< warm: medians; zero without repetitions
+    index::SearchMethod repeated_by = index::SearchMethod::scan;
     ProcessUsage usage; ///< of the process after the first search
 };
 
 /// Every repetition starts a new search: otherwise it would find its own last result.
+/// @param method if none is asked for, the first look is by what reads least, the others are by what
+///        is fastest
 Measured measure(const std::shared_ptr<const index::IndexFile>& file, const index::Query& query,
-                 index::SearchMethod method, std::uint32_t level, std::uint32_t repeats) {
+                 std::optional<index::SearchMethod> method, std::uint32_t level,
+                 std::uint32_t repeats) {
     const auto run = [&]() -> index::CellSetPtr {
         if (level > 0) // without positions and normals
             return std::make_shared<index::CellSet>(index::search_level(file, level, query));
@@ -53,8 +58,11 @@ Measured measure(const std::shared_ptr<const index::IndexFile>& file, const inde
     result.cold = {result.set->search_time, result.set->shading_time};
     result.usage = process_usage();
     std::vector<std::chrono::nanoseconds> search, shading;
+    if (!method)
+        method = index::cheapest_method(*file);
     for (std::uint32_t i = 0; i < repeats; ++i) {
         const index::CellSetPtr again = run();
+        result.repeated_by = again->method;
         search.push_back(again->search_time);
         shading.push_back(again->shading_time);
     }
@@ -72,7 +80,9 @@ std::string_view name_of(index::SearchMethod method) {
     return index::kSearchMethodNames[static_cast<std::size_t>(method)];
 }
 
-index::SearchMethod method_of(const QueryArguments& arguments, const index::IndexFile& file) {
+/// The method that is asked for, if any.
+std::optional<index::SearchMethod> method_of(const QueryArguments& arguments,
+                                             const index::IndexFile& file) {
     for (std::size_t i = 0; i < index::kSearchMethodNames.size(); ++i) {
         const auto method = static_cast<index::SearchMethod>(i);
         if (index::kSearchMethodNames[i] != arguments.method)
@@ -83,7 +93,7 @@ index::SearchMethod method_of(const QueryArguments& arguments, const index::Inde
                                            arguments.file.string(), arguments.method));
         return method;
     }
-    return index::cheapest_method(file);
+    return std::nullopt;
 }
 
 std::string as_json(const QueryArguments& arguments, const index::IndexFile& file,
@@ -121,6 +131,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
     if (arguments.repeats > 0) {
         j["search_ms"] = result.warm.search.count();
         j["shading_ms"] = result.warm.shading.count();
+        j["repeated_method"] = name_of(result.repeated_by);
     }
     if (!arguments.ids.empty())
         j["ids"] = arguments.ids.string();
@@ -154,8 +165,8 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
                         human_bytes(static_cast<double>(result.usage.resident_bytes)),
                         human_bytes(static_cast<double>(result.usage.read_bytes)));
     if (arguments.repeats > 0)
-        text += fmt::format("repeated, warm   {} (medians of {} full searches)\n",
-                            times(result.warm), arguments.repeats);
+        text += fmt::format("repeated, warm   {} (medians of {} full searches by {})\n",
+                            times(result.warm), arguments.repeats, name_of(result.repeated_by));
     if (!arguments.ids.empty())
         text += fmt::format("ids              {}\n", arguments.ids.string());
     return text;
@@ -213,20 +224,23 @@ void add_query(Command& program) {
         .shows_default();
     command
         .option("--method", arguments->method,
-                "Search structure to use (default: the cheapest in the index)")
+                "Search structure to use (default: at first what has fewer bytes left to read, "
+                "then the fastest)")
         .one_of(std::vector<std::string>(index::kSearchMethodNames.begin(),
                                          index::kSearchMethodNames.end()));
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer(
         "JSON keys: file, step, time, time_unit, isovalue (null unless finite), value_unit,\n"
-        "level (of detail), method (cells, bricks, tree or scan), active_cells, id_bits (32, or 64 "
+        "level (of detail), method (cells, bricks, tree or scan) of the first run, active_cells, "
+        "id_bits (32, or 64 "
         "where ids do not fit),\ncandidates (tested exactly), "
         "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
         "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
         "file), resident_bytes and read_bytes (of the process after that run: its memory, and the "
         "bytes\nread from disk and not from the page cache), repetitions, search_ms and "
         "shading_ms (medians of the repetitions, each a full\n"
-        "search; absent with --repeat 0), reading (what was read of the file and kept), ids (only "
+        "search) by repeated_method; these three are absent with --repeat 0, reading (what was "
+        "read of the file and kept), ids (only "
         "with\n--ids). Search includes the exact test;\n"
         "shading is positions and normals.");
     command.on_run([arguments] { run_query(*arguments); });

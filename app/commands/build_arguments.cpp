@@ -199,7 +199,10 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .type_name("NX NY NZ")
         .between(2u, 65537u)
         .group(raw);
-    command.option("--type", arguments.type, "Type of the stored values")
+    command
+        .option("--type", arguments.type,
+                "Type of the stored values of raw files; others are\nconverted to it, so that "
+                "files of several types make\na series")
         .one_of({"i8", "u8", "i16", "u16", "i32", "f32", "f64"})
         .group(raw);
     command.flag("--big-endian", read.big_endian, "Big-endian values (default: little-endian)")

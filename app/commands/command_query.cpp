@@ -8,6 +8,7 @@
 #include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/extraction/layer_search.h"
+#include "index/formats/time_unit.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -144,10 +145,10 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
     const std::uint64_t active = result.set->ids.size();
     const std::uint64_t false_positives = result.set->candidates - active;
     std::string text =
-        fmt::format("isovalue {}{} at step {} (time {}{}){}\n"
+        fmt::format("isovalue {}{} at step {} (time {}){}\n"
                     "active cells     {}\n",
                     arguments.isovalue, with_space(info.value_unit), arguments.step,
-                    human_number(info.times[result.set->query.step]), with_space(info.time_unit),
+                    index::time_text(info.times, result.set->query.step, info.time_unit),
                     arguments.level > 0 ? fmt::format(", level of detail {}", arguments.level) : "",
                     grouped(active));
     text += fmt::format("found by         {}: {} candidates, {} false positives{}\n",

@@ -3,6 +3,7 @@
 
 #include "app/config/first_placement.h"
 #include "app/text.h"
+#include "index/formats/time_unit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,12 +44,26 @@ bool uniform(const std::vector<double>& times) {
 }
 
 std::string times_text(const SeriesInfo& info) {
+    const bool dated = index::has_dates(info.times, info.time_unit);
+    const auto time = [&](std::size_t step) {
+        return dated ? index::time_text(info.times, step, info.time_unit)
+                     : human_number(info.times[step]);
+    };
+    const std::string unit = dated ? "" : with_space(info.time_unit);
     if (info.steps() == 1)
-        return fmt::format("1 at time {}{}", human_number(info.times.front()),
-                           with_space(info.time_unit));
-    return fmt::format("{}, times {} to {}{}, {}", info.steps(), human_number(info.times.front()),
-                       human_number(info.times.back()), with_space(info.time_unit),
-                       uniform(info.times) ? "uniform" : "not uniform");
+        return fmt::format("1 at time {}{}", time(0), unit);
+    return fmt::format("{}, times {} to {}{}, {}", info.steps(), time(0), time(info.steps() - 1),
+                       unit, uniform(info.times) ? "uniform" : "not uniform");
+}
+
+/// Null unless the unit has a reference date.
+nlohmann::ordered_json dates_of(const SeriesInfo& info) {
+    if (!index::has_dates(info.times, info.time_unit))
+        return nullptr;
+    std::vector<std::string> dates;
+    for (std::size_t step = 0; step < info.steps(); ++step)
+        dates.push_back(index::time_text(info.times, step, info.time_unit));
+    return dates;
 }
 
 /// Of the finite values of a step, scaled.
@@ -129,6 +144,7 @@ nlohmann::ordered_json json_of(const SeriesInfo& info) {
             {"steps", info.steps()},
             {"times", info.times},
             {"time_unit", info.time_unit},
+            {"dates", dates_of(info)},
             {"uniform_time", uniform(info.times)},
             {"type", index::name_of(info.type)},
             {"slope", info.scaling.slope},

@@ -10,6 +10,7 @@
 #include "app/panel/panel_words.h"
 #include "app/scene/mark.h"
 #include "app/text.h"
+#include "index/formats/time_unit.h"
 #include "interaction/axis_views.h"
 #include "interaction/navigation.h"
 
@@ -186,8 +187,10 @@ void time_section(const PanelModel& model, Commands& commands) {
     tip("step (Left, Right); marks below: steps in memory");
     mark_steps_at_hand(model, last);
     const auto& shown = model.frame.shown;
-    asked_and_shown("time", with_unit(times[model.asked.step], model.info.time_unit),
-                    shown ? with_unit(times[shown->step], model.info.time_unit) : "nothing yet");
+    const auto time = [&](std::uint32_t at) {
+        return index::time_text(times, at, model.info.time_unit);
+    };
+    asked_and_shown("time", time(model.asked.step), shown ? time(shown->step) : "nothing yet");
     playback_buttons(model, commands);
     ImGui::EndDisabled();
 }

@@ -4,6 +4,7 @@
 #include "app/scene/legend.h"
 #include "app/scene/mark.h"
 #include "app/text.h"
+#include "index/formats/time_unit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,8 +20,8 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
                                    fmt::join(values, ", "), with_space(info.value_unit));
     if (info.steps() > 1)
         text += fmt::format(", at {} (step {} of {})",
-                            with_unit(info.times[shown.step], info.time_unit), shown.step + 1,
-                            info.steps());
+                            index::time_text(info.times, shown.step, info.time_unit),
+                            shown.step + 1, info.steps());
     return text;
 }
 

@@ -2,6 +2,7 @@
 #include "app/scene/color_scale.h"
 
 #include "index/extraction/cell_colors.h"
+#include "index/formats/time_unit.h"
 #include "render/gl/srgb.h"
 
 #include <fmt/format.h>
@@ -32,7 +33,10 @@ std::optional<ColorScale> color_scale(const ExplorerState& state, const index::I
         break;
     }
     case interaction::ColorBy::first_crossing:
-        scale.title = with_brackets("first crossing", file.info().time_unit);
+        if (index::has_dates(file.info().times, file.info().time_unit))
+            scale.dates_of = file.info().time_unit;
+        scale.title =
+            with_brackets("first crossing", scale.dates_of.empty() ? file.info().time_unit : "");
         scale.whole = {file.info().times.front(), file.info().times.back()};
         break;
     }

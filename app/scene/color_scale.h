@@ -20,7 +20,8 @@ struct ColorScale {
     std::string map = "viridis";       ///< by its name, unless it has colors of its own:
     std::vector<std::uint32_t> colors; ///< as interaction::Coloring
     render::ColorMapUse use;
-    bool logarithmic = false; ///< both ends of the range are above 0 then
+    std::string dates_of = {}; ///< unit of values that are times with dates, else empty
+    bool logarithmic = false;  ///< both ends of the range are above 0 then
     bool operator==(const ColorScale&) const = default;
 };
 

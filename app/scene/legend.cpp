@@ -3,6 +3,7 @@
 
 #include "app/scene/ticks.h"
 #include "app/text.h"
+#include "index/formats/time_unit.h"
 #include "render/gl/srgb.h"
 
 #include <fmt/format.h>
@@ -73,11 +74,14 @@ void write_scale(const ColorScale& scale, Layout& layout) {
     const auto [low, high] = scale.range;
     const Ticks ticks = scale.logarithmic ? logarithmic_ticks(low, high, kMostLegendTicks)
                                           : nice_ticks(low, high, kMostLegendTicks);
-    for (const double value : ticks.values) {
+    for (std::size_t i = 0; i < ticks.values.size(); ++i) {
+        const double value = ticks.values[i];
         const auto up = static_cast<float>(share_on(scale, value));
         const float y = 0.5f + kBarHeight * up;
         layout.fill({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, kLegendInk);
-        layout.write(tick_text(value, scale.logarithmic ? value : ticks.step),
+        layout.write(scale.dates_of.empty()
+                         ? tick_text(value, scale.logarithmic ? value : ticks.step)
+                         : index::time_text(ticks.values, i, scale.dates_of),
                      {kBarWidth + 0.7f, y});
     }
     layout.write(scale.title, {0.0f, kBarHeight + 1.6f});

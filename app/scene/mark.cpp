@@ -3,6 +3,7 @@
 
 #include "app/scene/legend.h"
 #include "app/text.h"
+#include "index/formats/time_unit.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,7 @@ std::string place_text(const interaction::MarkedPoint& point, const index::Serie
 }
 
 std::string time_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
-    return with_unit(info.times[point.step], info.time_unit);
+    return index::time_text(info.times, point.step, info.time_unit);
 }
 
 /// Lines of text on their paper, right above the point.

@@ -29,6 +29,10 @@ std::unique_ptr<DecodedFile> decode_netcdf(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
                                          const ReadOptions& options);
 
+/// XDMF documents (.xmf, .xdmf) of uniform and rectilinear grids.
+std::unique_ptr<DecodedFile> decode_xdmf(const std::filesystem::path& path,
+                                         const ReadOptions& options);
+
 /// TIFF, BigTIFF, OME-TIFF and ImageJ's hyperstacks; with `slices` a file for each slice.
 std::unique_ptr<DecodedFile> decode_tiff(const std::filesystem::path& path,
                                          const ReadOptions& options);
@@ -36,6 +40,11 @@ std::unique_ptr<DecodedFile> decode_tiff(const std::filesystem::path& path,
 /// Zarr, versions 2 and 3, and OME-Zarr: a folder, the file in it that describes it, or a zip file.
 std::unique_ptr<DecodedFile> decode_zarr(const std::filesystem::path& path,
                                          const ReadOptions& options);
+
+/// DICOM images: a file, or with `slices` the files of a series, put in the order of their places
+/// and times.
+std::unique_ptr<DecodedFile> decode_dicom(const std::filesystem::path& path,
+                                          const ReadOptions& options);
 
 /// The files and times of a ParaView collection (.pvd), in the order of their times, paths made
 /// relative to where the program runs. @throws Error naming the file

@@ -1,4 +1,4 @@
-// `isochron-reader-hdf5`: the reader for HDF5 files.
+// `isochron-reader-hdf5`: the reader for HDF5 files, and for XDMF documents that describe them.
 #include "index/decoders/decoders.h"
 #include "index/decoders/reader_program.h"
 
@@ -6,6 +6,7 @@
 
 int main() {
     using namespace isochron::index;
-    constexpr std::array kDecoders{Decoder{ForeignFormat::hdf5, decode_hdf5}};
+    constexpr std::array kDecoders{Decoder{ForeignFormat::hdf5, decode_hdf5},
+                                   Decoder{ForeignFormat::xdmf, decode_xdmf}};
     return run_reader(kDecoders);
 }

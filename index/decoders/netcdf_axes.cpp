@@ -6,6 +6,7 @@
 #include "index/formats/axis_positions.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
+#include "index/formats/time_unit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -257,11 +258,7 @@ void place_steps(const NetcdfFile& file, const NetcdfVariable& variable, const N
     if (!time)
         return;
     info.times = file.values(*time);
-    info.time_unit = file.text(*time, "units");
-    const std::string calendar = lower_case(file.text(*time, "calendar"));
-    if (!calendar.empty() && calendar != "standard" && calendar != "gregorian" &&
-        calendar != "proleptic_gregorian")
-        info.time_unit += fmt::format(" ({})", calendar);
+    info.time_unit = with_calendar(file.text(*time, "units"), file.text(*time, "calendar"));
 }
 
 } // namespace isochron::index

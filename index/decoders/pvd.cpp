@@ -13,7 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <utility>
 
 namespace isochron::index {
@@ -33,7 +33,7 @@ void read_collection(const fs::path& path, std::vector<std::pair<fs::path, doubl
     vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
     if (!collection)
         throw Error(fmt::format("{}: not a ParaView collection", name));
-    std::set<std::string> parts;
+    std::map<std::pair<double, std::string>, std::string> parts;
     for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
         vtkXMLDataElement* set = collection->GetNestedElement(i);
         if (std::string_view(set->GetName()) != "DataSet")
@@ -49,12 +49,11 @@ void read_collection(const fs::path& path, std::vector<std::pair<fs::path, doubl
             throw Error(
                 fmt::format("{}: {}: timestep \"{}\", expected a number", name, file, text));
         const char* part = set->GetAttribute("part");
-        parts.insert(part ? part : "0");
-        if (parts.size() > 1)
-            throw Error(fmt::format("{}: {} is part {}, expected one volume per time, as part {}",
-                                    name, file, part ? part : "0",
-                                    *parts.begin() == (part ? part : "0") ? *parts.rbegin()
-                                                                          : *parts.begin()));
+        const auto [same, is_new] = parts.try_emplace({time, part ? part : "0"}, file);
+        if (!is_new)
+            throw Error(fmt::format("{}: {}: time {}, {} has the same, and the same part; "
+                                    "--time-step needs the files themselves",
+                                    name, file, time, same->second));
         files.emplace_back(path.parent_path() / file, time);
     }
     if (files.empty())

@@ -1,17 +1,22 @@
 // Reads legacy VTK structured points (.vtk), ascii and binary, with vtkStructuredPointsReader.
 #include "index/decoders/decoders.h"
 #include "index/decoders/vtk_ghosts.h"
+#include "index/decoders/vtk_numbers.h"
 #include "index/decoders/vtk_session.h"
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/stored_file.h"
+#include "index/formats/text_header.h"
+#include "index/system/mapped_file.h"
 
 #include <fmt/format.h>
 
+#include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkStructuredPoints.h>
 #include <vtkStructuredPointsReader.h>
 
@@ -66,6 +71,7 @@ class LegacyFile final : public DecodedFile {
         expect_believable(path_);
         with_vtk(path_, [&] {
             reader_->SetFileName(path_.c_str());
+            const bool replaced = take_hard_numbers();
             reader_->ReadAllScalarsOn();
             reader_->ReadAllVectorsOn();
             reader_->ReadAllNormalsOn();
@@ -75,6 +81,10 @@ class LegacyFile final : public DecodedFile {
             reader_->ReadAllFieldsOn();
             reader_->Update();
             vtkImageData& image = *reader_->GetOutput();
+            if (replaced) {
+                replace_stand_ins(*image.GetPointData());
+                replace_stand_ins(*image.GetCellData());
+            }
             info_.grid = grid_of_vtk(*reinterpret_cast<int(*)[6]>(image.GetExtent()),
                                      image.GetOrigin(), image.GetSpacing(),
                                      image.GetDirectionMatrix()->GetData(), path_.string());
@@ -102,6 +112,26 @@ class LegacyFile final : public DecodedFile {
     }
 
   private:
+    /// @return whether VTK reads other numbers now, which stand for NaN and infinities
+    bool take_hard_numbers() {
+        constexpr std::size_t kHead = 1024;
+        std::istringstream head(head_of(path_, kHead));
+        std::string line;
+        for (int i = 0; i < 3; ++i)
+            std::getline(head, line);
+        if (!lower_case(line).starts_with("ascii"))
+            return false;
+        const MappedFile file(path_);
+        const auto text = with_stand_ins(
+            {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()},
+            path_.string());
+        if (!text)
+            return false;
+        reader_->SetInputString(*text);
+        reader_->ReadFromInputStringOn();
+        return true;
+    }
+
     fs::path path_;
     SeriesInfo info_;
     ChosenScalar chosen_;

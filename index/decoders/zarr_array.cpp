@@ -254,7 +254,7 @@ ZarrBytes ZarrArray::values_of(ZarrBytes stored, const Pipeline& pipeline,
     return out;
 }
 
-ZarrBytes ZarrArray::load(const std::vector<std::uint64_t>& at) const {
+ZarrBytes ZarrArray::load(const std::vector<std::uint64_t>& at) {
     if (!inner_.empty())
         return from_shard(at);
     const std::string key = key_of(at);
@@ -264,44 +264,63 @@ ZarrBytes ZarrArray::load(const std::vector<std::uint64_t>& at) const {
                   : ZarrBytes{};
 }
 
-// Behind or before its chunks a shard has, for each, where it begins and its bytes (u64 each).
-ZarrBytes ZarrArray::from_shard(const std::vector<std::uint64_t>& at) const {
+ZarrBytes ZarrArray::from_shard(const std::vector<std::uint64_t>& at) {
     std::vector<std::uint64_t> shard;
-    std::size_t number = 0, count = 1;
+    std::size_t number = 0;
     for (std::size_t i = 0; i < at.size(); ++i) {
         const std::uint64_t along = chunk_[i] / inner_[i];
         shard.push_back(at[i] / along);
         number = number * along + at[i] % along;
-        count *= along;
     }
     const std::string key = key_of(shard), name = fmt::format("{}: {}", store_->name(), key);
-    const auto bytes = store_->read(key);
-    if (!bytes)
+    const ShardIndex& index = index_of_shard(shard, key, name);
+    if (index.entries.empty())
         return {};
-    std::size_t size = 16 * count;
-    for (const ZarrCodec& codec : index_.codecs)
-        size += codec.name == "crc32c" ? 4 : 0;
-    if (bytes->size() < size)
-        throw Error(
-            fmt::format("{}: {} bytes, expected an index of {}", name, bytes->size(), size));
-    const auto begin =
-        index_at_end_ ? bytes->end() - static_cast<std::ptrdiff_t>(size) : bytes->begin();
-    ZarrBytes index(begin, begin + static_cast<std::ptrdiff_t>(size));
-    for (const ZarrCodec& codec : index_.codecs)
-        index = decoded(std::move(index), codec, 0, size, name);
     std::uint64_t entry[2]{};
-    if (index.size() != 16 * count)
-        throw Error(
-            fmt::format("{}: an index of {} bytes, expected {}", name, index.size(), 16 * count));
-    std::memcpy(entry, &index[16 * number], sizeof entry);
+    std::memcpy(entry, &index.entries[16 * number], sizeof entry);
     constexpr std::uint64_t kNone = ~std::uint64_t{0};
     if (entry[0] == kNone && entry[1] == kNone)
         return {};
-    if (entry[0] > bytes->size() || entry[1] > bytes->size() - entry[0])
+    if (entry[0] > index.bytes || entry[1] > index.bytes - entry[0])
         throw Error(fmt::format("{}: truncated: chunk {} of {} bytes at {} of {}", name, number,
-                                entry[1], entry[0], bytes->size()));
-    const auto first = bytes->begin() + static_cast<std::ptrdiff_t>(entry[0]);
-    return values_of({first, first + static_cast<std::ptrdiff_t>(entry[1])}, pipeline_, name);
+                                entry[1], entry[0], index.bytes));
+    return values_of(store_->part(key, entry[0], entry[1]), pipeline_, name);
+}
+
+// Behind or before its chunks a shard has, for each, where it begins and its bytes (u64 each).
+const ZarrArray::ShardIndex& ZarrArray::index_of_shard(const std::vector<std::uint64_t>& shard,
+                                                       const std::string& key,
+                                                       const std::string& name) {
+    if (const auto found = shards_.find(shard); found != shards_.end())
+        return found->second;
+    constexpr std::size_t kMostKept = 64 << 20;
+    if (shard_bytes_ > kMostKept) {
+        shards_.clear();
+        shard_bytes_ = 0;
+    }
+    ShardIndex index;
+    const auto bytes = store_->size_of_value(key);
+    if (!bytes)
+        return shards_[shard] = std::move(index);
+    std::size_t count = 1;
+    for (std::size_t i = 0; i < shard.size(); ++i)
+        if (__builtin_mul_overflow(count, chunk_[i] / inner_[i], &count) || count > *bytes)
+            throw Error(fmt::format("{}: {} bytes, expected an index of {} x {} chunks", name,
+                                    *bytes, count, chunk_[i] / inner_[i]));
+    std::size_t size = 16 * count;
+    for (const ZarrCodec& codec : index_.codecs)
+        size += codec.name == "crc32c" ? 4 : 0;
+    if (*bytes < size)
+        throw Error(fmt::format("{}: {} bytes, expected an index of {}", name, *bytes, size));
+    index.bytes = *bytes;
+    index.entries = store_->part(key, index_at_end_ ? *bytes - size : 0, size);
+    for (const ZarrCodec& codec : index_.codecs)
+        index.entries = decoded(std::move(index.entries), codec, 0, size, name);
+    if (index.entries.size() != 16 * count)
+        throw Error(fmt::format("{}: an index of {} bytes, expected {}", name, index.entries.size(),
+                                16 * count));
+    shard_bytes_ += index.entries.size();
+    return shards_[shard] = std::move(index);
 }
 
 const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {

@@ -43,6 +43,11 @@ class ZarrArray {
         bool big_endian = false;
         std::vector<std::size_t> order; ///< of the dimensions as stored; empty: as they are
     };
+    /// Where the chunks of a shard lie.
+    struct ShardIndex {
+        ZarrBytes entries = {};  ///< for each chunk, where it begins and its bytes; empty: no shard
+        std::uint64_t bytes = 0; ///< of the whole shard
+    };
     ZarrArray(const ZarrStore& store, std::string path) : store_(&store), path_(std::move(path)) {}
 
     void describe_v2(const nlohmann::json& j);
@@ -56,8 +61,10 @@ class ZarrArray {
     std::size_t values_in_chunk() const;
     /// The values of a chunk; empty: only the fill value.
     const ZarrBytes& chunk_at(const std::vector<std::uint64_t>& at);
-    ZarrBytes load(const std::vector<std::uint64_t>& at) const;
-    ZarrBytes from_shard(const std::vector<std::uint64_t>& at) const;
+    ZarrBytes load(const std::vector<std::uint64_t>& at);
+    ZarrBytes from_shard(const std::vector<std::uint64_t>& at);
+    const ShardIndex& index_of_shard(const std::vector<std::uint64_t>& shard,
+                                     const std::string& key, const std::string& name);
     ZarrBytes values_of(ZarrBytes stored, const Pipeline& pipeline, const std::string& name) const;
 
     const ZarrStore* store_;
@@ -72,6 +79,8 @@ class ZarrArray {
     ZarrBytes fill_; ///< one value
     std::map<std::vector<std::uint64_t>, ZarrBytes> kept_;
     std::size_t kept_bytes_ = 0;
+    std::map<std::vector<std::uint64_t>, ShardIndex> shards_;
+    std::size_t shard_bytes_ = 0;
 };
 
 } // namespace isochron::index

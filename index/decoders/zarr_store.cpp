@@ -29,16 +29,31 @@ class FolderStore final : public ZarrStore {
     explicit FolderStore(const fs::path& path) : ZarrStore(path.string()), path_(path) {}
 
     std::optional<ZarrBytes> read(const std::string& key) const override {
+        const auto size = size_of_value(key);
+        if (!size)
+            return std::nullopt;
+        if (*size > kMostBytes)
+            throw Error(fmt::format("{}: {} bytes, expected at most {}", (path_ / key).string(),
+                                    *size, kMostBytes));
+        return part(key, 0, *size);
+    }
+
+    std::optional<std::uint64_t> size_of_value(const std::string& key) const override {
         const fs::path file = path_ / key;
         std::error_code error;
         if (!fs::is_regular_file(file, error))
             return std::nullopt;
+        return InputFile(file).size();
+    }
+
+    ZarrBytes part(const std::string& key, std::uint64_t at, std::uint64_t size) const override {
+        const fs::path file = path_ / key;
         const InputFile in(file);
-        if (in.size() > kMostBytes)
-            throw Error(fmt::format("{}: {} bytes, expected at most {}", file.string(), in.size(),
-                                    kMostBytes));
-        ZarrBytes bytes(in.size());
-        bytes.resize(in.read(0, bytes));
+        if (at > in.size() || size > in.size() - at)
+            throw Error(fmt::format("{}: truncated: {} bytes, expected {} at {}", file.string(),
+                                    in.size(), size, at));
+        ZarrBytes bytes(size);
+        bytes.resize(in.read(at, bytes));
         return bytes;
     }
 
@@ -88,6 +103,24 @@ class ZipStore final : public ZarrStore {
         if (::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) != entry.check)
             fail(key);
         return bytes;
+    }
+
+    std::optional<std::uint64_t> size_of_value(const std::string& key) const override {
+        const auto found = entries_.find(key);
+        return found == entries_.end() ? std::nullopt : std::optional(found->second.bytes);
+    }
+
+    /// Its check is that of the whole value, which is therefore read once and kept.
+    ZarrBytes part(const std::string& key, std::uint64_t at, std::uint64_t size) const override {
+        if (kept_key_ != key) {
+            kept_key_.clear();
+            kept_ = read(key).value_or(ZarrBytes());
+            kept_key_ = key;
+        }
+        if (at > kept_.size() || size > kept_.size() - at)
+            fail(key);
+        const auto first = kept_.begin() + static_cast<std::ptrdiff_t>(at);
+        return {first, first + static_cast<std::ptrdiff_t>(size)};
     }
 
     std::vector<std::string> names(const std::string& group) const override {
@@ -200,6 +233,8 @@ class ZipStore final : public ZarrStore {
 
     InputFile file_;
     std::map<std::string, ZipEntry> entries_;
+    mutable std::string kept_key_; ///< whose value `kept_` is
+    mutable ZarrBytes kept_;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,6 +20,10 @@ class ZarrStore {
     /// The value of a key as `path/to/array/c/0/1`; none where there is none.
     /// @throws Error naming the file: unreadable, damaged
     virtual std::optional<ZarrBytes> read(const std::string& key) const = 0;
+    /// [bytes] of a value; none where there is none. @throws Error as `read`
+    virtual std::optional<std::uint64_t> size_of_value(const std::string& key) const = 0;
+    /// A part of a value that is there. @throws Error as `read`, and when it ends before the part
+    virtual ZarrBytes part(const std::string& key, std::uint64_t at, std::uint64_t size) const = 0;
     /// Names directly below a group, sorted, at most 100,000. @param group without a slash at its end
     virtual std::vector<std::string> names(const std::string& group) const = 0;
 

@@ -127,6 +127,38 @@ class Bzip2 {
     bool ended_ = false;
 };
 
+class Hex {
+  public:
+    static constexpr const char* kName = "hex";
+    bool ended() const { return !half_; }
+    static bool begins_with(char) { return true; }
+
+    bool step(std::span<char>& in, std::span<std::byte>& out) {
+        while (!in.empty() && !out.empty()) {
+            const char c = in.front();
+            in = in.subspan(1);
+            if (c == ' ' || c == '\n' || c == '\r' || c == '\t')
+                continue;
+            const char lower = static_cast<char>(c | 0x20);
+            const bool letter = lower >= 'a' && lower <= 'f';
+            if (!letter && !(c >= '0' && c <= '9'))
+                return false;
+            const int digit = letter ? lower - 'a' + 10 : c - '0';
+            if (half_) {
+                out.front() = static_cast<std::byte>(*half_ << 4 | digit);
+                out = out.subspan(1);
+                half_.reset();
+            } else {
+                half_ = digit;
+            }
+        }
+        return true;
+    }
+
+  private:
+    std::optional<int> half_; ///< the higher digit of a byte
+};
+
 template <class Decoder>
 class CompressedData final : public DataStream {
   public:
@@ -267,7 +299,7 @@ void expect_room(const fs::path& path, std::uint64_t offset, Compression compres
                  std::uint64_t bytes) {
     // Best ratios: deflate codes 258 bytes in 2 bits; bzip2 packs 900 kB blocks of runs of 259
     // bytes.
-    constexpr std::array<std::uint64_t, 3> kBestRatio{1, 1032, 2'000'000};
+    constexpr std::array<std::uint64_t, 4> kBestRatio{1, 1032, 2'000'000, 1};
     const std::uint64_t size = file_bytes(path);
     const std::uint64_t rest = size > offset ? size - offset : 0;
     const std::uint64_t ratio = kBestRatio[static_cast<std::size_t>(compression)];
@@ -282,6 +314,7 @@ std::unique_ptr<DataStream> open_data(const fs::path& path, std::uint64_t offset
                                       Compression compression) {
     switch (compression) {
     case Compression::deflate: return std::make_unique<CompressedData<Deflate>>(path, offset);
+    case Compression::hex: return std::make_unique<CompressedData<Hex>>(path, offset);
     case Compression::bzip2: return std::make_unique<CompressedData<Bzip2>>(path, offset);
     case Compression::none: break;
     }

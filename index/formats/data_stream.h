@@ -10,7 +10,8 @@
 
 namespace isochron::index {
 
-enum class Compression : std::uint8_t { none, deflate, bzip2 };
+/// `hex`: two digits for each byte, blanks and line ends between them do not count.
+enum class Compression : std::uint8_t { none, deflate, bzip2, hex };
 
 /// Size of a regular, readable file. @throws Error: missing, a folder, unreadable
 std::uint64_t file_bytes(const std::filesystem::path& path);

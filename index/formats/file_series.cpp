@@ -2,6 +2,7 @@
 #include "index/formats/file_series.h"
 
 #include "index/error.h"
+#include "index/formats/converted_file.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/time_unit.h"
 #include "index/system/input_file.h"
@@ -64,7 +65,8 @@ void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInf
     if (got.array != first.array)
         fail("array", got.array, first.array);
     if (got.type != first.type)
-        fail("type", std::string(name_of(got.type)), std::string(name_of(first.type)));
+        throw Error(fmt::format("{}: type {}, {} has {}; --type f32 reads both as f32", file,
+                                name_of(got.type), first_file, name_of(first.type)));
     if (!close(a.spacing, b.spacing, b.spacing * 1e-6))
         fail("spacing", text(a.spacing), text(b.spacing));
     if (!close(a.origin, b.origin,
@@ -218,6 +220,9 @@ class FileSeries final : public VolumeSeries {
             first_ = info_;
         } else {
             expect_same(info, name(index), first_, name(0));
+            for (const std::string& note : info.notes) // what converting this one loses
+                if (options_.type && std::ranges::find(info_.notes, note) == info_.notes.end())
+                    info_.notes.push_back(note);
         }
         info_.sources.push_back(files_[index].path.filename().string());
         std::vector<double> times = info.times;
@@ -251,6 +256,8 @@ class FileSeries final : public VolumeSeries {
     void open_file(std::size_t index) {
         open_.reset(); // first, so that the next file can use the same reader
         open_ = files_[index].open(files_[index].path, options_);
+        if (options_.type)
+            open_ = converted(std::move(open_), *options_.type, files_[index].path);
         open_index_ = index;
     }
 
@@ -270,18 +277,26 @@ class FileSeries final : public VolumeSeries {
             if (i == 0 || info_.times[i] > info_.times[i - 1])
                 continue;
             const std::string file = name(places_[i].file), before = name(places_[i - 1].file);
+            const std::string time = said_time(i), time_before = said_time(i - 1);
             constexpr const char* kWayOut = "--time-step spaces the steps evenly instead";
             if (places_[i].file == places_[i - 1].file)
                 throw Error(fmt::format("{}: time {} of its step {}, expected more than {} of the "
                                         "step before it; {}",
-                                        file, info_.times[i], places_[i].step, info_.times[i - 1],
-                                        kWayOut));
+                                        file, time, places_[i].step, time_before, kWayOut));
             if (info_.times[i] == info_.times[i - 1])
-                throw Error(fmt::format("{}: time {}, {} has the same; {}", file, info_.times[i],
-                                        before, kWayOut));
+                throw Error(
+                    fmt::format("{}: time {}, {} has the same; {}", file, time, before, kWayOut));
             throw Error(fmt::format("{}: time {}, expected more than {} of {} before it; {}", file,
-                                    info_.times[i], info_.times[i - 1], before, kWayOut));
+                                    time, time_before, before, kWayOut));
         }
+    }
+
+    /// A time as the file has it, and its date.
+    std::string said_time(std::size_t step) const {
+        const std::span one(&info_.times[step], 1);
+        return has_dates(one, info_.time_unit)
+                   ? fmt::format("{} ({})", info_.times[step], time_text(one, 0, info_.time_unit))
+                   : fmt::format("{}", info_.times[step]);
     }
 
     void override_info() {

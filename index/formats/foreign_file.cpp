@@ -222,12 +222,20 @@ std::unique_ptr<VolumeFile> open_hdf5(const fs::path& path, const ReadOptions& o
     return open_foreign(readers_of_this_process(), ForeignFormat::hdf5, path, options);
 }
 
+std::unique_ptr<VolumeFile> open_xdmf(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::xdmf, path, options);
+}
+
 std::unique_ptr<VolumeFile> open_tiff(const fs::path& path, const ReadOptions& options) {
     return open_foreign(readers_of_this_process(), ForeignFormat::tiff, path, options);
 }
 
 std::unique_ptr<VolumeFile> open_zarr(const fs::path& path, const ReadOptions& options) {
     return open_foreign(readers_of_this_process(), ForeignFormat::zarr, path, options);
+}
+
+std::unique_ptr<VolumeFile> open_dicom(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::dicom, path, options);
 }
 
 std::vector<std::pair<fs::path, double>> read_pvd(const fs::path& path) {

@@ -40,7 +40,7 @@ constexpr std::array<std::pair<std::string_view, StoredType>, 12> kTypes{{
 class MetaImageHeader {
   public:
     explicit MetaImageHeader(const fs::path& path) : file_(path.string()) {
-        constexpr std::size_t kMost = 1 << 16;
+        constexpr std::size_t kMost = 1 << 20;
         const std::string head = head_of(path, kMost);
         std::size_t at = 0;
         while (at < head.size() && !fields_.contains("ElementDataFile")) {
@@ -57,6 +57,14 @@ class MetaImageHeader {
                 trimmed(line.substr(equals + 1));
         }
         bytes_ = at;
+        while (at < head.size() &&
+               lower_case(find({"ElementDataFile"}).value_or("")).starts_with("list")) {
+            const std::size_t end = std::min(head.find('\n', at), head.size());
+            if (const auto line = trimmed(std::string_view(head).substr(at, end - at));
+                !line.empty())
+                listed_.emplace_back(line);
+            at = end + 1;
+        }
         if (!fields_.contains("ElementDataFile") || !fields_.contains("DimSize"))
             throw Error(fmt::format("{}: not MetaImage: no DimSize or no ElementDataFile", file_));
     }
@@ -85,11 +93,14 @@ class MetaImageHeader {
         return text.starts_with('t') || text.starts_with('1') || text.starts_with('y');
     }
 
+    /// Names that follow `ElementDataFile = LIST`.
+    const std::vector<std::string>& listed() const { return listed_; }
     std::uint64_t bytes() const { return bytes_; } ///< size of the header, up to LOCAL data
 
   private:
     std::string file_;
     std::map<std::string, std::string> fields_;
+    std::vector<std::string> listed_;
     std::uint64_t bytes_ = 0;
 };
 
@@ -131,10 +142,17 @@ void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_
         layout.offset = header.bytes();
         return;
     }
-    if (file.find('%') != file.npos || lower_case(file).starts_with("list"))
+    std::vector<std::string> names{file};
+    if (is_numbered(file))
+        names = numbered_names(file, name);
+    else if (lower_case(file).starts_with("list"))
+        names = header.listed();
+    if (names.empty())
         throw Error(
-            fmt::format("{}: ElementDataFile {}, expected LOCAL or one file", name, excerpt(file)));
-    layout.data = path.parent_path() / file;
+            fmt::format("{}: ElementDataFile LIST, expected names of files after it", name));
+    layout.data = path.parent_path() / names.front();
+    for (const std::string& one : names.size() > 1 ? names : std::vector<std::string>())
+        layout.parts.push_back({path.parent_path() / one, 0, 0});
     const auto skipped = header.find({"HeaderSize"});
     if (!skipped)
         return;
@@ -142,12 +160,16 @@ void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_
     if (bytes.size() != 1 || bytes[0] < -1)
         throw Error(fmt::format("{}: HeaderSize {}, expected -1 or more", name, excerpt(*skipped)));
     layout.offset = static_cast<std::uint64_t>(std::max<std::int64_t>(bytes[0], 0));
-    if (bytes[0] == -1) { // the values are at the end of the file
-        const std::uint64_t size = file_bytes(layout.data);
-        const std::uint64_t values =
-            vertices * layout.array.components * layout.steps * size_of(*layout.array.type);
-        layout.offset = size > values ? size - values : 0;
-    }
+    // -1: the values are at the end of the file.
+    const std::uint64_t values = vertices * layout.array.components * layout.steps *
+                                 size_of(*layout.array.type) / names.size();
+    const auto begin = [&](const fs::path& data) {
+        const std::uint64_t size = bytes[0] == -1 ? file_bytes(data) : 0;
+        return bytes[0] == -1 ? size - std::min(size, values) : layout.offset;
+    };
+    for (DataPart& part : layout.parts)
+        part.offset = begin(part.path);
+    layout.offset = begin(layout.data);
 }
 
 } // namespace

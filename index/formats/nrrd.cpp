@@ -138,17 +138,26 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
         layout.compression = Compression::bzip2;
     else if (encoding == "ascii" || encoding == "text" || encoding == "txt")
         layout.ascii = true;
+    else if (encoding == "hex")
+        layout.compression = Compression::hex;
     else if (encoding != "raw")
-        throw Error(fmt::format("{}: encoding {}, expected raw, ascii, gzip or bzip2", file,
+        throw Error(fmt::format("{}: encoding {}, expected raw, ascii, hex, gzip or bzip2", file,
                                 excerpt(encoding)));
     layout.big_endian = lower_case(header.find("endian").value_or("little")) == "big";
     layout.data = path;
     layout.offset = header.bytes();
     if (const auto data = header.find("datafile")) {
-        if (data->find('%') != data->npos || lower_case(*data).starts_with("list"))
-            throw Error(fmt::format("{}: data file {}, expected one file", file, excerpt(*data)));
-        layout.data = path.parent_path() / *data;
+        std::vector<std::string> names{*data};
+        if (is_numbered(*data))
+            names = numbered_names(*data, file);
+        else if (lower_case(*data).starts_with("list"))
+            names = header.listed();
+        if (names.empty())
+            throw Error(fmt::format("{}: data file LIST, expected names of files after it", file));
+        layout.data = path.parent_path() / names.front();
         layout.offset = 0;
+        for (const std::string& one : names.size() > 1 ? names : std::vector<std::string>())
+            layout.parts.push_back({path.parent_path() / one, 0, 0});
     }
     const auto skip = [&](const char* key) {
         const auto text = header.find(key);
@@ -157,15 +166,26 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
             throw Error(fmt::format("{}: {} {}, expected 0 or more", file, key, excerpt(*text)));
         return static_cast<std::uint64_t>(number[0]);
     };
-    layout.offset = after_lines(layout.data, layout.offset, skip("lineskip"));
-    // For compressed data, byteskip counts decompressed bytes. -1: the values are at the file's
-    // end.
-    if (header.find("byteskip") == "-1" && layout.compression == Compression::none) {
-        const std::uint64_t size = file_bytes(layout.data);
-        layout.offset = size > value_bytes ? size - value_bytes : 0;
-        return;
-    }
-    (layout.compression == Compression::none ? layout.offset : layout.skip) += skip("byteskip");
+    const std::uint64_t lines = skip("lineskip");
+    const bool at_end = header.find("byteskip") == "-1" && layout.compression == Compression::none;
+    const std::uint64_t bytes = at_end ? 0 : skip("byteskip");
+    const std::uint64_t share = value_bytes / std::max<std::size_t>(layout.parts.size(), 1);
+    const auto begin = [&](DataPart part) {
+        part.offset = after_lines(part.path, part.offset, lines);
+        // For compressed data, byteskip counts decompressed bytes. -1: the values are at the
+        // file's end.
+        const std::uint64_t size = at_end ? file_bytes(part.path) : 0;
+        if (at_end)
+            part.offset = size - std::min(size, share);
+        (layout.compression == Compression::none ? part.offset : part.skip) += bytes;
+        return part;
+    };
+    for (DataPart& part : layout.parts)
+        part = begin(part);
+    const DataPart whole = begin({layout.data, layout.offset, 0});
+    layout.offset = whole.offset;
+    if (layout.parts.empty())
+        layout.skip = whole.skip;
 }
 
 } // namespace

@@ -21,6 +21,10 @@ NrrdHeader::NrrdHeader(const std::filesystem::path& path) : file_(path.string())
         if (bytes_ > kMost)
             throw Error(
                 fmt::format("{}: not NRRD: its header is longer than {} bytes", file_, kMost));
+        if (lists()) {
+            listed_.emplace_back(trimmed(line));
+            continue;
+        }
         const std::size_t colon = line.find(':');
         if (line.starts_with('#') || colon == line.npos)
             continue;
@@ -30,6 +34,12 @@ NrrdHeader::NrrdHeader(const std::filesystem::path& path) : file_(path.string())
         std::erase(key, ' ');
         fields_[key] = trimmed(std::string_view(line).substr(colon + 1));
     }
+    if (lists() && !line.empty()) // the last line of a file may have no end
+        listed_.emplace_back(trimmed(line));
+}
+
+bool NrrdHeader::lists() const {
+    return lower_case(find("datafile").value_or("")).starts_with("list");
 }
 
 std::optional<std::string> NrrdHeader::find(const std::string& key) const {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::index {
 
@@ -19,14 +20,18 @@ class NrrdHeader {
     std::optional<std::string> find(const std::string& key) const;
     /// A field that must be there. @throws Error when it is missing
     std::string need(const std::string& key) const;
+    /// Names that follow `data file: LIST`.
+    const std::vector<std::string>& listed() const { return listed_; }
     const std::string& file() const { return file_; }
     std::uint64_t bytes() const { return bytes_; }
 
   private:
+    bool lists() const;
     bool read_line(std::istream& in, std::string& line);
 
     std::string file_;
     std::map<std::string, std::string> fields_;
+    std::vector<std::string> listed_;
     std::uint64_t bytes_ = 0;
 };
 

@@ -1,7 +1,9 @@
 // Finds the format of each file and opens them as a series.
 #include "index/error.h"
 #include "index/formats/data_stream.h"
+#include "index/formats/dicom_files.h"
 #include "index/formats/file_series.h"
+#include "index/formats/joined_blocks.h"
 #include "index/formats/json_series.h"
 #include "index/formats/natural_order.h"
 #include "index/formats/readers.h"
@@ -40,6 +42,8 @@ constexpr std::array kFormats{
     Format{"zarr.json", open_zarr}, Format{".zattrs", open_zarr},   Format{".zarray", open_zarr},
     Format{".zgroup", open_zarr},   Format{".zip", open_zarr},      Format{".ozx", open_zarr},
     Format{".hdf", open_hdf5},      Format{".vtkhdf", open_hdf5},   Format{".raw", open_raw},
+    Format{".dcm", open_dicom},     Format{".dicom", open_dicom},   Format{".ima", open_dicom},
+    Format{".bov", open_bov},       Format{".xmf", open_xdmf},      Format{".xdmf", open_xdmf},
 };
 
 /// Of a Zarr folder the file that describes it; else the path itself.
@@ -59,6 +63,8 @@ SeriesFile series_file(const fs::path& given, const ReadOptions& options,
     for (const Format& format : kFormats)
         if (name.ends_with(format.extension))
             return {path, format.open, time};
+    if (is_dicom(path))
+        return {path, open_dicom, time};
     // Raw data may have any name; giving dimensions says that a file is raw.
     if (options.dims)
         return {path, open_raw, time};
@@ -85,6 +91,36 @@ std::vector<SeriesFile> timed_by_name(const std::vector<fs::path>& files,
     return series;
 }
 
+/// The files of a series together: the reader puts them in their order.
+SeriesFile dicom_series(std::vector<fs::path> files) {
+    SeriesFile series{.path = files.front(), .open = open_dicom, .time = {}};
+    if (files.size() > 1)
+        series.open = [files = std::move(files)](const fs::path& path, const ReadOptions& options) {
+            ReadOptions with = options;
+            with.slices = files;
+            return open_dicom(path, with);
+        };
+    return series;
+}
+
+/// Files of the same time, one behind the other, are parts of a volume.
+std::vector<SeriesFile> joined_by_time(std::vector<SeriesFile> files) {
+    std::vector<SeriesFile> joined;
+    for (auto file = files.begin(); file != files.end();) {
+        const auto end = std::find_if(
+            file, files.end(), [&](const SeriesFile& other) { return other.time != file->time; });
+        std::vector<SeriesFile> parts(file, end);
+        joined.push_back(parts.front());
+        if (parts.size() > 1)
+            joined.back().open = [parts = std::move(parts)](const fs::path&,
+                                                            const ReadOptions& options) {
+                return join_blocks(parts, options);
+            };
+        file = end;
+    }
+    return joined;
+}
+
 bool is_pvd(const fs::path& path) {
     return lower_case(path.extension().string()) == ".pvd";
 }
@@ -93,8 +129,9 @@ bool names_its_files(const fs::path& path) {
     return is_pvd(path) || lower_case(path.extension().string()) == ".series";
 }
 
-std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& files,
+std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given,
                                             const ReadOptions& options) {
+    const std::vector<fs::path> files = with_dicom_folders(given);
     if (files.empty())
         throw Error("no files given");
     std::vector<SeriesFile> series;
@@ -109,10 +146,13 @@ std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& files,
         file_bytes(*list);
         for (const auto& [path, time] : is_pvd(*list) ? read_pvd(*list) : read_json_series(*list))
             series.push_back(series_file(path, options, time));
-        return open_file_series(std::move(series), options);
+        return open_file_series(
+            is_pvd(*list) ? joined_by_time(std::move(series)) : std::move(series), options);
     }
     if (options.times_from_names)
         return open_file_series(timed_by_name(files, options), options);
+    if (!options.dims && std::ranges::all_of(files, is_dicom))
+        return open_file_series({dicom_series(files)}, options);
     if (std::ranges::all_of(files, is_tiff))
         return open_file_series(tiff_series(files, options), options);
     for (const fs::path& path : files)

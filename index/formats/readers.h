@@ -13,6 +13,9 @@ std::unique_ptr<VolumeFile> open_raw(const std::filesystem::path& path, const Re
 std::unique_ptr<VolumeFile> open_metaimage(const std::filesystem::path& path,
                                            const ReadOptions& options);
 
+/// VisIt's brick of values: .bov with its data beside it. Values of cells are taken at their centers.
+std::unique_ptr<VolumeFile> open_bov(const std::filesystem::path& path, const ReadOptions& options);
+
 /// NRRD: .nrrd, .nhdr. The kinds of its axes say which are time and components; without kinds, a
 /// slowest fourth axis is time.
 std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
@@ -41,6 +44,10 @@ std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_hdf5(const std::filesystem::path& path,
                                       const ReadOptions& options);
 
+/// XDMF (.xmf, .xdmf) with values in HDF5 files, in plain files or in the document, in a reader.
+std::unique_ptr<VolumeFile> open_xdmf(const std::filesystem::path& path,
+                                      const ReadOptions& options);
+
 /// TIFF and BigTIFF (.tif, .tiff), in a reader, where it was built with the library: pages as
 /// slices, as OME-XML has them, or as ImageJ does.
 std::unique_ptr<VolumeFile> open_tiff(const std::filesystem::path& path,
@@ -50,6 +57,11 @@ std::unique_ptr<VolumeFile> open_tiff(const std::filesystem::path& path,
 /// `.zattrs`, `.zarray`, `.zgroup`).
 std::unique_ptr<VolumeFile> open_zarr(const std::filesystem::path& path,
                                       const ReadOptions& options);
+
+/// DICOM (.dcm and by content), in a reader, where it was built with GDCM: with `slices` the files
+/// of a series, else one with one frame or many. Space is LPS.
+std::unique_ptr<VolumeFile> open_dicom(const std::filesystem::path& path,
+                                       const ReadOptions& options);
 
 /// The files and times of a ParaView collection (.pvd), in its order, paths made relative to where
 /// the program runs; in a reader. @throws Error naming the file

@@ -34,15 +34,19 @@ class StoredFile final : public VolumeFile {
           chosen_(std::move(chosen)), allow_surplus_(allow_surplus) {
         // The end of compressed data and of text is only found when it is read.
         if (layout_.compression == Compression::none && !layout_.ascii)
-            expect_end(open_data(layout_.data, layout_.offset, Compression::none)
-                           ->rest(layout_.skip + layout_.steps * std::uint64_t{step_bytes()}));
+            expect_end(
+                open_values()->rest(layout_.skip + layout_.steps * std::uint64_t{step_bytes()}));
     }
 
     const SeriesInfo& info() const override { return info_; }
     std::size_t steps() const override { return layout_.steps; }
     std::vector<std::filesystem::path> beside() const override {
-        return layout_.data == header_ ? std::vector<std::filesystem::path>{}
-                                       : std::vector{layout_.data};
+        std::vector<std::filesystem::path> others;
+        for (const DataPart& part : layout_.parts)
+            others.push_back(part.path);
+        if (others.empty() && layout_.data != header_)
+            others.push_back(layout_.data);
+        return others;
     }
 
     void read(std::size_t step, std::span<std::byte> out) override {
@@ -56,6 +60,14 @@ class StoredFile final : public VolumeFile {
   private:
     std::size_t tuple_bytes() const {
         return layout_.array.components * size_of(*layout_.array.type);
+    }
+
+    std::unique_ptr<DataStream> open_values() const {
+        if (layout_.parts.empty())
+            return open_data(layout_.data, layout_.offset, layout_.compression);
+        return open_parts(layout_.parts,
+                          layout_.steps * std::uint64_t{step_bytes()} / layout_.parts.size(),
+                          layout_.compression);
     }
 
     /// Reads a step piece by piece. @param out receives all pieces in order; if empty, each piece
@@ -94,7 +106,7 @@ class StoredFile final : public VolumeFile {
             return text_->read(tuple * layout_.array.components, out);
         }
         if (!stream_)
-            stream_ = open_data(layout_.data, layout_.offset, layout_.compression);
+            stream_ = open_values();
         stream_->read(layout_.skip + tuple * std::uint64_t{tuple_bytes()}, out);
         if (layout_.big_endian)
             swap_bytes(out, size_of(*layout_.array.type));
@@ -143,8 +155,15 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
                                       : values * static_cast<double>(size_of(*layout.array.type)) +
                                             static_cast<double>(layout.skip);
     constexpr double kMost = 1e18; // beyond any file, within 64 bits
-    expect_room(layout.data, layout.offset, layout.compression,
-                static_cast<std::uint64_t>(std::min(bytes, kMost)));
+    const auto whole = static_cast<std::uint64_t>(std::min(bytes, kMost));
+    if (layout.parts.empty())
+        expect_room(layout.data, layout.offset, layout.compression, whole);
+    if (!layout.parts.empty() && (layout.ascii || whole % layout.parts.size() != 0))
+        throw Error(fmt::format("{}: {} bytes of values in {} files, expected {}", name, whole,
+                                layout.parts.size(),
+                                layout.ascii ? "no text in several" : "the same share in each"));
+    for (const DataPart& part : layout.parts)
+        expect_room(part.path, part.offset, layout.compression, whole / layout.parts.size());
     expect_few_steps(layout.steps, name);
     // Only now, after the checks, can the header's number of steps be trusted.
     give_times(info, layout, layout.steps);

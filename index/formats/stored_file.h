@@ -1,7 +1,7 @@
 // A file whose values are one plain array after a header: raw, MetaImage, NRRD, NIfTI.
 #pragma once
 
-#include "index/formats/data_stream.h"
+#include "index/formats/data_parts.h"
 #include "index/formats/stored_scalar.h"
 #include "index/formats/volume_file.h"
 
@@ -10,9 +10,11 @@ namespace isochron::index {
 /// The place and the encoding of a file's values.
 struct StoredLayout {
     std::filesystem::path data; ///< may be the header's own file
-    std::uint64_t offset = 0;   ///< of the first (compressed) byte; if the whole file is
-                                ///< compressed, see `skip`
-    std::uint64_t skip = 0;     ///< decompressed bytes before the first value
+    /// The files with the values, in their order, if there are several: each has the same share.
+    std::vector<DataPart> parts = {};
+    std::uint64_t offset = 0; ///< of the first (compressed) byte; if the whole file is
+                              ///< compressed, see `skip`
+    std::uint64_t skip = 0;   ///< decompressed bytes before the first value
     Compression compression = Compression::none;
     bool ascii = false; ///< numbers as text, separated by blanks or commas
     bool big_endian = false;

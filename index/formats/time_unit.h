@@ -1,7 +1,9 @@
-// Converts physical times between units, with or without a reference date.
+// Converts physical times between units, with or without a reference date, and writes them for people.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,9 +13,20 @@ namespace isochron::index {
 /// after the CF conventions, `hours since 1970-01-01 06:00`, with a calendar in brackets if it is
 /// not the usual one: `days since 2000-01-01 (360_day)`.
 /// @return none when it is impossible: unknown units, different calendars, only one unit with a
-///         date, months and years, whose length varies, and dates before 1583, whose calendar is
-///         uncertain
+///         date, months and years where their length varies
 std::optional<std::vector<double>> times_in(const std::string& wanted, const std::string& given,
                                             std::vector<double> times);
+
+/// A unit with the calendar (an attribute of CF) behind it in brackets, if it makes a difference.
+std::string with_calendar(const std::string& unit, const std::string& calendar);
+
+/// The date of a step where the unit has a reference date, else its time and the unit:
+/// `2009-09-09 17:00`, `2000-02-30 (360_day)`, `0.25 s`. It is as short as tells it apart from the
+/// steps before and after; dates are rounded to a millisecond.
+/// @param times of all steps, increasing
+std::string time_text(std::span<const double> times, std::size_t step, const std::string& unit);
+
+/// Whether `time_text` gives dates.
+bool has_dates(std::span<const double> times, const std::string& unit);
 
 } // namespace isochron::index

@@ -14,7 +14,7 @@ constexpr ValueType kLastValue<ValueType> = ValueType::f64;
 template <>
 constexpr Anatomy kLastValue<Anatomy> = Anatomy::enu;
 template <>
-constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::zarr;
+constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::xdmf;
 
 namespace {
 
@@ -110,14 +110,16 @@ Message message_from(std::span<const std::byte> bytes) {
 
 } // namespace
 
-const std::string kReaderVersion = ISOCHRON_VERSION " 3";
+const std::string kReaderVersion = ISOCHRON_VERSION " 4";
 const std::string kCollectionProgram = "isochron-reader-vtk";
 
 std::string program_of(ForeignFormat format) {
     switch (format) {
     case ForeignFormat::netcdf: return "isochron-reader-netcdf";
+    case ForeignFormat::xdmf:
     case ForeignFormat::hdf5: return "isochron-reader-hdf5";
     case ForeignFormat::tiff: return "isochron-reader-tiff";
+    case ForeignFormat::dicom: return "isochron-reader-dicom";
     case ForeignFormat::zarr: return "isochron-reader-zarr";
     case ForeignFormat::vti:
     case ForeignFormat::vtk:

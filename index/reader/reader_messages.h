@@ -21,7 +21,17 @@
 namespace isochron::index {
 
 /// The formats that libraries decode.
-enum class ForeignFormat : std::uint8_t { vti, vtk, netcdf, hdf5, tiff, vtk_data, zarr };
+enum class ForeignFormat : std::uint8_t {
+    vti,
+    vtk,
+    netcdf,
+    hdf5,
+    tiff,
+    vtk_data,
+    zarr,
+    dicom,
+    xdmf
+};
 
 /// The reader program that decodes a format: one for each library, so that no format waits until
 /// the library of another is loaded.

@@ -59,7 +59,7 @@ struct ReadOptions {
     std::vector<std::filesystem::path> slices;
     // Headerless raw files only:
     std::optional<std::array<std::uint32_t, 3>> dims; ///< --dims NX NY NZ, vertices
-    std::optional<ValueType> type;                    ///< --type
+    std::optional<ValueType> type;                    ///< --type; of other files: converted to it
     bool big_endian = false;                          ///< --big-endian
     std::uint64_t header_bytes = 0;                   ///< --header-bytes: skipped at the start
     // Override what the files say, or add what they do not say:

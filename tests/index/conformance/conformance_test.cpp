@@ -162,7 +162,9 @@ bool reads(const fs::path& file, const ReadOptions& options) {
         return true;
     } catch (const Error& error) {
         const std::string line = error.what();
-        EXPECT_THAT(line, testing::HasSubstr(file.filename().string()));
+        // A damaged header may name another file, whose lack is what is wrong then.
+        EXPECT_THAT(line, testing::AnyOf(testing::HasSubstr(file.filename().string()),
+                                         testing::HasSubstr(file.parent_path().string())));
         EXPECT_EQ(line.find('\n'), std::string::npos) << line;
         return false;
     }
@@ -197,8 +199,8 @@ TEST_P(Conformance, DamageIsOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Libraries, Conformance,
-                         testing::Values("with_h5py.py", "with_nibabel.py", "with_tifffile.py",
-                                         "with_vtk.py", "with_zarr.py"),
+                         testing::Values("with_h5py.py", "with_nibabel.py", "with_numpy.py", "with_pydicom.py", "with_tifffile.py",
+                                         "with_vtk.py", "with_xdmf.py", "with_zarr.py"),
                          [](const auto& script) {
                              const std::string name = script.param;
                              return name.substr(5, name.size() - 8);

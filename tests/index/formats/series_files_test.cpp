@@ -196,5 +196,42 @@ TEST_F(WrittenSeries, NamesBothFilesOfTheSameTime) {
     EXPECT_EQ(open_series(files, options)->info().times, (std::vector<double>{0, 2}));
 }
 
+TEST(SeriesOfTypes, IsConvertedToOne) {
+    TestFolder folder;
+    const auto nrrd = [&](const std::string& name, const std::string& type,
+                          const std::string& values) {
+        return folder.write(
+            name, "NRRD0004\ntype: " + type +
+                      "\ndimension: 3\nsizes: 2 2 2\nendian: little\nencoding: raw\n\n" + values);
+    };
+    const std::vector<float> floats{0.5f, -1, 2, 3, 4, 5, 6, 7};
+    const std::vector<std::int16_t> shorts{-32768, 32767, 2, 3, 4, 5, 6, 7};
+    const std::vector<double> doubles{0.1, 1, 2, 3, 4, 5, 6, 7};
+    const auto a = nrrd("a.nrrd", "float", text_of(floats)),
+               b = nrrd("b.nrrd", "short", text_of(shorts)),
+               c = nrrd("c.nrrd", "double", text_of(doubles));
+    EXPECT_THAT(error_of([&] {
+                    open_series({a, b});
+                }),
+                HasSubstr("b.nrrd: type i16, " + a.string() + " has f32; --type f32"));
+    ReadOptions options;
+    options.type = ValueType::f32;
+    const auto exact = open_series({a, b}, options);
+    EXPECT_EQ(values_of<float>(*exact, 0), floats);
+    EXPECT_EQ(values_of<float>(*exact, 1), std::vector<float>(shorts.begin(), shorts.end()));
+    EXPECT_TRUE(exact->info().notes.empty());
+    const auto rounded = open_series({c, b}, options);
+    EXPECT_EQ(values_of<float>(*rounded, 1).front(), 0.1f);
+    EXPECT_THAT(rounded->info().notes, testing::ElementsAre("values of f64 are rounded to f32"));
+    options.type = ValueType::i16;
+    const auto integers = open_series({b, a}, options);
+    EXPECT_EQ(values_of<std::int16_t>(*integers, 1), shorts);
+    EXPECT_THAT(error_of([&] { values_of<std::int16_t>(*integers, 0); }),
+                HasSubstr("a.nrrd: holds 0.5, which no integer of 16 bits is"));
+    options.type = ValueType::u8;
+    EXPECT_THAT(error_of([&] { values_of<std::uint8_t>(*open_series({b}, options), 0); }),
+                HasSubstr("holds -32768"));
+}
+
 } // namespace
 } // namespace isochron::index

@@ -1,0 +1,26 @@
+// Where the pixels of a DICOM file begin.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace isochron::index {
+
+/// How the elements of a data set are written: parts of the transfer syntax.
+struct DicomCoding {
+    bool with_kinds = true; ///< explicit value representations
+    bool big_endian = false;
+};
+
+struct PixelPlace {
+    std::uint64_t at = 0;    ///< [bytes] from the start of the file
+    std::uint64_t bytes = 0; ///< that the element says to have
+    bool packed = false;     ///< in fragments, of no length: compressed
+};
+
+/// Walks over the elements of the file. @return none: it has no pixels, or is damaged before them
+std::optional<PixelPlace> place_of_pixels(const std::filesystem::path& path,
+                                          const DicomCoding& coding);
+
+} // namespace isochron::index

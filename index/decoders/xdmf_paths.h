@@ -1,0 +1,32 @@
+// Places that XDMF documents name: elements of the document, and datasets of other files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tinyxml2 {
+class XMLDocument;
+class XMLElement;
+} // namespace tinyxml2
+
+namespace isochron::index {
+
+/// `file.h5:/fields/rho`
+struct XdmfHeavy {
+    std::filesystem::path file; ///< found from the document's folder
+    std::string path;
+};
+
+/// @throws Error naming the document: no such pair
+XdmfHeavy heavy_of(const std::string& text, const std::filesystem::path& document);
+
+/// The element at a path: `/Xdmf/Domain/Grid[2]/Geometry`, `/Xdmf/Domain/DataItem[@Name="x"]`.
+/// @return null if there is none
+const tinyxml2::XMLElement* xdmf_element(const tinyxml2::XMLDocument& document,
+                                         const std::string& path);
+
+/// A document with the entities that it declares (`<!ENTITY name "value">`) replaced, once.
+/// @throws Error naming the file, when that makes it much longer
+std::string with_entities(std::string text, const std::string& file);
+
+} // namespace isochron::index

@@ -1,0 +1,81 @@
+"""Plain arrays behind text headers, as their documents describe them: several files of MetaImage and NRRD, hex, BOV."""
+import bz2
+import gzip
+
+import numpy as np
+
+from manifest import done, expect, field, path, refuse
+
+
+def write(name, content):
+    with open(path(name), "wb") as out:
+        out.write(content if isinstance(content, bytes) else content.encode())
+    return name
+
+
+values = field(6, 5, 4, dtype="i2")
+moving = field(3, 6, 5, 4, dtype="i2")
+for z in range(6):
+    write(f"slice{z + 1:03d}.raw", values[z].tobytes())
+    write(f"head{z}.raw", b"skipped" + values[z].tobytes())
+    write(f"big{z}.raw", values[z].astype(">i2").tobytes())
+    write(f"s{z}.gz", gzip.compress(values[z].tobytes()))
+    write(f"s{z}.bz2", bz2.compress(values[z].tobytes()))
+for t in range(3):
+    write(f"step_{t}.raw", moving[t].tobytes())
+names = "".join(f"slice{z + 1:03d}.raw\n" for z in range(6))
+
+# MetaImage
+mhd = "ObjectType = Image\nNDims = 3\nDimSize = 4 5 6\nElementType = MET_SHORT\nElementSpacing = 1 2 3\n"
+placed = dict(spacing=(1, 2, 3))
+expect(write("list.mhd", mhd + "ElementDataFile = LIST\n" + names), values, **placed)
+expect(write("list2d.mhd", mhd + "ElementDataFile = LIST 2D\n" + names.rstrip()), values, **placed)
+expect(write("pattern.mhd", mhd + "ElementDataFile = slice%03d.raw 1 6 1\n"), values, **placed)
+expect(write("falling.mhd", mhd + "ElementDataFile = slice%03d.raw 6 1 -1\n"), values[::-1], **placed)
+expect(write("skipped.mhd", mhd + "HeaderSize = 7\nElementDataFile = head%d.raw 0 5 1\n"), values, **placed)
+expect(write("at_end.mhd", mhd + "HeaderSize = -1\nElementDataFile = head%d.raw 0 5 1\n"), values, **placed)
+expect(write("msb.mhd", mhd + "BinaryDataByteOrderMSB = True\nElementDataFile = big%d.raw 0 5 1\n"), values, **placed)
+expect(write("steps.mhd", mhd.replace("NDims = 3", "NDims = 4").replace("4 5 6", "4 5 6 3").replace("1 2 3", "1 2 3 0.5")
+             + "ElementDataFile = step_%d.raw 0 2 1\n"), moving, times=[0, 0.5, 1], **placed)
+refuse(write("short.mhd", mhd + "ElementDataFile = slice%03d.raw 1 5 1\n"), "slice001.raw: truncated")
+refuse(write("missing.mhd", mhd + "ElementDataFile = slice%03d.raw 2 7 1\n"), "slice007.raw: there is no such file")
+refuse(write("many.mhd", mhd + "ElementDataFile = slice%03d.raw 1 3 1\n"), "slice001.raw: truncated")
+refuse(write("evil.mhd", mhd + "ElementDataFile = slice%s%n.raw 1 6 1\n"), "expected a pattern")
+refuse(write("endless.mhd", mhd + "ElementDataFile = slice%d.raw 1 99999999999 1\n"), "files 1 to 99999999999")
+refuse(write("empty.mhd", mhd + "ElementDataFile = LIST\n"), "expected names of files")
+
+# NRRD
+nhdr = "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 5 6\nspacings: 1 2 3\nendian: little\nencoding: raw\n"
+expect(write("list.nhdr", nhdr + "data file: LIST\n" + names.rstrip()), values, **placed)
+expect(write("list2.nhdr", nhdr + "datafile: LIST 2\n" + names), values, **placed)
+expect(write("pattern.nhdr", nhdr + "data file: slice%03d.raw 1 6 1\n"), values, **placed)
+expect(write("pattern2.nhdr", nhdr + "data file: slice%03d.raw 1 6 1 2\n"), values, **placed)
+expect(write("skipped.nhdr", nhdr + "byte skip: 7\ndata file: head%d.raw 0 5 1\n"), values, **placed)
+expect(write("at_end.nhdr", nhdr + "byte skip: -1\ndata file: head%d.raw 0 5 1\n"), values, **placed)
+expect(write("gz.nhdr", nhdr.replace("raw", "gzip") + "data file: s%d.gz 0 5 1\n"), values, **placed)
+expect(write("bz.nhdr", nhdr.replace("raw", "bzip2") + "data file: s%d.bz2 0 5 1\n"), values, **placed)
+digits = values.tobytes().hex()
+expect(write("hex.nrrd", nhdr.replace("raw", "hex") + "\n" + digits), values, **placed)
+expect(write("lines.nrrd", nhdr.replace("raw", "hex") + "\n" +
+             "\n".join(digits[i:i + 61].upper() for i in range(0, len(digits), 61)) + "\n"), values, **placed)
+refuse(write("half.nrrd", nhdr.replace("raw", "hex") + "\n" + digits[:-2] + "\n \n"), "truncated", reads=True)
+refuse(write("letter.nrrd", nhdr.replace("raw", "hex") + "\n" + digits[:9] + "x" + digits[10:]), "damaged hex", reads=True)
+refuse(write("more.nrrd", nhdr.replace("raw", "hex") + "\n" + digits + "00"), "bytes follow", reads=True)
+
+# BOV
+bov = "TIME: 2.5\nDATA_FILE: all.dat\nDATA_SIZE: 4 5 6\nDATA_FORMAT: SHORT\nVARIABLE: \"rho\"\n" \
+      "BRICK_ORIGIN: 1. 2. 3.\nBRICK_SIZE: 8. 5. 3.\n"
+write("all.dat", b"1234" + values.tobytes())
+write("big.dat", values.astype(">i2").tobytes())
+write("vector.dat", np.stack([values, values // 2], axis=-1).tobytes())
+write("packed.gz", gzip.compress(b"1234" + values.tobytes()))
+centers = dict(spacing=(2, 1, 0.5), origin=(2, 2.5, 3.25), times=[2.5])
+expect(write("cells.bov", bov + "BYTE_OFFSET: 4\n"), values, **centers)
+expect(write("packed.bov", bov.replace("all.dat", "packed.gz") + "BYTE_OFFSET: 4\n"), values, **centers)
+expect(write("nodes.bov", bov.replace("all.dat", "big.dat") + "# a comment\nCENTERING: nodal\nDATA_ENDIAN: BIG\n"), values,
+       spacing=(8 / 3, 5 / 4, 3 / 5), origin=(1, 2, 3), times=[2.5])
+expect(write("vector.bov", bov.replace("all.dat", "vector.dat") + "DATA_COMPONENTS: 2\n"), values // 2, component="1", **centers)
+refuse(write("cut.bov", bov.replace("all.dat", "big.dat") + "DATA_BRICKLETS: 2 5 6\n"), "cut into several")
+refuse(write("short.bov", bov + "BYTE_OFFSET: 5\n"), "all.dat: truncated")
+refuse(write("none.bov", "TIME: 1\n"), "not BOV")
+done()

@@ -129,8 +129,11 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
     command.option("--array", read.array, "Array to read, if the files hold several")
         .group("Reading");
     command
-        .option("--component", read.component,
-                "Component of a vector array: a number from 0, or `magnitude`")
+        .option(
+            "--component", read.component,
+            "Component of a vector array: a number from 0, or `magnitude`; or what is computed: "
+            "`gradient` (its length) of a scalar, `vorticity` (its length) or `q-criterion` of a "
+            "vector")
         .group("Reading");
     command
         .flag("--allow-surplus", read.allow_surplus,
@@ -186,7 +189,7 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
             .group(colors);
     command
         .option("--color-component", arguments.color_component,
-                "Component of the second array, if it is a vector: a number from 0, or `magnitude`")
+                "Component of the second array, as `--component` has it")
         .needs(color)
         .group(colors);
     command.option("--color-unit", arguments.color_unit, "Unit of the second array's values")

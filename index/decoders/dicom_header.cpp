@@ -209,8 +209,8 @@ void find_pixels(const fs::path& path, const gdcm::TransferSyntax& syntax, Dicom
     if (there < expected)
         throw Error(fmt::format("{}: truncated: its pixels have {} bytes, expected {}", name, there,
                                 expected));
-    if (!big)
-        file.pixels_at = place->at;
+    file.pixels_at = place->at;
+    file.big_endian = big;
 }
 
 std::string unit_of(const DicomTags& root, const FrameTags& tags, const std::string& modality) {

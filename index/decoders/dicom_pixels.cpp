@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <gdcmImageReader.h>
 
+#include <algorithm>
 #include <cstring>
+#include <span>
 #include <type_traits>
 
 namespace isochron::index {
@@ -57,6 +59,10 @@ void DicomPixels::decode(const std::filesystem::path& path, const DicomFile& fil
             throw Error(fmt::format("{}: truncated: frame {} has {} bytes, expected {}", name,
                                     frame, got, expected));
         planar_ = file.planar;
+        const auto size = static_cast<std::ptrdiff_t>(size_of(file.type));
+        if (file.big_endian)
+            for (auto value = pixels_.begin(); value != pixels_.end(); value += size)
+                std::reverse(value, value + size);
     } else {
         gdcm::ImageReader reader;
         reader.SetFileName(path.c_str());

@@ -121,8 +121,9 @@ void Hdf5Values::read(std::span<const std::uint64_t> start, std::span<const std:
     file_.expect(H5Sselect_hyperslab(space_.id(), H5S_SELECT_SET, from.data(), nullptr, size.data(),
                                      nullptr) >= 0,
                  what);
-    const hsize_t values = out.size() / size_of(*dataset_.type);
-    const Hdf5Handle memory(H5Screate_simple(1, &values, nullptr), H5Sclose);
+    // Of the same shape as in the file: HDF5 goes through other shapes value by value.
+    const Hdf5Handle memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
+                            H5Sclose);
     file_.expect(H5Dread(open_.id(), memory_type(*dataset_.type), memory.id(), space_.id(),
                          H5P_DEFAULT, out.data()) >= 0,
                  what);

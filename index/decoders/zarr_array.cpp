@@ -345,14 +345,22 @@ void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::
         last[i] = (start[i] + count[i] - 1) / chunk()[i];
     }
     at = first;
+    ZarrBytes whole;
     while (true) {
-        const ZarrBytes& values = chunk_at(at);
         // The part of the box in this chunk, row by row along the last dimension.
         std::vector<std::uint64_t> low(rank), high(rank);
+        bool all = true;
         for (std::size_t i = 0; i < rank; ++i) {
             low[i] = std::max(start[i], at[i] * chunk()[i]);
             high[i] = std::min(start[i] + count[i], (at[i] + 1) * chunk()[i]);
+            all = all &&
+                  high[i] - low[i] ==
+                      std::min(chunk()[i], shape_[i] - std::min(shape_[i], at[i] * chunk()[i]));
         }
+        // Of a chunk that is wanted as a whole nothing is left to keep it for.
+        if (all)
+            whole = load(at);
+        const ZarrBytes& values = all ? whole : chunk_at(at);
         const std::size_t row = high[rank - 1] - low[rank - 1];
         for (std::vector<std::uint64_t> p = low;;) {
             std::size_t to = 0, from = 0;

@@ -24,6 +24,11 @@ bool begins_like_dicom(const fs::path& path) {
            std::string_view(letters, sizeof letters) == "DICM";
 }
 
+/// Disks have a file that lists the others.
+bool is_directory_of_dicom(const fs::path& path) {
+    return lower_case(path.filename().string()).starts_with("dicomdir");
+}
+
 } // namespace
 
 bool is_dicom(const fs::path& path) {
@@ -45,7 +50,8 @@ std::vector<fs::path> with_dicom_folders(const std::vector<fs::path>& files) {
                  at.increment(ignored)) {
                 if (++seen > kMost)
                     throw Error(fmt::format("{}: more than {} files in it", path.string(), kMost));
-                if (at->is_regular_file(ignored) && begins_like_dicom(at->path()))
+                if (at->is_regular_file(ignored) && !is_directory_of_dicom(at->path()) &&
+                    begins_like_dicom(at->path()))
                     within.push_back(at->path());
             }
         std::ranges::sort(within, [](const fs::path& a, const fs::path& b) {

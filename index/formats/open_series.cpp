@@ -1,6 +1,7 @@
 // Finds the format of each file and opens them as a series.
 #include "index/error.h"
 #include "index/formats/data_stream.h"
+#include "index/formats/derived_series.h"
 #include "index/formats/dicom_files.h"
 #include "index/formats/file_series.h"
 #include "index/formats/joined_blocks.h"
@@ -174,6 +175,16 @@ std::string known_extensions() {
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options) {
+    if (const auto derived = derived_from_name(options.component)) {
+        std::vector<std::unique_ptr<VolumeSeries>> inputs;
+        for (const auto& component : components_for(*derived)) {
+            ReadOptions of_input = options;
+            of_input.component = component;
+            of_input.value_unit.reset(); // it is the result's
+            inputs.push_back(open_series(files, of_input));
+        }
+        return derived_series(std::move(inputs), *derived, options.value_unit);
+    }
     auto series = open_as_it_is(files, options);
     return options.resample ? resampled(std::move(series), *options.resample) : std::move(series);
 }

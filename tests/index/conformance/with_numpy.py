@@ -78,4 +78,36 @@ expect(write("vector.bov", bov.replace("all.dat", "vector.dat") + "DATA_COMPONEN
 refuse(write("cut.bov", bov.replace("all.dat", "big.dat") + "DATA_BRICKLETS: 2 5 6\n"), "cut into several")
 refuse(write("short.bov", bov + "BYTE_OFFSET: 5\n"), "all.dat: truncated")
 refuse(write("none.bov", "TIME: 1\n"), "not BOV")
+
+# Computed values, as numpy.gradient has them: even vertices, and axes that point elsewhere.
+wind = np.random.default_rng(3).standard_normal((6, 5, 4, 3))
+steps = (0.5, 2.0, 1.5)  # z, y, x
+
+
+def derivatives(values, signs=(1, 1, 1)):
+    """d/dx, d/dy, d/dz"""
+    along = np.gradient(values.astype("f8"), *steps)
+    return [along[2 - i] * signs[i] for i in range(3)]
+
+
+def vector(name, more, kind="f4"):
+    head = "NRRD0004\ntype: %s\ndimension: 4\nsizes: 3 4 5 6\nendian: little\nencoding: raw\n" % \
+        {"f4": "float", "f8": "double"}[kind]
+    return write(name, (head + more + "\n").encode() + wind.astype(kind).tobytes())
+
+
+turned = "kinds: vector space space space\nspace dimension: 3\nspace directions: none (1.5,0,0) (0,-2,0) (0,0,0.5)\n"
+for name, more, signs, kind in [("even.nrrd", "kinds: vector space space space\nspacings: nan 1.5 2 0.5\n", (1, 1, 1), "f4"),
+                                ("turned.nrrd", turned, (1, -1, 1), "f8")]:
+    file = vector(name, more, kind)
+    u, v, w = (derivatives(wind[..., i].astype(kind), signs) for i in range(3))
+    where = dict(spacing=(1.5, 2, 0.5), kind="rounded")
+    expect(file, np.sqrt((w[1] - v[2]) ** 2 + (u[2] - w[0]) ** 2 + (v[0] - u[1]) ** 2), component="vorticity", **where)
+    gradient = np.array([u, v, w])
+    rotation, strain = (gradient - gradient.swapaxes(0, 1)) / 2, (gradient + gradient.swapaxes(0, 1)) / 2
+    expect(file, ((rotation ** 2).sum((0, 1)) - (strain ** 2).sum((0, 1))) / 2, component="q-criterion", **where)
+    refuse(file, "3 components", component="gradient")
+scalar = write("scalar.nhdr", nhdr.replace("spacings: 1 2 3", "spacings: 1.5 2 0.5") + "data file: slice%03d.raw 1 6 1\n")
+expect(scalar, np.sqrt(sum(g ** 2 for g in derivatives(values))), component="gradient", spacing=(1.5, 2, 0.5), kind="rounded")
+refuse(scalar, "component", component="vorticity")
 done()

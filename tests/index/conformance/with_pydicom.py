@@ -98,6 +98,15 @@ def implicit(data, z):
 
 
 expect(stack("big.dcm", values, new_series(), big), values, **grid)
+wide = field(4, 5, 3, dtype="i4")
+
+
+def big4(data, z):
+    big(data, z)
+    data.PixelData = wide[z].astype(">i4").tobytes()
+
+
+expect(stack("big4.dcm", wide, new_series(), big4), wide, **grid)
 expect(stack("implicit.dcm", values, new_series(), implicit), values, **grid)
 
 

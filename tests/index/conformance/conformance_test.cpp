@@ -199,7 +199,8 @@ TEST_P(Conformance, DamageIsOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Libraries, Conformance,
-                         testing::Values("with_h5py.py", "with_nibabel.py", "with_numpy.py", "with_pydicom.py", "with_tifffile.py",
+                         testing::Values("with_h5py.py", "with_netcdf4.py", "with_nibabel.py",
+                                         "with_numpy.py", "with_pydicom.py", "with_tifffile.py",
                                          "with_vtk.py", "with_xdmf.py", "with_zarr.py"),
                          [](const auto& script) {
                              const std::string name = script.param;

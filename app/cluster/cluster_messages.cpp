@@ -21,6 +21,8 @@ using nlohmann::json;
 
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
 constexpr std::size_t kMostSamples = 4096; ///< of one frame
+constexpr std::size_t kMostRegions = 16 * 16 * 16;
+constexpr int kLevelZero = 128;
 
 json decoded(std::span<const std::byte> bytes) {
     expect_shallow_cbor(bytes); // the library recurses
@@ -102,6 +104,27 @@ DrawSample sample_from(const json& value) {
     return sample;
 }
 
+/// Levels are sent as numbers from 0.
+json detail_json(const index::DetailQuery& detail) {
+    json levels = json::array();
+    for (const std::int8_t level : detail.wished)
+        levels.push_back(level + kLevelZero);
+    return {{"most_cells", detail.most_cells},
+            {"at_rest", detail.at_rest},
+            {"levels", std::move(levels)}};
+}
+
+index::DetailQuery detail_from(const json& value) {
+    Members members(value, "detail");
+    index::DetailQuery detail{
+        count(members, "most_cells"), boolean(members.at("at_rest"), "at_rest"), {}};
+    for (const json& level : interaction::list(members.at("levels"), "levels", 0, kMostRegions))
+        detail.wished.push_back(
+            static_cast<std::int8_t>(static_cast<int>(natural(level, "levels", 255)) - kLevelZero));
+    members.done({"most_cells", "at_rest", "levels"});
+    return detail;
+}
+
 } // namespace
 
 MessageBytes encoded(const FrameOrder& order) {
@@ -133,7 +156,8 @@ MessageBytes encoded(const FrameChoice& choice) {
                      {"reason", choice.reason},
                      {"final", choice.final},
                      {"measure", choice.measure},
-                     {"mesh", choice.mesh}});
+                     {"mesh", choice.mesh},
+                     {"detail", detail_json(choice.detail)}});
 }
 
 FrameChoice decode_choice(std::span<const std::byte> bytes) {
@@ -143,9 +167,11 @@ FrameChoice decode_choice(std::span<const std::byte> bytes) {
         footprint_from(members.at("footprint")),
         static_cast<QualityReason>(natural(members.at("reason"), "reason",
                                            static_cast<unsigned>(QualityReason::over_budget))),
-        boolean(members.at("final"), "final"), boolean(members.at("measure"), "measure"),
-        boolean(members.at("mesh"), "mesh")};
-    members.done({"footprint", "reason", "final", "measure", "mesh"});
+        boolean(members.at("final"), "final"),
+        boolean(members.at("measure"), "measure"),
+        boolean(members.at("mesh"), "mesh"),
+        detail_from(members.at("detail"))};
+    members.done({"footprint", "reason", "final", "measure", "mesh", "detail"});
     return choice;
 }
 

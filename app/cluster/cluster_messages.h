@@ -35,9 +35,10 @@ struct FrameOrder {
 struct FrameChoice {
     render::Footprint footprint = render::Footprint::quad;
     QualityReason reason = QualityReason::moving;
-    bool final = false;   ///< the picture is as good as it gets for these cells
-    bool measure = false; ///< draw even if nothing has changed
-    bool mesh = false;    ///< the sets asked for from now on come with a mesh
+    bool final = false;          ///< the picture is as good as it gets for these cells
+    bool measure = false;        ///< draw even if nothing has changed
+    bool mesh = false;           ///< the sets asked for from now on come with a mesh
+    index::DetailQuery detail{}; ///< of the sets asked for from now on
     bool operator==(const FrameChoice&) const = default;
 };
 

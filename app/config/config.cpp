@@ -113,6 +113,7 @@ void read_rendering(TomlReader& reader, Config& config) {
                           : word == "gpu" ? render::DrawnBy::gpu
                                           : render::DrawnBy::processor;
     });
+    reader.flag("level_of_detail", config.level_of_detail);
     reader.flag("bounding_box", config.bounding_box);
     reader.flag("wand_ray", config.wand_ray);
     reader.flag("picture_ray", config.picture_ray);
@@ -147,6 +148,7 @@ void read_root(TomlReader& reader, Config& config) {
     reader.table("memory", [&](TomlReader& inner) {
         inner.integer("cache_megabytes", 0, 1 << 24, config.cache_megabytes);
         inner.integer("mesh_megabytes", 0, 1 << 16, config.mesh_megabytes);
+        inner.integer("most_cells", 20'000, 500'000'000, config.most_cells);
     });
     reader.table("placement", [&](TomlReader& inner) { read_placement(inner, config.placement); });
 }

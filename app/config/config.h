@@ -73,10 +73,12 @@ struct Config {
     Blending blending = Blending::automatic;
     render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< whose ways cells are drawn in
     int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
-    int picture_samples = 0;  ///< likewise of pictures that are written; 0: 4, or more on displays
-    int cache_megabytes = 0;  ///< what is kept of the index; 0: a quarter of what there may be
-    int mesh_megabytes = 96;  ///< that the triangles of a set may take; 0: none are made
-    bool bounding_box = true; ///< with ticks and numbers
+    int picture_samples = 0; ///< likewise of pictures that are written; 0: 4, or more on displays
+    int cache_megabytes = 0; ///< what is kept of the index; 0: a quarter of what there may be
+    int mesh_megabytes = 96; ///< that the triangles of a set may take; 0: none are made
+    int most_cells = 8'000'000; ///< of a set; where there are more, coarser levels take their place
+    bool level_of_detail = true; ///< coarser levels while too many cells move
+    bool bounding_box = true;    ///< with ticks and numbers
     bool wand_ray = true;
     bool picture_ray = false;     ///< written pictures show the wand's ray, too
     bool picture_caption = false; ///< written pictures show isovalue and time

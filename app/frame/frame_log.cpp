@@ -194,6 +194,7 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"shown", frame.shown ? query_json(*frame.shown) : nlohmann::json()},
                            {"pace", name_of(frame.pace)},
                            {"footprint", name_of(frame.footprint)},
+                           {"coarsest_level", frame.coarsest},
                            {"reason", name_of(frame.reason)},
                            {"budget_ms", frame.budget.count()},
                            {"expected_ms", time_json(frame.expected)},

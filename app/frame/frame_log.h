@@ -35,6 +35,7 @@ struct FrameReport {
     unsigned missed = 0;                  ///< refreshes of the display missed before this frame
     bool redrawn = true;                  ///< false: nothing that the eyes see had changed
     std::uint64_t cells = 0;              ///< drawn
+    unsigned finest = 0, coarsest = 0;    ///< levels of detail that they are of
     std::uint64_t candidates = 0;         ///< cells that the search returned before the exact test
     std::uint64_t reused = 0;     ///< candidates that incremental search took from the last set
     std::string refused;          ///< why the newest cells are not shown; empty: they are

@@ -81,6 +81,19 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     return choice.measure;
 }
 
+std::optional<double> FrameQuality::cells_that_fit(interaction::Pace pace) const {
+    constexpr double kShare = 0.75, kMany = 1e6;
+    const QualityController& controller = pace == interaction::Pace::moving ? steady_ : still_;
+    const auto cost = [&](double cells) {
+        return controller.expected(render::Footprint::quad,
+                                   {cells * charged_.cells, charged_.pixels});
+    };
+    const auto none = cost(0), many = cost(kMany);
+    if (!none || !many || !(*many > *none))
+        return std::nullopt;
+    return std::max(0.0, kMany * ((kShare * controller.budget() - *none) / (*many - *none)));
+}
+
 void FrameQuality::begin(std::uint64_t frame) {
     meter_.begin(frame);
 }

@@ -63,6 +63,10 @@ class FrameQuality {
     bool choose(const ExplorerState& state, bool changed, Choosing how,
                 render::FootprintSet available, render::FootprintSet possible, FrameReport& report);
 
+    /// Cells that quads are expected to draw in every view within the budget, of moving pictures or
+    /// of those at rest, with room to spare; empty before the first measurement.
+    std::optional<double> cells_that_fit(interaction::Pace pace) const;
+
     /// Whether the last choice would have been a mesh if there had been one.
     bool wants_mesh() const { return wants_mesh_; }
 

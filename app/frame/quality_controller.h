@@ -92,6 +92,10 @@ class QualityController {
     QualityChoice choose(const QualityInput& input);
 
     Milliseconds budget() const { return budget_; }
+    /// Expected cost of a footprint; empty before it has been measured.
+    std::optional<Milliseconds> expected(render::Footprint footprint, const DrawLoad& load) const {
+        return of(footprint).cost.predict(load);
+    }
 
   private:
     struct Candidate {

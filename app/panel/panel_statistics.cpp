@@ -14,7 +14,10 @@ namespace isochron::app {
 
 void measurements(const PanelModel& model) {
     const FrameReport& frame = model.frame;
-    text(fmt::format("{} cells", frame.cells));
+    text(frame.coarsest == 0
+             ? fmt::format("{} cells", frame.cells)
+             : fmt::format("{} cells of levels {} to {} (all: not counted)", frame.cells,
+                           frame.finest, frame.coarsest));
     ImGui::SameLine();
     note(model.searching
              ? "searching ..."

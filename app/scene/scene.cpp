@@ -48,10 +48,6 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
     cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
 }
 
-void Scene::upload(const index::ExtractionPtr& newest, render::SendVolume volume) {
-    cells_.upload(newest, upload_bytes_, volume);
-}
-
 std::vector<std::string> Scene::given_up() const {
     std::vector<std::string> lines;
     if (!cell_pass_.draws_two_views_at_once() &&
@@ -64,9 +60,9 @@ std::vector<std::string> Scene::given_up() const {
 
 render::FootprintSet Scene::footprints() const {
     auto footprints = render::FootprintSet::up_to(render::Footprint::gaussian);
-    if (cells_.has_mesh())
+    if (drawn().has_mesh())
         footprints.add(render::Footprint::mesh);
-    if (cells_.has_volume() && cells_.size() <= cells_.corner_limit())
+    if (drawn().has_volume() && drawn().size() <= drawn().corner_limit())
         footprints.add(render::Footprint::surface);
     return footprints;
 }
@@ -75,7 +71,7 @@ render::FootprintSet Scene::possible_footprints() const {
     render::FootprintSet possible = footprints();
     const index::ExtractionPtr& set = shown();
     const bool asked = set && set->query.mesh_room > 0;
-    if (set && !asked && index::least_mesh_bytes(set->cells()) <= mesh_room_)
+    if (set && !asked && !set->coarse() && index::least_mesh_bytes(set->cells()) <= mesh_room_)
         possible.add(render::Footprint::mesh);
     return possible;
 }
@@ -227,10 +223,10 @@ void Scene::draw(std::span<const render::View> views,
     if (!depth)
         draw_among_cells(views, placement, room_from_physical, wand);
     if (footprint == render::Footprint::surface)
-        cells_.compute_corners();
+        (draws_resting_ ? *resting_ : cells_).compute_corners();
     if (appearance_.near_fade && !views.empty()) // all views are of one viewer
         appearance_.near_fade->between_eyes = head_of(views.front());
-    cell_pass_.draw(views, placement, cells_, footprint, appearance_);
+    cell_pass_.draw(views, placement, drawn(), footprint, appearance_);
     if (depth)
         draw_among_cells(views, placement, room_from_physical, wand);
     draw_before_cells(views, placement);

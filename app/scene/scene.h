@@ -31,22 +31,35 @@ class Scene {
   public:
     Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config);
 
+    /// There may be two sets: one for moving pictures, and one with more detail for pictures at
+    /// rest, which is drawn only if `draw_at_rest` says so. The one for moving pictures stays, so
+    /// that it can be drawn at once when something moves.
+    enum class Use : std::uint8_t { always, at_rest };
+
     /// Uploads the newest set to the GPU, at most the configured number of bytes per call; shows it
     /// when it is complete.
     void upload(const index::ExtractionPtr& newest,
-                render::SendVolume volume = render::SendVolume::with_cells);
+                render::SendVolume volume = render::SendVolume::with_cells, Use use = Use::always);
     /// Uploads a set without showing it; a later `upload` of the same set shows it.
     /// @return true when it is completely on the GPU
-    bool stage(const index::ExtractionPtr& set) { return cells_.stage(set, upload_bytes_); }
-    const index::ExtractionPtr& shown() const { return cells_.shown(); }
-    /// Whether nothing more is uploaded for the shown cells: their volume is there, or too large.
-    bool is_complete() const { return !cells_.wants_volume(); }
-    /// Why this set cannot be shown; empty if it can.
-    std::string refusal(const index::ExtractionPtr& set) const {
-        return set && set == cells_.refused() ? cells_.refusal() : std::string();
+    bool stage(const index::ExtractionPtr& set, Use use = Use::always) {
+        return buffers(use).stage(set, upload_bytes_);
     }
+    /// Draws the set for pictures at rest from now on, if it shows these surfaces; else the other.
+    void draw_at_rest(bool at_rest, const index::SurfacesQuery& surfaces);
+    /// The set that is drawn.
+    const index::ExtractionPtr& shown() const { return drawn().shown(); }
+    /// The set for this use, drawn or not; null if there is none.
+    const index::ExtractionPtr& held(Use use) const {
+        static const index::ExtractionPtr none;
+        return use == Use::always ? cells_.shown() : resting_ ? resting_->shown() : none;
+    }
+    /// Whether nothing more is uploaded for the shown cells: their volume is there, or too large.
+    bool is_complete() const { return !drawn().wants_volume(); }
+    /// Why this set cannot be shown; empty if it can.
+    std::string refusal(const index::ExtractionPtr& set) const;
 
-    const render::UploadCount& uploaded() const { return cells_.count(); }
+    render::UploadCount uploaded() const;
 
     /// The footprints that the shown cells can be drawn with: a very large set has no room for its
     /// surface, and on a GPU cells have no mesh.
@@ -54,6 +67,14 @@ class Scene {
     /// That they could be drawn with if a mesh came with them, which they may be asked for with.
     render::FootprintSet possible_footprints() const;
     std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
+    /// Makes ready for a set for pictures at rest: that takes longer than a frame may.
+    void prepare_for_rest();
+    /// The views of the last pictures in windows or a headset, and where the volume was.
+    std::span<const render::View> views() const { return views_; }
+    void forget_views() { views_.clear(); }
+    void note_views(std::span<const render::View> views) {
+        views_.insert(views_.end(), views.begin(), views.end());
+    }
 
     /// The driver's features that do not work as promised and are not used, a line each.
     std::vector<std::string> given_up() const;
@@ -93,6 +114,8 @@ class Scene {
                    const std::optional<interaction::Pointed>& pointed);
 
   private:
+    render::CellBuffers& buffers(Use use);
+    const render::CellBuffers& drawn() const { return draws_resting_ ? *resting_ : cells_; }
     void draw_ray(const render::View& view, const interaction::Similarity& room_from_physical,
                   const interaction::Pose& wand);
     bool writes_depth(render::Footprint footprint) const;
@@ -130,7 +153,10 @@ class Scene {
     render::CellAppearance appearance_;
     std::optional<render::BackgroundColors> background_; ///< none: the picture's own color
     bool on_light_ = false;                              ///< what is drawn on it is dark
-    render::CellBuffers cells_;
+    render::CellBuffers cells_;                          ///< always
+    std::optional<render::CellBuffers> resting_;         ///< at rest
+    bool draws_resting_ = false;
+    std::vector<render::View> views_;
     render::CellPass cell_pass_;
     render::LinePass line_pass_;
     std::vector<render::Line> guides_;

@@ -43,6 +43,7 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                                newest_, render::CellBuffers::wanted_shading(outputs_.gl())),
                  file_->cache_bytes() / 2),
       scene_(outputs_.gl(), file_->info(), config_),
+      details_(file_->info().grid, static_cast<std::uint64_t>(config_.most_cells)),
       panel_(outputs_.gl(), outputs_.windows(), config_.panel.font_scale),
       room_panel_(outputs_.gl(), config_.panel), picker_(file_),
       // Beside a headset the window's refresh rate does not count.
@@ -126,63 +127,6 @@ Commands Session::commands_from(const interaction::InputState& input) {
     return commands;
 }
 
-void Session::request_cells(Waiting waiting) {
-    index::SurfacesQuery query = state_.surfaces();
-    query.mesh_room = mesh_wanted_ ? config_.mesh_room() : 0;
-    index::Request request{frames_->ask(query, waiting), std::nullopt};
-    const auto steps = static_cast<std::uint32_t>(this->steps());
-    if (state_.playback.playing && steps > 1) {
-        const bool reverse = state_.playback.reverse;
-        request.ahead = index::StepsAhead{(request.query.step + (reverse ? steps - 1 : 1)) % steps,
-                                          steps, reverse};
-    }
-    extractor_.request(request);
-}
-
-void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
-    const render::UploadCount before = scene_.uploaded();
-    StopWatch watch;
-    if (waiting == Waiting::for_cells) {
-        extractor_.wait();
-        report.wait = watch.lap();
-    }
-    const CellsInFrame cells = frames_->cells(extractor_, scene_.shown(), waiting);
-    const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
-    const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
-    if (cells.show)
-        scene_.upload(*cells.show, volume);
-    // A replay uploads all cells that were asked for in one frame, whatever the upload budget.
-    while (waiting == Waiting::for_cells && *cells.show && scene_.shown() != *cells.show) {
-        scene_.upload(*cells.show);
-        if (const std::string refusal = scene_.refusal(*cells.show); !refusal.empty())
-            throw render::Error(refusal);
-    }
-    if (cells.show)
-        say_refused(*cells.show, report);
-    if (cells.stage && scene_.stage(cells.stage))
-        frames_->staged();
-    if (!scene_.is_complete()) // the picture has not come to rest
-        report.pace = interaction::Pace::moving;
-    report.upload = watch.lap();
-    report.uploaded = scene_.uploaded().since(before);
-    if (const index::ExtractionPtr& shown = scene_.shown()) {
-        report.shown = shown->query.of_cells();
-        report.cells = shown->cells();
-        report.candidates = shown->candidates();
-        report.reused = shown->reused();
-        report.search = shown->search_time();
-        report.gather = shown->gather_time;
-    }
-}
-
-/// Says once, in one line, that a set is too large to be shown.
-void Session::say_refused(const index::ExtractionPtr& set, FrameReport& report) {
-    report.refused = scene_.refusal(set);
-    if (!report.refused.empty() && report.refused != refused_)
-        show_messages({report.refused});
-    refused_ = report.refused;
-}
-
 /// The color scale of the drawn cells. Empty until the drawn cells have the current coloring:
 /// before that, their color coordinates have another meaning.
 std::optional<ColorScale> Session::shown_scale() const {
@@ -251,10 +195,11 @@ void Session::learn_costs() {
 }
 
 /// Takes over rank 0's choice. @return whether rank 0 wants this frame measured
-bool Session::agree(bool measure, FrameReport& report) {
+bool Session::agree(bool measure, const index::DetailQuery& detail, FrameReport& report) {
     const FrameChoice choice = frames_->agree(
-        {report.footprint, report.reason, report.final, measure, quality_.wants_mesh()});
+        {report.footprint, report.reason, report.final, measure, quality_.wants_mesh(), detail});
     mesh_wanted_ = choice.mesh;
+    detail_ = choice.detail;
     report.footprint = choice.footprint;
     report.reason = choice.reason;
     report.final = choice.final;
@@ -274,15 +219,18 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
             set->remove(render::Footprint::surface);
     const Choosing how = live ? Choosing::by_measurement : Choosing::by_pace;
     const bool had_mesh = mesh_wanted_;
-    bool measure =
-        agree(quality_.choose(state_, changed, how, footprints, possible, report), report);
-    if (!live && mesh_wanted_ && !had_mesh) { // a replay's picture is as good as it gets at once
+    const index::DetailQuery had_detail = detail_;
+    bool measure = quality_.choose(state_, changed, how, footprints, possible, report);
+    report.final &= is_finest(waiting);
+    measure = agree(measure, wanted_detail(waiting, report), report);
+    // A replay's picture is as good as it gets at once.
+    if (!live && ((mesh_wanted_ && !had_mesh) || detail_ != had_detail)) {
         request_cells(waiting);
         take_newest_cells(waiting, report);
         now.cells = scene_.shown();
         footprints = scene_.footprints();
-        measure =
-            agree(quality_.choose(state_, changed, how, footprints, footprints, report), report);
+        measure = agree(quality_.choose(state_, changed, how, footprints, footprints, report),
+                        detail_, report);
     }
     now.footprint = report.footprint;
     // While a headset wants no picture, there is nothing to draw or to measure.
@@ -300,6 +248,7 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     drawn_ = now;
     StopWatch watch;
     if (report.redrawn) {
+        scene_.forget_views();
         outputs_.leave_free(now.free);
         outputs_.show_aside(now.aside);
         quality_.begin(log_.next());

@@ -11,6 +11,7 @@
 #include "app/cluster/frames_alone.h"
 #include "app/config/config.h"
 #include "app/frame/capture_wait.h"
+#include "app/frame/detail_choice.h"
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "app/frame/frame_quality.h"
@@ -171,7 +172,12 @@ class Session {
     bool in_windows(const FrameReport& report);
     void learn_costs();
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
-    bool agree(bool measure, FrameReport& report);
+    bool agree(bool measure, const index::DetailQuery& detail, FrameReport& report);
+    bool is_finest(Waiting waiting) const;
+    index::DetailQuery wanted_detail(Waiting waiting, const FrameReport& report);
+    index::DetailQuery detail_for_live(const FrameReport& report);
+    bool give_way(const index::ExtractionPtr& set);
+    void report_cells(FrameReport& report) const;
     FrameAnswer answer() const;
     bool captures(const FrameReport& report);
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
@@ -202,6 +208,7 @@ class Session {
     interaction::Comfort comfort_;
     index::Extractor extractor_;
     Scene scene_;
+    DetailChoice details_;
     std::optional<Picture> drawn_; ///< last picture
     Aids over_;                    ///< drawn over it, where that is done
     OperatorPanel panel_;
@@ -220,6 +227,7 @@ class Session {
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     CaptureWait captures_;
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
+    index::DetailQuery detail_;                      ///< of the sets that are asked for
     bool mesh_wanted_ = false;                       ///< by the last frame's choice of quality
     bool recording_ = false;
     MovieState movies_;

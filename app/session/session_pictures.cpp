@@ -17,6 +17,8 @@ bool Session::in_windows(const FrameReport& report) {
 }
 
 void Session::draw_views(const ScenePlace& place, std::span<const render::View> views) {
+    if (!place.kept)
+        scene_.note_views(views);
     const bool aids = !place.kept || config_.picture_ray;
     scene_.set_pointed(aids ? drawn_->pointed : std::nullopt);
     scene_.set_orientation(place.kept ? config_.picture_caption

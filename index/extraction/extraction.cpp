@@ -2,6 +2,7 @@
 #include "index/extraction/extraction.h"
 
 #include "index/error.h"
+#include "index/extraction/detail_search.h"
 #include "index/extraction/surface_colors.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ class Extracting {
         : file_(std::move(file)), method_(method), shading_(shading),
           values_(file_->info().type, file_->info().scaling, file_->stats().low,
                   file_->stats().high),
-          gatherer_(file_->info().grid, values_), colors_(file_, method) {}
+          gatherer_(file_->info().grid, values_), colors_(file_, method), details_(file_) {}
 
     ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
         const std::size_t count = query.isovalues.size();
@@ -28,22 +29,16 @@ class Extracting {
         auto result = std::make_shared<Extraction>();
         result->query = query;
         by_chunks_ = !file_->better_whole(query.step);
-        std::uint64_t room = query.mesh_room;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (searches_.size() == i)
-                searches_.push_back(search_into(file_, method_, shading_));
-            Query surface = query.surface(i);
-            surface.mesh_room = room;
-            CellSet& set = result->surfaces.emplace_back();
-            if (!searches_[i](surface, stop, set))
-                return nullptr;
-            room = set.mesh ? room - bytes_of(*set.mesh) : set.ids.empty() ? room : 0;
-            set.query.mesh_room = 0;
-        }
-        if (!result->meshed()) // some without the others are never drawn
-            for (CellSet& surface : result->surfaces)
-                surface.mesh.reset();
         try {
+            // A large step is not searched as a whole before it is known that its cells fit.
+            if (by_chunks_ && may_have_too_many(query))
+                if (const auto made = make_of_levels(result, false, stop))
+                    return *made;
+            if (!search(*result, stop))
+                return nullptr;
+            if (may_have_too_many(query) && result->cells() > query.detail.most_cells)
+                if (const auto made = make_of_levels(result, true, stop))
+                    return *made;
             return fill(*result, stop) ? result : nullptr;
         } catch (const Stopped&) {
             return nullptr;
@@ -51,6 +46,55 @@ class Extracting {
     }
 
   private:
+    bool may_have_too_many(const SurfacesQuery& query) const {
+        const std::uint64_t cells = file_->info().grid.cell_count() * query.isovalues.size();
+        return query.detail.most_cells > 0 && cells > query.detail.most_cells;
+    }
+
+    /// @param too_many the volume itself has too many cells
+    /// @return null when stopped; empty if all cells should be those of the volume itself
+    std::optional<ExtractionPtr> make_of_levels(const std::shared_ptr<Extraction>& result,
+                                                bool too_many, const std::stop_token& stop) {
+        DetailCells found;
+        switch (details_.find(result->query, too_many, found, stop)) {
+        case DetailSearch::Outcome::stopped: return nullptr;
+        case DetailSearch::Outcome::whole: return std::nullopt;
+        case DetailSearch::Outcome::made: break;
+        }
+        result->surfaces = std::move(found.surfaces);
+        result->colors = std::move(found.colors);
+        result->detail = std::move(found.levels);
+        const auto started = std::chrono::steady_clock::now();
+        result->levels = values_.levels(result->query.isovalues).units;
+        result->bricks = gatherer_.none();
+        if (result->cells() > 0)
+            find_surroundings(*result, nullptr, stop);
+        result->gather_time = std::chrono::steady_clock::now() - started;
+        return result;
+    }
+
+    /// Finds the cells of the volume itself. @return false when stopped
+    bool search(Extraction& found, const std::stop_token& stop) {
+        const SurfacesQuery& query = found.query;
+        found.surfaces.clear();
+        std::uint64_t room = query.mesh_room;
+        for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
+            if (searches_.size() == i)
+                searches_.push_back(search_into(file_, method_, shading_));
+            Query surface = query.surface(i);
+            surface.mesh_room = room;
+            CellSet& set = found.surfaces.emplace_back();
+            if (!searches_[i](surface, stop, set))
+                return false;
+            room = set.mesh ? room - bytes_of(*set.mesh) : set.ids.empty() ? room : 0;
+            set.query.mesh_room = 0;
+        }
+        if (!found.meshed()) // some without the others are never drawn
+            for (CellSet& surface : found.surfaces)
+                surface.mesh.reset();
+        return true;
+    }
+
     /// Adds the bricks and the colors. @return false when stopped
     bool fill(Extraction& result, const std::stop_token& stop) {
         const auto started = std::chrono::steady_clock::now();
@@ -105,6 +149,7 @@ class Extracting {
     BrickValues values_;
     BrickGatherer gatherer_;
     SurfaceColors colors_;
+    DetailSearch details_;
 };
 
 template <class Sum, class Of>
@@ -115,15 +160,19 @@ Sum sum_of(const std::vector<CellSet>& surfaces, Of&& of) {
 } // namespace
 
 std::size_t Extraction::cells() const {
-    return sum_of<std::size_t>(surfaces, [](const CellSet& set) { return set.ids.size(); });
+    return sum_of<std::size_t>(surfaces, [this](const CellSet& set) {
+        return coarse() ? set.points.size() : set.ids.size();
+    });
 }
 bool Extraction::shaded() const {
-    return std::ranges::all_of(
-        surfaces, [](const CellSet& set) { return set.points.size() == set.ids.size(); });
+    return coarse() || std::ranges::all_of(surfaces, [](const CellSet& set) {
+               return set.points.size() == set.ids.size();
+           });
 }
 bool Extraction::meshed() const {
-    return std::ranges::all_of(surfaces,
-                               [](const CellSet& set) { return set.mesh || set.ids.empty(); });
+    return !coarse() && std::ranges::all_of(surfaces, [](const CellSet& set) {
+        return set.mesh || set.ids.empty();
+    });
 }
 std::uint64_t Extraction::candidates() const {
     return sum_of<std::uint64_t>(surfaces, [](const CellSet& set) { return set.candidates; });

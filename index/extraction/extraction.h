@@ -26,11 +26,16 @@ struct Extraction {
     std::vector<std::uint16_t> colors;
     VolumeBricks bricks;           ///< of the step, for all surfaces
     SurroundingField surroundings; ///< of all surfaces; none where there are no cells
+    /// The level of each region's cells (detail_regions.h). Empty: all cells are those of the volume
+    /// itself. Else cells come as points only, as detail_regions.h has them, and without the volume
+    /// around them.
+    std::vector<std::uint8_t> detail;
     std::chrono::nanoseconds gather_time{0};
 
     std::size_t cells() const; ///< of all surfaces: a cell that is active in two counts twice
-    bool shaded() const;       ///< whether every cell has its point, with its normal
-    bool meshed() const;       ///< whether every surface that has cells has a mesh
+    bool coarse() const { return !detail.empty(); } ///< whether some cells are of coarser levels
+    bool shaded() const; ///< whether every cell has its point, with its normal
+    bool meshed() const; ///< whether every surface that has cells has a mesh
     std::uint64_t candidates() const;
     std::uint64_t reused() const;
     std::chrono::nanoseconds search_time() const;

@@ -59,8 +59,8 @@ BricksOfChunk candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut)
 
 LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
                                  const LevelMap::Cut& cut, bool normals,
-                                 const std::stop_token& stop)
-    : layer_(layer), places_(places_of(*store.layer(step, layer), cut)), cut_(cut) {
+                                 const std::stop_token& stop, const ChunkFilter& only)
+    : layer_(layer), places_(places_of(*store.layer(step, layer), cut, layer, only)), cut_(cut) {
     if (places_.empty())
         return;
     const auto started = std::chrono::steady_clock::now();
@@ -97,10 +97,11 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
 }
 
 std::vector<std::uint32_t> LayerCandidates::places_of(const ChunkLayer& table,
-                                                      const LevelMap::Cut& cut) {
+                                                      const LevelMap::Cut& cut, std::uint32_t layer,
+                                                      const ChunkFilter& only) {
     std::vector<std::uint32_t> places;
     for (std::uint32_t place = 0; place < table.low.size(); ++place)
-        if (may_hold(table.low[place], table.high[place], cut))
+        if (may_hold(table.low[place], table.high[place], cut) && (!only || only(layer, place)))
             places.push_back(place);
     return places;
 }

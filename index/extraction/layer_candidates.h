@@ -20,6 +20,9 @@ namespace isochron::index {
 using BricksOfChunk = std::uint32_t;
 static_assert(kBricksOfChunk == 32);
 
+/// Whether a chunk, given by its layer and its place, is to be searched; empty: all are.
+using ChunkFilter = std::function<bool(std::uint32_t layer, std::uint32_t place)>;
+
 /// Functions that read throw as ChunkStore does.
 class LayerCandidates {
   public:
@@ -28,11 +31,15 @@ class LayerCandidates {
     /// after the other when they turn out to be needed, each would wait behind all that the disk
     /// has been asked for.
     /// @param normals whether normals will be made, too
+    /// @param only reads the candidates among these alone
     LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
-                    const LevelMap::Cut& cut, bool normals, const std::stop_token& stop);
+                    const LevelMap::Cut& cut, bool normals, const std::stop_token& stop,
+                    const ChunkFilter& only = {});
 
     /// The chunks that may hold active cells according to their ranks, ascending.
-    static std::vector<std::uint32_t> places_of(const ChunkLayer& table, const LevelMap::Cut& cut);
+    static std::vector<std::uint32_t> places_of(const ChunkLayer& table, const LevelMap::Cut& cut,
+                                                std::uint32_t layer = 0,
+                                                const ChunkFilter& only = {});
 
     /// Ascending.
     const std::vector<std::uint32_t>& places() const { return places_; }

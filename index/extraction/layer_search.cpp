@@ -45,7 +45,7 @@ void LayerSearch::shade(StepSlab& slab, const Query& query, LayerResult& result,
 }
 
 LayerSearch::LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t level)
-    : file_(std::move(file)), store_(file_->chunks(level)) {
+    : file_(std::move(file)), level_(level), store_(file_->chunks(level)) {
     // The slabs of all threads together take at most a quarter of the cache's budget.
     const std::uint64_t room = file_->cache().budget / 4 / StepSlab::bytes(store_.info()) + 1;
     slabs_.resize(std::min<std::uint64_t>(thread_count(0), room));
@@ -117,7 +117,8 @@ std::span<const CellId> LayerSearch::of_layer(std::span<const CellId> ids,
     return {first, last};
 }
 
-bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop) {
+bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop,
+                         const ChunkFilter& only) {
     const Query& query = set.query;
     const LevelMapPtr levels = by_bricks ? store_.levels(query.step) : nullptr;
     const auto cut = levels ? levels->cut(store_.info().scaling, query.isovalue) : std::nullopt;
@@ -127,13 +128,13 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
     LayerResults results(set, StepSlab::layers(store_.info().grid));
     const auto places = [&](std::uint32_t layer) {
         if (cut)
-            return LayerCandidates::places_of(*store_.layer(query.step, layer), *cut);
+            return LayerCandidates::places_of(*store_.layer(query.step, layer), *cut, layer, only);
         std::vector<std::uint32_t> all(store_.grid().chunks_of_layer());
         std::iota(all.begin(), all.end(), 0u);
         return all;
     };
     PreparedCandidates candidates(StepSlab::layers(store_.info().grid), [&](std::uint32_t layer) {
-        return LayerCandidates(store_, query.step, layer, *cut, shaded, stop);
+        return LayerCandidates(store_, query.step, layer, *cut, shaded, stop, only);
     });
     const auto prepare = [&](std::uint32_t layer) {
         if (cut)
@@ -250,7 +251,7 @@ bool LayerSearch::color_cells(const Query& query, std::span<const CellId> cells,
             if (ids.empty())
                 return;
             const std::vector<CellId> local = counted_from(slab.first_around(), ids);
-            StepSlab colors(*file_->color_chunks());
+            StepSlab colors(*file_->color_chunks(level_));
             colors.begin(query.step, layer, stop);
             slab.fill_around(local, false);
             colors.fill_around(local, false);

@@ -23,13 +23,15 @@ namespace isochron::index {
 /// and the results are incomplete. Not thread-safe: keeps its work space.
 class LayerSearch {
   public:
-    /// @param level of detail; colors are those of level 0
+    /// @param level of detail
     explicit LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t level = 0);
 
     /// Finds the active cells of `set.query`, ascending.
     /// @param by_bricks search with bricks, which the index must have; else by a scan
     /// @param shaded also make points and rows, while each layer is in memory
-    bool search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop);
+    /// @param only with bricks: search these chunks alone
+    bool search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop,
+                const ChunkFilter& only = {});
     /// @param ids ascending
     bool keep_active(const Query& query, std::vector<CellId>& ids, const std::stop_token& stop);
     bool shade_cells(CellSet& set, const std::stop_token& stop);
@@ -55,6 +57,7 @@ class LayerSearch {
     std::span<const CellId> of_layer(std::span<const CellId> ids, std::uint32_t layer) const;
 
     std::shared_ptr<const IndexFile> file_;
+    const std::size_t level_;
     const ChunkStore& store_;
     std::vector<std::unique_ptr<StepSlab>> slabs_; ///< by thread
     std::vector<MeshMaker> makers_;                ///< by thread

@@ -34,6 +34,19 @@ enum class CellColoring : std::uint8_t {
 };
 constexpr std::array<std::string_view, 3> kCellColoringNames{"none", "value", "first_crossing"};
 
+/// How many cells an extraction may hold, and how fine it needs to be. By default it holds all cells
+/// of the volume itself.
+struct DetailQuery {
+    /// More cells than this are replaced by those of coarser levels; 0: never.
+    std::uint64_t most_cells = 0;
+    bool at_rest = false; ///< for a picture at rest: a renderer holds it beside one for motion
+    /// Finest useful level of each region (index/extraction/detail_regions.h). Below 0 it is still
+    /// level 0 that is used, but the region gives way later than others when there are too many
+    /// cells. Empty: 0 everywhere.
+    std::vector<std::int8_t> wished;
+    bool operator==(const DetailQuery&) const = default;
+};
+
 /// The isosurfaces of 1 to kMostSurfaces isovalues at one step.
 struct SurfacesQuery {
     std::uint32_t step = 0;
@@ -41,12 +54,14 @@ struct SurfacesQuery {
     CellColoring coloring = CellColoring::none;
     /// Bytes that the meshes of all surfaces together may take: either all have one or none; 0: none.
     std::uint64_t mesh_room = 0;
+    DetailQuery detail{};
 
     Query surface(std::size_t i) const { return {step, isovalues[i]}; }
-    /// The same cells, however they are drawn.
+    /// The same surfaces, however they are drawn and at any level of detail.
     SurfacesQuery of_cells() const {
         SurfacesQuery query = *this;
         query.mesh_room = 0;
+        query.detail = {};
         return query;
     }
     bool operator==(const SurfacesQuery&) const = default;

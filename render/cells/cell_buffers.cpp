@@ -17,6 +17,7 @@ namespace {
 /// Most cells handled in one call (about 1 ms), so that a large set does not delay a frame.
 constexpr std::size_t kIdsLookedAt = 1 << 18;
 constexpr std::size_t kWord = sizeof(std::uint32_t);
+const Slots kNoSlots; ///< of which a set of mixed levels has none that others could keep
 
 /// Unique among all buffers: the address alone would not do, as new buffers may reuse it.
 std::uint64_t next_version() {
@@ -107,7 +108,7 @@ bool CellBuffers::stage(const index::ExtractionPtr& set, std::size_t byte_budget
 
 /// Whether the shown set's volume is missing and could be sent.
 bool CellBuffers::wants_volume() const {
-    return !has_volume() && no_volume_version_ != version_ &&
+    return !has_volume() && no_volume_version_ != version_ && !shown_->coarse() &&
            shown_->bricks.ids.size() <= bricks_->values().limit();
 }
 
@@ -165,7 +166,7 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
         refusal_ = fmt::format("{} cells at step {}: this GL can draw at most {}, so the last ones "
                                "stay",
                                set->cells(), set->query.step, points_.limit());
-    else if (!with_points && !make_room_for(set->bricks))
+    else if (!with_points && !set->coarse() && !make_room_for(set->bricks))
         refusal_ = fmt::format("{} bricks of the volume at step {}: this GL holds at most {}, so "
                                "the last cells stay",
                                set->bricks.ids.size(), set->query.step, bricks_->values().limit());
@@ -173,12 +174,15 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
         refused_ = std::move(set);
         return false;
     }
-    if (with_points && volume == SendVolume::with_cells && !make_room_for(set->bricks))
+    if (set->coarse() ||
+        (with_points && volume == SendVolume::with_cells && !make_room_for(set->bricks)))
         volume = SendVolume::never;
     if (with_points)
         ranked_ = std::make_unique<RankedPoints>(*set);
     else
-        plan_ = std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
+        plan_ = shown_ && shown_->coarse()
+                    ? std::make_unique<SlotPlan>(grid_, nullptr, kNoSlots, *set)
+                    : std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
     merged_ = false;
     words_sent_ = styles_sent_ = 0;
     sending_bricks_ = volume == SendVolume::with_cells || !ranked_;
@@ -225,7 +229,7 @@ bool CellBuffers::send_mesh(std::size_t bytes, std::size_t& sent) {
 
 /// Like a set, a volume whose transfer has begun is completed before a newer set begins.
 void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
-    if (!shown_ || has_volume() || no_volume_version_ == version_)
+    if (!shown_ || has_volume() || no_volume_version_ == version_ || shown_->coarse())
         return;
     if (!sending_bricks_) {
         if (!make_room_for(shown_->bricks))

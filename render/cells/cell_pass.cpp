@@ -109,7 +109,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
                             const CellAppearance& appearance) {
     const bool blended = layer.blended;
     FrameBlock frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended, placement,
-                                cells.surroundings());
+                                cells.surroundings(), cells.slots().largest > 0);
     Sequence sequence;
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame.eyes[i] = eye_block(views[i], placement, appearance);
@@ -153,7 +153,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         draw_mesh(views, placement, cells, layer, appearance, frame);
     else
         draw_footprints(sequence.cells, static_cast<int>(views.size()), footprint,
-                        form_of(views, placement, footprint));
+                        form_of(views, placement, footprint, cells));
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Disable(GL_BLEND);
     gl_->DepthMask(GL_TRUE);
@@ -161,10 +161,11 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
 }
 
 CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& placement,
-                                 Footprint footprint) const {
+                                 Footprint footprint, const CellBuffers& cells) const {
     const bool flat = shapes_.shape == CellShape::plane;
     // Ellipsoids on planes may be half of a cell's diagonal away from the cell's middle.
-    const float radius = shapes_.radius_of(footprint);
+    const float radius =
+        shapes_.radius_of(footprint) * static_cast<float>(std::max(cells.slots().largest, 1u));
     const float reach = flat                           ? 1.0f + kFarthestPlane / radius
                         : footprint == Footprint::quad ? kReachOfRectangle
                                                        : 1.0f;

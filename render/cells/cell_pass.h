@@ -99,8 +99,8 @@ class CellPass {
                       const CellBuffers& cells, Footprint footprint, const Layer& layer,
                       const CellAppearance& appearance);
     /// The fastest form that shows the same picture in all views.
-    Form form_of(std::span<const View> views, const Placement& placement,
-                 Footprint footprint) const;
+    Form form_of(std::span<const View> views, const Placement& placement, Footprint footprint,
+                 const CellBuffers& cells) const;
     /// The sequence of one view; `Sequence::cells` is the same in all views that are drawn at once.
     Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
                          Footprint footprint, bool blended, const CellAppearance& appearance);

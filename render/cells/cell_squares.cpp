@@ -21,6 +21,7 @@ struct SquareProjection {
     glm::vec2 middle;                     ///< of the viewport, pixels
     float radius;
     glm::mat3 index_from_normal; ///< normals of planes from physical to index space
+    glm::vec3 extent;            ///< of the volume in index space
 };
 
 /// Where the results go.
@@ -72,20 +73,38 @@ HWY_INLINE V at(const glm::vec4& row, const V3& center) {
     return hn::Add(dot(set(row), center), hn::Set(Floats(), row.w));
 }
 
-/// Middles of the next cells, from their words.
-HWY_INLINE V3 centers(const std::uint32_t* words) {
+/// As in cell_box.glsl.
+struct Boxes {
+    V3 center;
+    V size;
+};
+
+/// The next cells, from their words.
+template <bool kMixed>
+HWY_INLINE Boxes boxes(const SquareProjection& p, const std::uint32_t* words) {
     const Floats d;
     const hn::RebindToUnsigned<Floats> du;
     const hn::RebindToSigned<Floats> di;
     hn::Vec<decltype(du)> xy, z_style;
     hn::LoadInterleaved2(du, words, xy, z_style);
     const auto low = hn::Set(du, 0xffffu);
-    const V half = hn::Set(d, 0.5f);
-    const auto middle = [&](hn::Vec<decltype(du)> cell) {
-        return hn::Add(hn::ConvertTo(d, hn::BitCast(di, cell)), half);
+    const V half = hn::Set(d, 0.5f), one = hn::Set(d, 1.0f);
+    const auto number = [&](hn::Vec<decltype(du)> cell) {
+        return hn::ConvertTo(d, hn::BitCast(di, cell));
     };
-    return {middle(hn::And(xy, low)), middle(hn::ShiftRight<16>(xy)),
-            middle(hn::And(z_style, low))};
+    const auto x = hn::And(xy, low), y = hn::ShiftRight<16>(xy), z = hn::And(z_style, low);
+    if constexpr (!kMixed) {
+        const auto middle = [&](hn::Vec<decltype(du)> cell) { return hn::Add(number(cell), half); };
+        return {{middle(x), middle(y), middle(z)}, one};
+    } else {
+        const auto of_x = hn::BitCast(di, x);
+        const V size = hn::ConvertTo(d, hn::And(of_x, hn::Neg(of_x)));
+        const auto middle = [&](hn::Vec<decltype(du)> doubled, float end) {
+            const V start = hn::Mul(half, hn::Sub(number(doubled), size));
+            return hn::Mul(half, hn::Add(start, hn::Min(hn::Add(start, size), hn::Set(d, end))));
+        };
+        return {{middle(x, p.extent.x), middle(y, p.extent.y), middle(z, p.extent.z)}, size};
+    }
 }
 
 /// Spheres of one radius.
@@ -117,9 +136,9 @@ HWY_INLINE V3 select(M which, const V3& yes, const V3& no) {
 }
 
 /// The ellipsoids on the planes of the next cells.
-/// @param center middles of the cells; becomes those of the ellipsoids
+/// @param cells their centers become those of the ellipsoids
 HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t* words,
-                                 V3& center) {
+                                 Boxes& cells) {
     const Floats d;
     const hn::RebindToUnsigned<Floats> du;
     const hn::RebindToSigned<Floats> di;
@@ -167,9 +186,10 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
     const V back = hn::Sub(offset, dot(normal, at));
     at = {hn::MulAdd(back, normal.x, at.x), hn::MulAdd(back, normal.y, at.y),
           hn::MulAdd(back, normal.z, at.z)};
-    center = {hn::Add(center.x, hn::IfThenElseZero(is_flat, at.x)),
-              hn::Add(center.y, hn::IfThenElseZero(is_flat, at.y)),
-              hn::Add(center.z, hn::IfThenElseZero(is_flat, at.z))};
+    V3& center = cells.center;
+    const V shift = hn::IfThenElseZero(is_flat, cells.size);
+    center = {hn::MulAdd(shift, at.x, center.x), hn::MulAdd(shift, at.y, center.y),
+              hn::MulAdd(shift, at.z, center.z)};
     const auto x_is = hn::Eq(size.x, least), y_is = hn::Eq(size.y, least);
     const V3 edge = select(x_is, {one, zero, zero}, select(y_is, {zero, one, zero}, any));
     const V lean = dot(edge, normal);
@@ -177,7 +197,8 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
         over_length({hn::NegMulAdd(lean, normal.x, edge.x), hn::NegMulAdd(lean, normal.y, edge.y),
                      hn::NegMulAdd(lean, normal.z, edge.z)});
     const auto square = [&](V half_axis) HWY_ATTR {
-        const V length = hn::Mul(hn::Set(d, p.radius), hn::IfThenElse(is_flat, half_axis, one));
+        const V radius = hn::Mul(hn::Set(d, p.radius), cells.size);
+        const V length = hn::Mul(radius, hn::IfThenElse(is_flat, half_axis, one));
         return hn::Mul(length, length);
     };
     const auto clamped = [&](V length) {
@@ -192,18 +213,19 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
 
 /// @tparam Shape of the cells, with a function `form`
 template <bool kEllipses, class Shape>
-HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, const V3& center,
+HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, const Boxes& boxes,
                               std::size_t i, const SquareArrays& out) {
     const Floats d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
-    const float radius2 = p.radius * p.radius;
+    const V3& center = boxes.center;
+    const V radius = hn::Mul(hn::Set(d, p.radius), boxes.size);
     const float tilt2 = glm::dot(glm::vec3(p.row_w), glm::vec3(p.row_w));
     const V3 row_w = set(p.row_w);
     const V w = at(p.row_w, center);
     const V depth = hn::Sub(hn::Mul(w, w), cells.form(row_w, row_w));
     const auto is_near =
         hn::Or(hn::Le(w, zero), hn::Le(depth, hn::Mul(hn::Set(d, kLeastDepth), hn::Mul(w, w))));
-    const auto behind = hn::Lt(w, hn::Set(d, -1.01f * p.radius * std::sqrt(tilt2)));
+    const auto behind = hn::Lt(w, hn::Mul(hn::Set(d, -1.01f * std::sqrt(tilt2)), radius));
 
     const V over_w = hn::Div(one, w);
     const V x = hn::Mul(at(p.row_x, center), over_w), y = hn::Mul(at(p.row_y, center), over_w);
@@ -234,7 +256,7 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, con
     const V outer = hn::IfThenElse(round, most, hn::Sqrt(hn::Add(trace, uneven)));
 
     const V major = hn::Sqrt(hn::Mul(hn::Set(d, 0.5f), hn::Add(trace, uneven)));
-    const V from_sphere = hn::Sub(hn::Mul(w, w), hn::Set(d, radius2 * tilt2));
+    const V from_sphere = hn::NegMulAdd(hn::Mul(radius, radius), hn::Set(d, tilt2), hn::Mul(w, w));
     const auto whole =
         hn::And(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)),
                 hn::Ge(from_sphere, hn::Mul(hn::Set(d, kWholeDepth), hn::Mul(w, w))));
@@ -263,24 +285,37 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, con
 
 /// Projects the next cells and stores the results from index `i` of the arrays.
 /// @param planes null if the cells are spheres
+template <bool kMixed>
 HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* words,
                              const std::uint32_t* planes, std::size_t i, const SquareArrays& out) {
-    V3 center = centers(words);
+    Boxes cells = boxes<kMixed>(p, words);
     if (planes) {
-        const Ellipsoids shape = ellipsoids(p, planes, center);
-        project_shape<true>(p, shape, center, i, out);
+        const Ellipsoids shape = ellipsoids(p, planes, cells);
+        project_shape<true>(p, shape, cells, i, out);
     } else {
-        const Spheres shape{hn::Set(Floats(), p.radius * p.radius)};
-        project_shape<false>(p, shape, center, i, out);
+        const V radius = hn::Mul(hn::Set(Floats(), p.radius), cells.size);
+        const Spheres shape{hn::Mul(radius, radius)};
+        project_shape<false>(p, shape, cells, i, out);
     }
+}
+
+template <bool kMixed>
+HWY_INLINE void project_all(const SquareProjection& p, const std::uint32_t* words,
+                            const std::uint32_t* planes, std::size_t cells,
+                            const SquareArrays& out) {
+    for (std::size_t i = 0; i < cells; i += hn::Lanes(Floats()))
+        project_next<kMixed>(p, words + 2 * i, planes ? planes + i : nullptr, i, out);
 }
 
 } // namespace
 
+/// @param mixed the cells are of several levels of detail
 void project(const SquareProjection& projection, const std::uint32_t* words,
-             const std::uint32_t* planes, std::size_t cells, const SquareArrays& out) {
-    for (std::size_t i = 0; i < cells; i += hn::Lanes(Floats()))
-        project_next(projection, words + 2 * i, planes ? planes + i : nullptr, i, out);
+             const std::uint32_t* planes, std::size_t cells, bool mixed, const SquareArrays& out) {
+    if (mixed)
+        project_all<true>(projection, words, planes, cells, out);
+    else
+        project_all<false>(projection, words, planes, cells, out);
 }
 
 } // namespace isochron::render::HWY_NAMESPACE
@@ -313,10 +348,10 @@ void CellSquares::project(const View& view, const Placement& placement, const Sp
     const glm::mat4 rows =
         glm::transpose(view.clip_from_eye * view.eye_from_room * placement.room_from_index);
     const SquareProjection projection{
-        half_size.x * rows[0], half_size.y * rows[1],        rows[2], rows[3], half_size,
-        shape.radius,          placement.index_from_normal()};
+        half_size.x * rows[0], half_size.y * rows[1],         rows[2],         rows[3], half_size,
+        shape.radius,          placement.index_from_normal(), placement.extent};
     HWY_DYNAMIC_DISPATCH(project)
-    (projection, words_.data(), on_planes ? planes_.data() : nullptr, whole,
+    (projection, words_.data(), on_planes ? planes_.data() : nullptr, whole, slots.largest > 0,
      {x_.data(), y_.data(), z_.data(), inner_.data(), outer_.data(), inner_disc_.data(),
       outer_disc_.data(), xx_.data(), xy_.data(), yy_.data()});
 }

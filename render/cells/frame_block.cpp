@@ -101,7 +101,7 @@ bool hides_what_is_behind(const CellAppearance& look, const Placement& placement
 
 FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
                     std::int32_t surfaces, bool blended, const Placement& placement,
-                    const Surroundings& around) {
+                    const Surroundings& around, bool mixed_levels) {
     const bool gaussian = footprint == Footprint::gaussian;
     FrameBlock frame{
         .eyes = {},
@@ -120,10 +120,12 @@ FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, F
         .drawn_surfaces = surfaces,
         .soft_near_eye = gaussian,
         .color_ratio = look.values ? look.values->ratio : 0.0f,
+        .mixed_levels = mixed_levels,
         .index_from_normal = {},
         .surroundings = glm::vec4(glm::vec3(around.per_voxel()),
                                   around.size() == glm::ivec3(0) ? 0.0f : look.occlusion),
         .surroundings_size = glm::vec4(glm::max(around.size(), 1), around.surfaces()),
+        .extent = glm::vec4(placement.extent, 0.0f),
     };
     const glm::mat3 rows = glm::transpose(placement.index_from_normal());
     for (int i = 0; i < 3; ++i)

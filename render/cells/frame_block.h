@@ -51,21 +51,23 @@ struct FrameBlock {
     std::int32_t drawn_surfaces;
     std::int32_t soft_near_eye;
     float color_ratio;
-    float padding = 0.0f;
+    std::int32_t mixed_levels;
     std::array<glm::vec4, 3> index_from_normal; ///< rows
     glm::vec4 surroundings;                     ///< see frame.glsl
     glm::vec4 surroundings_size;
+    glm::vec4 extent;
 };
-static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 12) * 16);
+static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 13) * 16);
 static_assert(sizeof(FrameBlock) <= kUniformBlockBytes);
 
 EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance);
 
 /// The part of the block that is the same for every eye.
 /// @param surfaces one bit for each drawn surface
+/// @param mixed_levels the cells are of several levels of detail
 FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, Footprint footprint,
                     std::int32_t surfaces, bool blended, const Placement& placement,
-                    const Surroundings& around);
+                    const Surroundings& around, bool mixed_levels);
 
 /// Key of the back-to-front order of this view.
 TraversalKey key_of(const View& view, const Placement& placement);

@@ -10,6 +10,8 @@ RankedPoints::RankedPoints(const index::Extraction& set) : set_(&set) {
     slots_.places.reserve(set.cells());
     slots_.planes.reserve(set.cells());
     slots_.slot_of_rank.reserve(set.cells());
+    if (set.coarse())
+        slots_.largest = 1u << std::ranges::max(set.detail);
 }
 
 bool RankedPoints::copy(std::size_t cells) {

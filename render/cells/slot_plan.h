@@ -33,6 +33,9 @@ struct Slots {
     std::vector<CellPlace> places; ///< by slot
     /// By slot, the third word of an index::CellPoint; empty if only the GPU has them.
     std::vector<std::uint32_t> planes;
+    /// Size of the largest cell [voxels] where places are those of mixed levels of detail
+    /// (index/extraction/detail_regions.h); else 0.
+    std::uint32_t largest = 0;
 };
 
 /// Finds the changes from one set to the next, in short portions. Cells in both sets keep their

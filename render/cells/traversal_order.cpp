@@ -65,9 +65,12 @@ struct Distances {
     }
 };
 
-Distances distances(std::span<const CellPlace> places, const TraversalKey& key) {
+Distances distances(const Slots& slots, const TraversalKey& key) {
     glm::ivec3 low(std::numeric_limits<int>::max()), high(0);
-    for (const CellPlace& place : places) {
+    // A place of mixed levels is twice the cell's center.
+    const int step = slots.largest > 0 ? kCell / 2 : kCell;
+    const int first = slots.largest > 0 ? 0 : kMiddle;
+    for (const CellPlace& place : slots.places) {
         const glm::ivec3 at(place.x, place.y, place.z);
         low = glm::min(low, at);
         high = glm::max(high, at);
@@ -82,10 +85,9 @@ Distances distances(std::span<const CellPlace> places, const TraversalKey& key) 
         const std::int64_t reference = key.reference[axis], weight = key.weights[axis];
         std::uint64_t most = 0, least = std::numeric_limits<std::uint64_t>::max();
         for (int at = low[axis]; at <= high[axis]; ++at) {
-            const std::int64_t off = key.reference.w != 0
-                                         ? std::abs(kCell * at + kMiddle - reference)
-                                     : reference < 0 ? at
-                                                     : high[axis] - at;
+            const std::int64_t off = key.reference.w != 0 ? std::abs(step * at + first - reference)
+                                     : reference < 0      ? at
+                                                          : high[axis] - at;
             table[at] = off * (key.reference.w != 0 ? off : 1) * weight;
             most = std::max(most, table[at]);
             least = std::min(least, table[at]);
@@ -193,7 +195,7 @@ void order_back_to_front(const Slots& slots, const TraversalKey& key,
     order.resize(slots.places.size());
     if (order.empty())
         return;
-    const Distances distance = distances(slots.places, key);
+    const Distances distance = distances(slots, key);
     if (distance.largest >> 32 == 0)
         sort_by_distance<Narrow>(slots, distance, order);
     else

@@ -17,6 +17,7 @@ layout(binding = 0) uniform usamplerBuffer cells;
 #include "cell_place.glsl"
 #include "lighting.glsl"
 #include "appearance.glsl"
+#include "cell_box.glsl"
 #include "plane.glsl"
 #include "surroundings.glsl"
 #include "footprint.glsl"
@@ -57,15 +58,15 @@ void main() {
     disc = kCorners[gl_VertexID & 3];
 #endif
     uvec3 cell = texelFetch(cells, slot).xyz;
-    ivec3 place = ivec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu);
+    CellBox box = box_of(cell);
     vec3 normal = plane_normal(cell.z);
-    Splat splat = splat_of(cell_size(place), normal, cell.z);
-    vec4 center = vec4(cell_middle(place) + splat.size * splat.center, 1.0);
+    Splat splat = splat_of(box.size, normal, cell.z);
+    vec4 center = vec4(box.middle + splat.size * splat.center, 1.0);
 
     uint style = cell.y >> 16;
     vec3 in_eye = (EYE(eye_from_index) * center).xyz;
     vec3 lit = shade(in_eye, normal, base_color(style));
-    lit *= unshadowed(vec3(place) + 0.5 + splat.center, toward_eye_in_index(center.xyz), splat.size, normal,
+    lit *= unshadowed(box.in_index + box.voxels * splat.center, toward_eye_in_index(center.xyz), splat.size, normal,
                       style & 7u);
     shaded = vec4(written(lit), surfaces[style & 7u].a * near_share(in_eye));
 

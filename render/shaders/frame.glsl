@@ -37,9 +37,11 @@ layout(std140, binding = 0) uniform Frame {
     int drawn_surfaces; // a bit for each
     bool soft_near_eye; // fade what comes so near that it would veil the whole view
     float color_ratio;  // of the values at the map's ends where it goes by logarithms, else 0
+    bool mixed_levels;  // cells are of several levels of detail: see cell_box.glsl
     vec4 index_from_normal[3]; // rows: planes' normals from physical to index space
     vec4 surroundings;      // places of the field of surroundings per voxel; w: how much they darken
     vec4 surroundings_size; // its places along x, y and z of a surface, and of how many
+    vec4 volume_extent;           // of the volume in index space, xyz
 };
 
 // A normal in even coordinates, of any length.

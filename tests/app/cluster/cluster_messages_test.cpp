@@ -63,8 +63,13 @@ TEST(ClusterMessages, WhatIsSaidIsUnderstoodExactly) {
         EXPECT_EQ(decode_order(view(encoded(order))), order);
         const FrameAnswer answer = rich_answer(random);
         EXPECT_EQ(decode_answer(view(encoded(answer))), answer);
-        const FrameChoice choice{render::Footprint::gaussian, QualityReason::over_budget, true,
-                                 i % 2 == 0, i % 3 == 0};
+        const FrameChoice choice{
+            render::Footprint::gaussian,
+            QualityReason::over_budget,
+            true,
+            i % 2 == 0,
+            i % 3 == 0,
+            {random() % 1000, i % 5 == 0, std::vector<std::int8_t>(i % 7, -i % 9)}};
         EXPECT_EQ(decode_choice(view(encoded(choice))), choice);
     }
     EXPECT_EQ(decode_order(view(encoded_end())), std::nullopt);

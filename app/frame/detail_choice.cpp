@@ -1,0 +1,112 @@
+// Chooses numbers of cells and levels of detail.
+#include "app/frame/detail_choice.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+constexpr double kUp = 1.4;    ///< times a number of cells must fit before it is taken up
+constexpr double kDown = 0.9;  ///< and below this share of it, it is left
+constexpr double kStay = 0.25; ///< levels beyond its range within which a wish stays
+constexpr double kUnseen = 2;  ///< levels by which unseen regions may be coarser
+constexpr double kNearest = -8, kFarthest = 8;
+
+/// The numbers of cells that are chosen from: each is the half more, or a third more, of the last.
+std::uint64_t cells_of(int step) {
+    const std::uint64_t base = DetailChoice::kFewest << (step / 2);
+    return step % 2 == 0 ? base : base + base / 2;
+}
+
+/// Pixels along a voxel at a distance of a meter; in a parallel view, at any.
+double pixels_at_one_meter(const render::View& view, double voxel) {
+    const glm::vec2 scale = 0.5f * glm::vec2(view.size) *
+                            glm::vec2(glm::length(glm::vec3(view.clip_from_eye[0])),
+                                      glm::length(glm::vec3(view.clip_from_eye[1])));
+    return voxel * std::max(scale.x, scale.y);
+}
+
+/// Whether a box in index space may be seen: not all of its corners lie beyond one side.
+bool may_be_seen(const glm::mat4& clip_from_index, const glm::vec3& low, const glm::vec3& high) {
+    std::array<int, 5> beyond{};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at =
+            glm::mix(low, high, glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2));
+        const glm::vec4 p = clip_from_index * glm::vec4(at, 1.0f);
+        beyond[0] += p.x < -p.w;
+        beyond[1] += p.x > p.w;
+        beyond[2] += p.y < -p.w;
+        beyond[3] += p.y > p.w;
+        beyond[4] += p.w <= 0.0f;
+    }
+    return std::ranges::find(beyond, 8) == beyond.end();
+}
+
+} // namespace
+
+void DetailChoice::look(std::span<const render::View> views, const render::Placement& placement) {
+    ideal_.assign(views.empty() ? 0 : regions_.size(), kFarthest);
+    const glm::vec3 spacing = placement.spacing();
+    const double voxel = std::max({spacing.x, spacing.y, spacing.z});
+    const auto edge = static_cast<float>(regions_.edge());
+    for (const render::View& view : views) {
+        const glm::mat4 clip_from_index =
+            view.clip_from_eye * view.eye_from_room * placement.room_from_index;
+        const glm::vec3 eye(glm::inverse(placement.room_from_index) *
+                            glm::vec4(view.eye_in_room(), 1.0f));
+        const double pixels = pixels_at_one_meter(view, voxel);
+        for (std::size_t i = 0; i < ideal_.size(); ++i) {
+            const auto at = regions_.at(i);
+            const glm::vec3 low = edge * glm::vec3(at[0], at[1], at[2]);
+            const glm::vec3 high = glm::min(low + edge, placement.extent);
+            const glm::vec3 beside = eye - glm::clamp(eye, low, high);
+            const double distance =
+                view.is_parallel() ? 1.0
+                                   : glm::length(glm::mat3(placement.room_from_index) * beside);
+            const double level = std::log2(std::max(distance, 1e-3) / pixels) +
+                                 (may_be_seen(clip_from_index, low, high) ? 0.0 : kUnseen);
+            ideal_[i] = std::clamp(std::min(ideal_[i], level), kNearest, kFarthest);
+        }
+    }
+}
+
+index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint64_t drawn) {
+    const double cells = fit.value_or(static_cast<double>(kAtFirst));
+    const auto holds = [&](int step, double share) {
+        return share * static_cast<double>(cells_of(step)) <= cells;
+    };
+    if (step_ < 0)
+        while (holds(step_ + 1, 1))
+            ++step_;
+    while (step_ > 0 && !holds(step_, kDown))
+        --step_;
+    step_ = std::max(step_, 0);
+    if (drawn == cells_of(step_) && drawn < most_ && holds(step_ + 1, kUp))
+        ++step_;
+    kept_.resize(ideal_.size());
+    for (std::size_t i = 0; i < ideal_.size(); ++i) {
+        const double low = kept_[i] - kStay, high = kept_[i] + 1 + kStay;
+        if (ideal_[i] < low || ideal_[i] >= high)
+            kept_[i] = static_cast<std::int8_t>(std::floor(ideal_[i]));
+    }
+    return {std::min(cells_of(step_), most_), false, kept_};
+}
+
+index::DetailQuery DetailChoice::at_rest(std::uint64_t cells) const {
+    index::DetailQuery query{std::min(cells, most_), true, {}};
+    const auto level = [](double ideal) {
+        return static_cast<std::int8_t>(std::max(std::floor(ideal), 0.0));
+    };
+    if (std::ranges::any_of(ideal_, [&](double ideal) { return level(ideal) > 0; }))
+        for (const double ideal : ideal_)
+            query.wished.push_back(level(ideal));
+    return query;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,62 @@
+// Chooses how many cells a picture may have, and how fine each region of the volume should be.
+#pragma once
+
+#include "index/extraction/detail_regions.h"
+#include "index/volume/grid.h"
+#include "index/volume/query.h"
+#include "render/cells/placement.h"
+#include "render/gl/view.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::app {
+
+/// One choice for all eyes and windows. Numbers of cells are chosen from few steps, and steps are
+/// left late, so that a set of cells is not asked for again for a little more or less.
+class DetailChoice {
+  public:
+    /// Moving pictures never have fewer than this because of their budget.
+    static constexpr std::uint64_t kFewest = 1 << 14;
+    /// Until a time has been measured.
+    static constexpr std::uint64_t kAtFirst = 1 << 17;
+    /// Volumes of at most this many cells are always shown as they are.
+    static constexpr std::uint64_t kSmallVolume = 1 << 18;
+
+    /// @param most cells that a set may have at all
+    DetailChoice(const index::Grid& grid, std::uint64_t most)
+        : regions_(grid), most_(most), small_(grid.cell_count() <= kSmallVolume) {}
+
+    /// Whether the volume is so small that nothing has to be chosen.
+    bool small() const { return small_; }
+    std::uint64_t most() const { return most_; }
+    /// Never more than this from now on: more could not be drawn.
+    void limit(std::uint64_t most) { most_ = std::clamp(most, kFewest, most_); }
+
+    /// The finest useful level of each region: the coarsest of which a voxel is at most a pixel, or
+    /// below 0 by how much larger voxels are. Regions that no view shows count as four times as far
+    /// away. 0 for all regions without views.
+    void look(std::span<const render::View> views, const render::Placement& placement);
+
+    /// For a picture that changes. The number of cells grows by one step at a time, once the last
+    /// one has been drawn, as costs are predicted well only near what has been drawn.
+    /// @param fit cells that are expected to fit the budget; empty: not known yet
+    /// @param drawn `most_cells` of the cells that are drawn
+    index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn);
+    /// For a picture at rest, and for pictures that are written: level 0 wherever a voxel is larger
+    /// than half a pixel. @param cells that it may have
+    index::DetailQuery at_rest(std::uint64_t cells) const;
+
+  private:
+    index::DetailRegions regions_;
+    std::uint64_t most_;
+    bool small_;
+    int step_ = -1;                 ///< the chosen number of cells; below 0: none yet
+    std::vector<double> ideal_;     ///< by region: the level of which a voxel is a pixel
+    std::vector<std::int8_t> kept_; ///< wishes of moving pictures
+};
+
+} // namespace isochron::app

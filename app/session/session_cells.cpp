@@ -1,0 +1,155 @@
+// Which cells a session asks for, and how they come to the GPU.
+#include "app/session/session.h"
+
+#include <bit>
+
+namespace isochron::app {
+namespace {
+
+Milliseconds since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::steady_clock::now() - begin;
+}
+
+Scene::Use use_of(const index::ExtractionPtr& set) {
+    return set && set->query.detail.at_rest ? Scene::Use::at_rest : Scene::Use::always;
+}
+
+} // namespace
+
+void Session::request_cells(Waiting waiting) {
+    index::SurfacesQuery query = state_.surfaces();
+    query.mesh_room = mesh_wanted_ ? config_.mesh_room() : 0;
+    query.detail = detail_;
+    index::Request request{frames_->ask(query, waiting), std::nullopt};
+    const auto steps = static_cast<std::uint32_t>(this->steps());
+    if (state_.playback.playing && steps > 1) {
+        const bool reverse = state_.playback.reverse;
+        request.ahead = index::StepsAhead{(request.query.step + (reverse ? steps - 1 : 1)) % steps,
+                                          steps, reverse};
+    }
+    extractor_.request(request);
+}
+
+void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
+    const render::UploadCount before = scene_.uploaded();
+    const auto begin = std::chrono::steady_clock::now();
+    if (waiting == Waiting::for_cells) {
+        extractor_.wait();
+        report.wait = since(begin);
+    }
+    const auto uploading = std::chrono::steady_clock::now();
+    CellsInFrame cells = frames_->cells(extractor_, scene_.shown(), waiting);
+    const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
+    const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
+    if (cells.show)
+        scene_.upload(*cells.show, volume, use_of(*cells.show));
+    // A replay uploads all cells that were asked for in one frame, whatever the upload budget.
+    while (waiting == Waiting::for_cells && *cells.show &&
+           scene_.held(use_of(*cells.show)) != *cells.show) {
+        scene_.upload(*cells.show, render::SendVolume::with_cells, use_of(*cells.show));
+        if (const std::string refusal = scene_.refusal(*cells.show); !refusal.empty()) {
+            if (!give_way(*cells.show))
+                throw render::Error(refusal);
+            request_cells(waiting);
+            extractor_.wait();
+            cells = frames_->cells(extractor_, scene_.shown(), waiting);
+        }
+    }
+    scene_.draw_at_rest(!in_motion, state_.surfaces());
+    if (cells.show)
+        say_refused(*cells.show, report);
+    if (cells.stage && scene_.stage(cells.stage, use_of(cells.stage)))
+        frames_->staged();
+    if (!scene_.is_complete()) // the picture has not come to rest
+        report.pace = interaction::Pace::moving;
+    report.upload = since(uploading);
+    report.uploaded = scene_.uploaded().since(before);
+    report_cells(report);
+}
+
+void Session::report_cells(FrameReport& report) const {
+    const index::ExtractionPtr& shown = scene_.shown();
+    if (!shown)
+        return;
+    report.shown = shown->query.of_cells();
+    report.cells = shown->cells();
+    report.coarsest = shown->coarse() ? std::ranges::max(shown->detail) : 0;
+    report.finest = shown->coarse() ? std::ranges::min(shown->detail) : 0;
+    report.candidates = shown->candidates();
+    report.reused = shown->reused();
+    report.search = shown->search_time();
+    report.gather = shown->gather_time;
+}
+
+/// Asks for fewer cells from now on, as these could not be shown. @return false if there is nothing
+/// coarser
+bool Session::give_way(const index::ExtractionPtr& set) {
+    const std::uint64_t before = details_.most();
+    details_.limit(std::min<std::uint64_t>(set->cells(), before) / 2);
+    detail_.most_cells =
+        std::min(detail_.most_cells == 0 ? before : detail_.most_cells, details_.most());
+    return details_.most() < before;
+}
+
+/// Says once, in one line, that a set is too large to be shown.
+void Session::say_refused(const index::ExtractionPtr& set, FrameReport& report) {
+    report.refused = scene_.refusal(set);
+    if (!report.refused.empty() && report.refused != refused_) {
+        show_messages({report.refused});
+        give_way(set);
+    }
+    refused_ = report.refused;
+}
+
+/// Whether no finer cells than those that are drawn will come for this picture.
+bool Session::is_finest(Waiting waiting) const {
+    const index::ExtractionPtr& shown = scene_.shown();
+    return waiting != Waiting::never || !shown || !shown->coarse() ||
+           (shown->query.detail == detail_ && detail_.at_rest);
+}
+
+/// The detail of the sets that are asked for next.
+index::DetailQuery Session::wanted_detail(Waiting waiting, const FrameReport& report) {
+    if (details_.small())
+        return {};
+    const render::Placement placement =
+        render::Placement::of(file_->info().grid, matrix(state_.room_from_physical));
+    details_.look(config_.level_of_detail ? scene_.views() : std::span<const render::View>(),
+                  placement);
+    if (waiting == Waiting::never && config_.level_of_detail)
+        return detail_for_live(report);
+    index::DetailQuery all = details_.at_rest(details_.most());
+    all.at_rest = false; // it is the only set
+    return all;
+}
+
+index::DetailQuery Session::detail_for_live(const FrameReport& report) {
+    const index::SurfacesQuery surfaces = state_.surfaces();
+    const auto shows = [&](const index::ExtractionPtr& set) {
+        return set && set->query.of_cells() == surfaces;
+    };
+    const index::ExtractionPtr& held = scene_.held(Scene::Use::always);
+    const index::DetailQuery moving =
+        details_.for_motion(quality_.cells_that_fit(interaction::Pace::moving),
+                            held ? held->query.detail.most_cells : 0);
+    if (shows(held) && !held->coarse() && held->cells() <= moving.most_cells)
+        return held->query.detail; // it has all there is
+    if (report.pace == interaction::Pace::moving || !shows(held)) {
+        // What is on its way comes first, so that a set comes at all while the view changes.
+        const bool on_its_way = extractor_.busy() && !detail_.at_rest && detail_.most_cells > 0 &&
+                                moving.most_cells >= detail_.most_cells / 2;
+        return on_its_way ? detail_ : moving;
+    }
+    const bool kept = captures_.wanted() > 0;
+    const double fit = quality_.cells_that_fit(interaction::Pace::settled)
+                           .value_or(static_cast<double>(moving.most_cells));
+    const auto cells = std::bit_floor(
+        static_cast<std::uint64_t>(std::max(fit, static_cast<double>(moving.most_cells))));
+    index::DetailQuery rest = details_.at_rest(kept ? details_.most() : cells);
+    const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
+    if (!kept && shows(resting) && resting->query.detail.wished == rest.wished)
+        return resting->query.detail;
+    return detail_.at_rest && extractor_.busy() && !kept ? detail_ : rest;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,58 @@
+// Regions of one level of detail.
+#include "index/extraction/detail_regions.h"
+
+#include "index/file/chunk_grid.h"
+
+#include <algorithm>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::uint32_t kMostAlong = 16;
+constexpr std::uint32_t kSmallestEdge = 2 * kChunkEdge;
+
+} // namespace
+
+DetailRegions::DetailRegions(const Grid& grid) : edge_(kSmallestEdge) {
+    const auto cells = grid.cells();
+    while (std::ranges::max(cells) > kMostAlong * edge_)
+        edge_ *= 2;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        counts_[axis] = (cells[axis] + edge_ - 1) / edge_;
+}
+
+std::vector<std::uint8_t> DetailRegions::levels(std::span<const std::int8_t> wished,
+                                                unsigned coarser, unsigned most) const {
+    std::vector<std::uint8_t> levels(size());
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const int wish = i < wished.size() ? wished[i] : 0;
+        levels[i] = static_cast<std::uint8_t>(
+            std::clamp(wish + static_cast<int>(coarser), 0, static_cast<int>(most)));
+    }
+    return levels;
+}
+
+bool DetailRegions::draws(std::span<const std::uint8_t> levels, unsigned level,
+                          const std::array<std::uint32_t, 3>& cell) const {
+    std::array<std::uint32_t, 3> own{}, low{}, high{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        own[axis] = along(axis, cell[axis], level);
+        low[axis] = along(axis, cell[axis] - (cell[axis] > 0 ? 1 : 0), level);
+        high[axis] = along(axis, cell[axis] + 1, level);
+    }
+    if (const unsigned here = levels[number(own)]; here >= level)
+        return here == level;
+    for (std::uint32_t z = low[2]; z <= high[2]; ++z)
+        for (std::uint32_t y = low[1]; y <= high[1]; ++y)
+            for (std::uint32_t x = low[0]; x <= high[0]; ++x)
+                if (levels[number({x, y, z})] == level)
+                    return true;
+    return false;
+}
+
+bool has_mixed_levels(const Grid& grid) {
+    // The last cell of a level may reach almost twice as far as the volume.
+    return std::ranges::max(grid.vertices) <= 1u << 14;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,254 @@
+// Chooses levels of detail by counting cells, and puts cells of mixed levels together.
+#include "index/extraction/detail_search.h"
+
+#include "index/extraction/cell_colors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ranges>
+#include <set>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+/// A surface has about four times as many cells on the next finer level.
+constexpr double kFiner = 4;
+/// Cells of a chunk that has some: a smooth surface through it has about 300.
+constexpr double kLeastOfChunk = 64;
+/// How many more cells than asked for are better than another search.
+constexpr double kTolerated = 1.5;
+
+bool all_at(std::span<const std::uint8_t> levels, unsigned level) {
+    return std::ranges::all_of(levels, [level](std::uint8_t l) { return l == level; });
+}
+
+} // namespace
+
+std::size_t DetailCells::cells() const {
+    std::size_t cells = 0;
+    for (const CellSet& set : surfaces)
+        cells += set.points.size();
+    return cells;
+}
+
+DetailSearch::DetailSearch(std::shared_ptr<const IndexFile> file)
+    : file_(std::move(file)), regions_(file_->info().grid),
+      top_(static_cast<unsigned>(file_->detail_levels() - 1)),
+      by_bricks_(file_->plan().tiers.has(Tier::bricks)), searchers_(top_ + 1) {}
+
+LayerSearch& DetailSearch::searcher(unsigned level) {
+    if (!searchers_[level])
+        searchers_[level] = std::make_unique<LayerSearch>(file_, level);
+    return *searchers_[level];
+}
+
+/// Finds the cells of one level in the step's own order. @return false when stopped
+bool DetailSearch::search(const SurfacesQuery& query, unsigned level, const ChunkFilter& only,
+                          LevelCells& found, const std::stop_token& stop) {
+    found = {};
+    for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
+        CellSet& set = found.surfaces.emplace_back();
+        set.query = query.surface(i);
+        set.method = by_bricks_ ? SearchMethod::bricks : SearchMethod::scan;
+        if (std::isfinite(set.query.isovalue) &&
+            !searcher(level).search(set, by_bricks_, true, stop, only))
+            return false;
+        if (!color(set.query, level, set, found.colors.emplace_back(), stop))
+            return false;
+        found.cells += set.points.size();
+    }
+    if (level == 0) // its work space is the largest
+        searchers_[0].reset();
+    return true;
+}
+
+/// Gives every cell a color coordinate, kNoColor where the level has no colors.
+bool DetailSearch::color(const Query& query, unsigned level, const CellSet& set,
+                         std::vector<std::uint16_t>& colors, const std::stop_token& stop) {
+    colors.assign(set.points.size(), kNoColor);
+    const ChunkStore* const store = file_->color_chunks(level);
+    if (!store || set.ids.empty() || has_wide_ids(store->info().grid))
+        return true;
+    return searcher(level).color_cells(query, set.ids, colors, stop);
+}
+
+/// Finds the whole levels, the coarsest first, until there are too many cells or the next level will
+/// have too many. @return false when stopped
+bool DetailSearch::count_down(const SurfacesQuery& query, const std::stop_token& stop) {
+    known_.clear();
+    const auto most = static_cast<double>(query.detail.most_cells);
+    for (unsigned level = top_ + 1; level-- > 1;) {
+        LevelCells& found = known_[level];
+        if (!search(query, level, {}, found, stop))
+            return false;
+        counted_ = level;
+        if (kFiner * static_cast<double>(found.cells) > most)
+            break;
+    }
+    in_region_.assign(regions_.size(), 0);
+    for (const CellSet& set : known_[counted_].surfaces)
+        for (const CellPoint& point : set.points)
+            ++in_region_[regions_.number({regions_.along(0, point.x, counted_),
+                                          regions_.along(1, point.y, counted_),
+                                          regions_.along(2, point.z, counted_)})];
+    return true;
+}
+
+double DetailSearch::expected_cells(const Levels& levels) const {
+    double cells = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        cells += static_cast<double>(in_region_[i]) *
+                 std::pow(kFiner, static_cast<double>(counted_) - levels[i]);
+    return cells;
+}
+
+/// What the chunks' ranges say: means may have lost much of a rough volume.
+double DetailSearch::least_cells_of_volume(const SurfacesQuery& query) const {
+    if (!by_bricks_)
+        return 0;
+    const ChunkStore& store = file_->chunks();
+    double chunks = 0;
+    for (const double isovalue : query.isovalues) {
+        const auto cut = store.levels(query.step)->cut(store.info().scaling, isovalue);
+        for (std::uint32_t layer = 0; cut && layer < store.grid().layers(); ++layer)
+            chunks += static_cast<double>(
+                LayerCandidates::places_of(*store.layer(query.step, layer), *cut).size());
+    }
+    return kLeastOfChunk * chunks;
+}
+
+DetailSearch::Levels DetailSearch::lifted(const SurfacesQuery& query, unsigned coarser,
+                                          unsigned finest) const {
+    Levels levels =
+        regions_.levels(query.detail.wished, coarser, std::min(top_, regions_.coarsest()));
+    for (std::uint8_t& level : levels)
+        level = std::max(level, static_cast<std::uint8_t>(finest));
+    return levels;
+}
+
+/// The chunks of a level in which it draws cells.
+ChunkFilter DetailSearch::chunks_of(const Levels& levels, unsigned level) const {
+    const ChunkGrid& grid = file_->chunks(level).grid();
+    std::vector<bool> wanted(grid.count());
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        if (levels[i] != level)
+            continue;
+        const auto at = regions_.at(i);
+        std::array<std::uint32_t, 3> first{}, last{};
+        for (std::size_t axis = 0; axis < 3; ++axis) { // one cell more on each side
+            const std::uint32_t low = at[axis] * regions_.edge() >> level;
+            const std::uint32_t high = (at[axis] + 1) * regions_.edge() >> level;
+            first[axis] = (low > 0 ? low - 1 : 0) / kChunkEdge;
+            last[axis] = std::min(high / kChunkEdge, grid.counts()[axis] - 1);
+        }
+        for (std::uint32_t z = first[2]; z <= last[2]; ++z)
+            for (std::uint32_t y = first[1]; y <= last[1]; ++y)
+                for (std::uint32_t x = first[0]; x <= last[0]; ++x)
+                    wanted[std::size_t{z} * grid.chunks_of_layer() + grid.place(x, y)] = true;
+    }
+    return
+        [wanted = std::move(wanted), of_layer = std::size_t{grid.chunks_of_layer()}](
+            std::uint32_t layer, std::uint32_t place) { return wanted[layer * of_layer + place]; };
+}
+
+/// Adds the cells that a level draws.
+void DetailSearch::append(const LevelCells& from, const Levels& levels, unsigned level,
+                          DetailCells& result,
+                          std::vector<std::vector<std::uint16_t>>& colors) const {
+    const auto centered = [level](std::uint16_t cell) {
+        return static_cast<std::uint16_t>(doubled_center(cell, level));
+    };
+    for (std::size_t i = 0; i < from.surfaces.size(); ++i) {
+        const CellSet& set = from.surfaces[i];
+        CellSet& to = result.surfaces[i];
+        to.candidates += set.candidates;
+        to.search_time += set.search_time;
+        to.shading_time += set.shading_time;
+        for (std::size_t n = 0; n < set.points.size(); ++n) {
+            CellPoint point = set.points[n];
+            if (!regions_.draws(levels, level, {point.x, point.y, point.z}))
+                continue;
+            point.x = centered(point.x);
+            point.y = centered(point.y);
+            point.z = centered(point.z);
+            to.points.push_back(point);
+            colors[i].push_back(from.colors[i][n]);
+        }
+    }
+}
+
+/// @return false when stopped
+bool DetailSearch::gather(const SurfacesQuery& query, const Levels& levels, DetailCells& result,
+                          const std::stop_token& stop) {
+    std::vector<std::vector<std::uint16_t>> colors(query.isovalues.size());
+    result.surfaces.clear();
+    for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
+        CellSet& set = result.surfaces.emplace_back();
+        set.query = query.surface(i);
+        set.method = by_bricks_ ? SearchMethod::bricks : SearchMethod::scan;
+    }
+    for (const unsigned level : std::set<unsigned>(levels.begin(), levels.end())) {
+        if (const auto known = known_.find(level); known != known_.end()) {
+            append(known->second, levels, level, result, colors);
+            continue;
+        }
+        LevelCells found;
+        if (!search(query, level, by_bricks_ ? chunks_of(levels, level) : ChunkFilter(), found,
+                    stop))
+            return false;
+        append(found, levels, level, result, colors);
+    }
+    result.colors.clear();
+    const bool wanted = query.coloring == CellColoring::first_crossing ||
+                        (query.coloring == CellColoring::value && file_->color());
+    if (wanted)
+        for (const auto& of_surface : colors)
+            result.colors.insert(result.colors.end(), of_surface.begin(), of_surface.end());
+    result.levels = levels;
+    return true;
+}
+
+/// The finest level that has not too many cells as a whole, as far as is known.
+unsigned DetailSearch::finest_that_fits(double most) const {
+    unsigned finest = top_;
+    for (const auto& [level, cells] : known_)
+        if (static_cast<double>(cells.cells) <= most)
+            finest = std::min(finest, level);
+    return finest;
+}
+
+DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query, bool too_many,
+                                         DetailCells& result, const std::stop_token& stop) {
+    const auto most = static_cast<double>(query.detail.most_cells);
+    if (top_ == 0 || !has_mixed_levels(file_->info().grid) || query.step >= file_->info().steps())
+        return Outcome::whole;
+    if (!count_down(query, stop))
+        return Outcome::stopped;
+    unsigned coarser = 0;
+    if (const Levels levels = lifted(query, 0, 0); all_at(levels, 0)) {
+        if (!too_many && expected_cells(levels) <= most && least_cells_of_volume(query) <= most)
+            return Outcome::whole;
+        coarser = 1;
+    }
+    const unsigned finest = file_->referral() ? 1 : 0; // else there are no chunks of level 0
+    const auto& wished = query.detail.wished;
+    const int least_wish = wished.empty() ? 0 : std::ranges::min(wished);
+    for (bool last = false; !last; ++coarser) {
+        Levels levels = lifted(query, coarser, finest);
+        last = least_wish + static_cast<int>(coarser) >= static_cast<int>(top_);
+        if (expected_cells(levels) > most) {
+            if (!last)
+                continue;
+            std::ranges::fill(levels, static_cast<std::uint8_t>(finest_that_fits(most)));
+        }
+        if (!gather(query, levels, result, stop))
+            return Outcome::stopped;
+        last |= static_cast<double>(result.cells()) <= kTolerated * most;
+    }
+    known_.clear();
+    return Outcome::made;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,80 @@
+// Finds as many cells as a picture can hold: of the volume itself where they fit, else of coarser
+// levels of detail.
+#pragma once
+
+#include "index/extraction/cell_set.h"
+#include "index/extraction/detail_regions.h"
+#include "index/extraction/layer_search.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Cells of mixed levels, as Extraction has them.
+struct DetailCells {
+    std::vector<CellSet> surfaces;
+    std::vector<std::uint16_t> colors;
+    std::vector<std::uint8_t> levels; ///< by region
+    std::size_t cells() const;        ///< of all surfaces
+};
+
+/// Every region gets the level that the query wishes. While that makes too many cells, all regions
+/// get coarser together. Numbers of cells are counted from the coarsest level down to the finest
+/// that has not too many, and assumed to be four times as many on each level below that.
+/// Not thread-safe: keeps its work space.
+class DetailSearch {
+  public:
+    explicit DetailSearch(std::shared_ptr<const IndexFile> file);
+
+    enum class Outcome : std::uint8_t {
+        stopped, ///< the result is incomplete
+        whole,   ///< all regions should be at level 0; nothing is filled in
+        made
+    };
+    /// @param query with `most_cells` above 0
+    /// @param too_many the volume itself is known to have too many cells
+    /// @throws Error as ChunkStore does
+    Outcome find(const SurfacesQuery& query, bool too_many, DetailCells& result,
+                 const std::stop_token& stop);
+
+  private:
+    struct LevelCells {
+        std::vector<CellSet> surfaces; ///< with points of the level's own grid
+        std::vector<std::vector<std::uint16_t>> colors;
+        std::size_t cells = 0;
+    };
+    using Levels = std::vector<std::uint8_t>;
+
+    LayerSearch& searcher(unsigned level);
+    bool search(const SurfacesQuery& query, unsigned level, const ChunkFilter& only,
+                LevelCells& found, const std::stop_token& stop);
+    bool color(const Query& query, unsigned level, const CellSet& set,
+               std::vector<std::uint16_t>& colors, const std::stop_token& stop);
+    bool count_down(const SurfacesQuery& query, const std::stop_token& stop);
+    double expected_cells(const Levels& levels) const;
+    unsigned finest_that_fits(double most) const;
+    double least_cells_of_volume(const SurfacesQuery& query) const;
+    Levels lifted(const SurfacesQuery& query, unsigned coarser, unsigned finest) const;
+    ChunkFilter chunks_of(const Levels& levels, unsigned level) const;
+    bool gather(const SurfacesQuery& query, const Levels& levels, DetailCells& result,
+                const std::stop_token& stop);
+    void append(const LevelCells& from, const Levels& levels, unsigned level, DetailCells& result,
+                std::vector<std::vector<std::uint16_t>>& colors) const;
+
+    std::shared_ptr<const IndexFile> file_;
+    DetailRegions regions_;
+    unsigned top_; ///< the coarsest level
+    bool by_bricks_;
+    std::vector<std::unique_ptr<LayerSearch>> searchers_; ///< by level
+    std::map<unsigned, LevelCells> known_;                ///< whole levels, of the query
+    unsigned counted_ = 0;               ///< the finest level of which all is known
+    std::vector<std::size_t> in_region_; ///< cells of that level
+};
+
+} // namespace isochron::index

@@ -1,0 +1,173 @@
+// Cells of mixed levels are exactly those of the levels' definitions, and never too many.
+#include "index/build/index_build.h"
+#include "index/extraction/detail_regions.h"
+#include "index/extraction/extraction.h"
+#include "index/extraction/layer_search.h"
+#include "tests/support/memory_series.h"
+#include "tests/support/reader_fixtures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace isochron::index {
+namespace {
+
+/// x, y, z in level 0 cells, doubled; the packed plane.
+using Mixed = std::tuple<unsigned, unsigned, unsigned, std::uint32_t>;
+
+std::multiset<Mixed> mixed(const CellSet& set) {
+    std::multiset<Mixed> all;
+    for (const CellPoint& p : set.points)
+        all.emplace(p.x, p.y, p.z, p.plane);
+    return all;
+}
+
+/// Whether the boxes [a, b) and [c, d] touch along every axis.
+using Box = std::array<std::array<long, 2>, 3>;
+bool touch(const Box& a, const Box& b) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (a[axis][1] <= b[axis][0] || b[axis][1] <= a[axis][0])
+            return false;
+    return true;
+}
+
+Box region_box(const DetailRegions& regions, std::size_t number) {
+    Box box;
+    const auto at = regions.at(number);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        box[axis] = {static_cast<long>(at[axis] * regions.edge()),
+                     static_cast<long>((at[axis] + 1) * regions.edge())};
+    return box;
+}
+
+/// A cell of a level, widened by `by` cells of the level.
+Box cell_box(const CellPoint& p, unsigned level, long by) {
+    const std::array<long, 3> at{p.x, p.y, p.z};
+    Box box;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        box[axis] = {(at[axis] - by) * (1l << level), (at[axis] + 1 + by) * (1l << level)};
+    return box;
+}
+
+/// What the definition says, cell by cell and region by region.
+std::multiset<Mixed> slowly(const std::shared_ptr<const IndexFile>& file, const Query& query,
+                            std::span<const std::uint8_t> levels) {
+    const DetailRegions regions(file->info().grid);
+    std::multiset<Mixed> all;
+    for (const unsigned level : std::set<unsigned>(levels.begin(), levels.end())) {
+        CellSet set;
+        set.query = query;
+        EXPECT_TRUE(LayerSearch(file, level).search(set, true, true, {}));
+        EXPECT_EQ(set.ids, search_level(file, level, query).ids);
+        for (const CellPoint& p : set.points) {
+            unsigned own = 99;
+            bool beside = false;
+            for (std::size_t i = 0; i < levels.size(); ++i) {
+                const Box box = region_box(regions, i);
+                if (touch(cell_box(p, level, 0), box))
+                    own = levels[i];
+                beside |= levels[i] == level && touch(cell_box(p, level, 1), box);
+            }
+            if (own == level || (own < level && beside))
+                all.emplace((2u * p.x + 1) << level, (2u * p.y + 1) << level,
+                            (2u * p.z + 1) << level, p.plane);
+        }
+    }
+    return all;
+}
+
+class DetailSearchTest : public testing::Test {
+  protected:
+    std::shared_ptr<const IndexFile> indexed(const TestField& field, std::uint64_t cache = 1) {
+        MemorySeries series(field.view());
+        build_index(series, folder_.path() / "a.isochron",
+                    {.tiers = TierSet().with(Tier::bricks)});
+        return IndexFile::open(folder_.path() / "a.isochron", cache);
+    }
+
+    test_support::TestFolder folder_;
+    std::mt19937 random_{test_seed()};
+};
+
+TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
+    constexpr std::array<std::array<std::uint32_t, 3>, 4> kGrids{
+        {{70, 67, 33}, {2, 101, 64}, {129, 2, 2}, {34, 35, 71}}};
+    int made = 0, several = 0;
+    for (const auto& vertices : kGrids)
+        for (const bool noise : {false, true}) {
+            TestField field(vertices, 2, noise ? ValueType::u8 : ValueType::f32,
+                            scaled(noise ? white_noise(random_) : turbulence(random_), 100, 10));
+            if (!noise)
+                for (int i = 0; i < 20; ++i)
+                    field.at<float>(1, random_() % (vertices[0] * vertices[1] * vertices[2])) =
+                        std::nanf("");
+            const auto file = indexed(field);
+            const Extract extract = extract_from(file);
+            const DetailRegions regions(file->info().grid);
+            const auto isovalues = quantiles(sorted_values(field.view()), 3);
+            const std::size_t all = BruteForce(field.view(), 1).active(isovalues[1]).size();
+            for (int i = 0; i < 4; ++i) {
+                SurfacesQuery query{1, {isovalues[1], isovalues[2]}};
+                query.detail.most_cells = 1 + (all >> (2 * i));
+                if (i > 0)
+                    for (std::size_t r = 0; r < regions.size(); ++r)
+                        query.detail.wished.push_back(static_cast<std::int8_t>(random_() % 6) - 3);
+                const ExtractionPtr found = extract(query, {});
+                if (!found->coarse()) {
+                    EXPECT_LE(found->cells(), query.detail.most_cells);
+                    continue;
+                }
+                ++made;
+                ASSERT_EQ(found->detail.size(), regions.size());
+                const std::set<unsigned> used(found->detail.begin(), found->detail.end());
+                several += used.size() > 1;
+                EXPECT_TRUE(found->shaded());
+                for (std::size_t s = 0; s < 2; ++s)
+                    EXPECT_EQ(mixed(found->surfaces[s]),
+                              slowly(file, query.surface(s), found->detail));
+                // As the wishes are, but for one that is lifted.
+                for (std::size_t a = 0; a < query.detail.wished.size(); ++a)
+                    for (std::size_t b = 0; b < a; ++b)
+                        if (query.detail.wished[a] < query.detail.wished[b]) {
+                            EXPECT_LE(found->detail[a], found->detail[b]);
+                        }
+                if (*used.rbegin() + 1 < file->detail_levels()) {
+                    EXPECT_LE(found->cells(), 2 * query.detail.most_cells);
+                }
+            }
+        }
+    EXPECT_GT(made, 15);
+    EXPECT_GT(several, 3);
+}
+
+TEST_F(DetailSearchTest, AllCellsAreThoseOfTheVolumeWhereTheyFit) {
+    const TestField field({97, 65, 41}, 1, ValueType::f32, turbulence(random_));
+    for (const std::uint64_t cache : {std::uint64_t{1}, std::uint64_t{1} << 30}) {
+        const auto file = indexed(field, cache);
+        SurfacesQuery query{0, {0.1}};
+        const ExtractionPtr wanted = extract_from(file)(query, {});
+        query.detail.most_cells = 3 * wanted->cells();
+        const ExtractionPtr found = extract_from(file)(query, {});
+        EXPECT_FALSE(found->coarse());
+        EXPECT_EQ(found->surfaces[0].ids, wanted->surfaces[0].ids);
+        EXPECT_EQ(found->bricks.bytes, wanted->bricks.bytes);
+        query.detail.most_cells = wanted->cells() / 2;
+        EXPECT_TRUE(extract_from(file)(query, {})->coarse());
+    }
+}
+
+TEST_F(DetailSearchTest, APositionSaysWhereACellIsAndHowLarge) {
+    for (unsigned level = 0; level < 10; ++level)
+        for (const std::uint32_t cell : {0u, 1u, 2u, 15u, 16u, 31u}) {
+            const std::uint32_t doubled = doubled_center(cell, level);
+            EXPECT_EQ(level_of_center(doubled), level);
+            EXPECT_EQ(doubled / 2.0, (cell + 0.5) * (1 << level));
+        }
+}
+
+} // namespace
+} // namespace isochron::index

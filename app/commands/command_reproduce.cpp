@@ -115,7 +115,7 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
                         note.data_hash, data_path(options, note).string(), data_hash_of(*file)));
     Session session(config, file, windows_for(config, note));
     ExplorerState state = session.state();
-    if (!state.apply(note.state, file->info().steps()))
+    if (!state.resume(note.state, file->info().steps()))
         throw interaction::Error(fmt::format("{}: its state does not fit the data ({} steps)",
                                              options.picture, file->info().steps()));
     if (note.footprint == render::name_of(render::Footprint::quad))

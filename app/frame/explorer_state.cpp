@@ -120,6 +120,13 @@ bool ExplorerState::apply(const interaction::Commands& commands, std::size_t hel
     return all_taken;
 }
 
+bool ExplorerState::resume(const interaction::Commands& kept, std::size_t held) {
+    const bool whole = kept.room_from_physical.has_value(); // else a user wrote it
+    if (whole && !kept.look)
+        look = {.occlusion = 0.0f};
+    return apply(kept, held);
+}
+
 index::SurfacesQuery ExplorerState::surfaces() const {
     index::SurfacesQuery query{step, {}};
     switch (coloring.by) {

@@ -43,6 +43,10 @@ struct ExplorerState {
     /// @return false when a value was refused
     bool apply(const interaction::Commands& commands, std::size_t held);
 
+    /// As `apply`, for what a recording, a session or a picture kept of a whole state. What earlier
+    /// versions kept has no look, and is drawn as they drew it: without occlusion.
+    bool resume(const interaction::Commands& kept, std::size_t held);
+
     /// Number of steps that the user can choose from. @param held number of steps of the index
     std::size_t known_steps(std::size_t held) const {
         return steps == 0 ? held : std::min<std::size_t>(steps, held);

@@ -35,7 +35,7 @@ Latch latch_of(const interaction::RecordedFrame& frame) {
 ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,
                        std::size_t steps, const ReplayOptions& options) {
     ExplorerState state = fallback;
-    if (!state.apply(header.start, steps))
+    if (!state.resume(header.start, steps))
         throw interaction::Error(
             fmt::format("the recording's start state does not fit the data ({} steps)", steps));
     state.stereo = options.stereo.value_or(state.stereo);

@@ -90,7 +90,7 @@ ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,
             fmt::format("{}: a session on other data: expected hash {}, got {}", name, data_hash,
                         saved.data_hash));
     ExplorerState state = fallback;
-    if (!state.apply(saved.state, steps))
+    if (!state.resume(saved.state, steps))
         throw interaction::Error(
             fmt::format("{}: what it holds does not fit the data ({} steps)", name, steps));
     state.leaving = false;

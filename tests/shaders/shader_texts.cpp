@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -59,6 +60,18 @@ void APIENTRY much_of_each(GLenum, GLuint, GLint* value) {
 GLenum APIENTRY complete(GLuint, GLenum) {
     return GL_FRAMEBUFFER_COMPLETE;
 }
+GLuint APIENTRY some_object() {
+    return 1;
+}
+GLuint APIENTRY some_shader(GLenum) {
+    return 1;
+}
+void APIENTRY some_objects(GLsizei count, GLuint* names) {
+    std::fill_n(names, count, 1u);
+}
+void APIENTRY some_objects_of(GLenum, GLsizei count, GLuint* names) {
+    std::fill_n(names, count, 1u);
+}
 /// Whatever was to be drawn is there.
 void APIENTRY all_white(GLuint, GLint, GLint, GLint, GLint, GLsizei, GLsizei, GLsizei, GLenum,
                         GLenum, GLsizei size, void* pixels) {
@@ -89,6 +102,13 @@ Gl listening_driver() {
     gl.GetInteger64v = much_more;
     gl.GetIntegeri_v = much_of_each;
     gl.GetStringi = extension;
+    gl.CreateProgram = some_object;
+    gl.CreateShader = some_shader;
+    for (auto create : {&gl.CreateBuffers, &gl.CreateVertexArrays, &gl.CreateFramebuffers,
+                        &gl.CreateRenderbuffers})
+        *create = some_objects;
+    for (auto create : {&gl.CreateTextures, &gl.CreateQueries})
+        *create = some_objects_of;
     gl.CheckNamedFramebufferStatus = complete;
     gl.GetTextureSubImage = all_white;
     return gl;

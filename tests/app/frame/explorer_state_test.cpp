@@ -57,6 +57,26 @@ TEST(ExplorerState, RefusesWhatItCannotHold) {
         EXPECT_TRUE(refused(commands));
 }
 
+TEST(ExplorerState, WhatEarlierVersionsKeptIsDrawnWithoutOcclusion) {
+    ExplorerState kept;
+    kept.look = {interaction::Background::light, interaction::Material::metal, 0.25f};
+    auto json = interaction::commands_json(kept.as_commands());
+    ExplorerState state;
+    EXPECT_TRUE(state.resume(interaction::commands_from(json, "start"), 1));
+    EXPECT_EQ(state.look, kept.look);
+    json.erase("look"); // which they did not have
+    state = {};
+    ASSERT_GT(state.look.occlusion, 0.0f);
+    EXPECT_TRUE(state.resume(interaction::commands_from(json, "start"), 1));
+    EXPECT_EQ(state.look, (interaction::Look{.occlusion = 0.0f}));
+    // What a user wrote in place of a whole state changes what it names.
+    Commands some;
+    some.step = 0;
+    state = {};
+    EXPECT_TRUE(state.resume(some, 1));
+    EXPECT_EQ(state.look, interaction::Look{});
+}
+
 TEST(ExplorerState, SetsAllOfItselfThroughJson) {
     ExplorerState state;
     state.isosurfaces = three();

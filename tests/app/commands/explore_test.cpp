@@ -243,7 +243,8 @@ TEST_F(ExploreTest, ClosingTheWindowAsksWhereSomethingHasChanged) {
     while (folder_.read("walk.jsonl.part").find("\"leaving\":true") == std::string::npos)
         screen_.xdotool({"getmouselocation"});
     screen_.xdotool({"key", "Escape"}); // stay
-    while (folder_.read("walk.jsonl.part").find("\"leaving\":false") == std::string::npos)
+    while (folder_.read("walk.jsonl.part").find("\"commands\":{\"leaving\":false") ==
+           std::string::npos)
         screen_.xdotool({"getmouselocation"});
     leave();
     EXPECT_EQ(program->exit_status(), 0);

@@ -91,7 +91,7 @@ TEST_F(MovieMakerTest, WhatKeepsItFromBeingMadeIsOneLineAndNothingIsLeft) {
     EXPECT_EQ(outcome(complains), "no ffmpeg");
     MovieMaker dies(orders("kill -9 $$\n"));
     dies.make(write, writing_);
-    EXPECT_THAT(outcome(dies), HasSubstr("ended without a word"));
+    EXPECT_THAT(outcome(dies), HasSubstr("ended without a message"));
     MovieOrders nobody = orders("");
     nobody.program = folder_.path() / "nobody";
     MovieMaker missing(nobody);

@@ -163,7 +163,7 @@ MessageBytes encoded(const FrameChoice& choice) {
 FrameChoice decode_choice(std::span<const std::byte> bytes) {
     const json value = decoded(bytes);
     Members members(value, "choice");
-    const FrameChoice choice{
+    FrameChoice choice{
         footprint_from(members.at("footprint")),
         static_cast<QualityReason>(natural(members.at("reason"), "reason",
                                            static_cast<unsigned>(QualityReason::over_budget))),

@@ -65,7 +65,7 @@ std::string unit_of_derived(Derived derived, const SeriesInfo& input) {
 class DerivedSeries final : public VolumeSeries {
   public:
     DerivedSeries(std::vector<std::unique_ptr<VolumeSeries>> inputs, Derived derived,
-                  std::optional<std::string> unit)
+                  const std::optional<std::string>& unit)
         : inputs_(std::move(inputs)), derived_(derived), info_(inputs_.front()->info()) {
         constexpr std::array kNames{"gradient", "vorticity", "q-criterion"};
         constexpr std::array kWhat{"length of the gradient", "length of the curl", "Q criterion"};

@@ -180,6 +180,7 @@ class XdmfFile final : public DecodedFile {
                 const double number = numbers[first * layer_values() + i];
                 if (std::is_integral_v<T> &&
                     !(number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
+                      // NOLINTNEXTLINE(bugprone-integer-division): half of a power of two
                       number < 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1)))
                     throw Error(fmt::format("{}: {} in step {}, expected {}", name_, number, step,
                                             name_of(item.type)));

@@ -23,6 +23,12 @@ using interaction::Key;
 
 class RandomUser : public SessionTest {
   protected:
+    /// Screenshots lie in the working directory.
+    RandomUser() : before_(std::filesystem::current_path()) {
+        std::filesystem::current_path(folder_.path());
+    }
+    ~RandomUser() override { std::filesystem::current_path(before_); }
+
     unsigned any(unsigned count) { return random_() % count; }
     float from(float low, float high) {
         return std::uniform_real_distribution<float>(low, high)(random_);
@@ -136,6 +142,7 @@ class RandomUser : public SessionTest {
         return recording.frames.size();
     }
 
+    const std::filesystem::path before_;
     std::mt19937 random_{test_seed()};
     bool tracked_ = false;
 };

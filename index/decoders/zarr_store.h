@@ -17,8 +17,8 @@ namespace isochron::index {
 template <class T>
 struct Unfilled : std::allocator<T> {
     template <class U>
-    struct rebind {
-        using other = Unfilled<U>;
+    struct rebind {                // NOLINT: the name that allocators have for it
+        using other = Unfilled<U>; // NOLINT: likewise
     };
     template <class U>
     void construct(U* at) noexcept {

@@ -178,8 +178,8 @@ void finish_plane(Coarsener::Work& work, const Taps& taps,
         if (gaps) {
             sum_of(at, &Coarsener::Plane::weights, weight);
         } else {
-            std::fill_n(weight, width, S(4 * yz));
-            weight[0] = weight[width - 1] = S(3 * yz);
+            std::fill_n(weight, width, S(4) * S(yz));
+            weight[0] = weight[width - 1] = S(3) * S(yz);
         }
         for (std::uint32_t x = 0; x < width; ++x)
             out[x] = static_cast<T>(row[x] / weight[x]);
@@ -207,7 +207,7 @@ void sum_rows_around(const T* HWY_RESTRICT middle, const Taps& y, const Taps& z,
         for (int dy = y.below ? -1 : 0; dy <= (y.above ? 1 : 0); ++dy) {
             const T* const from = middle + dz * static_cast<std::ptrdiff_t>(plane) +
                                   dy * static_cast<std::ptrdiff_t>(row);
-            const auto weight = static_cast<S>((dz == 0 ? 2 : 1) * (dy == 0 ? 2 : 1));
+            const auto weight = static_cast<S>(S(dz == 0 ? 2 : 1) * S(dy == 0 ? 2 : 1));
             for (std::size_t x = 0; x < row; ++x)
                 out[x] = static_cast<S>(out[x] + weight * S(from[x]));
         }

@@ -219,9 +219,10 @@ void add_build(Command& program) {
                                  .shows_default()
                                  .group(index_group);
     command.flag("--quiet", arguments->quiet, "Print errors only");
-    command.footer("Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Otherwise no "
-                   "file is left behind\nand an older index is unchanged. mpirun -n N isochron "
-                   "build ... spreads the work over N processes that\nshare a file system.");
+    command.footer(
+        "Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "
+        "0, no file is left behind\nand an older index is unchanged. mpirun -n N isochron "
+        "build ... spreads the work over N processes that\nshare a file system.");
     command.on_run([arguments, lattice, variation] {
         arguments->build.with_tree = lattice.given() || variation.given();
         run_build(with_path_within(*arguments));

@@ -1,32 +1,18 @@
 // One session: brings data, search, devices and displays together, frame by frame.
 #include "app/session/session.h"
 
+#include "app/frame/stop_watch.h"
 #include "app/session/start_state.h"
 #include "interaction/device_reading.h"
 #include "interaction/navigator.h"
 #include "interaction/tool_table.h"
 
-#include <chrono>
 #include <utility>
 
 namespace isochron::app {
 namespace {
 
 using interaction::Commands;
-
-/// Measures the times of consecutive stages.
-class StopWatch {
-  public:
-    /// Time since the last lap, or since the start.
-    Milliseconds lap() {
-        const auto now = Clock::now();
-        return now - std::exchange(last_, now);
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point last_ = Clock::now();
-};
 
 } // namespace
 

@@ -1,14 +1,12 @@
 // Which cells a session asks for, and how they come to the GPU.
 #include "app/session/session.h"
 
+#include "app/frame/stop_watch.h"
+
 #include <bit>
 
 namespace isochron::app {
 namespace {
-
-Milliseconds since(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::steady_clock::now() - begin;
-}
 
 Scene::Use use_of(const index::ExtractionPtr& set) {
     return set && set->query.detail.at_rest ? Scene::Use::at_rest : Scene::Use::always;
@@ -32,12 +30,11 @@ void Session::request_cells(Waiting waiting) {
 
 void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     const render::UploadCount before = scene_.uploaded();
-    const auto begin = std::chrono::steady_clock::now();
+    StopWatch watch;
     if (waiting == Waiting::for_cells) {
         extractor_.wait();
-        report.wait = since(begin);
+        report.wait = watch.lap();
     }
-    const auto uploading = std::chrono::steady_clock::now();
     CellsInFrame cells = frames_->cells(extractor_, scene_.shown(), waiting);
     const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
     const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
@@ -62,7 +59,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
         frames_->staged();
     if (!scene_.is_complete()) // the picture has not come to rest
         report.pace = interaction::Pace::moving;
-    report.upload = since(uploading);
+    report.upload = watch.lap();
     report.uploaded = scene_.uploaded().since(before);
     report_cells(report);
 }

@@ -41,6 +41,11 @@ class ExploreFaults : public Faults {
         std::ranges::sort(names);
         return names;
     }
+    /// No other files than these are left.
+    void expect_nothing_beside(const std::vector<std::string>& names) {
+        for (const std::string& name : folder.names())
+            EXPECT_TRUE(std::ranges::find(names, name) != names.end()) << name;
+    }
     bool is_json(const std::string& name) const {
         return nlohmann::json::accept(folder.read(name));
     }
@@ -98,8 +103,7 @@ TEST_F(ExploreFaults, LeaveTheFramesOfAMovieOrNone) {
                     EXPECT_EQ(names_in("frames"), all);
                 else
                     EXPECT_FALSE(has("frames"));
-                for (const std::string& name : folder.names())
-                    EXPECT_TRUE(std::ranges::find(around, name) != around.end()) << name;
+                expect_nothing_beside(around);
             });
     EXPECT_GT(met, 10);
 }
@@ -123,8 +127,7 @@ TEST_F(ExploreFaults, LeaveAConfigurationOrNone) {
                     EXPECT_EQ(folder.read("cave.toml"), right);
                 else
                     EXPECT_FALSE(has("cave.toml"));
-                for (const std::string& name : folder.names())
-                    EXPECT_TRUE(std::ranges::find(around, name) != around.end()) << name;
+                expect_nothing_beside(around);
             });
     EXPECT_GT(met, 8);
 }

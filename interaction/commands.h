@@ -72,7 +72,7 @@ struct Coloring {
     std::optional<std::array<double, 2>> range = {};
     bool reversed = false;
     std::uint32_t bands =
-        0; ///< colors that each fill a part of the map; 0: they are not told apart
+        0; ///< number of equal parts with one color each; 0: colors change smoothly
     bool logarithmic = false; ///< equal ratios of values, all above 0, are equally far on the map
     /// Of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none: the
     /// program knows the map by its name.

@@ -25,8 +25,8 @@ struct Screen {
     /// For desktop windows: enlarge the screen around its middle, in width or height, to the
     /// viewport's aspect.
     bool fit_aspect = false;
-    /// Of the picture's width, from its left: shows what is beside the screen, which is fitted to
-    /// the rest. Not configured.
+    /// Fraction of the picture's width, at its left, that shows what lies left of the screen. The
+    /// screen is fitted to the rest. Not configured.
     float aside = 0;
     bool operator==(const Screen&) const = default;
 };

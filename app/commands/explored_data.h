@@ -1,4 +1,4 @@
-// Data to explore that no index was made of yet.
+// Finds or makes the index of the data that a user wants to explore.
 #pragma once
 
 #include "app/commands/cluster_job.h"
@@ -6,8 +6,8 @@
 
 namespace isochron::app {
 
-/// With the index to show: the one that was given, or of files of values one that is kept in the
-/// user's cache folder, made where it is not there.
+/// Replaces files of values in the options by an index of them, which is kept in the user's cache
+/// folder and made if it is missing. An index that was given stays.
 /// @throws index::Error, UsageError
 ExploreOptions with_index(ExploreOptions options, ClusterJob& job);
 

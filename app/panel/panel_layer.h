@@ -50,7 +50,7 @@ class PanelLayer {
     /// The data that the user has chosen; returned once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
 
-    /// What movie they want to be made, or no longer, once.
+    /// The movie that the user wants made, or given up; returned once.
     std::optional<MovieWish> take_wanted_movie() { return std::exchange(wanted_movie_, {}); }
 
     /// Passes events to Dear ImGui, which sees the state of keys and buttons once per frame. An

@@ -1,15 +1,15 @@
-// What the panel tells of itself and of its work.
+// The panel's lines about its own work: measurements, messages and errors.
 #pragma once
 
 #include "app/panel/panel_model.h"
 
 namespace isochron::app {
 
-/// Of the shown cells, of reading and of the last frames.
+/// Figures of the shown cells, of reading and of the last frames.
 void measurements(const PanelModel& model);
-/// It stood in the picture when it came.
+/// The newest message, which also lay over the picture when it came.
 void newest_note(const PanelModel& model);
-/// What failed, as long as it does.
+/// What fails at present.
 void complaints(const PanelModel& model);
 
 } // namespace isochron::app

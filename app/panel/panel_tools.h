@@ -17,7 +17,7 @@ void tools_section(const PanelModel& model, interaction::Commands& commands);
 /// Marks the steps that can be shown without a search, below the slider that was laid out last.
 /// @param last step
 void mark_steps_at_hand(const PanelModel& model, int last);
-/// Buttons that have movies made, and how far the one is that is being made.
+/// Buttons that start movies, and the progress of the movie that is being made.
 /// @return what the user wants
 std::optional<MovieWish> movie_section(const PanelModel& model);
 /// At the bottom of the picture: the standing note, and the newest message for a while.

@@ -19,7 +19,7 @@ struct PassTarget {
     ByteSink& file;
     std::uint64_t& end; ///< of the file so far; moves to the end of what was written
     ChunkContents contents;
-    WriterMeans means; ///< `beside` is also for parts of members that wait for others
+    WriterMeans means; ///< `beside` also takes the parts of team members that must wait for others
 };
 
 /// Keeps the values from which cells or the tree are built.

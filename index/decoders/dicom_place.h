@@ -16,7 +16,7 @@ struct DicomCoding {
 struct PixelPlace {
     std::uint64_t at = 0;    ///< [bytes] from the start of the file
     std::uint64_t bytes = 0; ///< that the element says to have
-    bool packed = false;     ///< in fragments, of no length: compressed
+    bool packed = false;     ///< compressed: in fragments, without a length of the whole
 };
 
 /// Walks over the elements of the file. @return none: it has no pixels, or is damaged before them

@@ -22,8 +22,8 @@ struct NetcdfLayout {
 /// @return none unless exactly three dimensions are left for space
 std::optional<NetcdfLayout> layout_of(const NetcdfFile& file, const NetcdfVariable& variable);
 
-/// Sets grid, unit of length, names of axes, space and notes from the coordinate variables. If axes have units of different kinds, a power of ten brings them into proportion, and
-/// a note says which.
+/// Sets grid, unit of length, names of axes, space and notes from the coordinate variables. If axes
+/// have units of different kinds, a power of ten brings them into proportion; a note says which.
 /// @throws Error: coordinates that neither increase nor decrease, unless `options` have a spacing
 void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,
                 const ReadOptions& options, SeriesInfo& info);

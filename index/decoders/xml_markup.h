@@ -10,16 +10,17 @@
 
 namespace isochron::index {
 
-/// The text of a file up to its appended data, which the mapping gives without reading the rest.
+/// The text of a file up to its appended data. Does not read the rest of the file.
 std::string_view markup_of(const MappedFile& file);
 
-/// Of appended values that end too early VTK leaves the rest as they were in memory. Whatever was
-/// cut off, the end of the markup is gone as well.
+/// Checks that the markup has its end, which a file that was cut off has lost. VTK reads such a
+/// file without an error, and missing values become whatever was in memory.
 /// @throws Error naming the file
 void expect_end(const MappedFile& file, const std::string& name);
 
-/// VTK's parsers descend into elements by recursion, and take quadratic time before.
-/// @throws Error naming the file when elements are nested deeper than in any file of VTK's
+/// Checks how deep elements are nested. VTK's parsers recurse for each level, and their time grows
+/// with the square of the depth.
+/// @throws Error naming the file when they are nested deeper than VTK itself ever writes
 void expect_shallow(std::string_view markup, const std::string& file);
 
 /// Checks that all arrays have names: VTK refuses others with a message that users cannot

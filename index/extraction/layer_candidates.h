@@ -27,9 +27,9 @@ using ChunkFilter = std::function<bool(std::uint32_t layer, std::uint32_t place)
 class LayerCandidates {
   public:
     LayerCandidates() = default;
-    /// Reads the candidates and announces what a search and normals will need around them: read one
-    /// after the other when they turn out to be needed, each would wait behind all that the disk
-    /// has been asked for.
+    /// Reads the candidates, and announces the chunks around them that a search and normals will
+    /// need. If those were read one by one when needed, each would wait behind all earlier requests
+    /// to the disk.
     /// @param normals whether normals will be made, too
     /// @param only reads the candidates among these alone
     LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
@@ -51,8 +51,7 @@ class LayerCandidates {
     unsigned reach(std::size_t i) const;
     /// Time that it took to read them.
     std::chrono::nanoseconds time() const { return time_; }
-    /// Takes out of the places of a layer next to this one, or of this one, what has been
-    /// announced.
+    /// Removes what has been announced from the `places` of this layer or of one next to it.
     void keep_unannounced(std::uint32_t layer, std::vector<std::uint32_t>& places) const;
 
   private:
@@ -73,7 +72,7 @@ class PreparedCandidates {
     PreparedCandidates(std::uint32_t layers, Read read) : read_(std::move(read)), of_(layers) {}
 
     void prepare(std::uint32_t layer);
-    /// Waits for whoever prepares the layer. Not twice for a layer.
+    /// Prepares the layer, or waits for the thread that does. Call it once for each layer.
     LayerCandidates take(std::uint32_t layer);
 
   private:

@@ -45,11 +45,12 @@ struct SeriesInfo {
 
 /// How to read files whose contents leave something open.
 struct ReadOptions {
-    std::optional<std::string> array;     ///< --array
+    std::optional<std::string> array; ///< --array
     /// --component: a number from 0, `magnitude`, or what is computed: `gradient`, `vorticity`,
     /// `q-criterion`.
     std::optional<std::string> component;
-    /// Where a choice is open, the first array, and the length of its vectors: to describe files.
+    /// Takes the first array, and the length of vectors, where a user would have to choose: for
+    /// describing files.
     bool any_array = false;
     bool allow_surplus = false; ///< --allow-surplus: values may follow those that the header has
     bool extra_axis_is_time =

@@ -10,7 +10,7 @@
 
 namespace isochron::render {
 
-/// What shaders get in front of them that draw or shade a grid: cell_place.glsl asks for it.
+/// The lines to put in front of a shader that draws or shades the grid; cell_place.glsl needs them.
 const char* prelude_for(const index::Grid& grid);
 
 /// The table of cell_place.glsl on the GPU; a regular grid has none.
@@ -23,7 +23,8 @@ class AxisTable {
     void bind() const;
     /// The largest sides that a cell has, in even coordinates; 1 on a regular grid.
     const glm::vec3& largest() const { return largest_; }
-    /// The least side of any cell, at most 1: slopes may be so much steeper than differences.
+    /// The smallest side of any cell, at most 1. Slopes are up to 1/smallest times as steep as the
+    /// differences of values.
     float smallest() const { return smallest_; }
 
   private:

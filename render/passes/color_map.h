@@ -32,9 +32,9 @@ std::optional<ColorMap> color_map_from_name(std::string_view name);
 
 inline constexpr std::size_t kColorMapSize = 256;
 
-/// The map from low to high, linear light. Lightness L* grows all the way; of `coolwarm` and `turbo`
-/// up to their middle, and falls behind it. `gray` starts at 32, so that low values still show their
-/// shape before a dark background.
+/// The map from low to high, linear light. Lightness L* grows all the way; that of `coolwarm` and
+/// `turbo` grows up to their middle and falls behind it. `gray` starts at 32, so that low values
+/// still show their shape before a dark background.
 std::vector<glm::vec3> color_map(ColorMap map);
 
 /// Colors at equal distances from low to high as the map's own kColorMapSize, straight in L*a*b*.
@@ -44,7 +44,8 @@ std::vector<glm::vec3> color_map_between(const std::vector<glm::vec3>& colors);
 /// How a map is used.
 struct ColorMapUse {
     bool reversed = false;
-    std::uint32_t bands = 0; ///< so many colors that each fill a part; 0: they pass into each other
+    std::uint32_t bands =
+        0; ///< number of equal parts with one color each; 0: colors change smoothly
     bool operator==(const ColorMapUse&) const = default;
 };
 std::vector<glm::vec3> used(const std::vector<glm::vec3>& map, const ColorMapUse& use);

@@ -2,6 +2,10 @@
 // along the ray.
 #include "index/extraction/cell_ray.h"
 
+#include "index/extraction/detail_regions.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -231,6 +235,74 @@ std::optional<EvenRay> in_even(const Grid& grid, const Ray& ray) {
     return result;
 }
 
+/// How far a cell's plane counts beyond the cell, in its sides: as far as quads overlap.
+constexpr double kBeyond = 0.3;
+
+/// Hits the planes of cells of mixed levels.
+class PlaneRay {
+  public:
+    PlaneRay(const Grid& grid, const EvenRay& ray)
+        : grid_(grid), ray_(ray), even_(!grid.rectilinear()),
+          even_from_normal_(glm::transpose(glm::dmat3(grid.physical_from_index()))) {}
+
+    /// Where the ray hits the plane of a cell, or passes the middle of one without a plane; along
+    /// the ray.
+    std::optional<double> hit(const CellPoint& point) const {
+        glm::dvec3 low, high;
+        const std::array<std::uint32_t, 3> doubled{point.x, point.y, point.z};
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::uint32_t at = doubled[static_cast<std::size_t>(axis)];
+            const std::uint32_t size = 1u << level_of_center(at), first = (at - size) / 2;
+            low[axis] = place(axis, first);
+            high[axis] =
+                place(axis, std::min(first + size, grid_.cells()[static_cast<std::size_t>(axis)]));
+        }
+        const glm::dvec3 middle = 0.5 * (low + high), sides = high - low;
+        const glm::dvec3 to = middle - ray_.origin;
+        const double length2 = glm::dot(ray_.direction, ray_.direction);
+        const double nearest = glm::dot(to, ray_.direction) / length2;
+        const glm::dvec3 beside = to - nearest * ray_.direction;
+        const double reach = 0.5 + kBeyond;
+        if (glm::dot(beside, beside) > reach * reach * glm::dot(sides, sides))
+            return std::nullopt;
+        const CellPlane plane = unpack_plane(point.plane);
+        if (plane.normal == glm::dvec3(0.0))
+            return glm::length(beside / sides) <= 0.5 ? std::optional(nearest) : std::nullopt;
+        const glm::dvec3 n = glm::normalize(sides * (even_from_normal_ * plane.normal));
+        const glm::dvec3 along = ray_.direction / sides;
+        const double rate = glm::dot(n, along);
+        if (rate == 0)
+            return std::nullopt;
+        const double t = (plane.offset + glm::dot(n, to / sides)) / rate;
+        const glm::dvec3 at = glm::abs(t * along - to / sides);
+        return std::max({at.x, at.y, at.z}) <= reach ? std::optional(t) : std::nullopt;
+    }
+
+  private:
+    double place(int axis, std::uint32_t vertex) const {
+        return even_ ? vertex : grid_.even_place(axis, vertex);
+    }
+    const Grid& grid_;
+    const EvenRay& ray_;
+    bool even_;
+    glm::dmat3 even_from_normal_;
+};
+
+std::optional<RayHit> first_hit_of_levels(const Extraction& shown, const Grid& grid, const Ray& ray,
+                                          const EvenRay& even, std::uint32_t surfaces) {
+    const PlaneRay planes(grid, even);
+    std::optional<RayHit> nearest;
+    for (std::size_t i = 0; i < shown.surfaces.size(); ++i) {
+        if (!(surfaces >> i & 1))
+            continue;
+        for (const CellPoint& point : shown.surfaces[i].points)
+            if (const auto along = planes.hit(point);
+                along && *along >= 0 && (!nearest || *along < nearest->along))
+                nearest = RayHit{i, *along, ray.origin + *along * ray.direction};
+    }
+    return nearest;
+}
+
 } // namespace
 
 std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const Ray& ray,
@@ -238,6 +310,8 @@ std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const
     const auto indexed = in_even(grid, ray);
     if (!indexed)
         return std::nullopt;
+    if (shown.coarse())
+        return first_hit_of_levels(shown, grid, ray, *indexed, surfaces);
     const auto& [origin, direction] = *indexed;
     BrickVertices vertices(shown.bricks, grid);
     for (CellRay at(grid, *indexed); at.inside(); at.advance()) {

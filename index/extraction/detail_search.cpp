@@ -2,6 +2,7 @@
 #include "index/extraction/detail_search.h"
 
 #include "index/extraction/cell_colors.h"
+#include "index/extraction/lost_cells.h"
 
 #include <algorithm>
 #include <array>
@@ -19,9 +20,20 @@ constexpr double kFiner = 4;
 constexpr double kLeastOfChunk = 64;
 /// How many more cells than asked for are better than another search.
 constexpr double kTolerated = 1.5;
+/// Cells of the largest grid of which it is kept when they were first active: two bytes each.
+constexpr std::uint64_t kMostCrossings = std::uint64_t{1} << 28;
+/// Part of the cells asked for that those may be which levels have lost.
+constexpr std::uint64_t kPartOfLost = 4;
 
 bool all_at(std::span<const std::uint8_t> levels, unsigned level) {
     return std::ranges::all_of(levels, [level](std::uint8_t l) { return l == level; });
+}
+
+/// A cell of a level's own grid at its place of mixed levels.
+CellPoint centered(CellPoint point, unsigned level) {
+    for (std::uint16_t* at : {&point.x, &point.y, &point.z})
+        *at = static_cast<std::uint16_t>(doubled_center(*at, level));
+    return point;
 }
 
 } // namespace
@@ -64,10 +76,34 @@ bool DetailSearch::search(const SurfacesQuery& query, unsigned level, const Chun
     return true;
 }
 
+/// When the cells of a level were first active at that level. @return null when stopped
+const FirstCrossings* DetailSearch::crossings(double isovalue, unsigned level,
+                                              const std::stop_token& stop) {
+    FirstCrossingsPtr& known = crossings_[{isovalue, level}];
+    const Search search = [&](const Query& query, const std::stop_token& asked) {
+        return asked.stop_requested()
+                   ? nullptr
+                   : std::make_shared<const CellSet>(search_level(file_, level, query));
+    };
+    if (!known)
+        known = first_crossings(file_->chunks(level).info(), search, isovalue, stop);
+    return known.get();
+}
+
 /// Gives every cell a color coordinate, kNoColor where the level has no colors.
 bool DetailSearch::color(const Query& query, unsigned level, const CellSet& set,
                          std::vector<std::uint16_t>& colors, const std::stop_token& stop) {
     colors.assign(set.points.size(), kNoColor);
+    if (coloring_ == CellColoring::first_crossing) {
+        if (set.ids.empty() || file_->chunks(level).info().grid.cell_count() > kMostCrossings)
+            return true;
+        const FirstCrossings* const first = crossings(query.isovalue, level, stop);
+        if (first)
+            color_by_first_crossing(*first, file_->info().times, set.ids, colors);
+        return first != nullptr;
+    }
+    if (coloring_ != CellColoring::value)
+        return true;
     const ChunkStore* const store = file_->color_chunks(level);
     if (!store || set.ids.empty() || has_wide_ids(store->info().grid))
         return true;
@@ -155,11 +191,7 @@ ChunkFilter DetailSearch::chunks_of(const Levels& levels, unsigned level) const 
 
 /// Adds the cells that a level draws.
 void DetailSearch::append(const LevelCells& from, const Levels& levels, unsigned level,
-                          DetailCells& result,
-                          std::vector<std::vector<std::uint16_t>>& colors) const {
-    const auto centered = [level](std::uint16_t cell) {
-        return static_cast<std::uint16_t>(doubled_center(cell, level));
-    };
+                          DetailCells& result) {
     for (std::size_t i = 0; i < from.surfaces.size(); ++i) {
         const CellSet& set = from.surfaces[i];
         CellSet& to = result.surfaces[i];
@@ -167,14 +199,11 @@ void DetailSearch::append(const LevelCells& from, const Levels& levels, unsigned
         to.search_time += set.search_time;
         to.shading_time += set.shading_time;
         for (std::size_t n = 0; n < set.points.size(); ++n) {
-            CellPoint point = set.points[n];
+            const CellPoint& point = set.points[n];
             if (!regions_.draws(levels, level, {point.x, point.y, point.z}))
                 continue;
-            point.x = centered(point.x);
-            point.y = centered(point.y);
-            point.z = centered(point.z);
-            to.points.push_back(point);
-            colors[i].push_back(from.colors[i][n]);
+            to.points.push_back(centered(point, level));
+            colors_[i].push_back(from.colors[i][n]);
         }
     }
 }
@@ -182,7 +211,7 @@ void DetailSearch::append(const LevelCells& from, const Levels& levels, unsigned
 /// @return false when stopped
 bool DetailSearch::gather(const SurfacesQuery& query, const Levels& levels, DetailCells& result,
                           const std::stop_token& stop) {
-    std::vector<std::vector<std::uint16_t>> colors(query.isovalues.size());
+    colors_.assign(query.isovalues.size(), {});
     result.surfaces.clear();
     for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
         CellSet& set = result.surfaces.emplace_back();
@@ -191,23 +220,79 @@ bool DetailSearch::gather(const SurfacesQuery& query, const Levels& levels, Deta
     }
     for (const unsigned level : std::set<unsigned>(levels.begin(), levels.end())) {
         if (const auto known = known_.find(level); known != known_.end()) {
-            append(known->second, levels, level, result, colors);
+            append(known->second, levels, level, result);
             continue;
         }
         LevelCells found;
         if (!search(query, level, by_bricks_ ? chunks_of(levels, level) : ChunkFilter(), found,
                     stop))
             return false;
-        append(found, levels, level, result, colors);
+        append(found, levels, level, result);
     }
-    result.colors.clear();
-    const bool wanted = query.coloring == CellColoring::first_crossing ||
-                        (query.coloring == CellColoring::value && file_->color());
-    if (wanted)
-        for (const auto& of_surface : colors)
-            result.colors.insert(result.colors.end(), of_surface.begin(), of_surface.end());
     result.levels = levels;
     return true;
+}
+
+/// Adds what the levels have lost. @return false when stopped
+bool DetailSearch::add_lost(const SurfacesQuery& query, unsigned finest, DetailCells& result,
+                            const std::stop_token& stop) {
+    if (!by_bricks_ || std::ranges::max(result.levels) <= finest)
+        return true;
+    LostCells lost(*file_, regions_, finest, searcher(finest));
+    std::vector<JoinedCells> of_surface(query.isovalues.size());
+    for (std::size_t i = 0; i < of_surface.size(); ++i) {
+        CellSet& set = result.surfaces[i];
+        LostCells::Found found;
+        if (!std::isfinite(set.query.isovalue))
+            continue;
+        if (!lost.find(set.query, set.points, result.levels, found, stop) ||
+            !color(set.query, finest, found.cells, of_surface[i].colors, stop))
+            return false;
+        for (const CellPoint& point : found.cells.points)
+            of_surface[i].points.push_back(centered(point, finest));
+        of_surface[i].points.insert(of_surface[i].points.end(), found.chunks.begin(),
+                                    found.chunks.end());
+        of_surface[i].colors.resize(of_surface[i].points.size(), kNoColor);
+        set.candidates += found.cells.candidates;
+        set.search_time += found.cells.search_time;
+        set.shading_time += found.cells.shading_time;
+    }
+    searchers_[finest].reset(); // its work space is the largest
+    unsigned level = finest;
+    const auto cells = [&] {
+        std::size_t all = 0;
+        for (const JoinedCells& surface : of_surface)
+            all += count_joined(surface.points, level);
+        return all;
+    };
+    while (cells() > query.detail.most_cells / kPartOfLost && level < regions_.coarsest())
+        ++level;
+    for (const JoinedCells& surface : of_surface)
+        for (const CellPoint& point : surface.points)
+            result.coarsest = std::max({result.coarsest, level, level_of_center(point.x)});
+    for (std::size_t i = 0; i < of_surface.size(); ++i) {
+        const JoinedCells more = joined(of_surface[i].points, of_surface[i].colors, level);
+        std::vector<CellPoint>& points = result.surfaces[i].points;
+        points.insert(points.end(), more.points.begin(), more.points.end());
+        colors_[i].insert(colors_[i].end(), more.colors.begin(), more.colors.end());
+    }
+    return true;
+}
+
+std::optional<std::uint64_t> DetailSearch::count(const SurfacesQuery& query,
+                                                 const std::stop_token& stop) {
+    if (file_->referral())
+        return std::nullopt;
+    std::uint64_t cells = 0;
+    for (const double isovalue : query.isovalues) {
+        CellSet set;
+        set.query = {query.step, isovalue};
+        if (std::isfinite(isovalue) && !searcher(0).search(set, by_bricks_, false, stop))
+            return std::nullopt;
+        cells += set.ids.size();
+    }
+    searchers_[0].reset();
+    return cells;
 }
 
 /// The finest level that has not too many cells as a whole, as far as is known.
@@ -224,6 +309,11 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query, bool too_ma
     const auto most = static_cast<double>(query.detail.most_cells);
     if (top_ == 0 || !has_mixed_levels(file_->info().grid) || query.step >= file_->info().steps())
         return Outcome::whole;
+    coloring_ = query.coloring;
+    std::erase_if(crossings_, [&](const auto& known) {
+        return coloring_ != CellColoring::first_crossing || !known.second ||
+               std::ranges::find(query.isovalues, known.first.first) == query.isovalues.end();
+    });
     if (!count_down(query, stop))
         return Outcome::stopped;
     unsigned coarser = 0;
@@ -248,6 +338,14 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query, bool too_ma
         last |= static_cast<double>(result.cells()) <= kTolerated * most;
     }
     known_.clear();
+    result.coarsest = std::ranges::max(result.levels);
+    if (!add_lost(query, finest, result, stop))
+        return Outcome::stopped;
+    result.colors.clear();
+    if (query.coloring == CellColoring::first_crossing ||
+        (query.coloring == CellColoring::value && file_->color()))
+        for (const auto& of_surface : colors_)
+            result.colors.insert(result.colors.end(), of_surface.begin(), of_surface.end());
     return Outcome::made;
 }
 

@@ -4,14 +4,17 @@
 
 #include "index/extraction/cell_set.h"
 #include "index/extraction/detail_regions.h"
+#include "index/extraction/first_crossing.h"
 #include "index/extraction/layer_search.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 namespace isochron::index {
@@ -21,12 +24,15 @@ struct DetailCells {
     std::vector<CellSet> surfaces;
     std::vector<std::uint16_t> colors;
     std::vector<std::uint8_t> levels; ///< by region
+    unsigned coarsest = 0;            ///< level of the largest cells
     std::size_t cells() const;        ///< of all surfaces
 };
 
 /// Every region gets the level that the query wishes. While that makes too many cells, all regions
 /// get coarser together. Numbers of cells are counted from the coarsest level down to the finest
 /// that has not too many, and assumed to be four times as many on each level below that.
+/// What the levels lose (lost_cells.h) is added as cells of level 0: if these are more than
+/// a quarter of `most_cells`, they are joined to cells of the finest level at which they are not.
 /// Not thread-safe: keeps its work space.
 class DetailSearch {
   public:
@@ -37,6 +43,10 @@ class DetailSearch {
         whole,   ///< all regions should be at level 0; nothing is filled in
         made
     };
+    /// The number of active cells of the volume itself; empty when stopped, or if the index has no
+    /// values of it. @throws Error as ChunkStore does
+    std::optional<std::uint64_t> count(const SurfacesQuery& query, const std::stop_token& stop);
+
     /// @param query with `most_cells` above 0
     /// @param too_many the volume itself is known to have too many cells
     /// @throws Error as ChunkStore does
@@ -56,6 +66,7 @@ class DetailSearch {
                 LevelCells& found, const std::stop_token& stop);
     bool color(const Query& query, unsigned level, const CellSet& set,
                std::vector<std::uint16_t>& colors, const std::stop_token& stop);
+    const FirstCrossings* crossings(double isovalue, unsigned level, const std::stop_token& stop);
     bool count_down(const SurfacesQuery& query, const std::stop_token& stop);
     double expected_cells(const Levels& levels) const;
     unsigned finest_that_fits(double most) const;
@@ -64,8 +75,9 @@ class DetailSearch {
     ChunkFilter chunks_of(const Levels& levels, unsigned level) const;
     bool gather(const SurfacesQuery& query, const Levels& levels, DetailCells& result,
                 const std::stop_token& stop);
-    void append(const LevelCells& from, const Levels& levels, unsigned level, DetailCells& result,
-                std::vector<std::vector<std::uint16_t>>& colors) const;
+    bool add_lost(const SurfacesQuery& query, unsigned finest, DetailCells& result,
+                  const std::stop_token& stop);
+    void append(const LevelCells& from, const Levels& levels, unsigned level, DetailCells& result);
 
     std::shared_ptr<const IndexFile> file_;
     DetailRegions regions_;
@@ -73,8 +85,11 @@ class DetailSearch {
     bool by_bricks_;
     std::vector<std::unique_ptr<LayerSearch>> searchers_; ///< by level
     std::map<unsigned, LevelCells> known_;                ///< whole levels, of the query
-    unsigned counted_ = 0;               ///< the finest level of which all is known
-    std::vector<std::size_t> in_region_; ///< cells of that level
+    unsigned counted_ = 0;                           ///< the finest level of which all is known
+    std::vector<std::size_t> in_region_;             ///< cells of that level
+    std::vector<std::vector<std::uint16_t>> colors_; ///< of the result, by surface
+    CellColoring coloring_ = CellColoring::none;     ///< of the query
+    std::map<std::pair<double, unsigned>, FirstCrossingsPtr> crossings_; ///< by isovalue and level
 };
 
 } // namespace isochron::index

@@ -36,6 +36,7 @@ class Extracting {
                     return *made;
             if (!search(*result, stop))
                 return nullptr;
+            result->volume_cells = result->cells();
             if (may_have_too_many(query) && result->cells() > query.detail.most_cells)
                 if (const auto made = make_of_levels(result, true, stop))
                     return *made;
@@ -64,6 +65,12 @@ class Extracting {
         result->surfaces = std::move(found.surfaces);
         result->colors = std::move(found.colors);
         result->detail = std::move(found.levels);
+        result->coarsest = found.coarsest;
+        if (!too_many && result->query.detail.at_rest) { // there is time for it
+            result->volume_cells = details_.count(result->query, stop);
+            if (stop.stop_requested())
+                return nullptr;
+        }
         const auto started = std::chrono::steady_clock::now();
         result->levels = values_.levels(result->query.isovalues).units;
         result->bricks = gatherer_.none();

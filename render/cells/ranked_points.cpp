@@ -11,7 +11,7 @@ RankedPoints::RankedPoints(const index::Extraction& set) : set_(&set) {
     slots_.planes.reserve(set.cells());
     slots_.slot_of_rank.reserve(set.cells());
     if (set.coarse())
-        slots_.largest = 1u << std::ranges::max(set.detail);
+        slots_.largest = 1u << set.coarsest;
 }
 
 bool RankedPoints::copy(std::size_t cells) {

@@ -1,11 +1,15 @@
 // Cells of mixed levels are exactly those of the levels' definitions, and never too many.
 #include "index/build/index_build.h"
+#include "index/extraction/cell_colors.h"
+#include "index/extraction/cell_ray.h"
 #include "index/extraction/detail_regions.h"
 #include "index/extraction/extraction.h"
 #include "index/extraction/layer_search.h"
+#include "tests/index/extraction/lost_slowly.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,9 +23,9 @@ namespace {
 /// x, y, z in level 0 cells, doubled; the packed plane.
 using Mixed = std::tuple<unsigned, unsigned, unsigned, std::uint32_t>;
 
-std::multiset<Mixed> mixed(const CellSet& set) {
+std::multiset<Mixed> mixed(std::span<const CellPoint> points) {
     std::multiset<Mixed> all;
-    for (const CellPoint& p : set.points)
+    for (const CellPoint& p : points)
         all.emplace(p.x, p.y, p.z, p.plane);
     return all;
 }
@@ -53,11 +57,17 @@ Box cell_box(const CellPoint& p, unsigned level, long by) {
     return box;
 }
 
-/// What the definition says, cell by cell and region by region.
-std::multiset<Mixed> slowly(const std::shared_ptr<const IndexFile>& file, const Query& query,
-                            std::span<const std::uint8_t> levels) {
+CellPoint at_level(CellPoint p, unsigned level) {
+    for (std::uint16_t* at : {&p.x, &p.y, &p.z})
+        *at = static_cast<std::uint16_t>((2u * *at + 1) << level);
+    return p;
+}
+
+/// What the definition of mixed levels says, cell by cell and region by region.
+std::vector<CellPoint> slowly(const std::shared_ptr<const IndexFile>& file, const Query& query,
+                              std::span<const std::uint8_t> levels) {
     const DetailRegions regions(file->info().grid);
-    std::multiset<Mixed> all;
+    std::vector<CellPoint> all;
     for (const unsigned level : std::set<unsigned>(levels.begin(), levels.end())) {
         CellSet set;
         set.query = query;
@@ -73,8 +83,7 @@ std::multiset<Mixed> slowly(const std::shared_ptr<const IndexFile>& file, const 
                 beside |= levels[i] == level && touch(cell_box(p, level, 1), box);
             }
             if (own == level || (own < level && beside))
-                all.emplace((2u * p.x + 1) << level, (2u * p.y + 1) << level,
-                            (2u * p.z + 1) << level, p.plane);
+                all.push_back(at_level(p, level));
         }
     }
     return all;
@@ -84,8 +93,7 @@ class DetailSearchTest : public testing::Test {
   protected:
     std::shared_ptr<const IndexFile> indexed(const TestField& field, std::uint64_t cache = 1) {
         MemorySeries series(field.view());
-        build_index(series, folder_.path() / "a.isochron",
-                    {.tiers = TierSet().with(Tier::bricks)});
+        build_index(series, folder_.path() / "a.isochron", {.tiers = TierSet().with(Tier::bricks)});
         return IndexFile::open(folder_.path() / "a.isochron", cache);
     }
 
@@ -96,7 +104,7 @@ class DetailSearchTest : public testing::Test {
 TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
     constexpr std::array<std::array<std::uint32_t, 3>, 4> kGrids{
         {{70, 67, 33}, {2, 101, 64}, {129, 2, 2}, {34, 35, 71}}};
-    int made = 0, several = 0;
+    int made = 0, several = 0, with_lost = 0, joined_cells = 0;
     for (const auto& vertices : kGrids)
         for (const bool noise : {false, true}) {
             TestField field(vertices, 2, noise ? ValueType::u8 : ValueType::f32,
@@ -126,9 +134,18 @@ TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
                 const std::set<unsigned> used(found->detail.begin(), found->detail.end());
                 several += used.size() > 1;
                 EXPECT_TRUE(found->shaded());
-                for (std::size_t s = 0; s < 2; ++s)
-                    EXPECT_EQ(mixed(found->surfaces[s]),
-                              slowly(file, query.surface(s), found->detail));
+                std::vector<std::vector<CellPoint>> wanted, lost;
+                for (std::size_t s = 0; s < 2; ++s) {
+                    wanted.push_back(slowly(file, query.surface(s), found->detail));
+                    lost.push_back(
+                        lost_slowly(file, query.surface(s), wanted.back(), found->detail));
+                    with_lost += !lost.back().empty();
+                }
+                joined_cells += join_slowly(lost, query.detail.most_cells / 4, 5) > 0;
+                for (std::size_t s = 0; s < 2; ++s) {
+                    wanted[s].insert(wanted[s].end(), lost[s].begin(), lost[s].end());
+                    EXPECT_EQ(mixed(found->surfaces[s].points), mixed(wanted[s]));
+                }
                 // As the wishes are, but for one that is lifted.
                 for (std::size_t a = 0; a < query.detail.wished.size(); ++a)
                     for (std::size_t b = 0; b < a; ++b)
@@ -142,6 +159,8 @@ TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
         }
     EXPECT_GT(made, 15);
     EXPECT_GT(several, 3);
+    EXPECT_GT(with_lost, 10);
+    EXPECT_GT(joined_cells, 5);
 }
 
 TEST_F(DetailSearchTest, AllCellsAreThoseOfTheVolumeWhereTheyFit) {
@@ -158,6 +177,95 @@ TEST_F(DetailSearchTest, AllCellsAreThoseOfTheVolumeWhereTheyFit) {
         query.detail.most_cells = wanted->cells() / 2;
         EXPECT_TRUE(extract_from(file)(query, {})->coarse());
     }
+}
+
+TEST_F(DetailSearchTest, FirstCrossingsAreThoseOfTheCellsOwnLevel) {
+    const TestField field({70, 67, 45}, 4, ValueType::f32, turbulence(random_));
+    const auto file = indexed(field);
+    SurfacesQuery query{2, {0.05}};
+    query.coloring = CellColoring::first_crossing;
+    const ExtractionPtr whole = extract_from(file)({2, {0.05}}, {});
+    query.detail.most_cells = whole->cells() / 2;
+    for (std::size_t r = 0; r < DetailRegions(file->info().grid).size(); ++r)
+        query.detail.wished.push_back(static_cast<std::int8_t>(r % 3));
+    const ExtractionPtr mixed = extract_from(file)(query, {});
+    ASSERT_TRUE(mixed->coarse());
+    std::map<unsigned, std::vector<std::set<CellId>>> active; // by level and step
+    for (unsigned level = 0; level < file->detail_levels(); ++level)
+        for (std::uint32_t step = 0; step < 4; ++step) {
+            const CellSet set = search_level(file, level, {step, 0.05});
+            active[level].emplace_back(set.ids.begin(), set.ids.end());
+        }
+    const auto& points = mixed->surfaces[0].points;
+    ASSERT_EQ(mixed->colors.size(), points.size());
+    const auto& times = file->info().times;
+    std::set<unsigned> levels;
+    int gray = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const unsigned level = level_of_center(points[i].x);
+        const auto n = file->chunks(level).info().grid.cells();
+        const SlowPlace low = slow_low(points[i]);
+        const CellId id = (low[0] >> level) + n[0] * ((low[1] >> level) + n[1] * (low[2] >> level));
+        const auto& steps = active.at(level);
+        const auto first =
+            std::ranges::find_if(steps, [&](const auto& s) { return s.contains(id); });
+        if (first == steps.end()) { // stands for lost ones, which have the color of one of them
+            ++gray;
+            continue;
+        }
+        levels.insert(level);
+        if (steps[2].contains(id)) {
+            EXPECT_EQ(mixed->colors[i],
+                      color_coordinate(times[static_cast<std::size_t>(first - steps.begin())],
+                                       times.front(), times.back()));
+        }
+    }
+    EXPECT_GT(levels.size(), 1u);
+    EXPECT_LT(gray, static_cast<int>(points.size() / 4));
+}
+
+TEST_F(DetailSearchTest, ARayHitsMixedLevelsWhereItHitsTheSurfaceToAVoxelOfThem) {
+    TestField field({97, 98, 95}, 1, ValueType::f32, [](double x, double y, double z, double) {
+        return 40.0 - std::hypot(x - 46, y - 50, z - 47);
+    });
+    index::StepValues values = field.view();
+    values.grid.origin = {-3, 20, 5};
+    values.grid.spacing = {0.5, 2, 1};
+    MemorySeries series(values);
+    build_index(series, folder_.path() / "b", {.tiers = TierSet().with(Tier::bricks)});
+    const auto file = IndexFile::open(folder_.path() / "b", 1);
+    const Extract extract = extract_from(file);
+    SurfacesQuery query{0, {0.0}};
+    const ExtractionPtr whole = extract(query, {});
+    query.detail.most_cells = whole->cells() / 3;
+    for (std::size_t r = 0; r < DetailRegions(values.grid).size(); ++r)
+        query.detail.wished.push_back(static_cast<std::int8_t>(r % 3));
+    const ExtractionPtr mixed = extract(query, {});
+    ASSERT_TRUE(mixed->coarse());
+    const double voxel = 1 << mixed->coarsest;
+    std::uniform_real_distribution<double> anywhere(-80, 180);
+    int hits = 0;
+    for (int i = 0; i < 400; ++i) {
+        const glm::dvec3 from(anywhere(random_), anywhere(random_), anywhere(random_));
+        const glm::dvec3 to = glm::dvec3(46, 50, 47) + 0.25 * glm::dvec3(anywhere(random_) - 50);
+        const Ray ray{values.grid.physical(from),
+                      values.grid.physical(to) - values.grid.physical(from)};
+        const auto exact = first_hit(*whole, values.grid, ray);
+        const auto found = first_hit(*mixed, values.grid, ray);
+        const glm::dvec3 d = glm::normalize(to - from), c = glm::dvec3(46, 50, 47) - from;
+        const double beside = glm::length(c - glm::dot(c, d) * d);
+        if (beside < 35 && glm::length(c) > 45) { // not where the ray only grazes the ball
+            ASSERT_TRUE(exact && found);
+            EXPECT_LE(
+                glm::distance(values.grid.index_of(exact->at), values.grid.index_of(found->at)),
+                voxel);
+            ++hits;
+        } else if (beside > 40 + voxel) {
+            EXPECT_FALSE(found);
+        }
+    }
+    EXPECT_GT(hits, 100);
+    EXPECT_FALSE(first_hit(*mixed, values.grid, {{0, 0, 0}, {1, 1, 1}}, 0)) << "no surface counts";
 }
 
 TEST_F(DetailSearchTest, APositionSaysWhereACellIsAndHowLarge) {

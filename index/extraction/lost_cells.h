@@ -1,0 +1,69 @@
+// Active cells of a volume where coarser levels of detail have none: specks, thin parts and bulges
+// that the levels' means lose.
+#pragma once
+
+#include "index/extraction/cell_set.h"
+#include "index/extraction/detail_regions.h"
+#include "index/extraction/layer_search.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Of the finest level that an index has, an active cell is lost if it lies in a region of a coarser
+/// level, and the cell of that level in which it lies holds no part of any drawn cell.
+class LostCells {
+  public:
+    /// Chunks that are read at most. If more chunks may hold lost cells, only those are read in which
+    /// nothing at all is drawn; and if these are still too many, each of them counts as one lost
+    /// cell as large as the chunk.
+    static constexpr std::size_t kMostChunks = std::size_t{1} << 13;
+
+    /// @param finest level that the index has chunks of
+    /// @param search of that level, with bricks; all outlive this
+    LostCells(const IndexFile& file, const DetailRegions& regions, unsigned finest,
+              LayerSearch& search, std::size_t most_chunks = kMostChunks)
+        : file_(file), regions_(regions), finest_(finest), search_(search),
+          most_chunks_(most_chunks) {}
+
+    struct Found {
+        CellSet cells; ///< ids and points of the finest level's grid, ascending
+        /// Unread chunks as cells: the points' places are those of mixed levels.
+        std::vector<CellPoint> chunks;
+    };
+    /// @param drawn the cells of the query's surface in a picture, at places of mixed levels
+    /// @param levels of the regions in that picture
+    /// @return false when stopped
+    /// @throws Error as ChunkStore does
+    bool find(const Query& query, std::span<const CellPoint> drawn,
+              std::span<const std::uint8_t> levels, Found& found, const std::stop_token& stop);
+
+  private:
+    const IndexFile& file_;
+    const DetailRegions& regions_;
+    unsigned finest_;
+    LayerSearch& search_;
+    std::size_t most_chunks_;
+};
+
+/// Cells with their colors, of which those below a level have been joined.
+struct JoinedCells {
+    std::vector<CellPoint> points;
+    std::vector<std::uint16_t> colors;
+};
+
+/// Replaces all cells that are smaller than cells of a level, and lie in the same cell of that
+/// level, by that cell. It gets the direction of the sum of their normals, and no offset; if this
+/// sum is shorter than half their number, they surround something: then it gets no plane, so that it
+/// is drawn as a ball. Its color is that of the middle one of them.
+/// @param points at places of mixed levels
+JoinedCells joined(std::span<const CellPoint> points, std::span<const std::uint16_t> colors,
+                   unsigned level);
+/// The number of cells that `joined` makes.
+std::size_t count_joined(std::span<const CellPoint> points, unsigned level);
+
+} // namespace isochron::index

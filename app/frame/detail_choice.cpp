@@ -50,21 +50,40 @@ bool may_be_seen(const glm::mat4& clip_from_index, const glm::vec3& low, const g
 
 } // namespace
 
+/// A region in even coordinates, and the mean sides of its cells of level 0.
+struct DetailChoice::Box {
+    glm::vec3 low, high, cell;
+};
+
+DetailChoice::Box DetailChoice::box_of(std::size_t region) const {
+    const auto at = regions_.at(region);
+    Box box{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const std::uint32_t first = at[a] * regions_.edge();
+        const std::uint32_t last = std::min(first + regions_.edge(), grid_.cells()[a]);
+        box.low[axis] = static_cast<float>(grid_.even_place(axis, first));
+        box.high[axis] = static_cast<float>(grid_.even_place(axis, last));
+        box.cell[axis] = (box.high[axis] - box.low[axis]) / static_cast<float>(last - first);
+    }
+    return box;
+}
+
 void DetailChoice::look(std::span<const render::View> views, const render::Placement& placement) {
     ideal_.assign(views.empty() ? 0 : regions_.size(), kFarthest);
     const glm::vec3 spacing = placement.spacing();
-    const double voxel = std::max({spacing.x, spacing.y, spacing.z});
-    const auto edge = static_cast<float>(regions_.edge());
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < ideal_.size(); ++i)
+        boxes.push_back(box_of(i));
     for (const render::View& view : views) {
         const glm::mat4 clip_from_index =
             view.clip_from_eye * view.eye_from_room * placement.room_from_index;
         const glm::vec3 eye(glm::inverse(placement.room_from_index) *
                             glm::vec4(view.eye_in_room(), 1.0f));
-        const double pixels = pixels_at_one_meter(view, voxel);
         for (std::size_t i = 0; i < ideal_.size(); ++i) {
-            const auto at = regions_.at(i);
-            const glm::vec3 low = edge * glm::vec3(at[0], at[1], at[2]);
-            const glm::vec3 high = glm::min(low + edge, placement.extent);
+            const auto& [low, high, cell] = boxes[i];
+            const glm::vec3 sides = cell * spacing;
+            const double pixels = pixels_at_one_meter(view, std::max({sides.x, sides.y, sides.z}));
             const glm::vec3 beside = eye - glm::clamp(eye, low, high);
             const double distance =
                 view.is_parallel() ? 1.0

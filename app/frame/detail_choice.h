@@ -28,7 +28,7 @@ class DetailChoice {
 
     /// @param most cells that a set may have at all
     DetailChoice(const index::Grid& grid, std::uint64_t most)
-        : regions_(grid), most_(most), small_(grid.cell_count() <= kSmallVolume) {}
+        : grid_(grid), regions_(grid), most_(most), small_(grid.cell_count() <= kSmallVolume) {}
 
     /// Whether the volume is so small that nothing has to be chosen.
     bool small() const { return small_; }
@@ -51,6 +51,10 @@ class DetailChoice {
     index::DetailQuery at_rest(std::uint64_t cells) const;
 
   private:
+    struct Box;
+    Box box_of(std::size_t region) const;
+
+    index::Grid grid_;
     index::DetailRegions regions_;
     std::uint64_t most_;
     bool small_;

@@ -195,6 +195,8 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"pace", name_of(frame.pace)},
                            {"footprint", name_of(frame.footprint)},
                            {"coarsest_level", frame.coarsest},
+                           {"volume_cells", frame.volume_cells ? nlohmann::json(*frame.volume_cells)
+                                                               : nlohmann::json()},
                            {"reason", name_of(frame.reason)},
                            {"budget_ms", frame.budget.count()},
                            {"expected_ms", time_json(frame.expected)},

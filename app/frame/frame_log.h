@@ -36,7 +36,8 @@ struct FrameReport {
     bool redrawn = true;                  ///< false: nothing that the eyes see had changed
     std::uint64_t cells = 0;              ///< drawn
     unsigned finest = 0, coarsest = 0;    ///< levels of detail that they are of
-    std::uint64_t candidates = 0;         ///< cells that the search returned before the exact test
+    std::optional<std::uint64_t> volume_cells; ///< active ones of level 0; empty: not counted
+    std::uint64_t candidates = 0; ///< cells that the search returned before the exact test
     std::uint64_t reused = 0;     ///< candidates that incremental search took from the last set
     std::string refused;          ///< why the newest cells are not shown; empty: they are
     render::UploadCount uploaded; ///< in this frame

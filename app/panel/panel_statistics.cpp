@@ -12,12 +12,18 @@
 
 namespace isochron::app {
 
+std::string words_for_cells(const FrameReport& frame) {
+    if (frame.coarsest == 0)
+        return fmt::format("{} cells", frame.cells);
+    const std::string drawn =
+        fmt::format("{} drawn, of levels {} to {}", frame.cells, frame.finest, frame.coarsest);
+    return frame.volume_cells ? fmt::format("{} cells ({})", *frame.volume_cells, drawn)
+                              : fmt::format("cells not counted yet ({})", drawn);
+}
+
 void measurements(const PanelModel& model) {
     const FrameReport& frame = model.frame;
-    text(frame.coarsest == 0
-             ? fmt::format("{} cells", frame.cells)
-             : fmt::format("{} cells of levels {} to {} (all: not counted)", frame.cells,
-                           frame.finest, frame.coarsest));
+    text(words_for_cells(frame));
     ImGui::SameLine();
     note(model.searching
              ? "searching ..."

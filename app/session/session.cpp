@@ -194,6 +194,7 @@ bool Session::agree(bool measure, const index::DetailQuery& detail, FrameReport&
 
 void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report) {
     learn_costs();
+    choose_set(now, waiting, report);
     const bool live = waiting == Waiting::never;
     if (live && !log_.frames().empty())
         report.missed = quality_.missed(report.time - log_.frames().back().time);

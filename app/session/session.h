@@ -174,6 +174,7 @@ class Session {
     void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
     bool agree(bool measure, const index::DetailQuery& detail, FrameReport& report);
     bool is_finest(Waiting waiting) const;
+    void choose_set(Picture& now, Waiting waiting, FrameReport& report);
     index::DetailQuery wanted_detail(Waiting waiting, const FrameReport& report);
     index::DetailQuery detail_for_live(const FrameReport& report);
     bool give_way(const index::ExtractionPtr& set);
@@ -228,6 +229,8 @@ class Session {
     CaptureWait captures_;
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
     index::DetailQuery detail_;                      ///< of the sets that are asked for
+    interaction::Seconds constant_since_{0};         ///< when the eyes last saw something change
+    bool rests_ = false;                             ///< the set for pictures at rest may be drawn
     bool mesh_wanted_ = false;                       ///< by the last frame's choice of quality
     bool recording_ = false;
     MovieState movies_;

@@ -72,6 +72,10 @@ void Session::report_cells(FrameReport& report) const {
     report.cells = shown->cells();
     report.coarsest = shown->coarse() ? std::ranges::max(shown->detail) : 0;
     report.finest = shown->coarse() ? std::ranges::min(shown->detail) : 0;
+    for (const Scene::Use use : {Scene::Use::at_rest, Scene::Use::always})
+        if (const index::ExtractionPtr& set = scene_.held(use);
+            set && set->volume_cells && set->query.of_cells() == shown->query.of_cells())
+            report.volume_cells = set->volume_cells;
     report.candidates = shown->candidates();
     report.reused = shown->reused();
     report.search = shown->search_time();
@@ -105,6 +109,28 @@ bool Session::is_finest(Waiting waiting) const {
            (shown->query.detail == detail_ && detail_.at_rest);
 }
 
+/// The set for pictures at rest takes longer to draw than a frame may. So it is drawn once nothing
+/// has changed for a while: a head that sways is shown the set for motion.
+void Session::choose_set(Picture& now, Waiting waiting, FrameReport& report) {
+    Picture same = now;
+    if (drawn_) {
+        same.cells = drawn_->cells;
+        same.footprint = drawn_->footprint;
+        same.scale = drawn_->scale;
+    }
+    if (same != drawn_)
+        constant_since_ = report.time;
+    rests_ = waiting != Waiting::never || captures_.wanted() > 0 ||
+             report.time - constant_since_ >= FrameQuality::kStillAfter;
+    const index::ExtractionPtr& moving = scene_.held(Scene::Use::always);
+    if (rests_ || !moving || scene_.shown() == moving)
+        return;
+    scene_.draw_at_rest(false, state_.surfaces());
+    now.cells = scene_.shown();
+    now.scale = shown_scale();
+    report_cells(report);
+}
+
 /// The detail of the sets that are asked for next.
 index::DetailQuery Session::wanted_detail(Waiting waiting, const FrameReport& report) {
     if (details_.small())
@@ -131,7 +157,7 @@ index::DetailQuery Session::detail_for_live(const FrameReport& report) {
                             held ? held->query.detail.most_cells : 0);
     if (shows(held) && !held->coarse() && held->cells() <= moving.most_cells)
         return held->query.detail; // it has all there is
-    if (report.pace == interaction::Pace::moving || !shows(held)) {
+    if (report.pace == interaction::Pace::moving || !rests_ || !shows(held)) {
         // What is on its way comes first, so that a set comes at all while the view changes.
         const bool on_its_way = extractor_.busy() && !detail_.at_rest && detail_.most_cells > 0 &&
                                 moving.most_cells >= detail_.most_cells / 2;

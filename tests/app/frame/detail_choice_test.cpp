@@ -86,6 +86,27 @@ TEST(DetailChoice, NearRegionsAreFinerAndUnseenOnesCoarser) {
               wished[regions.number({8, 8, 15})] + 2);
 }
 
+TEST(DetailChoice, OnStretchedAxesAVoxelIsAsLargeAsItIsSeen) {
+    index::Grid grid = cube(513);
+    std::vector<double> at{0.0};
+    while (at.size() < 513) // cells of the left half are a quarter as wide as the others
+        at.push_back(at.back() + (at.size() <= 256 ? 0.4 : 1.6));
+    grid.positions[0] = index::AxisPositions(at);
+    const index::DetailRegions regions(grid);
+    DetailChoice choice(grid, 1'000'000), even(cube(513), 1'000'000);
+    const std::array views{view_from(2.0f, 1000)};
+    choice.look(views, a_meter_wide(grid));
+    even.look(views, a_meter_wide(cube(513)));
+    const auto wished = choice.for_motion(1e6, 0).wished, of_even = even.for_motion(1e6, 0).wished;
+    // The other axes are even: narrow cells are as tall as before, wide ones are wider.
+    EXPECT_EQ(wished[regions.number({2, 8, 8})], of_even[regions.number({2, 8, 8})]);
+    EXPECT_LT(wished[regions.number({13, 8, 8})], of_even[regions.number({13, 8, 8})]);
+    const std::array near{view_from(0.5f, 1000)};
+    choice.look(near, a_meter_wide(grid));
+    EXPECT_GT(choice.for_motion(1e6, 0).wished[regions.number({0, 8, 0})],
+              choice.for_motion(1e6, 0).wished[regions.number({15, 8, 0})]);
+}
+
 TEST(DetailChoice, AHeadThatSwaysAsksForNothingNew) {
     const index::Grid grid = cube(513);
     DetailChoice choice(grid, 1'000'000);

@@ -8,6 +8,7 @@ namespace isochron::bench {
 void add_index(app::Command& program);
 void add_render(app::Command& program);
 void add_artifacts(app::Command& program);
+void add_detail(app::Command& program);
 void add_results(app::Command& program);
 void add_scale(app::Command& program);
 

@@ -10,7 +10,10 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <vector>
 
@@ -41,7 +44,11 @@ class MixedLevels : public GlTest {
     }
     Image picture(const index::ExtractionPtr& set, Footprint footprint, CellShape shape,
                   bool all = false) {
-        CellBuffers buffers(gl_, field_.view().grid);
+        return picture(set, field_.view().grid, footprint, shape, all);
+    }
+    Image picture(const index::ExtractionPtr& set, const index::Grid& grid, Footprint footprint,
+                  CellShape shape, bool all = false) {
+        CellBuffers buffers(gl_, grid);
         while (!buffers.upload(set, kRoom, SendVolume::never))
             ;
         CellPass pass(gl_, {.shape = shape});
@@ -59,6 +66,27 @@ class MixedLevels : public GlTest {
             for (int x = 0; x < image.width; ++x)
                 lit.push_back(image.at(x, y)[0] + image.at(x, y)[1] + image.at(x, y)[2] > 0);
         return lit;
+    }
+    static index::Extract extract_of(const index::StepValues& values,
+                                     const test_support::TestFolder& folder) {
+        index::MemorySeries series(values);
+        build_index(series, folder.path() / "a",
+                    {.tiers = index::TierSet().with(index::Tier::bricks)});
+        return index::extract_from(index::IndexFile::open(folder.path() / "a", 1), std::nullopt,
+                                   index::Shading::cells);
+    }
+    /// Pixels that one picture lights, and two do, one of them, or the other.
+    struct Areas {
+        int first = 0, missed = 0, extra = 0;
+    };
+    static Areas compare(const std::vector<bool>& first, const std::vector<bool>& second) {
+        Areas areas;
+        for (std::size_t p = 0; p < first.size(); ++p) {
+            areas.first += first[p];
+            areas.missed += first[p] && !second[p];
+            areas.extra += second[p] && !first[p];
+        }
+        return areas;
     }
     /// The whole set with positions as mixed sets have them.
     static index::ExtractionPtr doubled(const index::ExtractionPtr& set) {
@@ -89,16 +117,13 @@ TEST_P(MixedLevels, AtLevelZeroThePictureIsThatOfTheVolume) {
         }
 }
 
-TEST_P(MixedLevels, NoRayPassesThroughAClosedSurfaceBetweenLevels) {
+TEST_P(MixedLevels, AClosedSurfaceKeepsItsOutlineAndHasNoHolesInIt) {
     test_support::TestFolder folder;
-    index::MemorySeries series(field_.view());
-    build_index(series, folder.path() / "a", {});
-    const auto file = index::IndexFile::open(folder.path() / "a", 1);
-    const index::Extract extract = index::extract_from(file, std::nullopt, index::Shading::cells);
+    const index::Extract extract = extract_of(field_.view(), folder);
     const index::ExtractionPtr whole = extract({0, {0.0}}, {});
-    const index::DetailRegions regions(file->info().grid);
-    for (const auto& [eye, parallel] : {std::pair{glm::vec3(150, 120, 190), false},
-                                        {glm::vec3(80, 200, 100), true}}) {
+    const index::DetailRegions regions(field_.view().grid);
+    for (const auto& [eye, parallel] :
+         {std::pair{glm::vec3(150, 120, 190), false}, {glm::vec3(80, 200, 100), true}}) {
         look_from(eye, parallel);
         const std::vector<bool> exact = lit(picture(whole, Footprint::quad, CellShape::plane));
         for (int i = 0; i < 2; ++i) {
@@ -109,19 +134,13 @@ TEST_P(MixedLevels, NoRayPassesThroughAClosedSurfaceBetweenLevels) {
             const index::ExtractionPtr mixed = extract(query, {});
             ASSERT_TRUE(mixed->coarse());
             const Image seen = picture(mixed, Footprint::quad, CellShape::plane);
-            EXPECT_TRUE(seen.rgba ==
-                        picture(mixed, Footprint::quad, CellShape::plane, true).rgba)
+            EXPECT_TRUE(seen.rgba == picture(mixed, Footprint::quad, CellShape::plane, true).rgba)
                 << "culling changes the picture";
             const std::vector<bool> coarse = lit(seen);
-            int area = 0, missed = 0, extra = 0;
-            for (std::size_t p = 0; p < exact.size(); ++p) {
-                area += exact[p];
-                missed += exact[p] && !coarse[p];
-                extra += coarse[p] && !exact[p];
-            }
-            EXPECT_GT(area, 3000);
-            EXPECT_LE(missed, area / 50);
-            EXPECT_LE(extra, area / 10);
+            const Areas areas = compare(exact, coarse);
+            EXPECT_GT(areas.first, 3000);
+            EXPECT_LE(areas.missed, areas.first / 50);
+            EXPECT_LE(areas.extra, areas.first / 10);
             // A hole would be inside of the silhouette.
             for (int y = 2; y + 2 < kPicture; ++y)
                 for (int x = 2; x + 2 < kPicture; ++x) {
@@ -137,6 +156,81 @@ TEST_P(MixedLevels, NoRayPassesThroughAClosedSurfaceBetweenLevels) {
                 }
         }
     }
+}
+
+TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {
+    index::StepValues values = field_.view();
+    values.grid = {.vertices = {97, 98, 95}};
+    std::vector<double> x{0.0}, z{0.0};
+    while (x.size() < 97) // gaps from 0.4 to 1.6 and back
+        x.push_back(x.back() + 1.0 - 0.6 * std::cos(double(x.size()) / 96 * 2 * 3.14159265));
+    while (z.size() < 95)
+        z.push_back(z.back() + (z.size() < 40 ? 0.8 : 1.2));
+    values.grid.spacing.x = x.back() / 96;
+    values.grid.spacing.z = z.back() / 94;
+    values.grid.positions[0] = index::AxisPositions(std::move(x));
+    values.grid.positions[2] = index::AxisPositions(std::move(z));
+    const index::TestField stretched({97, 98, 95}, 1, index::ValueType::f32,
+                                     [&](double a, double b, double c, double) {
+                                         const glm::dvec3 p = values.grid.physical({a, b, c});
+                                         return ball(p.x, p.y, p.z, 0);
+                                     });
+    values.first = stretched.view().first;
+    test_support::TestFolder folder;
+    const index::Extract extract = extract_of(values, folder);
+    index::SurfacesQuery query{0, {0.0}};
+    const index::ExtractionPtr whole = extract(query, {});
+    const index::DetailRegions regions(values.grid);
+    query.detail.most_cells = whole->cells() / 2;
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        query.detail.wished.push_back(static_cast<std::int8_t>(r % 3));
+    const index::ExtractionPtr mixed = extract(query, {});
+    ASSERT_TRUE(mixed->coarse());
+    ASSERT_GT(std::ranges::max(mixed->detail), std::ranges::min(mixed->detail));
+    look_from({150, 120, 190}, false);
+    placement_ = Placement::of(values.grid, glm::dmat4(1.0));
+    const auto exact = lit(picture(whole, values.grid, Footprint::quad, CellShape::plane));
+    for (const Footprint footprint : {Footprint::quad, Footprint::gaussian}) {
+        const Areas areas =
+            compare(exact, lit(picture(mixed, values.grid, footprint, CellShape::plane)));
+        EXPECT_GT(areas.first, 3000);
+        EXPECT_LE(areas.missed, areas.first / 50) << name_of(footprint);
+        if (footprint == Footprint::quad) {
+            EXPECT_LE(areas.extra, areas.first / 10);
+        }
+    }
+}
+
+/// Cells of up to five levels and large ones that stand for what levels lose.
+TEST_P(MixedLevels, CellsThatOthersOfOtherLevelsHideMayBeLeftOut) {
+    const index::TestField rough({97, 98, 95}, 1, index::ValueType::f32,
+                                 index::scaled(index::turbulence(random_), 100, 0));
+    test_support::TestFolder folder;
+    const index::Extract extract = extract_of(rough.view(), folder);
+    const index::DetailRegions regions(rough.view().grid);
+    int several = 0;
+    for (int i = 0; i < 3; ++i) {
+        index::SurfacesQuery query{0, {0.0, 20.0}};
+        query.detail.most_cells = 30'000u >> 2 * i;
+        for (std::size_t r = 0; r < regions.size(); ++r)
+            query.detail.wished.push_back(static_cast<std::int8_t>(random_() % 4));
+        const index::ExtractionPtr mixed = extract(query, {});
+        ASSERT_TRUE(mixed->coarse());
+        several += std::ranges::max(mixed->detail) > std::ranges::min(mixed->detail);
+        look_from(i % 2 == 0 ? glm::vec3(150, 120, 190) : glm::vec3(60, 55, 100), false);
+        for (const CellShape shape : {CellShape::plane, CellShape::voxel}) {
+            EXPECT_TRUE(picture(mixed, Footprint::quad, shape).rgba ==
+                        picture(mixed, Footprint::quad, shape, true).rgba)
+                << name_of(shape) << " " << i;
+            const Image seen = picture(mixed, Footprint::gaussian, shape);
+            const Image all = picture(mixed, Footprint::gaussian, shape, true);
+            int largest = 0;
+            for (std::size_t p = 0; p < seen.rgba.size(); ++p)
+                largest = std::max(largest, std::abs(int(seen.rgba[p]) - int(all.rgba[p])));
+            EXPECT_LE(largest, 2) << name_of(shape) << " " << i;
+        }
+    }
+    EXPECT_GT(several, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Contexts, MixedLevels, both_contexts(), context_name);

@@ -158,6 +158,54 @@ TEST_P(MixedLevels, AClosedSurfaceKeepsItsOutlineAndHasNoHolesInIt) {
     }
 }
 
+/// A sheet with a steep step just behind the border of two regions: the coarse level's step is much
+/// less steep, so the two sheets are some voxels apart at the border. Seen along the border's normal
+/// there is nothing behind a gap between them.
+TEST_P(MixedLevels, CellsThatReachIntoFinerRegionsCloseTheGapBetweenTheSheets) {
+    const index::TestField sheet({97, 98, 95}, 1, index::ValueType::f32,
+                                 [](double x, double, double z, double) {
+                                     return 47.0 + 16.0 * std::tanh((x - 30.5) / 1.5) - z;
+                                 });
+    test_support::TestFolder folder;
+    const index::Extract extract = extract_of(sheet.view(), folder);
+    index::SurfacesQuery query{0, {0.0}};
+    const index::ExtractionPtr whole = extract(query, {});
+    const index::DetailRegions regions(sheet.view().grid);
+    query.detail.most_cells = whole->cells() - 1;
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        query.detail.wished.push_back(regions.at(r)[0] == 0 ? 3 : 0);
+    const index::ExtractionPtr mixed = extract(query, {});
+    ASSERT_TRUE(mixed->coarse());
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        ASSERT_EQ(mixed->detail[r], query.detail.wished[r]);
+    look_from({-200, 50, 47}, true);
+    view_.eye_from_room =
+        glm::lookAt(glm::vec3(-200, 50, 47), glm::vec3(46, 50, 47), glm::vec3(0, 0, 1));
+    /// Rows of the step's face, without its ends, in which rays pass.
+    const auto dark_rows = [&](const index::ExtractionPtr& set) {
+        const auto seen = lit(picture(set, Footprint::quad, CellShape::plane));
+        int dark = 0;
+        for (int y = 0; y < kPicture; ++y) {
+            const double z = 47 + 120.0 * (y + 0.5 - kPicture / 2.0) / kPicture;
+            if (z < 35 || z > 59)
+                continue;
+            int passing = 0;
+            for (int x = kPicture / 4; x < 3 * kPicture / 4; ++x)
+                passing += !seen[std::size_t(y) * kPicture + std::size_t(x)];
+            dark += passing > 0;
+        }
+        return dark;
+    };
+    // Without those that reach into the finer region:
+    auto cut = std::make_shared<index::Extraction>(*mixed);
+    std::erase_if(cut->surfaces[0].points, [](const index::CellPoint& point) {
+        return index::level_of_center(point.x) == 3 && point.x > 64;
+    });
+    ASSERT_LT(cut->cells(), mixed->cells());
+    EXPECT_LE(dark_rows(mixed), 1) << "3/4 of a voxel";
+    EXPECT_GT(dark_rows(cut), 4);
+}
+
 TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {
     index::StepValues values = field_.view();
     values.grid = {.vertices = {97, 98, 95}};
@@ -198,6 +246,59 @@ TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {
         if (footprint == Footprint::quad) {
             EXPECT_LE(areas.extra, areas.first / 10);
         }
+    }
+}
+
+/// Where a level gives way to the next one, a voxel of the coarser one is at most 1.2 pixels (with
+/// the hysteresis of app/frame/detail_choice.cpp): no outline moves by more than a pixel, though
+/// the coarser level has flatter bumps.
+TEST_P(MixedLevels, WhereALevelGivesWayNoOutlineMovesByMoreThanAPixel) {
+    const index::TestField bumpy(
+        {97, 98, 95}, 1, index::ValueType::f32, [](double x, double y, double z, double) {
+            return ball(x, y, z, 0) +
+                   2.5 * std::sin(x / 2.5) * std::sin(y / 2.5) * std::sin(z / 2.5);
+        });
+    test_support::TestFolder folder;
+    const index::Extract extract = extract_of(bumpy.view(), folder);
+    const index::DetailRegions regions(bumpy.view().grid);
+    const index::ExtractionPtr whole = extract({0, {0.0}}, {});
+    const auto of_level = [&](unsigned level) {
+        index::SurfacesQuery query{0, {0.0}};
+        query.detail.most_cells = whole->cells() / 2;
+        query.detail.wished.assign(regions.size(), static_cast<std::int8_t>(level));
+        index::ExtractionPtr set = level == 0 ? whole : extract(query, {});
+        EXPECT_TRUE(std::ranges::all_of(set->detail, [&](auto of) { return of == level; }));
+        return set;
+    };
+    /// Pixels that are lit, around which none is in the other picture, or the other way round.
+    const auto moved = [](const std::vector<bool>& a, const std::vector<bool>& b) {
+        int count = 0;
+        for (int y = 1; y + 1 < kPicture; ++y)
+            for (int x = 1; x + 1 < kPicture; ++x) {
+                bool same = false;
+                const auto at = [&](int dx, int dy) {
+                    return std::size_t(y + dy) * kPicture + std::size_t(x + dx);
+                };
+                for (int i = 0; i < 9; ++i)
+                    same |= b[at(i % 3 - 1, i / 3 - 1)] == a[at(0, 0)];
+                count += !same;
+            }
+        return count;
+    };
+    for (const unsigned level : {1u, 2u}) {
+        const index::ExtractionPtr coarse = of_level(level), fine = of_level(level - 1);
+        const auto moved_at = [&](float pixels_of_voxel) {
+            look_from({150, 120, 190}, true);
+            const float half = 0.5f * kPicture * std::exp2(float(level)) / pixels_of_voxel;
+            const float middle = half < 40.0f ? 40.0f : 0.0f; // at the ball's outline
+            view_.clip_from_eye =
+                glm::ortho(middle - half, middle + half, -half, half, 1.f, 1000.f);
+            const auto a = lit(picture(coarse, Footprint::quad, CellShape::plane));
+            const auto b = lit(picture(fine, Footprint::quad, CellShape::plane));
+            return moved(a, b) + moved(b, a);
+        };
+        EXPECT_EQ(moved_at(1.2f), 0) << "level " << level;
+        EXPECT_GT(moved_at(20.0f), 5) << "it would be seen";
     }
 }
 

@@ -103,7 +103,7 @@ MovingDetail measure_moving_detail(const render::Gl& gl,
     render::Image image;
     std::optional<double> fit;
     std::uint64_t drawn = 0;
-    for (int round = 0; round < 8; ++round) { // until the number of cells stays
+    for (int round = 0; round < 20; ++round) { // until the number of cells stays
         const index::DetailQuery detail = choice.for_motion(fit, drawn);
         if (set && detail.most_cells == drawn)
             break;

@@ -1,10 +1,15 @@
-// The pass of a build that reads and packs the array to color by.
+// Packs the array to color by, while a build reads the steps.
 #pragma once
 
-#include "index/build/volume_pass.h"
+#include "index/build/step_writer.h"
+#include "index/build/value_stats.h"
 #include "index/file/index_contents.h"
-#include "index/progress.h"
+#include "index/system/running_checksum.h"
 #include "index/system/team.h"
+#include "index/volume/volume_series.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace isochron::index {
 
@@ -18,10 +23,29 @@ struct ColorFindings {
     std::vector<std::uint64_t> checksums; ///< of the stored values of every step
 };
 
-/// Reads each member's share of the steps from `first` on, and packs their values if
-/// `target.contents` asks for values.
-/// @param held results for the steps before `first`; null if there are none
-ColorFindings read_colors(VolumeSeries& series, std::size_t first, const ColorArray* held,
-                          const PassTarget& target, Team& team, const Progress& progress);
+/// Takes a member's share of the new steps, and packs their values if its contents have values.
+class ColorPass {
+  public:
+    /// @param first the first new step @param held results for the steps before it; null if there
+    ///        are none @param series outlives this
+    ColorPass(VolumeSeries& series, std::size_t first, const ColorArray* held,
+              const ChunkContents& contents, const WriterMeans& means, const Team& team);
+
+    VolumeSeries& series() { return series_; }
+
+    /// Takes the next layer. @param parts those of the pass that this is part of
+    void take(const LayerView& layer, PartWriter& parts);
+
+    /// @param begin where this member's parts lie in the file
+    ColorFindings agreed(std::uint64_t begin, Team& team);
+
+  private:
+    VolumeSeries& series_;
+    StepWriter writer_;
+    ValueRange range_;
+    RunningChecksum checksum_;
+    std::vector<StepEntry> steps_;
+    std::vector<std::uint64_t> checksums_;
+};
 
 } // namespace isochron::index

@@ -91,7 +91,6 @@ class Build {
         if (!held_)
             plan();
         plan_work(has(Tier::cells));
-        write_colors();
         write_cells();
         team_.together([&] {
             if (team_.rank() == 0)
@@ -193,11 +192,10 @@ class Build {
         const double colors =
             options_.color ? fresh * static_cast<double>(options_.color->info().step_bytes()) : 0;
         const double covered = cells ? 4 * step * static_cast<double>(steps_ - window_) : 0;
-        const double reading = step * static_cast<double>(steps_ - window_);
+        const double reading = step * static_cast<double>(steps_ - window_) + colors;
         work_.plan({{"reading", reading},
-                    {"reading colors", colors},
                     {"indexing", covered},
-                    {"flushing to disk", (reading + colors + covered) / 20}});
+                    {"flushing to disk", (reading + covered) / 20}});
     }
 
     static bool asks_for_values(const TierSet& tiers) {
@@ -207,13 +205,24 @@ class Build {
     void read_steps() {
         const SeriesInfo& info = metadata_.info;
         align();
+        std::optional<ColorPass> colors;
+        if (options_.color)
+            team_.together([&] {
+                ChunkContents values_alone = contents();
+                values_alone.bricks = false;
+                colors.emplace(*options_.color, fresh_, held_ ? held_->color() : nullptr,
+                               values_alone, means(".colors"), team_);
+            });
         VolumeFindings found = read_volume(series_, window_, fresh_, kept_,
-                                           target(".chunks", contents()), team_, progress_);
+                                           {target_.sink(), end_, contents(), means(".chunks")},
+                                           colors ? &*colors : nullptr, team_, progress_);
         counts_.merge(info.type, found.counts);
         set_counts(metadata_, counts_);
         append_to(checksums_, found.checksums);
         append_to(states_, found.states);
         append_steps(volume_steps_, found.steps);
+        if (found.colors)
+            take_colors(std::move(*found.colors));
         found_levels_ = std::move(found.levels);
         header_.content_hash = content_hash_of(info, checksums_);
     }
@@ -247,21 +256,14 @@ class Build {
     }
 
     ChunkContents contents() const { return {bricks_, !options_.referral, options_.codec}; }
-    PassTarget target(const char* what, const ChunkContents& in) {
-        return {target_.sink(), end_, in, {threads_, options_.waiting_bytes, spill(what)}};
+    WriterMeans means(const char* what) const {
+        return {threads_, options_.waiting_bytes, spill(what), options_.color != nullptr};
     }
     std::string spill(const char* what) const { return out_.string() + what; }
     /// Moves the end to where the next part begins.
     void align() { end_ = align_up(end_, kPartAlignment); }
 
-    void write_colors() {
-        if (!options_.color)
-            return;
-        align();
-        ChunkContents values_alone = contents();
-        values_alone.bricks = false;
-        ColorFindings found = read_colors(*options_.color, fresh_, held_ ? held_->color() : nullptr,
-                                          target(".colors", values_alone), team_, progress_);
+    void take_colors(ColorFindings&& found) {
         append_steps(color_steps_, found.steps);
         append_to(color_checksums_, found.checksums);
         metadata_.color = std::move(found.array);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <deque>
 #include <future>
 #include <optional>
 
@@ -69,42 +70,53 @@ void LayerCutter::add(std::span<const std::byte> piece, const Take& take) {
     }
 }
 
-void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end, unsigned threads,
-                   const std::function<void(std::size_t, const LayerView&)>& take,
+void stream_layers(std::span<VolumeSeries* const> arrays, std::size_t begin, std::size_t end,
+                   unsigned threads, const TakeLayer& take,
                    const std::function<void(double)>& progress) {
-    const SeriesInfo& info = series.info();
-    LayerCutter cutter(info.grid, info.type);
+    std::deque<LayerCutter> cutters;
+    std::size_t all_bytes = 0; // of a step
+    for (const VolumeSeries* array : arrays) {
+        cutters.emplace_back(array->info().grid, array->info().type);
+        all_bytes += array->info().step_bytes();
+    }
     std::optional<ParallelSteps> side_by_side;
-    if (const unsigned readers = ParallelSteps::readers_for(series, end - begin, threads))
-        side_by_side.emplace(series, begin, end, readers);
+    if (const unsigned readers = ParallelSteps::readers_for(arrays, end - begin, threads))
+        side_by_side.emplace(arrays, begin, end, readers);
     std::future<void> taking; // its destructor waits for it
     const auto wait = [&] {
         if (taking.valid())
             taking.get();
     };
     for (std::size_t step = begin; step < end; ++step) {
-        const auto report = [&](std::uint32_t planes) {
-            const double done = static_cast<double>(planes) / info.grid.vertices[2];
+        std::size_t bytes_before = 0; // of the step's arrays before this one
+        const auto report = [&](std::size_t bytes) {
+            const double done =
+                static_cast<double>(bytes_before + bytes) / static_cast<double>(all_bytes);
             if (progress)
                 progress((static_cast<double>(step - begin) + done) /
                          static_cast<double>(end - begin));
         };
-        report(0);
-        const auto add = [&](std::span<const std::byte> piece) {
-            cutter.add(piece, [&](const LayerView& layer) {
-                wait();
-                report(layer.begin);
-                if (layer.own().size() <= kTooSmall)
-                    take(step, layer);
-                else
-                    taking =
-                        std::async(std::launch::async, [&take, step, layer] { take(step, layer); });
-            });
-        };
-        if (side_by_side)
-            add(side_by_side->next());
-        else
-            series.stream(step, add);
+        const auto values = side_by_side ? side_by_side->next() : std::span<const StepBytes>();
+        for (std::size_t array = 0; array < arrays.size(); ++array) {
+            report(0);
+            const auto add = [&](std::span<const std::byte> piece) {
+                cutters[array].add(piece, [&](const LayerView& layer) {
+                    wait();
+                    report(layer.begin * layer.plane);
+                    if (layer.own().size() <= kTooSmall)
+                        take(array, step, layer);
+                    else
+                        taking = std::async(std::launch::async, [&take, array, step, layer] {
+                            take(array, step, layer);
+                        });
+                });
+            };
+            if (side_by_side)
+                add(values[array]);
+            else
+                arrays[array]->stream(step, add);
+            bytes_before += arrays[array]->info().step_bytes();
+        }
     }
     wait();
 }

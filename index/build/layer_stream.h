@@ -48,12 +48,17 @@ class LayerCutter {
     std::array<std::vector<std::uint64_t>, 2> buffers_;
 };
 
-/// Calls `take(step, layer)` for all layers of the steps `begin` to `end` - 1 in order, while the
-/// next layer is read.
+/// Receives a layer of a step of one of several arrays, which count from 0.
+using TakeLayer = std::function<void(std::size_t array, std::size_t step, const LayerView& layer)>;
+
+/// Calls `take` for all layers of the steps `begin` to `end` - 1, step after step, while the next
+/// layer is read. The arrays of a step come one right after the other, so that a file that holds
+/// several comes from its disk once.
+/// @param arrays of the same grid and as many steps
 /// @param threads at most this many small steps are read in parallel
 /// @param progress may throw; gets the fraction that is done
-void stream_layers(VolumeSeries& series, std::size_t begin, std::size_t end, unsigned threads,
-                   const std::function<void(std::size_t, const LayerView&)>& take,
+void stream_layers(std::span<VolumeSeries* const> arrays, std::size_t begin, std::size_t end,
+                   unsigned threads, const TakeLayer& take,
                    const std::function<void(double)>& progress);
 
 } // namespace isochron::index

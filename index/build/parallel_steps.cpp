@@ -12,28 +12,39 @@ constexpr unsigned kMostReaders = 8;
 
 } // namespace
 
-unsigned ParallelSteps::readers_for(const VolumeSeries& series, std::size_t steps,
+unsigned ParallelSteps::readers_for(std::span<VolumeSeries* const> arrays, std::size_t steps,
                                     unsigned threads) {
-    const std::size_t fit = kMostHeld / std::max<std::size_t>(1, series.info().step_bytes());
+    std::size_t bytes = 0;
+    for (const VolumeSeries* array : arrays)
+        bytes += array->info().step_bytes();
+    const std::size_t fit = kMostHeld / std::max<std::size_t>(1, bytes);
     const std::size_t readers =
         std::min<std::size_t>({threads, kMostReaders, steps, fit - std::min<std::size_t>(fit, 1)});
-    return readers > 1 && series.another() ? static_cast<unsigned>(readers) : 0;
+    const auto can_be_another = [](const VolumeSeries* array) {
+        return array->another() != nullptr;
+    };
+    return readers > 1 && std::ranges::all_of(arrays, can_be_another)
+               ? static_cast<unsigned>(readers)
+               : 0;
 }
 
-ParallelSteps::ParallelSteps(const VolumeSeries& series, std::size_t begin, std::size_t end,
-                             unsigned readers)
-    : begin_(begin), end_(end), steps_(readers + 1) {
-    for (Step& step : steps_)
-        step.values.resize(series.info().step_bytes());
-    for (unsigned i = 0; i < readers; ++i)
-        series_.push_back(series.another());
-    for (const auto& one : series_)
-        readers_.emplace_back([this, &one](const std::stop_token& stop) { run(stop, *one); });
+ParallelSteps::ParallelSteps(std::span<VolumeSeries* const> arrays, std::size_t begin,
+                             std::size_t end, unsigned readers)
+    : begin_(begin), end_(end), steps_(readers + 1), arrays_(readers) {
+    for (const VolumeSeries* array : arrays) {
+        for (Step& step : steps_)
+            step.values.emplace_back(array->info().step_bytes());
+        for (Arrays& of_reader : arrays_)
+            of_reader.push_back(array->another());
+    }
+    for (const Arrays& of_reader : arrays_)
+        readers_.emplace_back(
+            [this, &of_reader](const std::stop_token& stop) { run(stop, of_reader); });
 }
 
 ParallelSteps::~ParallelSteps() = default;
 
-void ParallelSteps::run(const std::stop_token& stop, VolumeSeries& series) {
+void ParallelSteps::run(const std::stop_token& stop, const Arrays& arrays) {
     std::unique_lock lock(mutex_);
     // The step that was given last is still in use.
     const auto has_room = [this] {
@@ -47,7 +58,8 @@ void ParallelSteps::run(const std::stop_token& stop, VolumeSeries& series) {
         lock.unlock();
         std::exception_ptr failure;
         try {
-            series.read(begin_ + number, step.values);
+            for (std::size_t i = 0; i < arrays.size(); ++i)
+                arrays[i]->read(begin_ + number, step.values[i]);
         } catch (...) {
             failure = std::current_exception();
         }
@@ -58,7 +70,7 @@ void ParallelSteps::run(const std::stop_token& stop, VolumeSeries& series) {
     }
 }
 
-std::span<const std::byte> ParallelSteps::next() {
+std::span<const StepBytes> ParallelSteps::next() {
     std::unique_lock lock(mutex_);
     if (given_ > 0) // the step given before may be overwritten now
         steps_[(given_ - 1) % steps_.size()].there = false;

@@ -15,32 +15,38 @@
 
 namespace isochron::index {
 
-/// Reads whole steps on a few threads, each with its own series, and gives them in order. Memory
-/// holds one step more than there are threads.
+/// The stored values of one array in a step.
+using StepBytes = std::vector<std::byte>;
+
+/// Reads whole steps of one array or several on a few threads, each with its own series, and gives
+/// them in order. Memory holds one step more than there are threads.
 class ParallelSteps {
   public:
     /// Number of threads that pay for these steps; 0 if the series can be read by one thread only,
     /// there is only one step, or the steps would take too much memory.
-    static unsigned readers_for(const VolumeSeries& series, std::size_t steps, unsigned threads);
+    static unsigned readers_for(std::span<VolumeSeries* const> arrays, std::size_t steps,
+                                unsigned threads);
 
-    /// @param series must outlive this @param readers from `readers_for`, not 0
-    ParallelSteps(const VolumeSeries& series, std::size_t begin, std::size_t end, unsigned readers);
+    /// @param arrays must outlive this @param readers from `readers_for`, not 0
+    ParallelSteps(std::span<VolumeSeries* const> arrays, std::size_t begin, std::size_t end,
+                  unsigned readers);
     ~ParallelSteps();
     ParallelSteps(const ParallelSteps&) = delete;
     ParallelSteps& operator=(const ParallelSteps&) = delete;
 
-    /// The values of the next step, valid until the next call. Waits until they have been read.
-    /// @throws the exception of reading the step
-    std::span<const std::byte> next();
+    /// The values of each array in the next step, valid until the next call. Waits until they have
+    /// been read. @throws the exception of reading the step
+    std::span<const StepBytes> next();
 
   private:
+    using Arrays = std::vector<std::unique_ptr<VolumeSeries>>;
     struct Step {
-        std::vector<std::byte> values;
+        std::vector<StepBytes> values; ///< by array
         std::exception_ptr failure;
         bool there = false;
     };
 
-    void run(const std::stop_token& stop, VolumeSeries& series);
+    void run(const std::stop_token& stop, const Arrays& arrays);
 
     const std::size_t begin_, end_;
     std::mutex mutex_; ///< for the members below
@@ -49,8 +55,8 @@ class ParallelSteps {
         steps_;             ///< step s is at the index (s - `begin_`) modulo the number of elements
     std::size_t taken_ = 0; ///< number of steps that readers have begun
     std::size_t given_ = 0; ///< number of steps that `next` has given
-    std::vector<std::unique_ptr<VolumeSeries>> series_; ///< by reader
-    std::vector<std::jthread> readers_;                 ///< last: they end before what they use
+    std::vector<Arrays> arrays_;        ///< by reader
+    std::vector<std::jthread> readers_; ///< last: they end before what they use
 };
 
 } // namespace isochron::index

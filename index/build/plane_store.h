@@ -22,6 +22,8 @@ class PlaneStore {
     void append(std::span<const std::byte> planes);
     /// Gives back the appended planes, piece by piece, and empties the store.
     void drain(const std::function<void(std::span<const std::byte>)>& take);
+    /// Gives the memory of an empty store back.
+    void release() { std::vector<std::byte>().swap(bytes_); }
 
   private:
     std::uint64_t all_; ///< [bytes]

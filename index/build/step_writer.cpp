@@ -25,7 +25,7 @@ StepWriter::Level::Level(const Grid& level_grid, ValueType type, Codec codec,
 
 StepWriter::StepWriter(const SeriesInfo& info, const ChunkContents& contents,
                        const WriterMeans& means)
-    : type_(info.type), contents_(contents), threads_(means.threads),
+    : type_(info.type), contents_(contents), threads_(means.threads), lends_(means.lends),
       own_levels_(contents.bricks && has_step_levels(type_)) {
     for (const Grid& grid : detail_grids(info.grid))
         levels_.emplace_back(grid, type_, contents.codec, means);
@@ -78,6 +78,8 @@ void StepWriter::pack_waiting(std::size_t level, PartWriter& parts) {
     it.waiting.drain([&](std::span<const std::byte> piece) {
         cutter.add(piece, [&](const LayerView& layer) { pack(level, layer, parts); });
     });
+    if (lends_)
+        it.waiting.release();
 }
 
 void StepWriter::pack(std::size_t level, const LayerView& layer, PartWriter& parts) {
@@ -151,7 +153,11 @@ StepEntry StepWriter::finish(std::size_t level, std::uint64_t begin, PartWriter&
     return entry;
 }
 
-std::vector<StepEntry> by_level(std::span<const StepEntry> by_step, std::size_t levels) {
+std::vector<StepEntry> agreed_steps(std::vector<StepEntry> mine, std::uint64_t begin,
+                                    std::size_t levels, Team& team) {
+    for (StepEntry& step : mine)
+        step.offset += begin;
+    const std::vector<StepEntry> by_step = team.gather_items(mine);
     std::vector<StepEntry> entries;
     for (std::size_t level = 0; level < levels; ++level)
         for (std::size_t i = level; i < by_step.size(); i += levels)

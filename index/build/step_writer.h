@@ -30,6 +30,8 @@ struct WriterMeans {
     unsigned threads = 1;
     std::uint64_t waiting_bytes = 64 << 20; ///< most bytes of a level's planes that wait in memory
     std::filesystem::path beside;           ///< for temporary files without a name: see ScratchFile
+    /// Gives the memory of waiting planes back after each step, which another array's needs then.
+    bool lends = false;
 };
 
 /// Writes steps of one array layer by layer, each layer with all threads. Memory holds a few layers
@@ -67,6 +69,7 @@ class StepWriter {
     ValueType type_;
     ChunkContents contents_;
     unsigned threads_;
+    bool lends_;
     bool own_levels_;          ///< each step's bricks have their own levels
     std::deque<Level> levels_; ///< a deque, since a Level cannot move
     std::uint64_t begin_ = 0;  ///< offset of the step in `parts`
@@ -74,7 +77,9 @@ class StepWriter {
     std::vector<std::uint64_t> coarse_; ///< planes of the next level
 };
 
-/// Reorders entries from step by step to level by level.
-std::vector<StepEntry> by_level(std::span<const StepEntry> by_step, std::size_t levels);
+/// The entries of all members' steps, level after level.
+/// @param mine this member's, step after step @param begin where its parts lie in the file
+std::vector<StepEntry> agreed_steps(std::vector<StepEntry> mine, std::uint64_t begin,
+                                    std::size_t levels, Team& team);
 
 } // namespace isochron::index

@@ -42,6 +42,7 @@ class Observer {
                 team.gather_items(checksums_),
                 team.gather_items(states),
                 chooser.choose(),
+                {},
                 {}};
     }
 
@@ -55,18 +56,9 @@ class Observer {
 
 } // namespace
 
-std::vector<StepEntry> placed_steps(PartWriter& parts, std::vector<StepEntry> mine,
-                                    std::size_t levels, std::uint64_t& end, Team& team) {
-    const PartWriter::Placed placed = parts.place(team);
-    for (StepEntry& step : mine)
-        step.offset += end + placed.start;
-    end += placed.bytes;
-    return by_level(team.gather_items(mine), levels);
-}
-
 VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t fresh,
-                           const KeptValues& kept, const PassTarget& target, Team& team,
-                           const Progress& progress) {
+                           const KeptValues& kept, const PassTarget& target, ColorPass* colors,
+                           Team& team, const Progress& progress) {
     const SeriesInfo& info = series.info();
     const std::size_t stride = step_stride(info.step_bytes());
     Observer observer(info);
@@ -81,27 +73,40 @@ VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t 
                 kept.file->write_at((step - first) * stride + layer.begin * layer.plane,
                                     layer.own());
         };
-        const auto stream = [&](std::size_t begin, std::size_t end, const auto& take) {
-            stream_layers(series, begin, end, target.means.threads, take, [&](double done) {
+        const auto stream = [&](std::span<VolumeSeries* const> arrays, std::size_t begin,
+                                std::size_t end, const TakeLayer& take) {
+            stream_layers(arrays, begin, end, target.means.threads, take, [&](double done) {
                 if (progress)
                     progress("reading", done);
             });
         };
+        std::vector<VolumeSeries*> arrays{&series};
         // Held steps are divided among the members, and so are new steps.
         if (const auto [begin, end] = team.share(fresh - first); begin < end)
-            stream(first + begin, first + end, keep);
+            stream(
+                arrays, first + begin, first + end,
+                [&](std::size_t, std::size_t step, const LayerView& layer) { keep(step, layer); });
+        if (colors)
+            arrays.push_back(&colors->series());
         const auto [begin, end] = team.share(info.steps() - fresh);
-        stream(fresh + begin, fresh + end, [&](std::size_t step, const LayerView& layer) {
-            observer.look(step, layer);
-            keep(step, layer);
-            writer.take(layer, *parts, steps);
-        });
+        stream(arrays, fresh + begin, fresh + end,
+               [&](std::size_t array, std::size_t step, const LayerView& layer) {
+                   if (array > 0)
+                       return colors->take(layer, *parts);
+                   observer.look(step, layer);
+                   keep(step, layer);
+                   writer.take(layer, *parts, steps);
+               });
         for (std::size_t step = fresh + begin; step < fresh + end; ++step)
             states.push_back(series.state(step));
     });
     VolumeFindings found = observer.agreed(states, team);
-    found.steps =
-        placed_steps(*parts, std::move(steps), detail_grids(info.grid).size(), target.end, team);
+    const PartWriter::Placed placed = parts->place(team);
+    const std::uint64_t mine = target.end + placed.start;
+    found.steps = agreed_steps(std::move(steps), mine, detail_grids(info.grid).size(), team);
+    if (colors)
+        found.colors = colors->agreed(mine, team);
+    target.end += placed.bytes;
     return found;
 }
 

@@ -1,6 +1,7 @@
 // The pass of a build over the series: reads every step once, analyzes and packs it.
 #pragma once
 
+#include "index/build/color_pass.h"
 #include "index/build/step_writer.h"
 #include "index/file/file_layout.h"
 #include "index/file/value_counts.h"
@@ -9,7 +10,7 @@
 #include "index/system/team.h"
 #include "index/volume/level_map.h"
 
-#include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace isochron::index {
@@ -36,20 +37,15 @@ struct VolumeFindings {
     std::vector<std::uint64_t> states;    ///< of every step's source: VolumeSeries::state
     LevelMap levels;
     std::vector<StepEntry> steps; ///< level after level
+    std::optional<ColorFindings> colors;
 };
 
 /// Reads each member's share of the steps from `first` on, a layer of chunks ahead of the work.
 /// Keeps the values of all of them, step after step, each padded to `step_stride`; analyzes and
 /// packs only the steps from `fresh` on.
+/// @param colors gets each of those steps right after the volume's; null if there is none
 VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t fresh,
-                           const KeptValues& kept, const PassTarget& target, Team& team,
-                           const Progress& progress);
-
-/// Moves the steps of all members to their final place.
-/// @return the entries of all members, level after level
-/// @param mine this member's entries, step after step @param end of the file so far; moves to the
-///        end of the steps
-std::vector<StepEntry> placed_steps(PartWriter& parts, std::vector<StepEntry> mine,
-                                    std::size_t levels, std::uint64_t& end, Team& team);
+                           const KeptValues& kept, const PassTarget& target, ColorPass* colors,
+                           Team& team, const Progress& progress);
 
 } // namespace isochron::index

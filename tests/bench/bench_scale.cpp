@@ -5,12 +5,17 @@
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/index_search.h"
+#include "index/scan/brick_tiles.h"
+#include "index/scan/bricks.h"
 #include "index/scan/scan.h"
+#include "index/system/huge_pages.h"
 #include "index/system/new_file.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/isovalues.h"
 #include "tests/bench/measures/stopwatch.h"
+#include "tests/bench/measures/timing.h"
+#include "tests/bench/measures/touched_lines.h"
 #include "tests/bench/measures/work_folder.h"
 #include "tests/bench/rivals/flying_edges.h"
 
@@ -18,8 +23,10 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 #include <fcntl.h>
@@ -39,6 +46,7 @@ struct ScaleArguments {
     std::vector<double> active{0.05, 0.31};
     fs::path work = fs::temp_directory_path();
     bool vtk = false;
+    bool warm = false;
 };
 
 double seconds_of(const std::function<void()>& work) {
@@ -64,33 +72,39 @@ void forget(const fs::path& path) {
     ::close(file);
 }
 
-/// One step of turbulence as raw bytes; 255 is its highest value.
+/// One step of turbulence as raw values: floats, or bytes of which 255 is the highest.
 class Field {
   public:
-    Field(std::size_t size, bool smooth, const fs::path& path) : size_(size), path_(path) {
+    Field(std::size_t size, bool smooth, index::ValueType type, const fs::path& path)
+        : size_(size), type_(type), path_(path) {
         std::vector<float> exact(size * size * size);
         const int longest = smooth ? 10 : static_cast<int>(size / 4);
         app::FourierModes(12345, 64, longest).vorticity_magnitude(size, 0, exact);
-        const float highest = *std::ranges::max_element(exact);
-        bytes_.resize((exact.size() + 7) / 8 * 8);
-        std::ranges::transform(exact, bytes_.begin(), [highest](float v) {
-            return static_cast<std::uint8_t>(std::lround(255 * v / highest));
-        });
+        bytes_.resize((count() + 7) / 8 * 8);
+        if (type == index::ValueType::f32) {
+            std::memcpy(bytes_.data(), exact.data(), count());
+        } else {
+            const float highest = *std::ranges::max_element(exact);
+            std::ranges::transform(exact, bytes_.begin(), [highest](float v) {
+                return static_cast<std::uint8_t>(std::lround(255 * v / highest));
+            });
+        }
         index::NewFile file(path);
-        file.write_at(0, std::as_bytes(std::span(bytes_)).first(exact.size()));
+        file.write_at(0, std::as_bytes(std::span(bytes_)).first(count()));
         file.commit();
     }
 
     StepValues values() const {
         const auto n = static_cast<std::uint32_t>(size_);
         return {.grid = {.vertices = {n, n, n}},
-                .type = index::ValueType::u8,
+                .type = type_,
                 .scaling = {},
                 .steps = 1,
                 .first = reinterpret_cast<const std::byte*>(bytes_.data()),
                 .stride = bytes_.size()};
     }
-    std::size_t count() const { return size_ * size_ * size_; }
+    /// [bytes] of the values.
+    std::size_t count() const { return size_ * size_ * size_ * size_of(type_); }
     const fs::path& path() const { return path_; }
 
     /// Reads the values from the file again.
@@ -100,12 +114,13 @@ class Field {
     std::unique_ptr<index::VolumeSeries> series() const {
         index::ReadOptions options;
         options.dims = values().grid.vertices;
-        options.type = index::ValueType::u8;
+        options.type = type_;
         return index::open_series({path_}, options);
     }
 
   private:
     std::size_t size_;
+    index::ValueType type_;
     fs::path path_;
     std::vector<std::uint8_t> bytes_;
 };
@@ -117,19 +132,6 @@ double seconds_of_zstd(const Field& field) {
     const Stopwatch watch(Stopwatch::Of::all_threads);
     ZSTD_compress(out.data(), out.size(), stored.data(), stored.size(), 1);
     return watch.seconds();
-}
-
-/// Number of blocks of `edge`^3 cells with an active cell: if values are stored in these blocks, no
-/// search can read less.
-std::size_t blocks_with(const std::vector<index::CellId>& ids, std::uint32_t size,
-                        std::uint32_t edge) {
-    const std::size_t cells = size - 1, across = (cells + edge - 1) / edge;
-    std::vector<bool> held(across * across * across);
-    for (const std::size_t id : ids) {
-        const std::size_t x = id % cells, y = id / cells % cells, z = id / cells / cells;
-        held[(z / edge * across + y / edge) * across + x / edge] = true;
-    }
-    return static_cast<std::size_t>(std::ranges::count(held, true));
 }
 
 /// The cost of finding and shading the cells of one isovalue with nothing of the file in memory.
@@ -180,7 +182,7 @@ void measure_field(const ScaleArguments& arguments, const std::string& name,
                    const index::Progress& progress) {
     const WorkFolder folder(arguments.work);
     progress("making", 0);
-    Field field(arguments.size, name == "smooth", folder.path() / "step.raw");
+    Field field(arguments.size, name == "smooth", index::ValueType::u8, folder.path() / "step.raw");
     const double mib = static_cast<double>(field.count()) / (1 << 20);
     const double zstd = seconds_of_zstd(field);
     const fs::path path = folder.path() / "a.isochron";
@@ -212,12 +214,80 @@ void measure_field(const ScaleArguments& arguments, const std::string& name,
         }
         fmt::print("\n");
         for (const std::uint32_t edge : {8u, 16u}) {
+            // If values are stored in these blocks, no search can read less.
             const auto blocks = static_cast<double>(
-                blocks_with(found->ids, static_cast<std::uint32_t>(arguments.size), edge));
+                touched_blocks(found->ids, field.values().grid, {edge, edge, edge}, 1).held);
             const double bytes = blocks * std::pow(edge, 3);
             fmt::print("  of it in blocks of {}^3 cells that hold an active one: {:.0f} blocks, "
                        "{:.1f} MiB of values, {:.1f} %\n",
                        edge, blocks, bytes / (1 << 20), 100 * bytes / cells);
+        }
+    }
+}
+
+/// Ids by bricks and by the scan, with everything in memory, beside what no search of such blocks
+/// can do without: the cache lines with the values of those that hold an active cell.
+void measure_warm(const ScaleArguments& arguments, const std::string& name,
+                  const index::Progress& progress) {
+    const WorkFolder folder(arguments.work);
+    progress("making", 0);
+    const Field field(arguments.size, name == "smooth", index::ValueType::f32,
+                      folder.path() / "step.raw");
+    const fs::path path = folder.path() / "a.isochron";
+    index::build_index(*field.series(), path, {}, progress);
+    const auto file = index::IndexFile::open(path);
+    const index::LoadedStep step = file->load(0);
+    const auto& grid = field.values().grid;
+    const auto cells = static_cast<double>(grid.cell_count());
+    constexpr double kMib = 1 << 20;
+    const double all = static_cast<double>(field.count()) / kMib;
+    const index::LargeMemory memory = index::large_memory(index::tile_bytes(grid));
+    const std::span tiles(reinterpret_cast<std::uint8_t*>(memory.get()), index::tile_bytes(grid));
+    const double making = seconds_of([&] { index::build_tiles(step.values, 0, tiles, 0); });
+    fmt::print("{} {}^3 f32: tiles of {:.1f} MiB made in {:.1f} ms\n", name, arguments.size,
+               static_cast<double>(tiles.size()) / kMib, 1e3 * making);
+    for (const double percent : arguments.active) {
+        const Query query{0, isovalue_with(field.values(), cells * percent / 100)};
+        std::vector<index::CellId> ids, found;
+        const auto by_bricks = [&](std::uint32_t) {
+            found.clear();
+            index::search_bricks(step.values, *file->chunks().levels(0), step.bricks, query, found);
+        };
+        const auto by_scan = [&](std::uint32_t) {
+            ids.clear();
+            index::scan(field.values(), query, ids);
+        };
+        std::vector<index::CellId> of_tiles;
+        const auto by_tiles = [&](std::uint32_t) {
+            of_tiles.clear();
+            index::test_tiles(step.values, *file->chunks().levels(0), step.bricks, tiles, query,
+                              of_tiles);
+        };
+        const auto seconds = time_in_turn({by_bricks, by_scan, by_tiles}, 1, 15);
+        std::ranges::sort(found);
+        std::ranges::sort(of_tiles);
+        if (found != ids || of_tiles != ids)
+            throw index::Error("the index and the scan find different cells");
+        found.clear();
+        const auto tested = static_cast<double>(
+            index::test_bricks(step.values, *file->chunks().levels(0), step.bricks, query, found));
+        fmt::print("{} {}^3 f32, {} cells ({:.3f} %), warm: ids by bricks {:.2f} ms, scan {:.2f} "
+                   "ms, {:.1f}x; by tiles {:.2f} ms, {:.1f}x; cells of candidates {:.1f} %\n",
+                   name, arguments.size, ids.size(), 100 * static_cast<double>(ids.size()) / cells,
+                   1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0], 1e3 * seconds[2],
+                   seconds[1] / seconds[2], 100 * tested / cells);
+        constexpr std::array<std::array<std::uint32_t, 3>, 4> kEdges{
+            index::BrickGrid::kCells, {4, 4, 2}, {2, 2, 2}, {1, 1, 1}};
+        for (const auto& edges : kEdges) {
+            const TouchedBlocks touched = touched_blocks(ids, grid, edges, sizeof(float));
+            const double lines = static_cast<double>(touched.bytes) / kMib;
+            fmt::print("  in blocks of {}x{}x{} cells: {:.1f} % hold an active one; their values "
+                       "lie in cache lines of {:.1f} of {:.0f} MiB, {:.1f}x less than a scan "
+                       "reads\n",
+                       edges[0], edges[1], edges[2],
+                       100 * static_cast<double>(touched.held) /
+                           static_cast<double>(touched.blocks),
+                       lines, all, all / lines);
         }
     }
 }
@@ -227,7 +297,8 @@ void run_bench_scale(const ScaleArguments& arguments) {
     const auto header = this_machine();
     fmt::print("commit {}, {}, {} threads\n", header.commit, header.processor, header.threads);
     for (const std::string& name : arguments.fields)
-        measure_field(arguments, name, [&](std::string_view, double) { signals.check(); });
+        (arguments.warm ? measure_warm : measure_field)(
+            arguments, name, [&](std::string_view, double) { signals.check(); });
 }
 
 } // namespace
@@ -250,6 +321,9 @@ void add_scale(app::Command& program) {
         .comma_separated()
         .shows_default();
     command.flag("--vtk", arguments->vtk, "Measure VTK's flying edges too");
+    command.flag("--warm", arguments->warm,
+                 "Measure ids of a float step in memory instead, by bricks and by the scan, and "
+                 "what limits them");
     command.option("--work", arguments->work, "Folder for the files, on a disk: two steps")
         .existing_folder()
         .type_name("DIR")

@@ -15,6 +15,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -48,14 +49,18 @@ class PiecewiseSeries final : public MemorySeries {
     std::mt19937& random_;
 };
 
+std::vector<VolumeSeries*> only(VolumeSeries& series) {
+    return {&series};
+}
+
 TEST(LayerStream, GivesEveryLayerWithItsNeighborsHoweverAStepComes) {
     std::mt19937 random(test_seed());
     for (const std::uint32_t planes : {2u, 3u, 15u, 16u, 17u, 18u, 31u, 32u, 33u, 34u, 49u, 50u}) {
         const TestField field({3, 5, planes}, 3, ValueType::i16, white_noise(random));
         PiecewiseSeries series(field.view(), random);
         std::vector<std::size_t> seen(3);
-        stream_layers(series, 0, 3, 2,
-                      [&](std::size_t step, const LayerView& layer) {
+        stream_layers(only(series), 0, 3, 2,
+                      [&](std::size_t, std::size_t step, const LayerView& layer) {
                           EXPECT_EQ(layer.begin, seen[step]);
                           EXPECT_EQ(layer.begin % 16, 0u);
                           EXPECT_EQ(layer.end, std::min(layer.begin + 16, planes));
@@ -113,8 +118,8 @@ TEST(LayerStream, ReadsStepsSideBySideWhereTheSeriesAllowsItAndGivesThemInOrder)
         readers->expected = threads;
         SharedSeries series(field.view(), readers);
         std::vector<std::size_t> order;
-        stream_layers(series, 2, 12, threads,
-                      [&](std::size_t step, const LayerView& layer) {
+        stream_layers(only(series), 2, 12, threads,
+                      [&](std::size_t, std::size_t step, const LayerView& layer) {
                           if (layer.begin == 0)
                               order.push_back(step);
                           EXPECT_TRUE(std::ranges::equal(
@@ -127,6 +132,64 @@ TEST(LayerStream, ReadsStepsSideBySideWhereTheSeriesAllowsItAndGivesThemInOrder)
     }
 }
 
+/// Notes which of its steps it begins to read.
+class NotedSeries final : public MemorySeries {
+  public:
+    NotedSeries(const StepValues& values, std::string name, std::vector<std::string>& notes)
+        : MemorySeries(values), name_(std::move(name)), notes_(notes) {}
+
+    void stream(std::size_t step, const TakePiece& take) override {
+        notes_.push_back(name_ + std::to_string(step));
+        MemorySeries::stream(step, take);
+    }
+
+  private:
+    std::string name_;
+    std::vector<std::string>& notes_;
+};
+
+TEST(LayerStream, ABuildReadsTheColorsOfAStepRightAfterItsVolume) {
+    std::mt19937 random(test_seed());
+    const TestField volume({5, 4, 20}, 3, ValueType::u8, white_noise(random)),
+        color({5, 4, 20}, 3, ValueType::f32, white_noise(random));
+    std::vector<std::string> read;
+    NotedSeries series(volume.view(), "volume ", read), colors(color.view(), "colors ", read);
+    const TestFolder folder;
+    build_index(series, folder.path() / "a.isochron", {.color = &colors});
+    EXPECT_EQ(read, (std::vector<std::string>{"volume 0", "colors 0", "volume 1", "colors 1",
+                                              "volume 2", "colors 2"}));
+}
+
+TEST(LayerStream, GivesTheArraysOfEveryStepAlsoWhenTheyAreReadSideBySide) {
+    std::mt19937 random(test_seed());
+    const TestField first({4, 3, 20}, 9, ValueType::u8, white_noise(random)),
+        second({4, 3, 20}, 9, ValueType::f64, white_noise(random));
+    const std::array<const TestField*, 2> fields{&first, &second};
+    for (const unsigned threads : {1u, 3u}) {
+        const auto readers = std::make_shared<SharedSeries::Readers>();
+        SharedSeries a(first.view(), readers), b(second.view(), readers);
+        const std::array<VolumeSeries*, 2> arrays{&a, &b};
+        std::vector<std::size_t> order;
+        double done = 0;
+        stream_layers(
+            arrays, 1, 9, threads,
+            [&](std::size_t array, std::size_t step, const LayerView& layer) {
+                if (layer.begin == 0)
+                    order.push_back(2 * step + array);
+                EXPECT_TRUE(std::ranges::equal(layer.own(),
+                                               fields[array]->view().step_bytes(step).subspan(
+                                                   layer.begin * layer.plane, layer.own().size())));
+            },
+            [&](double fraction) {
+                EXPECT_GE(fraction, done);
+                EXPECT_LT(done = fraction, 1.0);
+            });
+        std::vector<std::size_t> expected(16);
+        std::iota(expected.begin(), expected.end(), 2);
+        EXPECT_EQ(order, expected);
+    }
+}
+
 TEST(LayerStream, TheFirstStepThatCannotBeReadEndsIt) {
     const TestField field({4, 3, 20}, 30, ValueType::u8, moving_sphere);
     const auto readers = std::make_shared<SharedSeries::Readers>();
@@ -134,8 +197,10 @@ TEST(LayerStream, TheFirstStepThatCannotBeReadEndsIt) {
     SharedSeries series(field.view(), readers);
     std::size_t seen = 0;
     try {
-        stream_layers(series, 0, 30, 3,
-                      [&](std::size_t step, const LayerView&) { seen = std::max(seen, step); }, {});
+        stream_layers(
+            only(series), 0, 30, 3,
+            [&](std::size_t, std::size_t step, const LayerView&) { seen = std::max(seen, step); },
+            {});
         FAIL() << "no error";
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(error.what(), "step 5");

@@ -2,6 +2,7 @@
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
+#include "index/scan/brick_tiles.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
@@ -116,6 +117,28 @@ TEST(IndexSearch, AFirstLookAtAStepReadsWhatIsLeastAndAnotherIsByCells) {
         EXPECT_EQ(again->ids, expected);
         // The cells of this step are in memory now, for whoever asks.
         EXPECT_EQ(search_in(file, std::nullopt, shading)(query, {})->method, SearchMethod::cells);
+    }
+}
+
+TEST(IndexSearch, AStepThatIsSearchedAgainAndAgainHasTilesAndGivesTheSameCells) {
+    const TestFolder folder;
+    std::mt19937 random(test_seed());
+    for (const ValueType type : {ValueType::u8, ValueType::i16, ValueType::f32, ValueType::f64}) {
+        const TestField field({33, 18, 13}, 2, type, scaled(turbulence(random), 100, 10));
+        const StepValues values = field.view();
+        const auto file = indexed(folder, values, {.tiers = TierSet().with(Tier::bricks)});
+        const Search search = search_in(file);
+        const BruteForce oracle(values, 1);
+        const auto isovalues = quantiles(sorted_values(values), 21);
+        std::uint64_t before_tiles = 0;
+        for (std::size_t i = 0; i < isovalues.size(); ++i) {
+            if (i == 16)
+                before_tiles = file->cache().held;
+            ASSERT_EQ(search({1, isovalues[i]}, {})->ids, oracle.active(isovalues[i]))
+                << name_of(type) << ", search " << i;
+        }
+        EXPECT_EQ(file->cache().held - before_tiles,
+                  type == ValueType::u8 ? 0 : tile_bytes(values.grid));
     }
 }
 

@@ -1,10 +1,5 @@
 // Tiles: the vertices of every brick side by side in memory, as ranks of 8 bits. For a step that is
 // searched again and again.
-//
-//     std::vector<std::uint8_t> tiles(index::tile_bytes(values.grid)); // aligned to 64
-//     index::build_tiles(values, step, tiles, threads);
-//     index::test_tiles(values, levels, bricks, tiles, {step, isovalue}, ids);
-//
 // In the rows of a step the vertices of a brick of floats lie in 38 cache lines, in its tile in 4.
 // Ranks are the brick's own: monotone, so that only a vertex whose rank is the isovalue's has to be
 // looked up among the values. The result is exact.

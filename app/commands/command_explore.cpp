@@ -1,159 +1,35 @@
 // `isochron explore`: the live program, in a window.
 #include "app/commands/cancel.h"
 #include "app/commands/cluster_job.h"
-#include "app/commands/drawing_options.h"
 #include "app/commands/explore_options.h"
+#include "app/commands/explore_start.h"
 #include "app/commands/explored_data.h"
-#include "app/commands/file_patterns.h"
 #include "app/commands/kept_session.h"
 #include "app/commands/live_setup.h"
 #include "app/commands/open_index.h"
 #include "app/commands/subcommands.h"
 #include "app/config/check_config.h"
-#include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
 #include "app/config/user_folders.h"
 #include "app/session/data_choice.h"
 #include "app/session/live_loop.h"
-#include "app/session/recording_file.h"
 #include "app/session/user_memory.h"
 #include "app/text.h"
-#include "app/version.h"
 #include "index/error.h"
-#include "index/system/new_file.h"
 #include "interaction/recording/recording.h"
 #include "stereo/context/display_loss.h"
 #include "stereo/loading_picture.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <cmath>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace isochron::app {
 namespace {
-
-Config configure(const ExploreOptions& options) {
-    Config config = read_config(options.config);
-    if (options.context)
-        config.context = *stereo::context_kind_from_name(*options.context);
-    if (options.quality)
-        config.quality = quality_mode_from_name(*options.quality);
-    if (options.footprint)
-        config.settled_footprint = settled_footprint_from_name(*options.footprint);
-    set_shape(config, options.shape);
-    if (!options.size.empty() && !options.emulate)
-        for (stereo::Window& window : config.installation.windows) {
-            window.size = {options.size[0], options.size[1]};
-            window.fullscreen = false;
-        }
-    config.openxr.enabled = config.openxr.enabled && !options.emulate;
-    config.openxr.verbose = options.verbose;
-    const bool in_headset =
-        config.openxr.enabled && config.context == stereo::ContextKind::egl; // shows without window
-    if (config.context != stereo::ContextKind::glfw && !in_headset)
-        throw UsageError(
-            fmt::format("explore needs a window: --context glfw, not {} (egl only with a headset, "
-                        "[openxr] enabled = true); `isochron replay` draws pictures without one",
-                        stereo::name_of(config.context)));
-    stereo::OpenXrOptions& openxr = config.openxr.options;
-    openxr.windowless = in_headset;
-    openxr.near_plane = config.installation.near_plane;
-    openxr.far_plane = config.installation.far_plane;
-    openxr.local_in_room.position = config.installation.viewers.front().position;
-    return config;
-}
-
-void check_start(const ExploreOptions& options, const index::IndexFile& file) {
-    const std::size_t steps = file.info().steps();
-    if (options.step && *options.step >= steps)
-        throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
-    if (options.isovalue && !std::isfinite(*options.isovalue))
-        throw UsageError(
-            fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
-    if (options.isovalue)
-        warn_beyond(*options.isovalue, file);
-}
-
-ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps) {
-    state.set_isovalue(options.isovalue.value_or(state.isovalue()));
-    state.steps = static_cast<std::uint32_t>(steps);
-    state.follow = state.follow || options.follow;
-    state.step = options.step.value_or(options.follow ? state.steps - 1 : state.step);
-    state.panel = state.panel && !options.no_panel;
-    if (options.stereo)
-        state.stereo = *stereo::stereo_mode_from_name(*options.stereo);
-    return state;
-}
-
-/// Refuses to overwrite an existing recording, which only --force allows.
-void refuse_to_replace(const std::string& recording) {
-    for (const std::string& name : {recording, recording + ".part"})
-        if (std::filesystem::exists(name))
-            throw index::Error(fmt::format("{}: exists already{}; --force replaces it", name,
-                                           name == recording
-                                               ? ""
-                                               : ", a recording that was cut short and can be "
-                                                 "replayed"));
-}
-
-/// Reports now the errors in output paths that would otherwise show, or destroy a file, only when
-/// the session ends.
-void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    index::make_folder(options.screenshots);
-    if (!job.leads())
-        return;
-    for (const auto& out : {options.record, options.report, options.session})
-        if (out)
-            refuse_input_as_output({*options.data}, *out);
-    if (options.record && !options.force)
-        refuse_to_replace(*options.record);
-    if (options.record && fs::exists(*options.record, ignored))
-        read_recording(*options.record); // only a recording may be overwritten
-    if (options.session && fs::path(*options.session).has_parent_path())
-        index::make_folder(fs::path(*options.session).parent_path());
-    for (const auto& out : {options.record, options.report, options.session})
-        if (out)
-            index::NewFile{*out};
-}
-
-/// @param headset mirrored by the first window; it paces the frames, not that window's display
-stereo::Windows open(const ExploreOptions& options, const Config& config, const ClusterJob& job,
-                     const stereo::Headset* headset) {
-    const std::string title =
-        fmt::format("Isochron: {}", options.test_pattern        ? "test pattern"
-                                    : options.data_name.empty() ? "open data"
-                                                                : options.data_name);
-    const stereo::Installation& installation = config.installation;
-    if (options.emulate) {
-        stereo::ContextOptions room{.title = title, .vsync = config.vsync};
-        if (!options.size.empty())
-            room.size = {options.size[0], options.size[1]};
-        return open_room(config.context, installation, room);
-    }
-    const stereo::StereoMode start = options.stereo
-                                         ? *stereo::stereo_mode_from_name(*options.stereo)
-                                         : installation.windows.front().stereo;
-    // A headset paces the frames, so the window that mirrors it must not wait for its own display.
-    return open_windows(config.context, installation,
-                        {.title = title,
-                         .vsync = config.vsync && !headset,
-                         .stereo = headset ? stereo::StereoMode::mono : start,
-                         .api = headset ? headset->context_api() : stereo::ContextApi::native,
-                         .console = job.leads() ? config.panel.console : std::nullopt,
-                         .rank = job.rank(),
-                         .ranks = job.size()});
-}
-
-void warn(const Config& config) {
-    for (const ConfigProblem& problem : problems_of(config))
-        fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
-    for (const std::string& warning : device_warnings(config))
-        fmt::print(stderr, "isochron: warning: {}\n", one_line(warning));
-}
 
 std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
                                              const index::IndexFile& file) {
@@ -191,7 +67,7 @@ void show_test_pattern(const ExploreOptions& options, ClusterJob& job) {
     });
     job.require_same(facts_of(config));
     job.set_limits(config.cluster.limits);
-    job.together([&] { opened.emplace(config, open(options, config, job, nullptr)); });
+    job.together([&] { opened.emplace(config, open_windows(options, config, job, nullptr)); });
     PatternShow& show = *opened;
     if (options.stereo)
         show.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
@@ -245,20 +121,21 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
     if (config.context != stereo::ContextKind::glfw)
         throw UsageError("file is required: an index made by `isochron build`");
     config.openxr.enabled = false; // nobody chooses a file in a headset
-    const stereo::Windows windows = open(options, config, job, nullptr);
+    const stereo::Windows windows = open_windows(options, config, job, nullptr);
     const auto chosen =
         choose_data(windows, {.recent = UserMemory(user_state_folder()).recent(),
                               .why_not_open = [&](const auto& data) { return why_not_open(data); },
-                              .ended = [] { return CancelOnSignal::received() != 0; },
-                              .background = config.background,
-                              .frame_rate_limit = config.frame_rate_limit,
-                              .font_scale = config.panel.font_scale});
+                              .window = {.ended = [] { return CancelOnSignal::received() != 0; },
+                                         .background = config.background,
+                                         .frame_rate_limit = config.frame_rate_limit,
+                                         .font_scale = config.panel.font_scale}});
     signals.check();
     return chosen ? std::optional(chosen->string()) : std::nullopt;
 }
 
 /// @return other data that the user wants to see; empty: the user leaves
-std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& job) {
+std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job) {
+    ExploreOptions options = asked;
     // A signal ends the session as its user would: the recording gets its final name.
     const CancelOnSignal signals;
     if (options.test_pattern) {
@@ -268,8 +145,16 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
     Config config;
     std::shared_ptr<const index::IndexFile> file;
     interaction::CompositeInput trackers;
+    std::unique_ptr<Indexing> indexing; ///< of these data, while they are shown
+    std::unique_ptr<stereo::Headset> headset;
+    std::optional<stereo::Windows> windows;
+    const auto open_outputs = [&] {
+        headset = open_headset(config.openxr);
+        windows.emplace(open_windows(options, config, job, headset.get()));
+        show_loading(*windows, config.background);
+    };
     job.together([&] {
-        if (!options.data)
+        if (!options.data && options.sources.files.empty())
             throw UsageError("file is required in a job: an index made by `isochron build`");
         config = configure(options);
         if (job.leads())
@@ -279,11 +164,21 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
         prepare_walls(config, job, options.emulate);
         if (job.leads())
             open_trackers(config, trackers);
+        indexing = begin_indexing(options, job);
+        if (indexing) {
+            open_outputs();
+            options.data = wait_for_index(*indexing, *windows, options, config);
+            if (!options.data)
+                return;
+        }
         file = open_index_to_show(*options.data, config.cache_bytes());
         if (job.leads())
-            check_start(options, *file);
+            check_start(options, *file, indexing ? indexing->state().of : file->info().steps());
         check_outputs(options, job);
     });
+    signals.check();
+    if (!file) // the user left before there was anything to see
+        return std::nullopt;
     job.require_same(facts_of(config, *file));
     job.set_limits(config.cluster.limits);
     std::optional<Session> opened;
@@ -293,10 +188,9 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
             earlier = earlier_session(earlier_kept_in(options, *file), options.resume);
         else if (options.resume)
             throw UsageError("--resume is for one process, without mpirun");
-        auto headset = open_headset(config.openxr);
-        stereo::Windows windows = open(options, config, job, headset.get());
-        show_loading(windows, config.background);
-        opened.emplace(config, file, std::move(windows), index::Extract(), std::move(headset));
+        if (!windows)
+            open_outputs();
+        opened.emplace(config, file, std::move(*windows), index::Extract(), std::move(headset));
         const std::size_t steps = file->info().steps();
         const ExplorerState start =
             earlier ? state_of(*earlier, opened->state(), held_hash(*file, earlier->data_hash),
@@ -319,8 +213,12 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
         how.why_not_open = [&](const std::filesystem::path& data) {
             return why_not_open(options, data);
         };
-        greet(session, memory, remembering,
-              options.data_name == *options.data ? options.data : std::nullopt);
+        if (indexing)
+            how.standing = [&indexing] {
+                const Indexing::State now = indexing->state();
+                return now.failure.empty() ? now.line() : "indexing has ended: " + now.failure;
+            };
+        greet(session, memory, remembering, name_to_remember(options));
     }
     LiveLoop live(config, std::move(trackers), how, session.outputs().headset());
     session.set_clock(live.clock());
@@ -352,20 +250,11 @@ std::optional<std::string> explore(const ExploreOptions& options, ClusterJob& jo
     if (options.record && job.leads())
         fmt::print(stderr, "recording: {}\n", *options.record);
     signals.check();
-    if (!live.next_data())
-        return std::nullopt;
-    return live.next_data()->string();
-}
-
-/// The options for other data, without those that were meant for the first data only.
-ExploreOptions with_data(ExploreOptions options, const std::string& data) {
-    options.data = options.data_name = data;
-    options.isovalue.reset();
-    options.step.reset();
-    options.session.reset();
-    options.report.reset();
-    options.resume = false;
-    return options;
+    if (live.next_data())
+        return live.next_data()->string();
+    if (indexing)
+        indexing->check();
+    return std::nullopt;
 }
 
 } // namespace
@@ -378,12 +267,12 @@ void add_explore(Command& program) {
     command.on_run([options] {
         if (!only_describes(*options))
             run_in_cluster([&](ClusterJob& job) {
-                ExploreOptions now = with_index(*options, job);
-                if (!now.data && !now.test_pattern && job.size() == 1) {
+                ExploreOptions now = with_index(*options);
+                if (now.sources.files.empty() && !now.test_pattern && job.size() == 1) {
                     const auto chosen = chosen_data(now, job);
                     if (!chosen)
                         return;
-                    now.data = now.data_name = *chosen;
+                    now = with_data(std::move(now), *chosen);
                 }
                 while (const auto next = explore(now, job))
                     now = with_data(std::move(now), *next);

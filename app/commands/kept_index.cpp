@@ -2,12 +2,12 @@
 #include "app/commands/kept_index.h"
 
 #include "app/commands/build_sources.h"
-#include "app/commands/cancel.h"
 #include "app/commands/file_patterns.h"
-#include "app/commands/progress_bar.h"
 #include "app/version.h"
+#include "index/build/first_steps.h"
 #include "index/error.h"
 #include "index/file/file_layout.h"
+#include "index/system/growing_file.h"
 #include "index/system/new_file.h"
 #include "index/system/team.h"
 
@@ -15,7 +15,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
+#include <thread>
 #include <vector>
+
+#include <unistd.h>
 
 namespace isochron::app {
 namespace {
@@ -37,44 +42,61 @@ std::string state_of_folder(const fs::path& folder) {
     return fmt::format("{} {} {}", files, bytes, newest.time_since_epoch().count());
 }
 
-/// The same for the same files and options.
-std::string name_of_kept(const std::vector<fs::path>& files, const BuildArguments& arguments) {
-    std::string key(kProgram);
-    const auto add = [&key](const std::string& text) {
-        key += fmt::format("{}:{};", text.size(), text);
-    };
-    for (const fs::path& file : files)
-        add(fs::weakly_canonical(file).string() +
-            (fs::is_directory(file) ? state_of_folder(file) : ""));
+/// Renewed where the same version of the program reads the same files in another way.
+constexpr int kReading = 2;
+
+/// Up to this many bytes of values, an index is made as a whole in less than a second or two.
+constexpr std::uint64_t kSmall = 32 << 20;
+/// Most bytes of values that are added to an index at a time, but for a step that is larger.
+constexpr std::uint64_t kMostAdded = 256 << 20;
+
+/// All that is said of the reading, as text.
+std::string options_text(const BuildArguments& arguments) {
+    std::string key;
     const index::ReadOptions& read = arguments.read;
     for (const auto& text :
          {read.array, read.component, read.length_unit, read.time_unit, read.value_unit,
-          arguments.color, arguments.color_component, arguments.color_unit})
-        add(text.value_or("-"));
-    add(fmt::format("{} {} {} {} {} {} {}", read.allow_surplus, read.extra_axis_is_time,
-                    read.times_from_names, read.big_endian, read.header_bytes,
-                    read.time_step.value_or(0), arguments.type));
-    add(fmt::format("{} {} {} {}", fmt::join(arguments.dims, ","),
-                    fmt::join(arguments.resample, ","), fmt::join(arguments.spacing, ","),
-                    fmt::join(arguments.origin, ",")));
+          arguments.color, arguments.color_component, arguments.color_unit}) {
+        const std::string said = text.value_or("-");
+        key += fmt::format("{}:{};", said.size(), said);
+    }
+    key += fmt::format("{} {} {} {} {} {} {}", read.allow_surplus, read.extra_axis_is_time,
+                       read.times_from_names, read.big_endian, read.header_bytes,
+                       read.time_step.value_or(0), arguments.type);
+    key += fmt::format("{} {} {} {}", fmt::join(arguments.dims, ","),
+                       fmt::join(arguments.resample, ","), fmt::join(arguments.spacing, ","),
+                       fmt::join(arguments.origin, ","));
+    return key;
+}
+
+/// The same for the same files and options.
+std::string name_of_kept(const std::vector<fs::path>& files, const BuildArguments& arguments) {
+    std::string key = fmt::format("{} {};", kProgram, kReading);
+    for (const fs::path& file : files) {
+        const std::string name = fs::weakly_canonical(file).string() +
+                                 (fs::is_directory(file) ? state_of_folder(file) : "");
+        key += fmt::format("{}:{};", name.size(), name);
+    }
+    key += options_text(arguments);
     const auto hash = index::checksum_of(std::as_bytes(std::span(key)));
     return fmt::format("{}-{:016x}.isochron", files.front().stem().string().substr(0, 40), hash);
 }
 
-/// Whether it is whole, and its files are what they were.
-bool still_holds(const fs::path& path, const index::VolumeSeries& series) {
+/// The index, if it is whole and its files are what they were. It may have the first steps only.
+std::shared_ptr<const index::IndexFile> still_good(const fs::path& path,
+                                                   const index::VolumeSeries& series) {
     try {
-        const auto file = index::IndexFile::open(path);
-        const std::size_t steps = series.info().steps();
+        auto file = index::IndexFile::open(path);
+        const std::size_t steps = file->info().steps();
         const auto states = file->source_states();
-        if (file->info().steps() != steps || states.size() < steps)
-            return false;
+        if (steps > series.info().steps() || states.size() < steps)
+            return nullptr;
         for (std::size_t step = 0; step < steps; ++step)
             if (states[step] == 0 || states[step] != series.state(step))
-                return false;
-        return true;
+                return nullptr;
+        return file;
     } catch (const index::Error&) {
-        return false;
+        return nullptr;
     }
 }
 
@@ -102,35 +124,143 @@ void make_room(const fs::path& folder, const fs::path& stays, std::uint64_t most
     }
 }
 
+/// Makes the index of a series, or goes on with it.
+class KeptBuild {
+  public:
+    KeptBuild(BuildSources& sources, const BuildArguments& arguments, const fs::path& path,
+              const KeptIndexReports& reports)
+        : sources_(sources), arguments_(arguments), path_(path), reports_(reports),
+          steps_(sources.volume->info().steps()), step_bytes_(bytes_of_step()),
+          held_(still_good(path, *sources.volume)) {}
+
+    /// @return whether there was anything to do
+    bool run() {
+        if (held())
+            report_held();
+        if (held() == steps_)
+            return false;
+        if (!held())
+            begin();
+        while (held() < steps_)
+            go_on();
+        return true;
+    }
+
+  private:
+    std::size_t held() const { return held_ ? held_->info().steps() : 0; }
+
+    std::uint64_t bytes_of_step() const {
+        return sources_.volume->info().step_bytes() +
+               (sources_.colors ? sources_.colors->info().step_bytes() : 0);
+    }
+
+    void report_held() const {
+        if (reports_.held)
+            reports_.held(path_, held());
+    }
+
+    /// The series and its colors, up to a step.
+    struct Part {
+        Part(BuildSources& sources, const BuildArguments& arguments, std::size_t steps)
+            : volume(*sources.volume, steps), options(build_options(arguments, sources)) {
+            if (sources.colors)
+                options.color = &colors.emplace(*sources.colors, steps);
+        }
+        index::FirstSteps volume;
+        std::optional<index::FirstSteps> colors;
+        index::BuildOptions options;
+    };
+
+    /// Of the whole series, when a part of it is worked on.
+    index::Progress progress_to(std::size_t steps) const {
+        return [this, first = held(), steps](std::string_view phase, double fraction) {
+            if (!reports_.progress)
+                return;
+            const double done =
+                static_cast<double>(first) + fraction * static_cast<double>(steps - first);
+            reports_.progress(phase, done / static_cast<double>(steps_));
+        };
+    }
+
+    void begin() {
+        const bool small = step_bytes_ * steps_ <= kSmall;
+        const std::size_t steps = small ? steps_ : 1;
+        Part part(sources_, arguments_, steps);
+        if (!small)
+            part.options.tiers = index::TierSet().with(index::Tier::bricks);
+        index::build_index(part.volume, path_, part.options, progress_to(steps));
+        held_ = index::IndexFile::open(path_);
+        report_held();
+    }
+
+    /// Adds about as many steps as there are.
+    void go_on() {
+        std::optional<index::GrowingFile> file;
+        try {
+            file.emplace(path_, true);
+        } catch (const index::Error&) {
+            if (::access(path_.c_str(), W_OK) != 0)
+                throw;
+            return wait_for_other();
+        }
+        held_ = index::IndexFile::open(path_); // it may have grown before the file was ours
+        const std::uint64_t most = std::max<std::uint64_t>(1, kMostAdded / step_bytes_);
+        const std::size_t steps =
+            std::min<std::uint64_t>(steps_, held() + std::min<std::uint64_t>(held(), most));
+        if (steps > held()) {
+            Part part(sources_, arguments_, steps);
+            const auto team = index::alone();
+            if (!index::append_index(part.volume, *held_, *file, path_, part.options,
+                                     progress_to(steps), *team))
+                throw index::Error(fmt::format(
+                    "{}: its cells have no levels for new steps; remove it", path_.string()));
+            held_ = index::IndexFile::open(path_);
+        }
+        report_held();
+    }
+
+    /// Another program goes on with the same index.
+    void wait_for_other() {
+        constexpr std::chrono::milliseconds kPeriod{250};
+        std::this_thread::sleep_for(kPeriod);
+        progress_to(held())("waiting for another program", 0);
+        const std::size_t before = held();
+        held_ = still_good(path_, *sources_.volume);
+        if (!held_)
+            throw index::Error(fmt::format("{}: another program has replaced it", path_.string()));
+        if (held() > before)
+            report_held();
+    }
+
+    BuildSources& sources_;
+    const BuildArguments& arguments_;
+    const fs::path& path_;
+    const KeptIndexReports& reports_;
+    const std::size_t steps_;
+    const std::uint64_t step_bytes_;
+    std::shared_ptr<const index::IndexFile> held_; ///< null: none yet
+};
+
 } // namespace
 
+bool has_no_options(const BuildArguments& arguments) {
+    return options_text(arguments) == options_text({});
+}
+
 fs::path kept_index(const BuildArguments& arguments, const fs::path& folder,
-                    std::uint64_t most_bytes) {
+                    const KeptIndexReports& reports, std::uint64_t most_bytes) {
     const std::vector<fs::path> files = expand_patterns(arguments.files);
     BuildSources sources = open_sources(files, arguments);
+    if (reports.opened)
+        reports.opened(sources.volume->info().steps());
     index::make_folder(folder);
     fs::path path = folder / name_of_kept(files, arguments);
-    std::error_code ignored;
-    if (still_holds(path, *sources.volume)) {
+    if (!KeptBuild(sources, arguments, path, reports).run()) {
+        std::error_code ignored;
         fs::last_write_time(path, fs::file_time_type::clock::now(), ignored); // when it was used
         return path;
     }
-    const index::SeriesInfo& info = sources.volume->info();
-    {
-        const CancelOnSignal signals;
-        ProgressBar bar(stderr,
-                        static_cast<double>(info.step_bytes()) * static_cast<double>(info.steps()),
-                        ProgressBar::Of::all);
-        const auto team = index::join_team();
-        index::build_index(
-            *sources.volume, path, build_options(arguments, sources),
-            [&](std::string_view phase, double fraction) {
-                signals.check();
-                bar.show(phase, fraction);
-            },
-            *team);
-    }
-    for (const std::string& note : info.notes)
+    for (const std::string& note : sources.volume->info().notes)
         fmt::print(stderr, "note: {}\n", note);
     make_room(folder, path, most_bytes);
     return path;

@@ -1,12 +1,14 @@
 // What a live session is given to work with.
 #include "app/commands/live_setup.h"
 
+#include "app/commands/build_sources.h"
 #include "app/commands/cancel.h"
+#include "app/commands/explored_data.h"
+#include "app/commands/file_patterns.h"
 #include "app/commands/kept_session.h"
 #include "app/commands/open_index.h"
 #include "app/text.h"
 #include "app/version.h"
-#include "index/error.h"
 #include "index/system/module.h"
 
 #include <utility>
@@ -15,9 +17,14 @@ namespace isochron::app {
 
 std::string why_not_open(const std::filesystem::path& data) {
     try {
-        open_index_to_show(data);
+        BuildArguments arguments;
+        arguments.files = {data.string()};
+        if (is_index_name(arguments.files))
+            open_index_to_show(data);
+        else
+            open_sources(expand_patterns(arguments.files), arguments);
         return {};
-    } catch (const index::Error& error) {
+    } catch (const std::exception& error) {
         return one_line(error.what());
     }
 }

@@ -12,7 +12,8 @@
 
 namespace isochron::app {
 
-/// What keeps data from being shown at all, in one line; empty: nothing does.
+/// What keeps data from being shown at all, in one line; empty: nothing does. Files of values can
+/// be shown if they can be opened with no option.
 std::string why_not_open(const std::filesystem::path& data);
 /// What keeps this session from showing other data; empty: nothing does.
 std::string why_not_open(const ExploreOptions& options, const std::filesystem::path& data);

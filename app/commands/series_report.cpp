@@ -30,6 +30,23 @@ bool right_handed(const Grid& grid) {
     return glm::determinant(grid.direction) > 0;
 }
 
+/// Of an axis whose vertices are not even: the least and the greatest distance between neighbors.
+nlohmann::ordered_json gaps_of(const Grid& grid) {
+    nlohmann::ordered_json gaps = nlohmann::ordered_json::object();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::vector<double>& at = grid.positions[axis].distances();
+        if (at.empty())
+            continue;
+        double low = at[1] - at[0], high = low;
+        for (std::size_t i = 2; i < at.size(); ++i) {
+            low = std::min(low, at[i] - at[i - 1]);
+            high = std::max(high, at[i] - at[i - 1]);
+        }
+        gaps[std::string(1, "xyz"[axis])] = {low, high};
+    }
+    return gaps;
+}
+
 /// Equal steps, as far as the rounding of decimal times lets them be.
 bool uniform(const std::vector<double>& times) {
     if (times.size() < 3)
@@ -107,6 +124,10 @@ std::string text_of(const SeriesInfo& info) {
     line("cells",
          fmt::format("{} = {}", fmt::join(grid.cells(), " x "), grouped(grid.cell_count())));
     line("spacing", fmt::format("{:.10g}{}", fmt::join(numbers(grid.spacing), " x "), length));
+    const nlohmann::ordered_json uneven = gaps_of(grid);
+    for (const auto& [axis, gaps] : uneven.items())
+        line("", fmt::format("along {} the mean of {:.10g} to {:.10g}{}", axis,
+                             gaps[0].get<double>(), gaps[1].get<double>(), length));
     line("size", fmt::format("{:.10g}{}", fmt::join(numbers(physical_size(grid)), " x "), length));
     line("origin", fmt::format("{:.10g}{}", fmt::join(numbers(grid.origin), " "), length));
     for (int axis = 0; axis < 3; ++axis)
@@ -134,6 +155,7 @@ nlohmann::ordered_json json_of(const SeriesInfo& info) {
             {"vertices", grid.vertices},
             {"cells", grid.cells()},
             {"spacing", numbers(grid.spacing)},
+            {"uneven", gaps_of(grid)},
             {"origin", numbers(grid.origin)},
             {"direction",
              {numbers(grid.direction[0]), numbers(grid.direction[1]), numbers(grid.direction[2])}},

@@ -2,10 +2,14 @@
 #include "app/panel/file_window.h"
 
 #include "app/panel/panel_words.h"
+#include "index/volume/volume_series.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <cctype>
+#include <sstream>
 #include <utility>
 
 namespace isochron::app {
@@ -14,6 +18,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostListed = 5000; ///< most names listed of a folder
+
+/// Whether a file, or the folder of a Zarr array, is one that the program reads, by its name.
+bool is_readable(const std::string& name, bool folder) {
+    static const std::vector<std::string> kExtensions = [] {
+        std::istringstream known(index::known_extensions());
+        std::vector<std::string> extensions{".isochron"};
+        for (std::string extension; known >> extension;)
+            extensions.push_back(extension);
+        return extensions;
+    }();
+    if (folder)
+        return name.ends_with(".zarr");
+    std::string lower = name;
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    return std::ranges::any_of(
+        kExtensions, [&](const std::string& extension) { return lower.ends_with(extension); });
+}
 
 } // namespace
 
@@ -38,15 +59,19 @@ void FileWindow::go_to(const fs::path& folder) {
         const std::string name = entry->path().filename().string();
         if (name.starts_with('.'))
             continue;
-        if (entry->is_directory(ignored))
-            folders_.push_back(name);
-        else if (entry->path().extension() == ".isochron" && entry->is_regular_file(ignored))
+        const bool holds = entry->is_directory(ignored);
+        if (is_readable(name, holds) && (holds || entry->is_regular_file(ignored)))
             files_.push_back(name);
+        else if (holds)
+            folders_.push_back(name);
     }
     if (error)
         complaint_ = error.message();
     std::ranges::sort(folders_);
     std::ranges::sort(files_);
+    series_ = series_among(files_);
+    std::erase_if(series_,
+                  [](const NamedSeries& each) { return each.first.ends_with(".isochron"); });
 }
 
 std::optional<fs::path> FileWindow::draw_folder() {
@@ -58,13 +83,19 @@ std::optional<fs::path> FileWindow::draw_folder() {
     for (const std::string& name : folders_)
         if (ImGui::Selectable((name + "/").c_str()))
             next = folder_ / name;
+    for (const NamedSeries& series : series_) {
+        const std::string line =
+            fmt::format("{} to {} ({} files)", series.first, series.last, series.files);
+        if (ImGui::Selectable(line.c_str()))
+            chosen = pattern_in(folder_, series.pattern);
+    }
     for (const std::string& name : files_)
         if (ImGui::Selectable(name.c_str()))
             chosen = folder_ / name;
     if (!complaint_.empty())
         note(complaint_, kWarning);
     else if (files_.empty())
-        note("no index (.isochron) in this folder; `isochron build` makes one", kDim);
+        note("no data in this folder that can be read", kDim);
     if (!next.empty())
         go_to(next);
     return chosen;

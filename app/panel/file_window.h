@@ -1,6 +1,8 @@
 // The window for choosing data to open: recent data, and folders.
 #pragma once
 
+#include "app/config/series_names.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,7 +19,8 @@ class FileWindow {
     bool is_open() const { return shown_; }
 
     /// Lays the window out in the current Dear ImGui frame, in the middle of the picture.
-    /// @return the index that the user has chosen; then the window closes
+    /// @return the data that the user has chosen, the pattern of a series among them; then the
+    /// window closes
     std::optional<std::filesystem::path> draw();
 
   private:
@@ -28,6 +31,7 @@ class FileWindow {
     std::vector<std::filesystem::path> recent_;
     std::filesystem::path folder_;
     std::vector<std::string> folders_, files_; ///< sorted names in folder_
+    std::vector<NamedSeries> series_;          ///< among files_
     std::string complaint_;                    ///< why folder_ cannot be listed
 };
 

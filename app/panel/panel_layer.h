@@ -77,6 +77,11 @@ class PanelLayer {
     /// @param complaint shown below it; empty: none
     void lay_out_files(glm::ivec2 picture, const std::string& complaint, interaction::Seconds time);
 
+    /// One frame of a window in which there is nothing but the progress of work, see
+    /// `progress_window`.
+    void lay_out_progress(glm::ivec2 picture, const std::string& name, const std::string& line,
+                          float fraction, interaction::Seconds time);
+
     /// Draws the last layout onto a part of the bound framebuffer, which has the size of the
     /// layout.
     /// @param corner lower left, pixels

@@ -52,6 +52,13 @@ void PanelLayer::lay_out_files(glm::ivec2 picture, const std::string& complaint,
     ImGui::Render();
 }
 
+void PanelLayer::lay_out_progress(glm::ivec2 picture, const std::string& name,
+                                  const std::string& line, float fraction, Seconds time) {
+    begin_frame(picture, time);
+    progress_window(name, line, fraction);
+    ImGui::Render();
+}
+
 bool PanelLayer::has_popup() const {
     return imgui_->OpenPopupStack.Size > 0;
 }

@@ -153,6 +153,20 @@ void message_window(const std::string& standing, const std::string& message,
     ImGui::End();
 }
 
+void progress_window(const std::string& name, const std::string& line, float fraction) {
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(0.9f * picture.x, 420.0f), 0.0f});
+    ImGui::Begin("###progress", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings);
+    text(name);
+    ImGui::ProgressBar(fraction, {-1.0f, 0.0f});
+    text(line);
+    note("Escape leaves", kDim);
+    ImGui::End();
+}
+
 void leaving_window(const PanelModel& model, Commands& commands) {
     if (!model.asked.leaving)
         return;

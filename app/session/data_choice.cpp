@@ -1,58 +1,60 @@
-// A window with nothing but the choice of data.
+// A window with nothing but the choice of data, or the progress of those that are indexed.
 #include "app/session/data_choice.h"
 
-#include "app/frame/pacer.h"
-#include "app/panel/operator_window.h"
-#include "render/gl/gl.h"
-#include "render/gl/render_target.h"
-#include "stereo/presenter.h"
+#include "app/config/series_names.h"
 
-#include <glm/common.hpp>
-#include <glm/vec4.hpp>
-
-#include <chrono>
+#include <algorithm>
 #include <utility>
+#include <variant>
 
 namespace isochron::app {
 
 namespace fs = std::filesystem;
 
 std::optional<fs::path> choose_data(const stereo::Windows& windows, const DataChoice& choice) {
-    stereo::GlContext& window = windows.first();
-    window.make_current();
-    const render::Gl gl(window.loader());
-    PanelLayer layer(gl);
-    render::RenderTarget picture(gl, glm::max(window.framebuffer_size(), glm::ivec2(1)));
-    stereo::Presenter presenter(gl, window, window);
+    PageWindow window(windows, choice.window);
+    PanelLayer& layer = window.layer();
     layer.offer_files([&choice] { return choice.recent; });
     layer.open_files();
-    Pacer pacer(choice.frame_rate_limit);
     std::string complaint;
-    const auto start = std::chrono::steady_clock::now();
-    while (layer.has_page() && !windows.should_close() && !choice.ended()) {
-        layer.feed(windows.poll_events(), true);
-        const glm::ivec2 size = window.framebuffer_size();
-        if (size.x > 0 && size.y > 0) { // a minimized window has none
-            layer.set_scale(panel_scale(window, choice.font_scale, size.x));
-            layer.lay_out_files(size, complaint, std::chrono::steady_clock::now() - start);
-            picture.resize(size);
-            picture.clear(glm::vec4(choice.background, 1));
-            picture.bind();
-            layer.draw(size);
-            presenter.present(picture, nullptr);
-        }
+    while (layer.has_page() && window.goes_on()) {
+        window.frame([&](glm::ivec2 size, interaction::Seconds time) {
+            layer.lay_out_files(size, complaint, time);
+        });
         std::optional<fs::path> wanted = layer.take_chosen();
-        for (fs::path& dropped : window.take_dropped())
-            wanted = std::move(dropped);
-        if (wanted) {
-            complaint = choice.why_not_open(*wanted);
-            if (complaint.empty())
-                return wanted;
-            layer.open_files();
+        const std::vector<fs::path> dropped = window.take_dropped();
+        if (!dropped.empty()) {
+            wanted = one_name_of(dropped);
+            complaint = wanted ? std::string() : kNoCommonName;
         }
-        pacer.wait();
+        if (!wanted)
+            continue;
+        complaint = choice.why_not_open(*wanted);
+        if (complaint.empty())
+            return wanted;
+        layer.open_files();
     }
     return std::nullopt;
+}
+
+bool wait_for_data(const stereo::Windows& windows, const std::string& name,
+                   const std::function<DataProgress()>& progress, PageWindowOptions options) {
+    bool leaves = false;
+    {
+        PageWindow window(windows, std::move(options));
+        for (DataProgress now = progress(); !now.ready && !leaves; now = progress()) {
+            const auto events = window.frame([&](glm::ivec2 size, interaction::Seconds time) {
+                window.layer().lay_out_progress(size, name, now.line, now.fraction, time);
+            });
+            leaves = !window.goes_on() ||
+                     std::ranges::any_of(events, [](const interaction::WindowEvent& event) {
+                         const auto* key = std::get_if<interaction::KeyEvent>(&event);
+                         return key && key->down && key->key == interaction::Key::escape;
+                     });
+        }
+    }
+    windows.drawing().make_current();
+    return !leaves;
 }
 
 } // namespace isochron::app

@@ -1,6 +1,7 @@
 // The live loop, from devices to frames.
 #include "app/session/live_loop.h"
 
+#include "app/config/series_names.h"
 #include "app/frame/pacer.h"
 
 #include <fmt/format.h>
@@ -65,14 +66,6 @@ void LiveLoop::take_new_steps(Session& session, Commands& asked) {
         asked.step = steps - 1;
 }
 
-/// Empty: nothing keeps them from being opened.
-std::string LiveLoop::why_not_open(const std::filesystem::path& data) const {
-    if (movies_ && movies_->busy())
-        return "a movie is being made: open other data when it is finished, or cancel it";
-    return options_.why_not_open ? options_.why_not_open(data)
-                                 : "other data are not opened in this session";
-}
-
 /// Begins and ends those that the panel asks for.
 void LiveLoop::make_movies(Session& session) {
     if (!movies_)
@@ -94,18 +87,38 @@ void LiveLoop::make_movies(Session& session) {
     session.set_movies({true, recorder_ != nullptr, movies_->progress()});
 }
 
+/// Finds out whether data can be opened, which may take a while.
+void LiveLoop::open(const std::filesystem::path& data, Session& session) {
+    std::string reason;
+    if (movies_ && movies_->busy())
+        reason = "a movie is being made: open other data when it is finished, or cancel it";
+    else if (!options_.why_not_open)
+        reason = "other data are not opened in this session";
+    else if (opening_)
+        reason = fmt::format("{} is being opened", opening_->data.filename().string());
+    else
+        opening_ = {data, std::async(std::launch::async, options_.why_not_open, data)};
+    if (!reason.empty())
+        session.show_messages({reason});
+}
+
 /// Takes other data that the user has chosen, or dropped onto a window.
 void LiveLoop::take_next_data(Session& session) {
-    std::optional<std::filesystem::path> wanted = session.panel().take_chosen();
-    for (const std::filesystem::path& dropped : session.outputs().windows().first().take_dropped())
-        wanted = dropped;
-    if (!wanted)
+    if (const auto chosen = session.panel().take_chosen())
+        open(*chosen, session);
+    const auto dropped = session.outputs().windows().first().take_dropped();
+    if (const auto name = one_name_of(dropped))
+        open(*name, session);
+    else if (!dropped.empty())
+        session.show_messages({kNoCommonName});
+    if (!opening_ || opening_->why_not.wait_for(Seconds(0)) != std::future_status::ready)
         return;
-    const std::string reason = why_not_open(*wanted);
+    const std::string reason = opening_->why_not.get();
     if (reason.empty())
-        next_data_ = wanted;
+        next_data_ = opening_->data;
     else
         session.show_messages({reason});
+    opening_.reset();
 }
 
 /// The devices of a frame that begins now.
@@ -189,6 +202,8 @@ void LiveLoop::run(Session& session) {
             session.show_messages(keeper_->messages());
         }
         make_movies(session);
+        if (options_.standing)
+            session.set_standing(options_.standing());
         take_next_data(session);
         running = goes_on(commands, input) && !next_data_;
         if (!paced_)

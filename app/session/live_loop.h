@@ -23,6 +23,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -40,7 +41,10 @@ struct LiveOptions {
     }; ///< called in each frame; true: ends the loop
     /// Returns in one line why the given data cannot be opened instead of these; empty: they can,
     /// and the loop ends. A null function: the user cannot open other data.
+    /// Called on a thread of its own.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
+    /// Returns what stands in the picture as long as it is true; called in each frame. May be null.
+    std::function<std::string()> standing = {};
 };
 
 /// Session time starts at 0 when the loop is constructed.
@@ -91,7 +95,7 @@ class LiveLoop {
     bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
     void record(interaction::RecordedFrame frame);
     void take_next_data(Session& session);
-    std::string why_not_open(const std::filesystem::path& data) const;
+    void open(const std::filesystem::path& data, Session& session);
     void make_movies(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);
     bool closes(const Session& session, interaction::Commands& asked) const;
@@ -106,6 +110,12 @@ class LiveLoop {
     std::optional<SessionKeeper> keeper_;
     std::optional<index::IndexWatch> watch_;
     std::optional<std::filesystem::path> next_data_;
+    /// Data of which it is being found out whether they can be opened.
+    struct Opening {
+        std::filesystem::path data;
+        std::future<std::string> why_not;
+    };
+    std::optional<Opening> opening_;
     BackgroundWork recording_;
     /// Used only on the thread of `recording_`.
     std::shared_ptr<interaction::RecordingWriter> recorder_;

@@ -97,6 +97,8 @@ class Session {
 
     /// Shows the last of these on the panel until there is a newer one.
     void show_messages(std::vector<std::string> messages);
+    /// Shows this on the picture as long as it is not empty.
+    void set_standing(std::string note) { standing_ = std::move(note); }
     void say_refused(const index::ExtractionPtr& set, FrameReport& report);
     void set_recording(bool recording) { recording_ = recording; }
     /// What the panel says of movies from now on.
@@ -234,7 +236,7 @@ class Session {
     bool mesh_wanted_ = false;                       ///< by the last frame's choice of quality
     bool recording_ = false;
     MovieState movies_;
-    std::string message_;
+    std::string message_, standing_;
     std::string refused_; ///< why the newest set is not shown; empty if it is
     std::size_t messages_ = 0;
 };

@@ -106,7 +106,7 @@ PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) con
             .standing = outputs_.headset() && outputs_.shows_windows()
                             ? "No picture in the headset: the window shows the data instead. " +
                                   outputs_.headset()->description()
-                            : std::string(),
+                            : standing_,
             .controls = documentation_,
             .at_hand = devices_at_hand(),
             .place = place,

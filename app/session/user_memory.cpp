@@ -1,6 +1,7 @@
 // Remembers in small files in the user's folder.
 #include "app/session/user_memory.h"
 
+#include "app/config/series_names.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
@@ -39,7 +40,8 @@ std::vector<fs::path> UserMemory::recent() const {
         for (std::size_t at = 0; at < lines.size() && paths.size() < kMost;) {
             const std::size_t end = std::min(lines.find('\n', at), lines.size());
             const fs::path path = lines.substr(at, end - at);
-            if (fs::is_regular_file(path, error))
+            if (fs::exists(path, error) ||
+                (is_pattern(path.filename().string()) && fs::exists(path.parent_path(), error)))
                 paths.push_back(path);
             at = end + 1;
         }

@@ -15,7 +15,8 @@ class UserMemory {
     /// @param folder is made if it is missing; empty: remembers nothing
     explicit UserMemory(std::optional<std::filesystem::path> folder);
 
-    /// Recently opened data that still exist, newest first.
+    /// Recently opened data that still exist, newest first: files, folders, and patterns of files
+    /// in folders that exist.
     std::vector<std::filesystem::path> recent() const;
     void remember(const std::filesystem::path& data);
 

@@ -14,7 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -31,7 +34,11 @@ std::string attribute(const XMLElement& element, std::initializer_list<const cha
 
 class XdmfParser {
   public:
-    explicit XdmfParser(const fs::path& path) : path_(path), name_(path.string()) {
+    /// @param chain documents, each included by the one before it
+    /// @param seen grids so far, of all documents
+    XdmfParser(const fs::path& path, std::vector<fs::path> chain, std::size_t& seen)
+        : path_(path), name_(path.string()), chain_(std::move(chain)), seen_(seen) {
+        chain_.push_back(path.lexically_normal());
         constexpr std::uint64_t kLargest = std::uint64_t{256} << 20;
         const std::string text = with_entities(read_text(path, kLargest), name_);
         if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
@@ -45,19 +52,13 @@ class XdmfParser {
     }
 
     std::vector<XdmfGrid> steps() {
-        std::vector<const XMLElement*> grids;
-        for (auto* grid = domain_->FirstChildElement("Grid"); grid;
-             grid = grid->NextSiblingElement("Grid"))
-            grids.push_back(referred(grid));
-        if (grids.empty())
+        const std::size_t grids = add_children(*domain_, 0);
+        if (grids == 0)
             fail("holds no Grid");
-        const bool several = grids.size() > 1;
-        if (several && !std::ranges::all_of(
-                           grids, [](const auto* grid) { return grid->FirstChildElement("Time"); }))
+        if (grids > 1 && !std::ranges::all_of(
+                             steps_, [](const XdmfGrid& step) { return step.time.has_value(); }))
             fail(fmt::format("{} grids beside each other, expected one, or one for each time",
-                             grids.size()));
-        for (const XMLElement* grid : grids)
-            add(*grid, 0);
+                             grids));
         if (steps_.empty())
             fail("holds no grid with values");
         return std::move(steps_);
@@ -88,6 +89,9 @@ class XdmfParser {
 
     void add(const XMLElement& grid, int depth) {
         constexpr int kDeepest = 8;
+        constexpr std::size_t kMostGrids = std::size_t{1} << 21;
+        if (++seen_ > kMostGrids)
+            fail("too many grids");
         const std::string type = lower_case(attribute(grid, {"GridType"}));
         if (type.empty() || type == "uniform")
             return steps_.push_back(uniform(grid));
@@ -95,23 +99,89 @@ class XdmfParser {
             fail(fmt::format("a grid of type {}, expected Uniform or Collection", excerpt(type)));
         if (depth > kDeepest)
             fail("grids within grids, too deep");
-        std::vector<const XMLElement*> children;
-        for (auto* child = grid.FirstChildElement("Grid"); child;
-             child = child->NextSiblingElement("Grid"))
-            children.push_back(referred(child));
         const bool temporal =
             lower_case(attribute(grid, {"CollectionType"})) == "temporal" && type == "collection";
-        if (!temporal && children.size() > 1)
-            fail(fmt::format("a collection of {} grids at one time, expected one grid",
-                             children.size()));
         const std::size_t first = steps_.size();
-        for (const XMLElement* child : children)
-            add(*child, depth + 1);
-        constexpr std::size_t kMostSteps = std::size_t{1} << 20;
-        if (steps_.size() > kMostSteps)
-            fail("too many steps");
+        const std::size_t grids = add_children(grid, depth + 1);
+        if (!temporal && grids > 1)
+            join(first, grids);
         if (const XMLElement* time = child_of(grid, "Time"))
             give_xdmf_times(*time, first);
+    }
+
+    /// Adds the steps of the grids in an element, also of those that it includes.
+    /// @return number of grids
+    std::size_t add_children(const XMLElement& parent, int depth) {
+        std::size_t grids = 0;
+        for (auto* child = parent.FirstChildElement(); child; child = child->NextSiblingElement()) {
+            const std::string_view name = child->Name();
+            if (name == "Grid")
+                add(*referred(child), depth);
+            else if (name == "include" || name.ends_with(":include"))
+                include(*child, depth);
+            else
+                continue;
+            ++grids;
+        }
+        return grids;
+    }
+
+    /// A grid of another document, or of this one: `href`, and `xpointer` as it is written in
+    /// XDMF, xpointer(//Xdmf/Domain/Grid[2]).
+    void include(const XMLElement& element, int depth) {
+        const std::string href = attribute(element, {"href"});
+        std::string pointer = attribute(element, {"xpointer"});
+        if (pointer.starts_with("xpointer(") && pointer.ends_with(")"))
+            pointer = pointer.substr(9, pointer.size() - 10);
+        if (pointer.empty())
+            pointer = "/Xdmf/Domain/Grid";
+        if (href.empty()) {
+            add(grid_at(pointer), depth + 1);
+            return;
+        }
+        const fs::path other = path_.parent_path() / href;
+        constexpr std::size_t kDeepest = 8;
+        if (chain_.size() > kDeepest ||
+            std::ranges::find(chain_, other.lexically_normal()) != chain_.end())
+            fail(fmt::format("includes {}, which includes it", excerpt(href)));
+        constexpr std::size_t kCost = 100; // of a document, in grids
+        seen_ += kCost;
+        XdmfParser parser(other, chain_, seen_);
+        parser.add(parser.grid_at(pointer), depth);
+        std::ranges::move(parser.steps_, std::back_inserter(steps_));
+    }
+
+    const XMLElement& grid_at(const std::string& pointer) const {
+        const XMLElement* found = xdmf_element(document_, pointer);
+        if (!found || std::string_view(found->Name()) != "Grid")
+            fail(fmt::format("has no grid {}", excerpt(pointer)));
+        return *referred(found);
+    }
+
+    /// Makes one step of those from `first` on, which are blocks of its grid.
+    void join(std::size_t first, std::size_t grids) {
+        const std::span<XdmfGrid> blocks = std::span(steps_).subspan(first);
+        std::vector<Grid> places;
+        std::vector<std::string> names;
+        for (const XdmfGrid& block : blocks) {
+            if (blocks.size() != grids || block.parts.size() != 1)
+                fail(fmt::format("a collection of {} grids at one time, expected uniform ones",
+                                 grids));
+            names.push_back(fmt::format("{}: block {}", name_, places.size()));
+            places.push_back(block.grid);
+        }
+        const BlockPlaces found = places_of_blocks(places, names);
+        XdmfGrid whole = std::move(blocks.front());
+        whole.grid = found.whole;
+        whole.notes.push_back(fmt::format("put together from {} parts", grids));
+        whole.parts.front().begin = found.begins.front();
+        for (std::size_t i = 1; i < blocks.size(); ++i) {
+            whole.time = whole.time ? whole.time : blocks[i].time;
+            whole.parts.push_back(std::move(blocks[i].parts.front()));
+            whole.parts.back().begin = found.begins[i];
+        }
+        steps_.resize(first);
+        steps_.push_back(std::move(whole));
     }
 
     void give_xdmf_times(const XMLElement& time, std::size_t first) {
@@ -120,7 +190,7 @@ class XdmfParser {
         const std::size_t count = steps_.size() - first;
         std::vector<double> times;
         if (data)
-            times = numbers_of_item(item_of(*data), path_);
+            times = numbers_of_item(item_of(*data));
         if (type == "hyperslab") {
             if (times.size() != 3 || times[2] < static_cast<double>(count))
                 fail("times as a hyperslab, expected start, stride and the number of steps");
@@ -141,6 +211,8 @@ class XdmfParser {
     XdmfGrid uniform(const XMLElement& grid) {
         XdmfGrid step;
         place(grid, step);
+        XdmfPart& part = step.parts.emplace_back();
+        part.grid = step.grid;
         if (const XMLElement* time = child_of(grid, "Time")) {
             double value = 0;
             if (time->QueryDoubleAttribute("Value", &value) != tinyxml2::XML_SUCCESS)
@@ -154,7 +226,7 @@ class XdmfParser {
             const XMLElement* data = child_of(element, "DataItem");
             if (!data || (!center.empty() && center != "node" && center != "cell"))
                 continue; // of the grid, of faces and edges
-            step.attributes.push_back(
+            part.attributes.push_back(
                 {attribute(element, {"Name"}), center == "cell", item_of(*data)});
         }
         return step;
@@ -193,7 +265,7 @@ class XdmfParser {
         glm::dmat3 steps(1.0);
         std::array<std::vector<double>, 3> at;
         for (std::size_t i = 0; i < items.size(); ++i) {
-            at[i] = numbers_of_item(items[i], path_);
+            at[i] = numbers_of_item(items[i]);
             const std::size_t expected = stretched ? step.grid.vertices[i] : 3;
             if (at[i].size() != expected)
                 fail(
@@ -225,6 +297,7 @@ class XdmfParser {
             fail(
                 fmt::format("a DataItem of type {}, expected Uniform or HyperSlab", excerpt(kind)));
         XdmfItem item;
+        item.document = path_;
         for (const std::int64_t size :
              integers_of(attribute(element, {"Dimensions"}), "Dimensions", name_)) {
             if (size < 1 || item.dimensions.size() > 8)
@@ -252,7 +325,7 @@ class XdmfParser {
         const XMLElement* what = how ? how->NextSiblingElement("DataItem") : nullptr;
         if (!what)
             fail("a HyperSlab without two DataItems in it");
-        const auto numbers = numbers_of_item(item_of(*referred(how)), path_);
+        const auto numbers = numbers_of_item(item_of(*referred(how)));
         XdmfItem item = item_of(*referred(what));
         const std::size_t rank = item.dimensions.size();
         if (numbers.size() != 3 * rank || !item.start.empty())
@@ -276,31 +349,17 @@ class XdmfParser {
     StoredType type_of(const XMLElement& element) const {
         const std::string kind = lower_case(attribute(element, {"NumberType", "DataType"}));
         const std::string precision = attribute(element, {"Precision"});
-        const std::string bytes =
-            precision.empty() ? (kind == "char" || kind == "uchar" ? "1" : "4") : precision;
-        const std::string name = (kind.empty() ? "float" : kind) + bytes;
-        for (const auto& [known, type] : {std::pair("float4", StoredType::f32),
-                                          {"float8", StoredType::f64},
-                                          {"int1", StoredType::i8},
-                                          {"char1", StoredType::i8},
-                                          {"uchar1", StoredType::u8},
-                                          {"uint1", StoredType::u8},
-                                          {"int2", StoredType::i16},
-                                          {"short2", StoredType::i16},
-                                          {"uint2", StoredType::u16},
-                                          {"int4", StoredType::i32},
-                                          {"uint4", StoredType::u32},
-                                          {"int8", StoredType::i64},
-                                          {"uint8", StoredType::u64}})
-            if (name == known)
-                return type;
+        if (const auto type = xdmf_type(kind, precision))
+            return *type;
         fail(fmt::format("a NumberType {} of Precision {}, expected Float, Int, UInt, Char or "
                          "UChar of 1 to 8",
-                         excerpt(kind), excerpt(bytes)));
+                         excerpt(kind), excerpt(precision)));
     }
 
     fs::path path_;
     std::string name_;
+    std::vector<fs::path> chain_; ///< this document the last
+    std::size_t& seen_;
     tinyxml2::XMLDocument document_;
     const XMLElement* domain_ = nullptr;
     std::vector<XdmfGrid> steps_;
@@ -309,18 +368,19 @@ class XdmfParser {
 } // namespace
 
 std::vector<XdmfGrid> read_xdmf(const fs::path& path) {
-    return XdmfParser(path).steps();
+    std::size_t seen = 0;
+    return XdmfParser(path, {}, seen).steps();
 }
 
-std::vector<double> numbers_of_item(const XdmfItem& item, const fs::path& document) {
-    const std::string name = document.string();
+std::vector<double> numbers_of_item(const XdmfItem& item) {
+    const std::string name = item.document.string();
     if (item.where == XdmfItem::Where::document)
         return numbers_of(item.text, "a DataItem", name);
     if (item.where == XdmfItem::Where::plain || !item.start.empty())
         throw Error(fmt::format("{}: coordinates in another file, or a part of them, expected them "
                                 "in the document or a dataset",
                                 name));
-    const XdmfHeavy heavy = heavy_of(item.text, document);
+    const XdmfHeavy heavy = heavy_of(item.text, item.document);
     const Hdf5File file(heavy.file);
     const auto dataset = file.dataset(heavy.path);
     if (!dataset)

@@ -3,6 +3,7 @@
 // https://www.xdmf.org/index.php/XDMF_Model_and_Format.html
 #pragma once
 
+#include "index/formats/block_places.h"
 #include "index/formats/stored_scalar.h"
 #include "index/volume/volume_series.h"
 
@@ -19,6 +20,7 @@ namespace isochron::index {
 struct XdmfItem {
     enum class Where : std::uint8_t { document, hdf5, plain };
 
+    std::filesystem::path document; ///< in which it stands, in whose folder other files are
     Where where = Where::document;
     StoredType type = StoredType::f32;
     std::vector<std::uint64_t> dimensions; ///< slowest first
@@ -35,20 +37,28 @@ struct XdmfAttribute {
     XdmfItem item;
 };
 
+/// A block of a step's grid.
+struct XdmfPart {
+    BlockSize begin{}; ///< its first vertex in the whole grid
+    Grid grid;
+    std::vector<XdmfAttribute> attributes;
+};
+
 /// One step.
 struct XdmfGrid {
     Grid grid;
     std::vector<std::string> notes;
     std::optional<double> time;
-    std::vector<XdmfAttribute> attributes;
+    std::vector<XdmfPart> parts; ///< one, or those of a spatial collection
 };
 
-/// All steps of a document. Coordinates that are not in the document are read from HDF5 files.
+/// All steps of a document and of those that it includes. Coordinates that are not in the document
+/// are read from HDF5 files.
 /// @throws Error naming the file and what is wrong: no XDMF, damaged, other grids than uniform and
-///         rectilinear ones of three dimensions, several grids at a time
+///         rectilinear ones of three dimensions, several grids at a time that do not tile one
 std::vector<XdmfGrid> read_xdmf(const std::filesystem::path& path);
 
-/// The numbers of a short item. @param folder of the document @throws Error naming the document
-std::vector<double> numbers_of_item(const XdmfItem& item, const std::filesystem::path& document);
+/// The numbers of a short item. @throws Error naming the document
+std::vector<double> numbers_of_item(const XdmfItem& item);
 
 } // namespace isochron::index

@@ -1,4 +1,4 @@
-// Resolves the references of XDMF documents.
+// Resolves what XDMF documents name.
 #include "index/decoders/xdmf_paths.h"
 
 #include "index/error.h"
@@ -53,6 +53,28 @@ const tinyxml2::XMLElement* xdmf_element(const tinyxml2::XMLDocument& document,
         found = each;
     }
     return found;
+}
+
+std::optional<StoredType> xdmf_type(const std::string& kind, const std::string& precision) {
+    const std::string bytes =
+        precision.empty() ? (kind == "char" || kind == "uchar" ? "1" : "4") : precision;
+    const std::string name = (kind.empty() ? "float" : kind) + bytes;
+    for (const auto& [known, type] : {std::pair("float4", StoredType::f32),
+                                      {"float8", StoredType::f64},
+                                      {"int1", StoredType::i8},
+                                      {"char1", StoredType::i8},
+                                      {"uchar1", StoredType::u8},
+                                      {"uint1", StoredType::u8},
+                                      {"int2", StoredType::i16},
+                                      {"short2", StoredType::i16},
+                                      {"uint2", StoredType::u16},
+                                      {"int4", StoredType::i32},
+                                      {"uint4", StoredType::u32},
+                                      {"int8", StoredType::i64},
+                                      {"uint8", StoredType::u64}})
+        if (name == known)
+            return type;
+    return std::nullopt;
 }
 
 std::string with_entities(std::string text, const std::string& file) {

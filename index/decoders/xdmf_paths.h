@@ -1,7 +1,10 @@
-// Places that XDMF documents name: elements of the document, and datasets of other files.
+// What XDMF documents name: elements of the document, datasets of other files, types.
 #pragma once
 
+#include "index/formats/stored_scalar.h"
+
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace tinyxml2 {
@@ -24,6 +27,9 @@ XdmfHeavy heavy_of(const std::string& text, const std::filesystem::path& documen
 /// @return null if there is none
 const tinyxml2::XMLElement* xdmf_element(const tinyxml2::XMLDocument& document,
                                          const std::string& path);
+
+/// The type that NumberType, in lower case, and Precision name; none: another one.
+std::optional<StoredType> xdmf_type(const std::string& kind, const std::string& precision);
 
 /// A document with the entities that it declares (`<!ENTITY name "value">`) replaced, once.
 /// @throws Error naming the file, when that makes it much longer

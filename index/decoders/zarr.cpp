@@ -138,10 +138,18 @@ std::optional<ZarrLayout> layout_by_names(const ZarrArray& array, const std::vec
     return layout;
 }
 
+/// `x.zarr/.zattrs` stands for the folder that it describes.
+fs::path zarr_folder_of(const fs::path& given) {
+    const std::string file = given.filename();
+    const bool describes =
+        file == "zarr.json" || file == ".zattrs" || file == ".zarray" || file == ".zgroup";
+    return describes ? given.parent_path() : given;
+}
+
 class ZarrVolume final : public DecodedFile {
   public:
-    ZarrVolume(const fs::path& given, const ReadOptions& options)
-        : store_(open_zarr_store(folder_of(given))), name_(store_->name()) {
+    ZarrVolume(std::unique_ptr<ZarrStore> store, const ReadOptions& options)
+        : store_(std::move(store)), name_(store_->name()) {
         const json attributes = attributes_of_group(*store_, "");
         ReadOptions asked = options;
         const json image = multiscale_of(attributes);
@@ -164,6 +172,9 @@ class ZarrVolume final : public DecodedFile {
     std::size_t steps() const override { return layout_.time ? array_->shape()[*layout_.time] : 1; }
     std::uint32_t slices_at_once() const override {
         const std::uint32_t all = info_.grid.vertices[2], worth = slices_worth_asking(info_);
+        constexpr std::uint32_t kOfPlain = 8; // each slab opens its chunks' files once more
+        if (array_->plain())
+            return std::min(all, kOfPlain * worth);
         const auto along = std::clamp<std::uint64_t>(array_->chunk()[layout_.space[2]], 1, all);
         return static_cast<std::uint32_t>(
             std::min<std::uint64_t>((worth + along - 1) / along * along, all));
@@ -186,14 +197,6 @@ class ZarrVolume final : public DecodedFile {
     }
 
   private:
-    /// `x.zarr/.zattrs` stands for the folder that it describes.
-    static fs::path folder_of(const fs::path& given) {
-        const std::string file = given.filename();
-        const bool describes =
-            file == "zarr.json" || file == ".zattrs" || file == ".zarray" || file == ".zgroup";
-        return describes ? given.parent_path() : given;
-    }
-
     std::string array_name() const { return array_->path().empty() ? "values" : array_->path(); }
 
     void open_array(const json& image, ReadOptions& options) {
@@ -374,7 +377,12 @@ class ZarrVolume final : public DecodedFile {
 } // namespace
 
 std::unique_ptr<DecodedFile> decode_zarr(const fs::path& path, const ReadOptions& options) {
-    return std::make_unique<ZarrVolume>(path, options);
+    return decode_zarr(open_zarr_store(zarr_folder_of(path)), options);
+}
+
+std::unique_ptr<DecodedFile> decode_zarr(std::unique_ptr<ZarrStore> store,
+                                         const ReadOptions& options) {
+    return std::make_unique<ZarrVolume>(std::move(store), options);
 }
 
 } // namespace isochron::index

@@ -219,121 +219,79 @@ std::size_t ZarrArray::values_in_chunk() const {
     return values;
 }
 
-ZarrBytes ZarrArray::values_of(ZarrBytes stored, const Pipeline& pipeline,
-                               const std::string& name) const {
+/// Makes values of stored bytes.
+void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
     const std::size_t size = size_of(*type_), bytes = values_in_chunk() * size;
     // A check adds to what comes out of the codecs before it.
     constexpr std::size_t kSlack = 64;
-    for (std::size_t i = 0; i < pipeline.codecs.size(); ++i)
-        stored = decoded(std::move(stored), pipeline.codecs[i], 0, bytes + kSlack, name);
-    if (stored.size() != bytes)
-        throw Error(fmt::format("{}: {} bytes, expected {}", name, stored.size(), bytes));
-    if (pipeline.big_endian)
+    for (const ZarrCodec& codec : pipeline_.codecs)
+        decode(codec, bytes + kSlack, name, values, spare_);
+    if (values.size() != bytes)
+        throw Error(fmt::format("{}: {} bytes, expected {}", name, values.size(), bytes));
+    if (pipeline_.big_endian)
         for (std::size_t i = 0; i < bytes; i += size)
-            std::reverse(stored.begin() + static_cast<std::ptrdiff_t>(i),
-                         stored.begin() + static_cast<std::ptrdiff_t>(i + size));
-    if (pipeline.order.empty())
-        return stored;
-    // Stored dimension i is dimension order[i]: walk through the values as they are stored.
-    const std::size_t rank = chunk().size();
+            std::reverse(values.begin() + static_cast<std::ptrdiff_t>(i),
+                         values.begin() + static_cast<std::ptrdiff_t>(i + size));
+    if (pipeline_.order.empty())
+        return;
+    transpose(values, spare_);
+    values.swap(spare_);
+}
+
+/// Stored dimension i is dimension order[i]: walks through the values as they are stored.
+void ZarrArray::transpose(const ZarrBytes& stored, ZarrBytes& out) const {
+    const std::size_t rank = chunk().size(), size = size_of(*type_), bytes = stored.size();
+    const std::vector<std::size_t>& order = pipeline_.order;
     std::vector<std::size_t> stride(rank, 1), at(rank, 0);
     for (std::size_t i = rank - 1; i-- > 0;)
         stride[i] = stride[i + 1] * chunk()[i + 1];
-    ZarrBytes out(bytes);
+    out.resize(bytes);
     for (std::size_t from = 0; from < bytes; from += size) {
         std::size_t to = 0;
         for (std::size_t i = 0; i < rank; ++i)
-            to += at[i] * stride[pipeline.order[i]];
+            to += at[i] * stride[order[i]];
         std::memcpy(&out[to * size], &stored[from], size);
         for (std::size_t i = rank; i-- > 0;) {
-            if (++at[i] < chunk()[pipeline.order[i]])
+            if (++at[i] < chunk()[order[i]])
                 break;
             at[i] = 0;
         }
     }
-    return out;
 }
 
-ZarrBytes ZarrArray::load(const std::vector<std::uint64_t>& at) {
+/// @param values empty: only the fill value
+void ZarrArray::load(const std::vector<std::uint64_t>& at, ZarrBytes& values) {
     if (!inner_.empty())
-        return from_shard(at);
+        return load_from_shard(at, values);
     const std::string key = key_of(at);
-    auto stored = store_->read(key);
-    return stored ? values_of(std::move(*stored), pipeline_,
-                              fmt::format("{}: {}", store_->name(), key))
-                  : ZarrBytes{};
+    if (store_->read(key, values))
+        decode_chunk(fmt::format("{}: {}", store_->name(), key), values);
+    else
+        values.clear();
 }
 
-ZarrBytes ZarrArray::from_shard(const std::vector<std::uint64_t>& at) {
-    std::vector<std::uint64_t> shard;
-    std::size_t number = 0;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        const std::uint64_t along = chunk_[i] / inner_[i];
-        shard.push_back(at[i] / along);
-        number = number * along + at[i] % along;
-    }
-    const std::string key = key_of(shard), name = fmt::format("{}: {}", store_->name(), key);
-    const ShardIndex& index = index_of_shard(shard, key, name);
-    if (index.entries.empty())
-        return {};
-    std::uint64_t entry[2]{};
-    std::memcpy(entry, &index.entries[16 * number], sizeof entry);
-    constexpr std::uint64_t kNone = ~std::uint64_t{0};
-    if (entry[0] == kNone && entry[1] == kNone)
-        return {};
-    if (entry[0] > index.bytes || entry[1] > index.bytes - entry[0])
-        throw Error(fmt::format("{}: truncated: chunk {} of {} bytes at {} of {}", name, number,
-                                entry[1], entry[0], index.bytes));
-    return values_of(store_->part(key, entry[0], entry[1]), pipeline_, name);
-}
-
-// Behind or before its chunks a shard has, for each, where it begins and its bytes (u64 each).
-const ZarrArray::ShardIndex& ZarrArray::index_of_shard(const std::vector<std::uint64_t>& shard,
-                                                       const std::string& key,
-                                                       const std::string& name) {
-    if (const auto found = shards_.find(shard); found != shards_.end())
-        return found->second;
-    constexpr std::size_t kMostKept = 64 << 20;
-    if (shard_bytes_ > kMostKept) {
-        shards_.clear();
-        shard_bytes_ = 0;
-    }
-    ShardIndex index;
-    const auto bytes = store_->size_of_value(key);
-    if (!bytes)
-        return shards_[shard] = std::move(index);
-    std::size_t count = 1;
-    for (std::size_t i = 0; i < shard.size(); ++i)
-        if (__builtin_mul_overflow(count, chunk_[i] / inner_[i], &count) || count > *bytes)
-            throw Error(fmt::format("{}: {} bytes, expected an index of {} x {} chunks", name,
-                                    *bytes, count, chunk_[i] / inner_[i]));
-    std::size_t size = 16 * count;
-    for (const ZarrCodec& codec : index_.codecs)
-        size += codec.name == "crc32c" ? 4 : 0;
-    if (*bytes < size)
-        throw Error(fmt::format("{}: {} bytes, expected an index of {}", name, *bytes, size));
-    index.bytes = *bytes;
-    index.entries = store_->part(key, index_at_end_ ? *bytes - size : 0, size);
-    for (const ZarrCodec& codec : index_.codecs)
-        index.entries = decoded(std::move(index.entries), codec, 0, size, name);
-    if (index.entries.size() != 16 * count)
-        throw Error(fmt::format("{}: an index of {} bytes, expected {}", name, index.entries.size(),
-                                16 * count));
-    shard_bytes_ += index.entries.size();
-    return shards_[shard] = std::move(index);
+/// Some values of a chunk that is stored as it is.
+void ZarrArray::load_part(const std::vector<std::uint64_t>& at, std::size_t first,
+                          std::size_t count, ZarrBytes& values) const {
+    const std::string key = key_of(at);
+    const std::size_t size = size_of(*type_), bytes = values_in_chunk() * size;
+    const auto stored = store_->size_of_value(key);
+    if (!stored)
+        return values.clear();
+    if (*stored == bytes)
+        store_->part(key, first * size, count * size, values);
+    if (*stored != bytes || values.size() != count * size)
+        throw Error(
+            fmt::format("{}: {}: {} bytes, expected {}", store_->name(), key, *stored, bytes));
 }
 
 const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {
-    if (const auto found = kept_.find(at); found != kept_.end())
-        return found->second;
-    constexpr std::size_t kMostKept = 256 << 20;
-    if (kept_bytes_ > kMostKept) {
-        kept_.clear();
-        kept_bytes_ = 0;
-    }
-    ZarrBytes& chunk = kept_[at] = load(at);
-    kept_bytes_ += chunk.size();
-    return chunk;
+    if (const ZarrBytes* found = kept_.find(at))
+        return *found;
+    ZarrBytes values;
+    load(at, values);
+    const std::size_t bytes = values.size();
+    return kept_.keep(at, std::move(values), bytes);
 }
 
 void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
@@ -345,7 +303,6 @@ void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::
         last[i] = (start[i] + count[i] - 1) / chunk()[i];
     }
     at = first;
-    ZarrBytes whole;
     while (true) {
         // The part of the box in this chunk, row by row along the last dimension.
         std::vector<std::uint64_t> low(rank), high(rank);
@@ -357,17 +314,26 @@ void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::
                   high[i] - low[i] ==
                       std::min(chunk()[i], shape_[i] - std::min(shape_[i], at[i] * chunk()[i]));
         }
-        // Of a chunk that is wanted as a whole nothing is left to keep it for.
+        const auto place_in_chunk = [&](std::span<const std::uint64_t> p, std::uint64_t off) {
+            std::size_t place = 0;
+            for (std::size_t i = 0; i < rank; ++i)
+                place = place * chunk()[i] + (p[i] - off - at[i] * chunk()[i]);
+            return place;
+        };
+        // Of a chunk that is wanted as a whole nothing is left to keep it for; of one that is
+        // stored as it is, only what is wanted is read.
+        const std::size_t begin = all || !plain() ? 0 : place_in_chunk(low, 0);
         if (all)
-            whole = load(at);
-        const ZarrBytes& values = all ? whole : chunk_at(at);
+            load(at, chunk_values_);
+        else if (plain())
+            load_part(at, begin, place_in_chunk(high, 1) + 1 - begin, chunk_values_);
+        const ZarrBytes& values = all || plain() ? chunk_values_ : chunk_at(at);
         const std::size_t row = high[rank - 1] - low[rank - 1];
         for (std::vector<std::uint64_t> p = low;;) {
-            std::size_t to = 0, from = 0;
-            for (std::size_t i = 0; i < rank; ++i) {
+            std::size_t to = 0;
+            for (std::size_t i = 0; i < rank; ++i)
                 to = to * count[i] + (p[i] - start[i]);
-                from = from * chunk()[i] + (p[i] - at[i] * chunk()[i]);
-            }
+            const std::size_t from = place_in_chunk(p, 0) - begin;
             if (!values.empty())
                 std::memcpy(&out[to * size], &values[from * size], row * size);
             else

@@ -1,11 +1,11 @@
 // One array of a Zarr hierarchy, of version 2 or 3: its description, and its chunks as values.
 #pragma once
 
+#include "index/decoders/zarr_cache.h"
 #include "index/decoders/zarr_codecs.h"
 #include "index/formats/stored_scalar.h"
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +30,11 @@ class ZarrArray {
     /// Of the dimensions, where it says them; else empty.
     const std::vector<std::string>& names() const { return names_; }
     const nlohmann::json& attributes() const { return attributes_; }
+    /// Whether files hold the chunks as they are, so that parts of one are read alone.
+    bool plain() const {
+        return inner_.empty() && pipeline_.codecs.empty() && pipeline_.order.empty() &&
+               !pipeline_.big_endian;
+    }
 
     /// The box of values from `start`, `count` along each dimension, as stored, in the machine's
     /// byte order, the last dimension fastest. @throws Error naming the chunk that is damaged
@@ -61,11 +66,14 @@ class ZarrArray {
     std::size_t values_in_chunk() const;
     /// The values of a chunk; empty: only the fill value.
     const ZarrBytes& chunk_at(const std::vector<std::uint64_t>& at);
-    ZarrBytes load(const std::vector<std::uint64_t>& at);
-    ZarrBytes from_shard(const std::vector<std::uint64_t>& at);
+    void load(const std::vector<std::uint64_t>& at, ZarrBytes& values);
+    void load_part(const std::vector<std::uint64_t>& at, std::size_t first, std::size_t count,
+                   ZarrBytes& values) const;
+    void load_from_shard(const std::vector<std::uint64_t>& at, ZarrBytes& values);
     const ShardIndex& index_of_shard(const std::vector<std::uint64_t>& shard,
                                      const std::string& key, const std::string& name);
-    ZarrBytes values_of(ZarrBytes stored, const Pipeline& pipeline, const std::string& name) const;
+    void decode_chunk(const std::string& name, ZarrBytes& values);
+    void transpose(const ZarrBytes& stored, ZarrBytes& out) const;
 
     const ZarrStore* store_;
     std::string path_;
@@ -77,10 +85,9 @@ class ZarrArray {
     Pipeline pipeline_, index_;
     bool index_at_end_ = true;
     ZarrBytes fill_; ///< one value
-    std::map<std::vector<std::uint64_t>, ZarrBytes> kept_;
-    std::size_t kept_bytes_ = 0;
-    std::map<std::vector<std::uint64_t>, ShardIndex> shards_;
-    std::size_t shard_bytes_ = 0;
+    ZarrCache<ZarrBytes> kept_{std::size_t{256} << 20};
+    ZarrCache<ShardIndex> shards_{std::size_t{64} << 20};
+    ZarrBytes chunk_values_, spare_; ///< their memory is used again
 };
 
 } // namespace isochron::index

@@ -42,12 +42,12 @@ std::uint32_t crc32c(std::span<const std::byte> bytes) {
     return ~sum;
 }
 
-ZarrBytes inflated_chunk(const ZarrBytes& stored, std::size_t bytes) {
-    ZarrBytes out(bytes + 1); // one more would show that there are more
+void inflate_chunk(const ZarrBytes& stored, std::size_t bytes, ZarrBytes& out) {
+    out.resize(bytes + 1); // one more would show that there are more
     z_stream stream{};
     constexpr int kZlibOrGzip = 32 + MAX_WBITS;
     if (::inflateInit2(&stream, kZlibOrGzip) != Z_OK)
-        return {};
+        return out.clear();
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(stored.data()));
     stream.avail_in = static_cast<uInt>(std::min<std::size_t>(stored.size(), 0xffff'ffffu));
     stream.next_out = reinterpret_cast<Bytef*>(out.data());
@@ -55,60 +55,54 @@ ZarrBytes inflated_chunk(const ZarrBytes& stored, std::size_t bytes) {
     const int status = ::inflate(&stream, Z_FINISH);
     out.resize(status == Z_STREAM_END ? stream.total_out : 0);
     ::inflateEnd(&stream);
-    return out;
 }
 
-ZarrBytes unpacked_zstd(const ZarrBytes& stored, std::size_t bytes) {
-    ZarrBytes out(bytes);
+void unpack_zstd(const ZarrBytes& stored, std::size_t bytes, ZarrBytes& out) {
+    out.resize(bytes);
     const std::size_t count = ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size());
     out.resize(ZSTD_isError(count) ? 0 : count);
-    return out;
 }
 
 /// numcodecs writes the size before a block, in 4 bytes.
-ZarrBytes unpacked_lz4(const ZarrBytes& stored, std::size_t bytes) {
-    ZarrBytes out(bytes);
+void unpack_lz4(const ZarrBytes& stored, std::size_t bytes, ZarrBytes& out) {
     if (stored.size() < 4)
-        return {};
+        return out.clear();
+    out.resize(bytes);
     const int count = LZ4_decompress_safe(
         reinterpret_cast<const char*>(stored.data() + 4), reinterpret_cast<char*>(out.data()),
         static_cast<int>(std::min<std::size_t>(stored.size() - 4, 0x7fff'ffff)),
         static_cast<int>(std::min<std::size_t>(bytes, 0x7fff'ffff)));
     out.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
-    return out;
 }
 
-ZarrBytes unpacked_bzip2(const ZarrBytes& stored, std::size_t bytes) {
-    ZarrBytes out(bytes);
+void unpack_bzip2(const ZarrBytes& stored, std::size_t bytes, ZarrBytes& out) {
+    out.resize(bytes);
     auto count = static_cast<unsigned>(std::min<std::size_t>(bytes, 0xffff'ffffu));
     const int status = BZ2_bzBuffToBuffDecompress(
         reinterpret_cast<char*>(out.data()), &count,
         reinterpret_cast<char*>(const_cast<std::byte*>(stored.data())),
         static_cast<unsigned>(std::min<std::size_t>(stored.size(), 0xffff'ffffu)), 0, 0);
     out.resize(status == BZ_OK ? count : 0);
-    return out;
 }
 
 #ifdef ISOCHRON_WITH_BLOSC
-ZarrBytes unpacked_blosc(const ZarrBytes& stored, std::size_t bytes) {
+void unpack_blosc(const ZarrBytes& stored, std::size_t bytes, ZarrBytes& out) {
     std::size_t size = 0;
     if (blosc_cbuffer_validate(stored.data(), stored.size(), &size) < 0 || size > bytes)
-        return {};
-    ZarrBytes out(size);
+        return out.clear();
+    out.resize(size);
     const int count = blosc_decompress_ctx(stored.data(), out.data(), out.size(), 1);
     out.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
-    return out;
 }
 #endif
 
 /// First bytes of all elements, then all second bytes, ...: put together again.
-ZarrBytes unshuffled(const ZarrBytes& stored, std::size_t element) {
-    ZarrBytes out = stored; // what is left over stays as it is
+void unshuffle(const ZarrBytes& stored, std::size_t element, ZarrBytes& out) {
+    out = stored; // what is left over stays as it is
     const std::size_t count = stored.size() / element;
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t b = 0; b < element; ++b)
             out[i * element + b] = stored[b * count + i];
-    return out;
 }
 
 } // namespace
@@ -126,37 +120,37 @@ ZarrCodec codec_of(const std::string& name, std::size_t element, const std::stri
                             array, name));
 }
 
-ZarrBytes decoded(ZarrBytes stored, const ZarrCodec& codec, std::size_t bytes, std::size_t most,
-                  const std::string& chunk) {
-    const std::size_t room = bytes > 0 ? bytes : most;
-    ZarrBytes out;
+void decode(const ZarrCodec& codec, std::size_t most, const std::string& chunk, ZarrBytes& bytes,
+            ZarrBytes& spare) {
     if (codec.name == "crc32c") {
-        if (stored.size() < 4)
+        if (bytes.size() < 4)
             fail_at(chunk, codec);
         std::uint32_t check = 0;
-        std::memcpy(&check, stored.data() + stored.size() - 4, 4);
-        stored.resize(stored.size() - 4);
-        if (crc32c(stored) != check)
+        std::memcpy(&check, bytes.data() + bytes.size() - 4, 4);
+        bytes.resize(bytes.size() - 4);
+        if (crc32c(bytes) != check)
             fail_at(chunk, codec);
-        return stored;
+        return;
     }
-    if (codec.name == "shuffle")
-        return unshuffled(stored, std::max<std::size_t>(codec.element, 1));
+    if (codec.name == "shuffle") {
+        unshuffle(bytes, std::max<std::size_t>(codec.element, 1), spare);
+        return bytes.swap(spare);
+    }
     if (codec.name == "zstd")
-        out = unpacked_zstd(stored, room);
+        unpack_zstd(bytes, most, spare);
     else if (codec.name == "lz4")
-        out = unpacked_lz4(stored, room);
+        unpack_lz4(bytes, most, spare);
     else if (codec.name == "bz2")
-        out = unpacked_bzip2(stored, room);
+        unpack_bzip2(bytes, most, spare);
 #ifdef ISOCHRON_WITH_BLOSC
     else if (codec.name == "blosc")
-        out = unpacked_blosc(stored, room);
+        unpack_blosc(bytes, most, spare);
 #endif
     else
-        out = inflated_chunk(stored, room);
-    if (out.empty() || out.size() > room)
+        inflate_chunk(bytes, most, spare);
+    if (spare.empty() || spare.size() > most)
         fail_at(chunk, codec);
-    return out;
+    bytes.swap(spare);
 }
 
 } // namespace isochron::index

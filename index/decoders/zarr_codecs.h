@@ -21,10 +21,12 @@ struct ZarrCodec {
 /// @throws Error naming the array, for one that is not known
 ZarrCodec codec_of(const std::string& name, std::size_t element, const std::string& array);
 
-/// @param bytes that the result has; 0: as many as come out
+/// Takes one step from stored bytes towards values.
 /// @param most [bytes] that may come out
-/// @throws Error naming the chunk: damaged, of another size
-ZarrBytes decoded(ZarrBytes stored, const ZarrCodec& codec, std::size_t bytes, std::size_t most,
-                  const std::string& chunk);
+/// @param bytes what is decoded, and what comes out
+/// @param spare its memory is used
+/// @throws Error naming the chunk: damaged, or more comes out
+void decode(const ZarrCodec& codec, std::size_t most, const std::string& chunk, ZarrBytes& bytes,
+            ZarrBytes& spare);
 
 } // namespace isochron::index

@@ -28,14 +28,19 @@ class FolderStore final : public ZarrStore {
   public:
     explicit FolderStore(const fs::path& path) : ZarrStore(path.string()), path_(path) {}
 
-    std::optional<ZarrBytes> read(const std::string& key) const override {
-        const auto size = size_of_value(key);
-        if (!size)
-            return std::nullopt;
-        if (*size > kMostBytes)
-            throw Error(fmt::format("{}: {} bytes, expected at most {}", (path_ / key).string(),
-                                    *size, kMostBytes));
-        return part(key, 0, *size);
+    using ZarrStore::read;
+    bool read(const std::string& key, ZarrBytes& into) const override {
+        const fs::path file = path_ / key;
+        std::error_code error;
+        if (!fs::is_regular_file(file, error))
+            return false;
+        const InputFile in(file);
+        if (in.size() > kMostBytes)
+            throw Error(fmt::format("{}: {} bytes, expected at most {}", file.string(), in.size(),
+                                    kMostBytes));
+        into.resize(in.size());
+        into.resize(in.read(0, into));
+        return true;
     }
 
     std::optional<std::uint64_t> size_of_value(const std::string& key) const override {
@@ -46,15 +51,15 @@ class FolderStore final : public ZarrStore {
         return InputFile(file).size();
     }
 
-    ZarrBytes part(const std::string& key, std::uint64_t at, std::uint64_t size) const override {
+    void part(const std::string& key, std::uint64_t at, std::uint64_t size,
+              ZarrBytes& into) const override {
         const fs::path file = path_ / key;
         const InputFile in(file);
         if (at > in.size() || size > in.size() - at)
             throw Error(fmt::format("{}: truncated: {} bytes, expected {} at {}", file.string(),
                                     in.size(), size, at));
-        ZarrBytes bytes(size);
-        bytes.resize(in.read(at, bytes));
-        return bytes;
+        into.resize(size);
+        into.resize(in.read(at, into));
     }
 
     std::vector<std::string> names(const std::string& group) const override {
@@ -83,10 +88,11 @@ class ZipStore final : public ZarrStore {
         read_directory();
     }
 
-    std::optional<ZarrBytes> read(const std::string& key) const override {
+    using ZarrStore::read;
+    bool read(const std::string& key, ZarrBytes& into) const override {
         const auto found = entries_.find(key);
         if (found == entries_.end())
-            return std::nullopt;
+            return false;
         const ZipEntry& entry = found->second;
         if (entry.bytes > kMostBytes || entry.packed > file_.size() ||
             (entry.method == 0 && entry.packed != entry.bytes))
@@ -99,10 +105,10 @@ class ZipStore final : public ZarrStore {
         ZarrBytes packed(entry.packed);
         if (file_.read(data, packed) != packed.size())
             fail(key);
-        ZarrBytes bytes = entry.method == 0 ? std::move(packed) : inflated(packed, entry, key);
-        if (::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) != entry.check)
+        into = entry.method == 0 ? std::move(packed) : inflated(packed, entry, key);
+        if (::crc32_z(0, reinterpret_cast<const Bytef*>(into.data()), into.size()) != entry.check)
             fail(key);
-        return bytes;
+        return true;
     }
 
     std::optional<std::uint64_t> size_of_value(const std::string& key) const override {
@@ -111,16 +117,18 @@ class ZipStore final : public ZarrStore {
     }
 
     /// Its check is that of the whole value, which is therefore read once and kept.
-    ZarrBytes part(const std::string& key, std::uint64_t at, std::uint64_t size) const override {
+    void part(const std::string& key, std::uint64_t at, std::uint64_t size,
+              ZarrBytes& into) const override {
         if (kept_key_ != key) {
             kept_key_.clear();
-            kept_ = read(key).value_or(ZarrBytes());
+            if (!read(key, kept_))
+                kept_.clear();
             kept_key_ = key;
         }
         if (at > kept_.size() || size > kept_.size() - at)
             fail(key);
         const auto first = kept_.begin() + static_cast<std::ptrdiff_t>(at);
-        return {first, first + static_cast<std::ptrdiff_t>(size)};
+        into.assign(first, first + static_cast<std::ptrdiff_t>(size));
     }
 
     std::vector<std::string> names(const std::string& group) const override {

@@ -35,13 +35,19 @@ class ZarrStore {
   public:
     virtual ~ZarrStore() = default;
 
-    /// The value of a key as `path/to/array/c/0/1`; none where there is none.
+    /// Reads the value of a key as `path/to/array/c/0/1`. @return false where there is none
     /// @throws Error naming the file: unreadable, damaged
-    virtual std::optional<ZarrBytes> read(const std::string& key) const = 0;
+    virtual bool read(const std::string& key, ZarrBytes& into) const = 0;
+    /// The same, without memory of the caller's.
+    std::optional<ZarrBytes> read(const std::string& key) const {
+        ZarrBytes bytes;
+        return read(key, bytes) ? std::optional(std::move(bytes)) : std::nullopt;
+    }
     /// [bytes] of a value; none where there is none. @throws Error as `read`
     virtual std::optional<std::uint64_t> size_of_value(const std::string& key) const = 0;
     /// A part of a value that is there. @throws Error as `read`, and when it ends before the part
-    virtual ZarrBytes part(const std::string& key, std::uint64_t at, std::uint64_t size) const = 0;
+    virtual void part(const std::string& key, std::uint64_t at, std::uint64_t size,
+                      ZarrBytes& into) const = 0;
     /// Names directly below a group, sorted, at most 100,000. @param group without a slash at its end
     virtual std::vector<std::string> names(const std::string& group) const = 0;
 
@@ -54,6 +60,10 @@ class ZarrStore {
   private:
     std::string name_;
 };
+
+/// The volume of a hierarchy. @throws Error naming the store
+std::unique_ptr<class DecodedFile> decode_zarr(std::unique_ptr<ZarrStore> store,
+                                               const struct ReadOptions& options);
 
 /// @param path a folder, or a zip file @throws Error naming it
 std::unique_ptr<ZarrStore> open_zarr_store(const std::filesystem::path& path);

@@ -241,6 +241,7 @@ json json_of(const Referral& referral) {
     put_optional(j, "array", options.array);
     put_optional(j, "component", options.component);
     put_optional(j, "dims", options.dims);
+    put_optional(j, "resample", options.resample);
     if (options.type)
         j["type"] = name_of(*options.type);
     return j;
@@ -259,10 +260,9 @@ Referral referral_of(const json& j) {
     options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
     get_optional(j, "array", options.array);
     get_optional(j, "component", options.component);
-    if (j.contains("dims")) {
-        options.dims.emplace();
-        get_whole(j.at("dims"), *options.dims);
-    }
+    for (auto [key, to] : {std::pair("dims", &options.dims), {"resample", &options.resample}})
+        if (j.contains(key))
+            get_whole(j.at(key), to->emplace());
     if (j.contains("type"))
         options.type = value_type_from_name(j.at("type").get<std::string>());
     return referral;

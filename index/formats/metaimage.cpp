@@ -44,26 +44,17 @@ class MetaImageHeader {
         const std::string head = head_of(path, kMost);
         std::size_t at = 0;
         while (at < head.size() && !fields_.contains("ElementDataFile")) {
-            const std::size_t end = std::min(head.find('\n', at), head.size());
-            const std::string_view line = std::string_view(head).substr(at, end - at);
-            at = end + 1;
-            const std::size_t equals = line.find('=');
-            if (equals == line.npos) {
-                if (trimmed(line).empty())
-                    continue;
+            const std::string_view line = take_line(head, at);
+            if (auto field = field_of(line, '='))
+                fields_[field->key] = std::move(field->value);
+            else if (!trimmed(line).empty())
                 break;
-            }
-            fields_[std::string(trimmed(line.substr(0, equals)))] =
-                trimmed(line.substr(equals + 1));
         }
         bytes_ = at;
         while (at < head.size() &&
                lower_case(find({"ElementDataFile"}).value_or("")).starts_with("list")) {
-            const std::size_t end = std::min(head.find('\n', at), head.size());
-            if (const auto line = trimmed(std::string_view(head).substr(at, end - at));
-                !line.empty())
+            if (const auto line = trimmed(take_line(head, at)); !line.empty())
                 listed_.emplace_back(line);
-            at = end + 1;
         }
         if (!fields_.contains("ElementDataFile") || !fields_.contains("DimSize"))
             throw Error(fmt::format("{}: not MetaImage: no DimSize or no ElementDataFile", file_));

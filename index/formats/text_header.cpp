@@ -49,6 +49,21 @@ std::vector<std::string> words_of(std::string_view text) {
     return words;
 }
 
+std::string_view take_line(std::string_view text, std::size_t& at) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    return line;
+}
+
+std::optional<HeaderField> field_of(std::string_view line, char separator) {
+    const std::size_t found = line.find(separator);
+    if (found == line.npos)
+        return std::nullopt;
+    return HeaderField{std::string(trimmed(line.substr(0, found))),
+                       std::string(trimmed(line.substr(found + 1)))};
+}
+
 std::string excerpt(std::string_view text) {
     constexpr std::size_t kMost = 60;
     return std::string(text.substr(0, kMost)) + (text.size() > kMost ? "..." : "");

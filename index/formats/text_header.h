@@ -1,6 +1,9 @@
-// Words, numbers and lines of the text headers of MetaImage and NRRD.
+// Words, numbers and lines of the text headers of BOV, MetaImage and NRRD.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +13,16 @@ namespace isochron::index {
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
 std::vector<std::string> words_of(std::string_view text);
+
+/// The line at a place, without its end; moves the place behind it.
+std::string_view take_line(std::string_view text, std::size_t& at);
+
+/// A line `KEY: VALUE`, trimmed.
+struct HeaderField {
+    std::string key, value;
+};
+/// None without the separator.
+std::optional<HeaderField> field_of(std::string_view line, char separator);
 
 /// A text as quoted in a message; of a long text only the beginning.
 std::string excerpt(std::string_view text);

@@ -1,6 +1,8 @@
 // Fills the table of a rectilinear grid's axes.
 #include "render/cells/axis_table.h"
 
+#include "render/cells/axis_places.h"
+
 #include <glm/vec4.hpp>
 
 #include <algorithm>
@@ -21,18 +23,18 @@ const char* prelude_for(const index::Grid& grid) {
 AxisTable::AxisTable(const Gl& gl, const index::Grid& grid) : gl_(&gl) {
     if (!grid.rectilinear())
         return;
+    const auto places = axis_places(grid);
     const std::size_t longest = std::ranges::max(grid.vertices);
     std::vector<glm::vec4> texels(4 * longest, glm::vec4(0.0f));
     for (int axis = 0; axis < 3; ++axis) {
         const std::uint32_t count = grid.vertices[static_cast<std::size_t>(axis)];
         float& largest = largest_[axis] = 0.0f;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t cell = std::min(i, count - 2); // the last vertex has none behind it
-            const double low = grid.even_place(axis, cell);
-            const auto size = static_cast<float>(grid.even_place(axis, cell + 1) - low);
+            const AxisPlaces& of_axis = places[static_cast<std::size_t>(axis)];
+            const float size = of_axis.side[i];
             const auto weights = grid.slope_weights(axis, i);
             glm::vec4* const of_vertex = &texels[std::size_t{4} * i];
-            of_vertex[0][axis] = static_cast<float>(grid.even_place(axis, i));
+            of_vertex[0][axis] = of_axis.place[i];
             of_vertex[1][axis] = size;
             of_vertex[2][axis] = static_cast<float>(weights.before);
             of_vertex[3][axis] = static_cast<float>(weights.behind);

@@ -45,12 +45,14 @@ index::Shading CellBuffers::wanted_shading(const Gl& gl) {
     return takes_processor_ways(gl) ? index::Shading::cells : index::Shading::none;
 }
 
-CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points) {
-    CellBuffers cells(gl, {.vertices = {2, 2, 2}}, 2 * StagingRing::kUnit);
+CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points,
+                                   const index::Grid& grid, std::uint32_t largest) {
+    CellBuffers cells(gl, grid, 2 * StagingRing::kUnit);
     cells.points_.reserve(points.size(), DeviceArray::Contents::dropped);
     gl.NamedBufferSubData(cells.points_.buffer(), 0, static_cast<GLsizeiptr>(points.size_bytes()),
                           points.data());
     auto slots = std::make_shared<Slots>();
+    slots->largest = largest;
     for (const index::CellPoint& point : points) {
         slots->slot_of_rank.push_back(static_cast<std::uint32_t>(slots->places.size()));
         slots->places.push_back({point.x, point.y, point.z, point.style});

@@ -50,7 +50,11 @@ class CellBuffers {
     bool has_fences() const { return ring_.fences() == Fences::pass; }
 
     /// Fixed cells from points with normals; `shown()` is null.
-    static CellBuffers of_points(const Gl& gl, std::span<const index::CellPoint> points);
+    /// @param grid they are of, which need not be said if it is regular
+    /// @param largest cell [voxels] where the points are those of mixed levels of detail; else 0
+    static CellBuffers of_points(const Gl& gl, std::span<const index::CellPoint> points,
+                                 const index::Grid& grid = {.vertices = {2, 2, 2}},
+                                 std::uint32_t largest = 0);
 
     /// Makes the compute programs and runs each once, over no cells: compiling them takes longer
     /// than a frame may. Without this the first upload does it.

@@ -8,34 +8,15 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-
-#ifndef ISOCHRON_CELL_SQUARES_TYPES
-#define ISOCHRON_CELL_SQUARES_TYPES
-namespace isochron::render {
-
-/// The data that all cells share.
-struct SquareProjection {
-    glm::vec4 row_x, row_y, row_z, row_w; ///< from index to clip space, x and y in pixels
-    glm::vec2 middle;                     ///< of the viewport, pixels
-    float radius;
-    glm::mat3 index_from_normal; ///< normals of planes from physical to index space
-    glm::vec3 extent;            ///< of the volume in index space
-};
-
-/// Where the results go.
-struct SquareArrays {
-    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc, *xx, *xy, *yy;
-};
-
-} // namespace isochron::render
-#endif
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/cells/cell_squares.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
 
+#include "render/cells/cell_boxes_inl.h"
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -44,8 +25,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, CellSquares::kBlock>;
-using V = hn::Vec<Floats>;
+static_assert(kMostAtOnce <= CellSquares::kBlock);
 
 /// As in cell.vert: an ellipse with half axes a, b has an upright quad if
 /// (a^2 - b^2) / (a^2 + b^2) is at most this.
@@ -56,68 +36,24 @@ constexpr float kClipped =
 constexpr float kWholeDepth = 0.75f;
 constexpr float kFar = 1e9f; ///< beyond any view and before any depth
 
-struct V3 {
-    V x, y, z;
-};
-
-HWY_INLINE V dot(const V3& a, const V3& b) {
-    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-
-HWY_INLINE V3 set(const glm::vec4& row) {
-    const Floats d;
-    return {hn::Set(d, row.x), hn::Set(d, row.y), hn::Set(d, row.z)};
-}
-
-HWY_INLINE V at(const glm::vec4& row, const V3& center) {
-    return hn::Add(dot(set(row), center), hn::Set(Floats(), row.w));
-}
-
-/// As in cell_box.glsl.
-struct Boxes {
-    V3 center;
-    V size;
-};
-
-/// The next cells, from their words.
-template <bool kMixed>
-HWY_INLINE Boxes boxes(const SquareProjection& p, const std::uint32_t* words) {
-    const Floats d;
-    const hn::RebindToUnsigned<Floats> du;
-    const hn::RebindToSigned<Floats> di;
-    hn::Vec<decltype(du)> xy, z_style;
-    hn::LoadInterleaved2(du, words, xy, z_style);
-    const auto low = hn::Set(du, 0xffffu);
-    const V half = hn::Set(d, 0.5f), one = hn::Set(d, 1.0f);
-    const auto number = [&](hn::Vec<decltype(du)> cell) {
-        return hn::ConvertTo(d, hn::BitCast(di, cell));
-    };
-    const auto x = hn::And(xy, low), y = hn::ShiftRight<16>(xy), z = hn::And(z_style, low);
-    if constexpr (!kMixed) {
-        const auto middle = [&](hn::Vec<decltype(du)> cell) { return hn::Add(number(cell), half); };
-        return {{middle(x), middle(y), middle(z)}, one};
-    } else {
-        const auto of_x = hn::BitCast(di, x);
-        const V size = hn::ConvertTo(d, hn::And(of_x, hn::Neg(of_x)));
-        const auto middle = [&](hn::Vec<decltype(du)> doubled, float end) {
-            const V start = hn::Mul(half, hn::Sub(number(doubled), size));
-            return hn::Mul(half, hn::Add(start, hn::Min(hn::Add(start, size), hn::Set(d, end))));
-        };
-        return {{middle(x, p.extent.x), middle(y, p.extent.y), middle(z, p.extent.z)}, size};
-    }
-}
-
-/// Spheres of one radius.
+/// Spheres of one radius, in voxels.
+template <class Sides>
 struct Spheres {
+    Sides sides;
     V radius2;
-    HWY_INLINE V form(const V3& u, const V3& v) const { return hn::Mul(radius2, dot(u, v)); }
+    HWY_INLINE V form(const V3& u, const V3& v) const {
+        return hn::Mul(radius2, dot(sides.in_form(u), sides.in_form(v)));
+    }
 };
 
 /// As plane.glsl has it: `Splat` and `form`.
+template <class Sides>
 struct Ellipsoids {
+    Sides sides;
     V3 normal, lengthwise;
     V across2, normal2, lengthwise2; ///< square half axes; the last two minus the first
-    HWY_INLINE V form(const V3& u, const V3& v) const {
+    HWY_INLINE V form(const V3& u_even, const V3& v_even) const {
+        const V3 u = sides.in_form(u_even), v = sides.in_form(v_even);
         const V flat = hn::Mul(normal2, hn::Mul(dot(u, normal), dot(v, normal)));
         const V length = hn::Mul(lengthwise2, hn::Mul(dot(u, lengthwise), dot(v, lengthwise)));
         return hn::MulAdd(across2, dot(u, v), hn::Add(flat, length));
@@ -137,8 +73,9 @@ HWY_INLINE V3 select(M which, const V3& yes, const V3& no) {
 
 /// The ellipsoids on the planes of the next cells.
 /// @param cells their centers become those of the ellipsoids
-HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t* words,
-                                 Boxes& cells) {
+template <class Sides>
+HWY_INLINE Ellipsoids<Sides> ellipsoids(const SquareProjection& p, const std::uint32_t* words,
+                                        Boxes<Sides>& cells) {
     const Floats d;
     const hn::RebindToUnsigned<Floats> du;
     const hn::RebindToSigned<Floats> di;
@@ -159,7 +96,7 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
                           p.index_from_normal[2][i]);
         return dot({hn::Set(d, r.x), hn::Set(d, r.y), hn::Set(d, r.z)}, n);
     };
-    const V3 in_index{row(0), row(1), row(2)};
+    const V3 in_index = cells.sides.in_form({row(0), row(1), row(2)});
     const auto flat_bits = hn::Ne(hn::And(word, hn::Set(du, index::kNormalBits)), hn::Zero(du));
     const auto is_flat =
         hn::And(hn::RebindMask(d, flat_bits), hn::Gt(dot(in_index, in_index), zero));
@@ -187,9 +124,10 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
     at = {hn::MulAdd(back, normal.x, at.x), hn::MulAdd(back, normal.y, at.y),
           hn::MulAdd(back, normal.z, at.z)};
     V3& center = cells.center;
-    const V shift = hn::IfThenElseZero(is_flat, cells.size);
-    center = {hn::MulAdd(shift, at.x, center.x), hn::MulAdd(shift, at.y, center.y),
-              hn::MulAdd(shift, at.z, center.z)};
+    const V3 shift = cells.sides.stretched(at);
+    center = {hn::Add(center.x, hn::IfThenElseZero(is_flat, shift.x)),
+              hn::Add(center.y, hn::IfThenElseZero(is_flat, shift.y)),
+              hn::Add(center.z, hn::IfThenElseZero(is_flat, shift.z))};
     const auto x_is = hn::Eq(size.x, least), y_is = hn::Eq(size.y, least);
     const V3 edge = select(x_is, {one, zero, zero}, select(y_is, {zero, one, zero}, any));
     const V lean = dot(edge, normal);
@@ -197,8 +135,8 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
         over_length({hn::NegMulAdd(lean, normal.x, edge.x), hn::NegMulAdd(lean, normal.y, edge.y),
                      hn::NegMulAdd(lean, normal.z, edge.z)});
     const auto square = [&](V half_axis) HWY_ATTR {
-        const V radius = hn::Mul(hn::Set(d, p.radius), cells.size);
-        const V length = hn::Mul(radius, hn::IfThenElse(is_flat, half_axis, one));
+        const V length =
+            hn::Mul(cells.sides.half_axes(p.radius), hn::IfThenElse(is_flat, half_axis, one));
         return hn::Mul(length, length);
     };
     const auto clamped = [&](V length) {
@@ -208,17 +146,22 @@ HWY_INLINE Ellipsoids ellipsoids(const SquareProjection& p, const std::uint32_t*
     const V length2 =
         square(clamped(hn::Div(hn::Mul(rest, hn::Set(d, SplatShape::kLengthwise)), least)));
     const V thickness2 = square(hn::Set(d, SplatShape::kThickness));
-    return {normal, lengthwise, across2, hn::Sub(thickness2, across2), hn::Sub(length2, across2)};
+    return {cells.sides,
+            normal,
+            lengthwise,
+            across2,
+            hn::Sub(thickness2, across2),
+            hn::Sub(length2, across2)};
 }
 
 /// @tparam Shape of the cells, with a function `form`
-template <bool kEllipses, class Shape>
-HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, const Boxes& boxes,
-                              std::size_t i, const SquareArrays& out) {
+template <bool kEllipses, class Shape, class Sides>
+HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells,
+                              const Boxes<Sides>& boxes, std::size_t i, const SquareArrays& out) {
     const Floats d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
     const V3& center = boxes.center;
-    const V radius = hn::Mul(hn::Set(d, p.radius), boxes.size);
+    const V radius = hn::Mul(hn::Set(d, p.radius), boxes.sides.largest());
     const float tilt2 = glm::dot(glm::vec3(p.row_w), glm::vec3(p.row_w));
     const V3 row_w = set(p.row_w);
     const V w = at(p.row_w, center);
@@ -285,26 +228,26 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells, con
 
 /// Projects the next cells and stores the results from index `i` of the arrays.
 /// @param planes null if the cells are spheres
-template <bool kMixed>
+template <bool kMixed, bool kUneven>
 HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* words,
                              const std::uint32_t* planes, std::size_t i, const SquareArrays& out) {
-    Boxes cells = boxes<kMixed>(p, words);
+    auto cells = boxes<kMixed, kUneven>(p, words);
     if (planes) {
-        const Ellipsoids shape = ellipsoids(p, planes, cells);
+        const auto shape = ellipsoids(p, planes, cells);
         project_shape<true>(p, shape, cells, i, out);
     } else {
-        const V radius = hn::Mul(hn::Set(Floats(), p.radius), cells.size);
-        const Spheres shape{hn::Mul(radius, radius)};
+        const V radius = cells.sides.half_axes(p.radius);
+        const Spheres<decltype(cells.sides)> shape{cells.sides, hn::Mul(radius, radius)};
         project_shape<false>(p, shape, cells, i, out);
     }
 }
 
-template <bool kMixed>
+template <bool kMixed, bool kUneven>
 HWY_INLINE void project_all(const SquareProjection& p, const std::uint32_t* words,
                             const std::uint32_t* planes, std::size_t cells,
                             const SquareArrays& out) {
     for (std::size_t i = 0; i < cells; i += hn::Lanes(Floats()))
-        project_next<kMixed>(p, words + 2 * i, planes ? planes + i : nullptr, i, out);
+        project_next<kMixed, kUneven>(p, words + 2 * i, planes ? planes + i : nullptr, i, out);
 }
 
 } // namespace
@@ -312,10 +255,15 @@ HWY_INLINE void project_all(const SquareProjection& p, const std::uint32_t* word
 /// @param mixed the cells are of several levels of detail
 void project(const SquareProjection& projection, const std::uint32_t* words,
              const std::uint32_t* planes, std::size_t cells, bool mixed, const SquareArrays& out) {
-    if (mixed)
-        project_all<true>(projection, words, planes, cells, out);
+    const bool uneven = projection.places[0] != nullptr;
+    if (mixed && uneven)
+        project_all<true, true>(projection, words, planes, cells, out);
+    else if (mixed)
+        project_all<true, false>(projection, words, planes, cells, out);
+    else if (uneven)
+        project_all<false, true>(projection, words, planes, cells, out);
     else
-        project_all<false>(projection, words, planes, cells, out);
+        project_all<false, false>(projection, words, planes, cells, out);
 }
 
 } // namespace isochron::render::HWY_NAMESPACE
@@ -326,12 +274,21 @@ namespace isochron::render {
 
 HWY_EXPORT(project);
 
+void CellSquares::take_axes(const Placement& placement) {
+    if (grid_ == placement.rectilinear)
+        return;
+    grid_ = placement.rectilinear;
+    axes_ = grid_ ? axis_places(*grid_) : std::array<AxisPlaces, 3>();
+}
+
 void CellSquares::project(const View& view, const Placement& placement, const SplatShape& shape,
                           const Slots& slots, std::span<const std::uint32_t> back_to_front) {
     const bool on_planes = shape.shape == CellShape::plane;
     size_ = back_to_front.size();
     const std::size_t whole = (size_ + kBlock - 1) / kBlock * kBlock;
+    take_axes(placement);
     words_.resize(2 * whole);
+    std::fill(words_.begin() + static_cast<std::ptrdiff_t>(2 * size_), words_.end(), 0u);
     planes_.resize(on_planes ? whole : 0);
     for (std::vector<float>* array : {&x_, &y_, &z_, &inner_, &inner_disc_, &outer_disc_})
         array->resize(whole);
@@ -347,9 +304,22 @@ void CellSquares::project(const View& view, const Placement& placement, const Sp
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
     const glm::mat4 rows =
         glm::transpose(view.clip_from_eye * view.eye_from_room * placement.room_from_index);
-    const SquareProjection projection{
-        half_size.x * rows[0], half_size.y * rows[1],         rows[2],         rows[3], half_size,
-        shape.radius,          placement.index_from_normal(), placement.extent};
+    SquareProjection projection{half_size.x * rows[0],
+                                half_size.y * rows[1],
+                                rows[2],
+                                rows[3],
+                                half_size,
+                                shape.radius,
+                                placement.index_from_normal(),
+                                placement.extent,
+                                {},
+                                {},
+                                {}};
+    for (std::size_t axis = 0; grid_ && axis < axes_.size(); ++axis) {
+        projection.places[axis] = axes_[axis].place.data();
+        projection.sides[axis] = axes_[axis].side.data();
+        projection.last[axis] = static_cast<std::int32_t>(axes_[axis].place.size()) - 1;
+    }
     HWY_DYNAMIC_DISPATCH(project)
     (projection, words_.data(), on_planes ? planes_.data() : nullptr, whole, slots.largest > 0,
      {x_.data(), y_.data(), z_.data(), inner_.data(), outer_.data(), inner_disc_.data(),

@@ -1,13 +1,16 @@
 // Projects cells' quads to a view, many cells at a time.
 #pragma once
 
+#include "render/cells/axis_places.h"
 #include "render/cells/cell_shape.h"
 #include "render/cells/placement.h"
 #include "render/cells/slot_plan.h"
 #include "render/gl/view.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,7 +49,11 @@ class CellSquares {
     const float* yy() const { return yy_.data(); }
 
   private:
+    void take_axes(const Placement& placement);
+
     std::size_t size_ = 0;
+    std::optional<index::Grid> grid_; ///< a rectilinear one, of which the axes are
+    std::array<AxisPlaces, 3> axes_;
     std::vector<std::uint32_t> words_; ///< two for each cell: those of its CellPlace
     std::vector<std::uint32_t> planes_;
     std::vector<float> x_, y_, z_, inner_, outer_, inner_disc_, outer_disc_, xx_, xy_, yy_;

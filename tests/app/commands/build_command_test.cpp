@@ -171,6 +171,36 @@ TEST_F(CommandLine, AnIndexThatRefersToItsSourcesAnswersAsOneThatCarriesThem) {
                    "t2.raw");
 }
 
+TEST_F(CommandLine, AnIndexRefersToWhatIsResampledAndConverted) {
+    std::string points, values;
+    for (int k = 0; k < 4; ++k)
+        for (int j = 0; j < 5; ++j)
+            for (int i = 0; i < 6; ++i) {
+                points += fmt::format("{} {} {}\n", i + 0.1 * j, j, k);
+                values += fmt::format("{}\n", i + j + k);
+            }
+    folder.write("curved.vtk",
+                 "# vtk DataFile Version 3.0\nc\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 6 5 4\n"
+                 "POINTS 120 float\n" +
+                     points + "POINT_DATA 120\nSCALARS s float 1\nLOOKUP_TABLE default\n" + values);
+    const auto answer = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> build{"build",      "curved.vtk", "-o", "a.isochron",
+                                       "--resample", "7",          "8",  "9"};
+        build.insert(build.end(), more.begin(), more.end());
+        EXPECT_EQ(isochron(build).status, 0);
+        EXPECT_EQ(isochron({"verify", "a.isochron"}).err, "");
+        EXPECT_EQ(isochron({"query", "a.isochron", "--isovalue", "4.5", "--step", "0", "--ids",
+                            "ids.bin"})
+                      .status,
+                  0);
+        return folder.read("ids.bin");
+    };
+    const std::string carried = answer({});
+    ASSERT_FALSE(carried.empty());
+    EXPECT_EQ(answer({"--refer"}), carried);
+    EXPECT_EQ(answer({"--refer", "--type", "f64"}), carried);
+}
+
 TEST_F(CommandLine, AnIndexRefersToNamesThatAreNoText) {
     const std::string name = "t\xff\xfe 1.raw"; // bytes that are not UTF-8
     std::filesystem::rename(folder.path() / "t1.raw", folder.path() / name);

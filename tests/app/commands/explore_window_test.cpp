@@ -82,6 +82,46 @@ TEST_F(ExploreWindow, OpensTheFileThatIsDroppedOntoIt) {
     EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
 }
 
+/// 54 MiB, too much to be indexed as a whole, nearly all of it holes.
+void write_series(const TestFolder& folder) {
+    for (int step = 0; step < 5; ++step) {
+        const std::string name = "s" + std::to_string(step) + ".vtk";
+        folder.write(name, "# vtk DataFile Version 3.0\ns\nBINARY\nDATASET STRUCTURED_POINTS\n"
+                           "DIMENSIONS 224 224 224\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA "
+                           "11239424\nSCALARS s unsigned_char 1\nLOOKUP_TABLE default\n" +
+                               std::string(100'000, static_cast<char>('a' + step)));
+        const auto header = std::filesystem::file_size(folder.path() / name) - 100'000;
+        std::filesystem::resize_file(folder.path() / name, header + 11239424);
+    }
+}
+
+TEST_F(ExploreWindow, OfFilesWithoutAnIndexItShowsAllStepsInTheEnd) {
+    write_series(folder_);
+    const Program program({"explore", file("s*.vtk"), "--size", "640", "480", "--record",
+                           file("walk.jsonl"), "--report", file("report.json"), "--seconds",
+                           "300"});
+    // Until all steps are there: at the start, or as the index grows.
+    while (folder_.read("walk.jsonl.part").find("\"steps\":5") == std::string::npos)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20)); // the test's limit ends a hang
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
+    EXPECT_FALSE(read_recording(file("walk.jsonl")).frames.empty());
+    // What the user knows them by.
+    EXPECT_EQ(UserMemory(state_.path() / "isochron").recent().front(),
+              folder_.path() / "s[0-9]*.vtk");
+}
+
+TEST_F(ExploreWindow, OpensFilesOfValuesThatAreDroppedOntoIt) {
+    write_series(folder_);
+    folder_.write("damaged.vtk", "# vtk DataFile Version 3.0\nnothing\n");
+    const auto program = explore({});
+    screen_.drop_file(title("sphere.isochron"), file("damaged.vtk")); // said, and nothing else
+    screen_.drop_file(title("sphere.isochron"), file("s2.vtk"));
+    wait_for_window("Isochron: .*/s2.vtk");
+    program->signal(SIGTERM);
+    EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
+}
+
 TEST_F(ExploreWindow, EndsWithItsDisplayAndKeepsTheRecording) {
     const auto program = explore({"--record", file("walk.jsonl")});
     screen_.xdotool({"key", "2"});

@@ -1,6 +1,9 @@
 // Indexes of data that were only to be looked at: kept, made again, and gone.
 #include "app/commands/kept_index.h"
 
+#include "app/commands/build_sources.h"
+#include "app/commands/file_patterns.h"
+#include "index/build/index_build.h"
 #include "index/file/index_file.h"
 #include "tests/support/test_folder.h"
 
@@ -21,7 +24,7 @@ class KeptIndex : public testing::Test {
     void write(char value) const { folder_.write("t.raw", std::string(64, value)); }
     fs::path kept(const BuildArguments& arguments, std::uint64_t most = kMostKeptBytes) const {
         testing::internal::CaptureStderr();
-        fs::path path = kept_index(arguments, cache_, most);
+        fs::path path = kept_index(arguments, cache_, {}, most);
         testing::internal::GetCapturedStderr();
         return path;
     }
@@ -72,6 +75,71 @@ TEST_F(KeptIndex, IsMadeAgainWhereItIsDamaged) {
     fs::resize_file(first, 100);
     EXPECT_EQ(kept(arguments_), first);
     EXPECT_EQ(index::IndexFile::open(first)->stats().low, 'a');
+}
+
+/// Ends the making of an index.
+struct Ended {};
+
+class LargeKeptIndex : public KeptIndex {
+  protected:
+    static constexpr std::size_t kBytes = 224 * 224 * 224;
+    LargeKeptIndex() {
+        arguments_.dims = {224, 224, 224};
+        for (int step = 0; step < 5; ++step) { // 54 MiB, nearly all of it holes
+            const std::string name = "s" + std::to_string(step) + ".raw";
+            folder_.write(name, std::string(1000, static_cast<char>('a' + step)));
+            fs::resize_file(folder_.path() / name, kBytes);
+        }
+        arguments_.files = {(folder_.path() / "s*.raw").string()};
+    }
+    /// The numbers of steps that were reported, up to where it ends.
+    std::vector<std::size_t> held(std::size_t end) {
+        std::vector<std::size_t> steps;
+        path_.clear();
+        try {
+            path_ =
+                kept_index(arguments_, cache_,
+                           {.held =
+                                [&](const fs::path& path, std::size_t now) {
+                                    steps.push_back(now);
+                                    EXPECT_EQ(index::IndexFile::open(path)->info().steps(), now);
+                                },
+                            .progress =
+                                [&](std::string_view, double fraction) {
+                                    EXPECT_LE(fraction, 1);
+                                    if (!steps.empty() && steps.back() >= end)
+                                        throw Ended();
+                                }});
+        } catch (const Ended&) { // as it was asked to
+        }
+        return steps;
+    }
+    fs::path path_; ///< of the complete one
+};
+
+TEST_F(LargeKeptIndex, HasItsFirstStepSoonAndGoesOnWhereItEnded) {
+    EXPECT_THAT(held(2), testing::ElementsAre(1, 2));
+    EXPECT_TRUE(path_.empty());
+    EXPECT_EQ(count(), 1u) << "and nothing half made beside it";
+    EXPECT_THAT(held(100), testing::ElementsAre(2, 4, 5));
+    EXPECT_THAT(held(100), testing::ElementsAre(5)) << "it is complete";
+    const BuildSources sources = open_sources(expand_patterns(arguments_.files), arguments_);
+    const fs::path whole = folder_.path() / "whole.isochron";
+    index::build_index(*sources.volume, whole, build_options(arguments_, sources));
+    const auto expected = index::IndexFile::open(whole), made = index::IndexFile::open(path_);
+    EXPECT_EQ(made->content_hash(), expected->content_hash());
+    EXPECT_EQ(made->info().times, expected->info().times);
+    EXPECT_EQ(made->info().sources, expected->info().sources);
+    EXPECT_EQ(made->stats().high, expected->stats().high);
+    made->verify();
+}
+
+TEST_F(LargeKeptIndex, IsBegunAnewWhereAFileWasWrittenToInBetween) {
+    EXPECT_THAT(held(2), testing::ElementsAre(1, 2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // another time of writing
+    folder_.write("s0.raw", std::string(kBytes, 'z'));
+    EXPECT_THAT(held(100), testing::ElementsAre(1, 2, 4, 5));
+    EXPECT_EQ(index::IndexFile::open(path_)->stats().high, 'z');
 }
 
 TEST_F(KeptIndex, GoesWhereAllTakeMoreThanTheyMay) {

@@ -49,6 +49,26 @@ class SourceInfo : public testing::Test {
     TestFolder folder_;
 };
 
+TEST_F(SourceInfo, SaysWhereASpacingIsAMean) {
+    folder_.write(
+        "r.vtk", "# vtk DataFile Version 3.0\nr\nASCII\nDATASET RECTILINEAR_GRID\n"
+                 "DIMENSIONS 4 2 3\nX_COORDINATES 4 float\n0 1 3 9\n"
+                 "Y_COORDINATES 2 float\n0 2\nZ_COORDINATES 3 float\n0 5 10\n"
+                 "POINT_DATA 24\nSCALARS s float 1\nLOOKUP_TABLE default\n" +
+                     [] {
+                         std::string values;
+                         for (int i = 0; i < 24; ++i)
+                             values += std::to_string(i) + " ";
+                         return values + "\n";
+                     }());
+    const ChildResult text = info({"r.vtk"});
+    ASSERT_EQ(text.status, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("spacing       3 x 2 x 5\n              along x the mean of 1 "
+                                    "to 6\nsize "));
+    const auto said = nlohmann::json::parse(info({"r.vtk", "--json"}).out);
+    EXPECT_EQ(said.at("uneven"), nlohmann::json::parse(R"({"x": [1.0, 6.0]})"));
+}
+
 TEST_F(SourceInfo, SaysWhatFilesAre) {
     folder_.write("t1.raw", std::string(60, '\x05'));
     folder_.write("t2.raw", std::string(60, '\x06'));

@@ -61,14 +61,14 @@ class DataChoiceTest : public testing::Test {
                                    std::string complaint = {}) {
         PlayedWindow window(frame);
         const stereo::Windows windows(window);
-        return choose_data(windows, {.recent = {folder_.path() / "lately.isochron"},
-                                     .why_not_open =
-                                         [&](const fs::path& data) {
-                                             asked_.insert(data.filename().string());
-                                             return data == good_ ? std::string() : complaint;
-                                         },
-                                     .ended = [&] { return --frames < 0; },
-                                     .frame_rate_limit = 1e6});
+        return choose_data(
+            windows, {.recent = {folder_.path() / "lately.isochron"},
+                      .why_not_open =
+                          [&](const fs::path& data) {
+                              asked_.insert(data.filename().string());
+                              return data == good_ ? std::string() : complaint;
+                          },
+                      .window = {.ended = [&] { return --frames < 0; }, .frame_rate_limit = 1e6}});
     }
     /// Clicks on one line of the window after another, from below.
     PlayedWindow::Frame clicks() {
@@ -116,6 +116,44 @@ TEST_F(DataChoiceTest, EscapeAndTheEndOfTheProgramChooseNothing) {
         1000));
     EXPECT_LT(frames, 20);
     EXPECT_FALSE(choose([](auto&, auto&) {}, 3));
+}
+
+TEST_F(DataChoiceTest, FilesThatAreDroppedTogetherAreTakenAsASeries) {
+    fs::create_directory(folder_.path() / "runs");
+    for (const char* name : {"t8.vti", "t9.vti", "t10.vti"})
+        folder_.write(std::string("runs/") + name, "");
+    const auto dropped = choose(
+        [&, n = 0](auto&, auto& files) mutable {
+            if (++n == 2)
+                files = {folder_.path() / "runs/t8.vti", folder_.path() / "runs/t10.vti"};
+            else if (n == 4)
+                for (const char* name : {"runs/t9.vti", "runs/t10.vti", "runs/t8.vti"})
+                    files.push_back(folder_.path() / name);
+        },
+        100);
+    EXPECT_EQ(dropped, folder_.path() / "runs/t[0-9]*.vti") << "two of three have no one name";
+}
+
+TEST_F(DataChoiceTest, WaitsForDataThatAreBeingIndexedUntilTheyCanBeShown) {
+    int asked = 0;
+    const auto wait = [&](int ready, const PlayedWindow::Frame& frame) {
+        PlayedWindow window(frame);
+        const stereo::Windows windows(window);
+        asked = 0;
+        return wait_for_data(
+            windows, "t0.vti",
+            [&] {
+                return DataProgress{++asked >= ready, "reading", 0.01f * static_cast<float>(asked)};
+            },
+            {.frame_rate_limit = 1e6});
+    };
+    EXPECT_TRUE(wait(5, [](auto&, auto&) {}));
+    EXPECT_EQ(asked, 5);
+    EXPECT_FALSE(wait(1000, [&](std::vector<WindowEvent>& events, auto&) {
+        if (asked == 7)
+            events.emplace_back(KeyEvent{Key::escape, true});
+    }));
+    EXPECT_LT(asked, 20);
 }
 
 } // namespace

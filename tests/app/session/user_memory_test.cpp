@@ -25,6 +25,17 @@ TEST(UserMemory, KeepsTheNewestDataThatAreStillThereAndEachOnce) {
     EXPECT_EQ(memory.recent()[1], file(12));
 }
 
+TEST(UserMemory, KeepsFoldersAndSeriesToo) {
+    test_support::TestFolder folder, data;
+    std::filesystem::create_directory(data.path() / "run");
+    UserMemory memory(folder.path());
+    memory.remember(data.path() / "run");
+    memory.remember(data.path() / "run/t[0-9]*.vti");
+    EXPECT_EQ(memory.recent().size(), 2u);
+    std::filesystem::remove(data.path() / "run");
+    EXPECT_TRUE(memory.recent().empty());
+}
+
 TEST(UserMemory, SaysOnceThatTheFirstLinesWereSeenAndNothingWithoutAFolder) {
     test_support::TestFolder folder;
     EXPECT_FALSE(UserMemory(folder.path()).introduced());

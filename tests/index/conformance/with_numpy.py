@@ -75,7 +75,18 @@ expect(write("packed.bov", bov.replace("all.dat", "packed.gz") + "BYTE_OFFSET: 4
 expect(write("nodes.bov", bov.replace("all.dat", "big.dat") + "# a comment\nCENTERING: nodal\nDATA_ENDIAN: BIG\n"), values,
        spacing=(8 / 3, 5 / 4, 3 / 5), origin=(1, 2, 3), times=[2.5])
 expect(write("vector.bov", bov.replace("all.dat", "vector.dat") + "DATA_COMPONENTS: 2\n"), values // 2, component="1", **centers)
-refuse(write("cut.bov", bov.replace("all.dat", "big.dat") + "DATA_BRICKLETS: 2 5 6\n"), "cut into several")
+# Bricklets, a file for each, numbered with x fastest.
+for number in range(4):
+    x, z = number % 2 * 2, number // 2 * 3
+    write("part%02d.dat" % number, values[z:z + 3, :, x:x + 2].tobytes())
+parts = bov.replace("all.dat", "part%02d.dat")
+expect(write("parts.bov", parts + "DATA_BRICKLETS: 2 5 3\n"), values, **centers)
+expect(write("node_parts.bov", parts + "DATA_BRICKLETS: 2 5 3\nCENTERING: nodal\n"), values,
+       spacing=(8 / 3, 5 / 4, 3 / 5), origin=(1, 2, 3), times=[2.5])
+expect(write("cut.bov", bov + "BYTE_OFFSET: 4\nDATA_BRICKLETS: 2 5 6\n"), values, **centers)
+refuse(write("odd.bov", parts + "DATA_BRICKLETS: 3 5 3\n"), "expected a divisor of 4")
+refuse(write("unsaid.bov", parts), "DATA_BRICKLETS has 0 numbers")
+refuse(write("few.bov", parts + "DATA_BRICKLETS: 2 5 1\n"), "at least 2 vertices")
 refuse(write("short.bov", bov + "BYTE_OFFSET: 5\n"), "all.dat: truncated")
 refuse(write("none.bov", "TIME: 1\n"), "not BOV")
 

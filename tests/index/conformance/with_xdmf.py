@@ -89,10 +89,42 @@ expect(write("refer.xmf", temporal(grid('<Time Value="0"/>' + steps[0]) + grid('
        moving[:2], times=[0, 1], **even)
 expect(write("entity.xmf", grid(attribute(item("&heavy;:/step1/rho"))),
              '<!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" [<!ENTITY heavy "heavy.h5">]>\n'), moving[1], **even)
+# Blocks of one grid, which share a plane of vertices or none, and documents that include others.
+
+
+def block(first, end, data, name="rho", center="Node", more=""):
+    places = EVEN.replace('"4 5 6"', f'"{end - first} 5 6"').replace(">3 2 1<", f">{3 + 0.5 * first} 2 1<")
+    layers = end - first - (center == "Cell")
+    part = f'<DataItem ItemType="HyperSlab" Dimensions="{layers} 5 6"><DataItem Dimensions="3 3">{first} 0 0 1 1 1 ' \
+        f'{layers} 5 6</DataItem>{item(data)}</DataItem>'
+    if center == "Cell":
+        part = part.replace("5 6", "4 5").replace(f'"{4} 4 5"', '"3 4 5"')
+    return grid(more + attribute(part, name, center), places)
+
+
+def spatial(grids):
+    return f'<Grid GridType="Collection" CollectionType="Spatial">{grids}</Grid>'
+
+
+rho = [f"heavy.h5:/step{t}/rho" for t in range(3)]
+expect(write("sharing.xmf", spatial(block(2, 4, rho[0]) + block(0, 3, rho[0]))), moving[0], **even)
+expect(write("apart.xmf", temporal("".join(spatial(block(0, 2, rho[t], more=f'<Time Value="{t}"/>') + block(2, 4, rho[t]))
+                                           for t in range(3)))), moving, times=[0, 1, 2], **even)
+expect(write("cell_blocks.xmf", spatial(block(0, 2, "heavy.h5:/cells", center="Cell") +
+                                        block(1, 4, "heavy.h5:/cells", center="Cell"))), mean / count, kind="rounded", **even)
+include = '<xi:include xmlns:xi="http://www.w3.org/2001/XInclude" href="%s"%s/>'
+expect(write("including.xmf", temporal("".join(include % (name, "") for name in ("one.xmf", "timed.xdmf")))), moving[:2], **even)
+pointed = include % ("series.xmf", ' xpointer="xpointer(//Xdmf/Domain/Grid/Grid[3])"')
+expect(write("pointed.xmf", pointed), moving[2], times=[2], **even)
 # What is refused.
+refuse(write("hole.xmf", spatial(block(0, 1, rho[0]) + block(2, 4, rho[0]))), "at least 2 vertices")
+refuse(write("gap.xmf", spatial(block(0, 2, "heavy.h5:/cells", center="Cell") +
+                                block(2, 4, "heavy.h5:/cells", center="Cell"))), "without values")
+refuse(write("self.xmf", include % ("self.xmf", "")), "which includes it")
+refuse(write("nowhere.xmf", include % ("one.xmf", ' xpointer="xpointer(/Xdmf/Domain/Grid[2])"')), "has no grid")
 expect(write("flat2.xmf", grid(attribute(item("heavy.h5:/flat")))), moving[0], **even)
 refuse(write("blocks.xmf", f'<Grid GridType="Collection" CollectionType="Spatial">{grid(steps[0]) * 2}</Grid>'),
-       "a collection of 2 grids at one time")
+       "begins where")
 refuse(write("curved.xmf", grid(steps[0], EVEN.replace("3DCoRectMesh", "3DSMesh"))), "3DSMesh")
 refuse(write("gone.xmf", grid(attribute(item("heavy.h5:/none")))), "holds no dataset /none")
 refuse(write("no_file.xmf", grid(attribute(item("no.h5:/none")))), "no.h5")

@@ -104,7 +104,8 @@ struct Shell {
 class HiddenCellsTest : public GlTest {
   protected:
     /// All cells look different.
-    CellBuffers shown(const Volume& volume) {
+    CellBuffers shown(const Volume& volume) { return showing(gl_, points_of(volume)); }
+    std::vector<index::CellPoint> points_of(const Volume& volume) {
         std::vector<index::CellPoint> points;
         for (const glm::ivec3& cell : volume.cells) {
             const glm::vec3 normal(float(random_() % 100) - 50, float(random_() % 100) - 50, 20);
@@ -114,7 +115,7 @@ class HiddenCellsTest : public GlTest {
                               std::uint16_t(random_() % 3),
                               random_() % 20 ? packed_normal(glm::normalize(normal), offset) : 0});
         }
-        return showing(gl_, points);
+        return points;
     }
     Image draw(CellPass& pass, const Volume& volume, const CellBuffers& cells,
                const CellAppearance& look, Footprint footprint, int samples = 1) {

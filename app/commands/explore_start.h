@@ -1,0 +1,34 @@
+// How a session of `explore` begins: its configuration, checks, windows.
+#pragma once
+
+#include "app/commands/cluster_job.h"
+#include "app/commands/explore_options.h"
+#include "index/file/index_file.h"
+#include "stereo/windows.h"
+
+#include <cstddef>
+
+namespace isochron::app {
+
+/// The configuration with what the command line says. @throws UsageError
+Config configure(const ExploreOptions& options);
+
+/// Warns of what is wrong with a configuration, or missing for it.
+void warn(const Config& config);
+
+/// @param steps of the whole series, of which the file may have the first only
+/// @throws UsageError when the session cannot start as it was asked to
+void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps);
+
+/// Reports now the errors in output paths that would otherwise show, or destroy a file, only when
+/// the session ends.
+void check_outputs(const ExploreOptions& options, const ClusterJob& job);
+
+/// The state to begin with. @param steps that the data have now
+ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps);
+
+/// @param headset mirrored by the first window; it paces the frames, not that window's display
+stereo::Windows open_windows(const ExploreOptions& options, const Config& config,
+                             const ClusterJob& job, const stereo::Headset* headset);
+
+} // namespace isochron::app

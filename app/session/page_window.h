@@ -1,0 +1,57 @@
+// A window with nothing but one page of the panel, before there are data to show.
+#pragma once
+
+#include "app/frame/pacer.h"
+#include "app/panel/operator_window.h"
+#include "render/gl/gl.h"
+#include "render/gl/render_target.h"
+#include "stereo/presenter.h"
+#include "stereo/windows.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace isochron::app {
+
+struct PageWindowOptions {
+    /// Asked in each frame: whether nobody looks any more.
+    std::function<bool()> ended = [] { return false; };
+    glm::vec3 background{0.0f};   ///< sRGB
+    double frame_rate_limit = 60; ///< [Hz]
+    float font_scale = 1;         ///< times what the desktop asks for
+};
+
+/// In the first of the windows, whose context is current from then on.
+class PageWindow {
+  public:
+    /// @param windows outlive this
+    PageWindow(const stereo::Windows& windows, PageWindowOptions options);
+
+    PanelLayer& layer() { return layer_; }
+    /// Passes events to the page and makes one frame, at the window's pace.
+    /// @param lay_out lays out the page in a picture of this size, at this time since the start
+    /// @return the other events: those that the page does not use
+    std::vector<interaction::WindowEvent>
+    frame(const std::function<void(glm::ivec2 size, interaction::Seconds time)>& lay_out);
+    /// Whether somebody looks.
+    bool goes_on() const { return !windows_.should_close() && !options_.ended(); }
+    std::vector<std::filesystem::path> take_dropped() { return window_.take_dropped(); }
+
+  private:
+    const stereo::Windows& windows_;
+    const PageWindowOptions options_;
+    stereo::GlContext& window_;
+    const render::Gl gl_;
+    PanelLayer layer_;
+    render::RenderTarget picture_;
+    stereo::Presenter presenter_;
+    Pacer pacer_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace isochron::app

@@ -1,0 +1,31 @@
+// What the projection of cells' quads is given, and where its results go, as plain data for SIMD
+// code.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+
+namespace isochron::render {
+
+/// The data that all cells share.
+struct SquareProjection {
+    glm::vec4 row_x, row_y, row_z, row_w; ///< from index to clip space, x and y in pixels
+    glm::vec2 middle;                     ///< of the viewport, pixels
+    float radius;
+    glm::mat3 index_from_normal; ///< normals of planes from physical to index space
+    glm::vec3 extent;            ///< of the volume in index space
+    /// Of a rectilinear grid, as AxisPlaces has them; null for a regular one.
+    const float *places[3], *sides[3];
+    std::int32_t last[3]; ///< vertex along each axis
+};
+
+/// Where the results go.
+struct SquareArrays {
+    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc, *xx, *xy, *yy;
+};
+
+} // namespace isochron::render

@@ -21,7 +21,7 @@ class LostCells {
     /// Chunks that are read at most. If more chunks may hold lost cells, only those are read in which
     /// nothing at all is drawn; and if these are still too many, each of them counts as one lost
     /// cell as large as the chunk.
-    static constexpr std::size_t kMostChunks = std::size_t{1} << 13;
+    static constexpr std::size_t kMostChunks = std::size_t{1} << 14;
 
     /// @param finest level that the index has chunks of
     /// @param search of that level, with bricks; all outlive this

@@ -80,6 +80,8 @@ void use_processors(unsigned count) {
 RenderOptions options_of(const RenderArguments& arguments) {
     RenderOptions options;
     options.rounds = arguments.rounds;
+    if (arguments.quick)
+        options.motion_ms = 0;
     options.vtk = !arguments.no_vtk;
     options.pictures.clear();
     for (const std::string& picture : arguments.pictures)

@@ -242,7 +242,6 @@ class Bench {
         constexpr double kDragged = 0.1; ///< share of the isovalue
         // With enough frames the 99th percentile is not just the worst one; only if that is fast.
         constexpr std::size_t kManyFrames = 500;
-        constexpr double kSoon = 3e3; // ms
         const auto steps = static_cast<std::uint32_t>(file_->info().steps());
         const render::SendVolume volume = volume_for(footprint);
         index::Extractor extractor(extract_);
@@ -250,7 +249,7 @@ class Bench {
         std::vector<double> over, noise;
         const double start = wall_ms();
         const auto enough = [&](std::size_t i) {
-            return i >= frames && (i >= kManyFrames || wall_ms() - start > kSoon);
+            return i >= frames && (i >= kManyFrames || wall_ms() - start > options_.motion_ms);
         };
         for (std::size_t i = 0; !enough(i); ++i) {
             progress(std::min(static_cast<double>(i) / static_cast<double>(frames), 1.0));

@@ -34,7 +34,9 @@ struct RenderOptions {
     std::vector<NamedFootprint> footprints = all_footprints();
     std::vector<Picture> pictures{{512, 1}, {1024, 1}, {1024, 2}};
     unsigned rounds = 3; ///< through all steps
-    bool vtk = true;     ///< measure VTK, if it can draw in the context (not OSMesa)
+    /// [ms] Frames in motion go on for so long after these rounds, up to 500 of them.
+    double motion_ms = 3e3;
+    bool vtk = true; ///< measure VTK, if it can draw in the context (not OSMesa)
 };
 
 /// Makes a context and measures every picture and footprint in it. Whole frames, VTK's frames,

@@ -128,6 +128,7 @@ TEST_F(BenchRender, MeasuresEveryPictureAndFootprint) {
     options.context = stereo::ContextKind::osmesa;
     options.pictures = {{32, 1}, {24, 2}};
     options.rounds = 2;
+    options.motion_ms = 0;
     const auto rows = measure_rendering(file_, options, [](std::string_view, double) {});
     ASSERT_EQ(rows.size(), 2 * all_footprints().size());
     for (const RenderRow& row : rows) {

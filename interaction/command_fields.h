@@ -68,6 +68,7 @@ void each_field(Visit&& visit, Records&... r) {
         Field{
             .key = "colors", .low = 0, .high = 0xffffff, .most = kMostMapColors, .may_lack = true},
         r.colors...);
+    visit(Field{.key = "percentiles", .low = 0, .high = 100, .may_lack = true}, r.percentiles...);
 }
 
 template <class Visit, Of<Look>... Records>

@@ -77,6 +77,9 @@ struct Coloring {
     /// Of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none: the
     /// program knows the map by its name.
     std::vector<std::uint32_t> colors = {};
+    /// Where there is no `range`: it goes from one of these percentiles of the values on the shown
+    /// surfaces to the other, 0 to 100, ascending; nothing: see `range`.
+    std::optional<std::array<double, 2>> percentiles = {};
     bool operator==(const Coloring&) const = default;
 };
 

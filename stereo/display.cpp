@@ -34,7 +34,7 @@ Display::Display(const render::Gl& gl, GlContext& drawing, GlContext& context, W
                  const DisplayOptions& options)
     : gl_(&gl), context_(&context), window_(std::move(window)), options_(options), multiplex_(gl),
       presenter_(gl, drawing, context), composed_(gl, at_least_one(context.framebuffer_size())),
-      targets_(window_.viewports.size()) {
+      targets_(window_.viewports.size()), next_(window_.viewports.size()) {
     composed_.clear(kBlack);
 }
 
@@ -65,12 +65,35 @@ render::View Display::view_in(const Viewport& viewport, const ViewerPose& viewer
                          options_.near_plane, options_.far_plane, size);
 }
 
-void Display::draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene) {
+std::vector<render::View> Display::views_in_target(std::size_t number,
+                                                   const ViewerPose& viewer) const {
     std::vector<render::View> views;
     for (const Eye eye : eyes_of(mode_)) {
         views.push_back(view_in(window_.viewports[number], viewer, eye));
         views.back().corner = corner_in_target(views.size() - 1, views.back().size);
     }
+    return views;
+}
+
+bool Display::draw_slice(std::span<const ViewerPose> viewers, std::size_t viewport, bool begins,
+                         const DrawSlice& scene) {
+    if (!targets_[viewport])
+        return true; // the window is minimized
+    const std::vector<render::View> views =
+        views_in_target(viewport, viewers[window_.viewports[viewport].viewer]);
+    return draw_views_on(*gl_, next_[viewport], views.back().corner + views.back().size, options_,
+                         views, begins, scene);
+}
+
+void Display::show_slices(const Overlay& overlay) {
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+        if (next_[i])
+            std::swap(targets_[i], next_[i]);
+    draw_overlay_again(overlay);
+}
+
+void Display::draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene) {
+    const std::vector<render::View> views = views_in_target(number, viewer);
     draw_views(*gl_, targets_[number], views.back().corner + views.back().size, options_, views,
                scene);
 }

@@ -72,6 +72,15 @@ class Display {
         draw(std::span(&viewer, 1), mode, scene, overlay);
     }
 
+    /// Draws some more of the next picture of a viewport, beside the one that is shown, with the
+    /// window's size and the stereo mode of the last frame.
+    /// @param begins nothing of it has been drawn
+    /// @return whether it is whole, as `scene` said
+    bool draw_slice(std::span<const ViewerPose> viewers, std::size_t viewport, bool begins,
+                    const DrawSlice& scene);
+    /// Shows the next picture of every viewport, which are whole.
+    void show_slices(const Overlay& overlay);
+
     /// Composes the last pictures of the eyes again, with a new overlay: for frames in which
     /// nothing else has changed.
     void draw_overlay_again(const Overlay& overlay);
@@ -127,6 +136,7 @@ class Display {
     int left_ = 0; ///< pixels that stay free
     Region region_of(const Viewport& viewport, Eye place) const;
     render::View view_in(const Viewport& viewport, const ViewerPose& viewer, Eye eye) const;
+    std::vector<render::View> views_in_target(std::size_t number, const ViewerPose& viewer) const;
     void draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene);
     /// The eye's picture to show in the place of `place`.
     EyePicture shown_at(Eye place, std::size_t viewport) const;
@@ -144,6 +154,7 @@ class Display {
     render::RenderTarget composed_;
     std::optional<render::RenderTarget> right_buffer_; ///< while the window is quad-buffered
     std::vector<std::optional<render::RenderTarget>> targets_; ///< by viewport, from its first draw
+    std::vector<std::optional<render::RenderTarget>> next_;    ///< likewise; drawn in slices
 };
 
 } // namespace isochron::stereo

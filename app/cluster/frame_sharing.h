@@ -30,6 +30,9 @@ class FrameSharing {
     /// Whether this process (rank 0) reads the devices and shows the operator's panel.
     virtual bool leads() const = 0;
 
+    /// Whether there is no other process.
+    virtual bool alone() const = 0;
+
     /// Begins a frame; rank 0 also sends its order to the others.
     /// @return the latch to ask for the heads when the views are made; may be empty
     virtual Latch begin(const interaction::InputState& input, const interaction::Commands& commands,

@@ -8,6 +8,7 @@ namespace isochron::app {
 class FramesAlone final : public FrameSharing {
   public:
     bool leads() const override { return true; }
+    bool alone() const override { return true; }
     Latch begin(const interaction::InputState& input, const interaction::Commands& commands,
                 Waiting waiting, const Latch& latch,
                 const stereo::Installation& installation) override;

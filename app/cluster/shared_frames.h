@@ -20,6 +20,7 @@ class SharedFrames final : public FrameSharing {
     explicit SharedFrames(stereo::Cluster& cluster) : cluster_(cluster) {}
 
     bool leads() const override { return cluster_.rank() == 0; }
+    bool alone() const override { return cluster_.size() == 1; }
     /// Rank 0 calls `begin` for each frame and `end` at last; the others call `next` and `begin`.
     /// @return on rank 0 a latch with the heads that were sent to all, so that all walls are drawn
     /// for the same heads; on the others `latch`

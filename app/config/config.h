@@ -59,8 +59,9 @@ struct Config {
     std::optional<render::Footprint> settled_footprint;
     /// The part of a cell that a quad or splat stands for.
     render::CellShape cell_shape = render::CellShape::plane;
-    double frame_budget_ms = 0;   ///< [ms] for drawing a frame; 0: one period of the display
-    double still_budget_ms = 500; ///< [ms] for drawing, once, a picture that has come to rest
+    double frame_budget_ms = 0; ///< [ms] for drawing a frame; 0: one period of the display
+    /// [ms] for drawing a picture that has come to rest, at once or in slices; 0: as any other.
+    double still_budget_ms = 500;
     PlacementOptions placement;
     int upload_kilobytes_per_frame = 4096;        ///< most data of cells sent to the GPU per frame
     glm::vec3 background{0.055f, 0.063f, 0.078f}; ///< sRGB

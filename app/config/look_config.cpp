@@ -47,6 +47,17 @@ void read_coloring(TomlReader& reader, const std::string& name, interaction::Col
     reader.integer("bands", 0, static_cast<int>(interaction::kMostBands), bands);
     coloring.bands = static_cast<std::uint32_t>(bands);
     reader.flag("logarithmic", coloring.logarithmic);
+    glm::dvec2 ends(0.0);
+    reader.vector("percentiles", ends);
+    if (reader.has("percentiles")) {
+        if (reader.has("range"))
+            reader.fail("percentiles", "there is a range, too: one of them may be given");
+        if (!(0 <= ends.x && ends.x < ends.y && ends.y <= 100))
+            reader.fail("percentiles",
+                        fmt::format("expected two ascending numbers from 0 to 100, got {} and {}",
+                                    ends.x, ends.y));
+        coloring.percentiles = {ends.x, ends.y};
+    }
     glm::dvec2 range(0.0);
     reader.vector("range", range);
     if (!reader.has("range"))

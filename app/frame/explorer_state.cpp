@@ -41,10 +41,14 @@ bool holds(const Field& field, const std::vector<interaction::Isosurface>& surfa
                return std::isfinite(surface.isovalue) && holds(Field{"", 0, 1}, surface.opacity);
            });
 }
+bool are_percentiles(const std::array<double, 2>& ends) {
+    return 0 <= ends[0] && ends[0] < ends[1] && ends[1] <= 100;
+}
 bool holds(const Field&, const interaction::Coloring& coloring) {
     const auto& colors = coloring.colors;
     return coloring.bands <= interaction::kMostBands &&
            colors.size() <= interaction::kMostMapColors &&
+           (!coloring.percentiles || are_percentiles(*coloring.percentiles)) &&
            (!colors.empty() || render::color_map_from_name(coloring.map));
 }
 bool holds(const Field&, const interaction::Look& look) {

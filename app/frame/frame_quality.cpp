@@ -12,6 +12,12 @@ Milliseconds period_of(const Config& config, std::optional<double> refresh_rate)
     return Milliseconds(1e3 / std::min(refresh_rate.value_or(limit), limit));
 }
 
+/// Time without motion after which a picture that still changes, as the head sways, is not expected
+/// to become still.
+constexpr interaction::Seconds kNeverStill{1};
+/// Longest time at rest in which footprints are tried before slices begin.
+constexpr interaction::Seconds kTrialsAtRest{0.15};
+
 } // namespace
 
 FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
@@ -63,22 +69,73 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     if (input.by_pace)
         input.settled = input.settled.value_or(render::kBestFootprint);
     input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
-    QualityController& controller = still ? still_ : steady_;
-    input.available = possible;
-    const QualityChoice with_all = QualityController(controller).choose(input);
     input.available = available;
+    const auto in_the_end = sliced(input, how);
+    if (still || report.pace == interaction::Pace::moving)
+        swayed_since_ = report.time;
+    input.in_slices = in_the_end;
+    const bool slices = still && in_the_end;
+    if (slices) {
+        input.settled.reset();
+        if (resting_ && resting_->input == input && resting_->possible == possible) {
+            report.in_slices = input.in_slices;
+            report.budget = steady_.budget();
+            tell(resting_->choice, resting_->final, report);
+            report.better = steady_.expected(*input.in_slices, input.load);
+            return false;
+        }
+    }
+    QualityController& controller = still && !slices ? still_ : steady_;
+    QualityInput with_mesh = input;
+    with_mesh.available = possible;
+    const QualityChoice with_all = QualityController(controller).choose(with_mesh);
     const QualityChoice choice = controller.choose(input);
     // A trial of the exact surface comes first where both are next.
     wants_mesh_ = with_all.footprint == render::Footprint::mesh &&
                   choice.footprint <= render::Footprint::mesh;
+    // What a mesh or slices may still change is not final.
+    const bool slices_come =
+        in_the_end && *in_the_end != choice.footprint && report.time - swayed_since_ < kNeverStill;
+    const bool final =
+        choice.final && with_all.final && choice.footprint == with_all.footprint && !slices_come;
+    tell(choice, final, report);
+    report.budget = controller.budget();
+    resting_.reset();
+    const bool measured = choice.final || report.time - changed_at_ >= kStillAfter + kTrialsAtRest;
+    if (slices && measured && choice.footprint != *input.in_slices)
+        resting_ = {input, possible, choice, final};
+    return choice.measure;
+}
+
+void FrameQuality::tell(const QualityChoice& choice, bool final, FrameReport& report) const {
     report.footprint = choice.footprint;
     report.reason = choice.reason;
-    // What a mesh may still change is not final.
-    report.final = choice.final && with_all.final && choice.footprint == with_all.footprint;
-    report.budget = controller.budget();
+    report.final = final;
     report.expected = choice.cost;
     report.better = choice.better_cost;
-    return choice.measure;
+}
+
+/// The footprint that this picture at rest is to have in the end, if it is made in slices.
+std::optional<render::Footprint> FrameQuality::sliced(const QualityInput& input,
+                                                      Choosing how) const {
+    if (how != Choosing::with_slices || !(still_budget_.count() > 0) || input.playing ||
+        input.mode != interaction::QualityMode::automatic ||
+        input.pace != interaction::Pace::settled || input.load.cells <= 0)
+        return std::nullopt;
+    return input.available.best(settled_.value_or(render::kBestFootprint));
+}
+
+Milliseconds FrameQuality::slice_budget() const {
+    // Shorter slices would take longer in all, and longer ones would be felt in what comes next.
+    constexpr Milliseconds kLeast{20}, kMost{50};
+    return std::min(still_budget_, std::clamp(steady_.budget(), kLeast, kMost));
+}
+
+void FrameQuality::learn_slices(render::Footprint footprint, std::uint64_t cells,
+                                Milliseconds time) {
+    const DrawLoad load{static_cast<double>(cells) * view_.cells, view_.pixels};
+    for (QualityController* controller : {&steady_, &still_})
+        controller->measured_in_slices(footprint, load, time);
 }
 
 std::optional<double> FrameQuality::cells_that_fit(interaction::Pace pace) const {

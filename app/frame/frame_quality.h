@@ -24,12 +24,14 @@ namespace isochron::app {
 
 /// What the choice of a footprint depends on: on measured times, or (`by_pace`) only on whether the
 /// picture moves. A fixed-step replay must repeat exactly, so it ignores measurements and draws a
-/// settled picture with the configured footprint, else the best one.
-enum class Choosing : std::uint8_t { by_measurement, by_pace };
+/// settled picture with the configured footprint, else the best one. With slices, a picture at rest
+/// ends at that footprint, too: it is drawn over several frames.
+enum class Choosing : std::uint8_t { by_measurement, with_slices, by_pace };
 
-/// Changing frames have the frame budget. A picture in which nothing has moved for a while is drawn
-/// once and then only shown: it has the larger still budget, a pause that is acceptable when a
-/// picture comes to rest. Each budget has its own controller; both learn from all frames.
+/// Changing frames have the frame budget. A picture in which nothing has moved for a while is made
+/// in slices that keep to it. Where slices cannot be, it is drawn once and then only shown: it has
+/// the larger still budget, a pause that is acceptable when a picture comes to rest. Each budget has
+/// its own controller; both learn from all frames.
 class FrameQuality {
   public:
     /// A picture is still after this time without a change, which is longer than the time between
@@ -57,6 +59,8 @@ class FrameQuality {
     /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
     /// and with its cells.
     /// @param changed what the eyes see is not what they saw last, beside the footprint
+    /// With slices, `FrameReport::in_slices` says which footprint to make once nothing needs to be
+    /// measured any more; from then on the choice stays until something changes.
     /// @return true: draw even if nothing has changed, so that the cost gets known
     /// @param available that the cells can be drawn with
     /// @param possible likewise, if they came with a mesh where they can
@@ -77,16 +81,33 @@ class FrameQuality {
     /// @param processor time to give the commands, including the upload
     void end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor);
 
+    /// Time that a frame may spend on slices.
+    Milliseconds slice_budget() const;
+    /// Learns from a picture that was made in slices, of the last frame's views.
+    void learn_slices(render::Footprint footprint, std::uint64_t cells, Milliseconds time);
+
     /// Number of refreshes that the display missed in the time between two frames.
     unsigned missed(interaction::Seconds between) const;
 
   private:
+    /// A choice at rest, and what it depends on.
+    struct Resting {
+        QualityInput input;
+        render::FootprintSet possible;
+        QualityChoice choice;
+        bool final = false;
+    };
+    std::optional<render::Footprint> sliced(const QualityInput& input, Choosing how) const;
+    void tell(const QualityChoice& choice, bool final, FrameReport& report) const;
+
     const std::optional<render::Footprint> settled_;
     const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: the period
     const Milliseconds configured_period_;            ///< of frames without a headset
     Milliseconds period_;                             ///< of frames now
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
+    interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last
+    std::optional<Resting> resting_;       ///< while slices are made or shown
     DrawMeter meter_;
     DrawLoad view_; ///< of one cell in all views of the frame drawn last
     DrawLoad charged_;

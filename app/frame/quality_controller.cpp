@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace isochron::app {
@@ -19,6 +20,8 @@ constexpr double kDearest = 8;  ///< most budgets that a failed trial counts
 constexpr double kGrown = 1.1;  ///< times the measured cost: above it the load counts as grown
 constexpr double kRoom = 0.75;  ///< share of the budget below which motion takes up a footprint
 constexpr double kLeast = 0.95; ///< share of the budget above which motion leaves it again
+
+constexpr double kBounded = 3; ///< budgets: most that a trial may take which is only due by time
 
 /// Assumed upper limits of the footprints' times, as multiples of quads, until they are measured:
 /// far above any GPU's, and close to those of software GL.
@@ -48,6 +51,7 @@ const char* name_of(QualityReason reason) {
     case QualityReason::configured: return "configured";
     case QualityReason::fits: return "fits";
     case QualityReason::trial: return "trial";
+    case QualityReason::in_slices: return "in slices";
     case QualityReason::over_budget: break;
     }
     return "over budget";
@@ -62,10 +66,7 @@ void QualityController::measured(Footprint footprint, const DrawLoad& load, Mill
         candidate.sampled.reset(); // to be measured again
         return;
     }
-    candidate.cost.add(load, cost);
-    candidate.sampled = load;
-    candidate.known = true;
-    candidate.age = 0;
+    learn(candidate, load, cost);
     if (footprint != current_)
         return; // a late result of a footprint that was left since: only noted
     candidate.fits = cost <= budget_;
@@ -76,6 +77,39 @@ void QualityController::measured(Footprint footprint, const DrawLoad& load, Mill
         over_load_ = load;
         over_cost_ = cost;
     }
+}
+
+void QualityController::measured_in_slices(Footprint footprint, const DrawLoad& load,
+                                           Milliseconds cost) {
+    if (load.cells <= 0)
+        return;
+    learn(of(footprint), load, cost);
+}
+
+void QualityController::learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
+    candidate.cost.add(load, cost);
+    if (const auto quads = of(Footprint::quad).cost.predict(load))
+        candidate.beside.add(load, *quads);
+    candidate.sampled = load;
+    candidate.known = true;
+    candidate.age = 0;
+}
+
+/// What a footprint that is not drawn now is expected to cost by its earlier times.
+std::optional<Milliseconds> QualityController::before(Footprint footprint,
+                                                      const DrawLoad& load) const {
+    const Candidate& candidate = of(footprint);
+    std::optional<Milliseconds> cost = candidate.cost.predict(load);
+    if (!cost)
+        return cost;
+    const bool bounded = candidate.failed && *cost <= kBounded * budget_;
+    const auto quads = of(Footprint::quad).cost.predict(load);
+    const auto then = candidate.beside.predict(load);
+    if (quads && then && *quads < *then)
+        *cost *= *quads / *then;
+    if (bounded)
+        *cost *= std::exp2(-static_cast<double>(candidate.age) / kLongestWait);
+    return cost;
 }
 
 QualityChoice QualityController::choose(const QualityInput& input) {
@@ -185,10 +219,14 @@ bool QualityController::bearable(Footprint footprint, const QualityInput& input)
     if (!quads)
         return false; // quads are measured first
     Milliseconds most = kAtMost[static_cast<std::size_t>(footprint)] * *quads;
-    if (const auto before = of(footprint).cost.predict(input.load))
-        most = std::min(most, *before);
-    return most <=
-           (input.pace == Pace::moving ? kRoom * budget_ : std::max(budget_, kDearestTrial));
+    if (const auto earlier = before(footprint, input.load))
+        most = std::min(most, *earlier);
+    if (input.pace == Pace::moving)
+        return most <= kRoom * budget_;
+    // What comes in slices anyway would only be shown, taken away and shown again.
+    if (footprint == input.in_slices)
+        return most <= budget_;
+    return most <= std::max(budget_, input.in_slices ? kDearestBesideSlices : kDearestTrial);
 }
 
 /// Whether the load has grown so much that the next frame is expected over the budget.
@@ -224,6 +262,7 @@ bool QualityController::returns(Footprint footprint, const QualityInput& input) 
     if (candidate.age < std::max(candidate.wait, kShortestWait) || !bearable(footprint, input))
         return false;
     candidate.cost.forget();
+    candidate.beside.forget();
     candidate.sampled.reset();
     candidate.known = false;
     candidate.fits = false;

@@ -26,9 +26,12 @@ struct QualityInput {
     render::FootprintSet available = render::FootprintSet::up_to(render::kBestFootprint);
     /// Best footprint of a settled picture, whatever it costs; empty: by measurement.
     std::optional<render::Footprint> settled;
+    /// Footprint that the picture at rest gets in slices, whatever it costs; empty: none is.
+    std::optional<render::Footprint> in_slices;
     /// Ignore measurements: a moving picture is drawn with quads.
     bool by_pace = false;
     DrawLoad load;
+    bool operator==(const QualityInput&) const = default;
 };
 
 /// Why a footprint was chosen.
@@ -40,9 +43,11 @@ enum class QualityReason : std::uint8_t {
     configured, ///< the footprint of settled pictures is configured
     fits,       ///< the best of all fits the budget
     trial,      ///< a better one than before is being measured
+    in_slices,  ///< the exact picture at rest is made over several frames
     over_budget ///< a better one does not fit
 };
-/// `moving`, `fast mode`, `best mode`, `paper mode`, `configured`, `fits`, `trial`, `over budget`.
+/// `moving`, `fast mode`, `best mode`, `paper mode`, `configured`, `fits`, `trial`, `in slices`,
+/// `over budget`.
 const char* name_of(QualityReason reason);
 
 struct QualityChoice {
@@ -71,7 +76,9 @@ struct QualityChoice {
 ///   the budgets that a failed trial took (at most 8), at most 2048 frames. The wait starts anew at
 ///   16 frames once the footprint has lasted 256 frames.
 /// A footprint is not tried if it may take longer than `kDearestTrial` (while moving: than the
-/// budget), judged by its earlier times at other loads, or by a multiple of the time of quads.
+/// budget; beside slices: see `kDearestBesideSlices`), judged by its earlier times at other loads, or by a multiple of the time of quads. Its earlier times
+/// fall with those of quads, so that they do not outlast the load of other programs; and one that
+/// failed by less than three budgets counts half after each 2048 frames, so that it is tried again.
 /// So one load causes few frames over the budget, at least 16 frames lie between a step down and a
 /// step up, and a footprint that fits is back after at most 2048 settled frames.
 class QualityController {
@@ -80,6 +87,8 @@ class QualityController {
     /// Longest expected time of a frame that is drawn to measure a footprint; the budget if that is
     /// longer.
     static constexpr Milliseconds kDearestTrial{400};
+    /// The same where a picture at rest is made in slices, since no frame need be long there.
+    static constexpr Milliseconds kDearestBesideSlices{100};
 
     explicit QualityController(Milliseconds budget) : budget_(budget) {}
 
@@ -87,6 +96,9 @@ class QualityController {
     /// The first frame after a change of footprint includes work that is done only once (compiling,
     /// sorting): it counts only if the footprint is known and the frame is within the budget.
     void measured(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
+
+    /// Adds the cost of a picture that was made in slices, which tells about whole frames, too.
+    void measured_in_slices(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 
     /// Advances by one frame.
     QualityChoice choose(const QualityInput& input);
@@ -100,6 +112,7 @@ class QualityController {
   private:
     struct Candidate {
         DrawCost cost;
+        DrawCost beside; ///< what quads were expected to cost when this one was measured
         std::optional<DrawLoad> sampled; ///< load of the newest measurement that counts
         DrawLoad failed_at;              ///< least load of the failures
         Milliseconds failed_cost{0};
@@ -125,6 +138,8 @@ class QualityController {
     void turn_to(render::Footprint footprint);
     void step_down(const QualityInput& input);
     void step_up(const QualityInput& input);
+    void learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const;
+    std::optional<Milliseconds> before(render::Footprint footprint, const DrawLoad& load) const;
     bool has_room(const QualityInput& input) const;
     bool bearable(render::Footprint footprint, const QualityInput& input) const;
     bool outgrown(const Candidate& candidate, const DrawLoad& load) const;

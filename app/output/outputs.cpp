@@ -122,6 +122,25 @@ DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& ove
     return of_cell;
 }
 
+bool Outputs::draw_slice(SlicePlace& place, const SliceScene& scene) {
+    stereo::Display& display = displays_[place.window];
+    const ScenePlace in_window{&display.window(), place.viewport, display.mode()};
+    const bool whole = display.draw_slice(
+        drawn_.audience.viewers, place.viewport, place.begins,
+        [&](std::span<const render::View> views) { return scene(in_window, views); });
+    render::expect_memory(gl(), "drawing a slice of a picture");
+    gl_.Finish(); // so that its time is known
+    place.begins = whole;
+    if (whole && ++place.viewport == display.window().viewports.size())
+        place = {.window = place.window + 1};
+    return place.window == displays_.size();
+}
+
+void Outputs::show_slices(const Overlay& overlay) {
+    for (std::size_t i = 0; i < displays_.size(); ++i)
+        displays_[i].show_slices(overlay_of(i, overlay));
+}
+
 void Outputs::draw_again(const Audience& audience, const Overlay& overlay) {
     drawn_.audience = audience;
     end_headset_frame(true);

@@ -117,6 +117,21 @@ class Outputs {
     /// @return load of one cell in every view: the number of views, and their pixels
     /// @throws render::OutOfMemory when the GL had no memory for something that was drawn
     DrawLoad draw(const Audience& audience, Scene scene, const Overlay& overlay);
+    /// Where the next slice of a picture belongs.
+    struct SlicePlace {
+        std::size_t window = 0, viewport = 0;
+        bool begins = true; ///< nothing has been drawn for this viewport
+    };
+    /// Draws a part of what is missing in a viewport. @return whether that is whole now
+    using SliceScene = std::function<bool(const ScenePlace&, std::span<const render::View>)>;
+    /// Draws some more of a picture beside the one that is shown, for the audience of the last
+    /// frame. There must be no headset, and windows as large as in the last frame.
+    /// @param place advances
+    /// @return whether the pictures of all windows are whole
+    /// @throws render::OutOfMemory as `draw`
+    bool draw_slice(SlicePlace& place, const SliceScene& scene);
+    /// Shows that picture.
+    void show_slices(const Overlay& overlay);
     /// Keeps each eye's last picture, and draws a new overlay.
     void draw_again(const Audience& audience, const Overlay& overlay);
     /// Draws the emulated room around these pictures, if there is one, and the overlay over it.

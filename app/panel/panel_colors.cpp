@@ -60,8 +60,8 @@ bool surface_line(const PanelModel& model, std::uint32_t i, std::vector<Isosurfa
     return removed;
 }
 
-/// Surfaces of lower isovalues lie around those of higher ones: what lies around the new one gives
-/// way to it, and it to what it lies around.
+} // namespace
+
 void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
     constexpr float kSeenThrough = 0.45f;
     for (Isosurface& outer : surfaces) {
@@ -73,6 +73,8 @@ void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
             outer.opacity = std::min(outer.opacity, kSeenThrough);
     }
 }
+
+namespace {
 
 void text_of_rule(const std::vector<Isosurface>& surfaces) {
     const bool through = std::ranges::any_of(
@@ -104,15 +106,27 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
     if (ImGui::Checkbox("automatic range", &automatic)) {
         coloring.range.reset();
         if (!automatic)
-            coloring.range = model.whole_range;
+            coloring.range = model.scale_range;
     }
-    tip("the range is that of all values; off: set it yourself");
-    if (model.cells) {
+    tip("the range is found from the values; off: set it yourself");
+    if (automatic) {
+        bool percentiles = coloring.percentiles.has_value();
         ImGui::SameLine();
-        if (ImGui::SmallButton("2nd to 98th percentile"))
-            if (const auto range = range_of_shares(*model.cells, model.whole_range, {0.02, 0.98}))
-                coloring.range = range;
-        tip("set the range to the 2nd and 98th percentile of the values on the surfaces");
+        if (ImGui::Checkbox("percentiles", &percentiles)) {
+            coloring.percentiles.reset();
+            if (percentiles)
+                coloring.percentiles = {2.0, 98.0};
+        }
+        tip("between two percentiles of the values on the shown surfaces; off: all values");
+    }
+    if (automatic && coloring.percentiles) {
+        std::array<double, 2> ends = *coloring.percentiles;
+        ImGui::SetNextItemWidth(-60.0f);
+        if (ImGui::InputScalarN("%", ImGuiDataType_Double, ends.data(), 2, nullptr, nullptr,
+                                "%.4g") &&
+            0 <= ends[0] && ends[0] < ends[1] && ends[1] <= 100)
+            coloring.percentiles = ends;
+        tip("lowest and highest percentile, 0 to 100");
     }
     if (!coloring.range)
         return;

@@ -4,10 +4,19 @@
 #include "app/panel/panel_model.h"
 #include "interaction/commands.h"
 
+#include <cstddef>
+#include <vector>
+
 namespace isochron::app {
 
 /// The list of isosurfaces: the user picks, colors, adds and removes them.
 void surfaces_section(const PanelModel& model, interaction::Commands& commands);
+
+/// Lets a new surface and those inside it be seen. Surfaces of lower isovalues lie around those of
+/// higher ones: what lies around the new one becomes translucent, and so does the new one where it
+/// lies around others.
+/// @param added its place among the surfaces
+void let_see(std::vector<interaction::Isosurface>& surfaces, std::size_t added);
 
 /// The choice of what colors the surfaces, the color map and its range, and the box.
 void coloring_section(const PanelModel& model, interaction::Commands& commands);

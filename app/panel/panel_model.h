@@ -43,8 +43,7 @@ struct PanelModel {
     const index::IndexStats& stats;
     const ExplorerState& asked;
     bool second_array = false;                       ///< there is one to color by
-    std::array<double, 2> whole_range{};             ///< of what is colored by
-    const index::Extraction* cells = nullptr;        ///< colored ones that are shown
+    std::array<double, 2> scale_range{};             ///< of the color scale
     std::span<const LoadedColorMap> color_maps = {}; ///< of the configuration
     const FrameReport& frame;
     TimeSummary frame_times; ///< of the last frames

@@ -20,7 +20,21 @@ std::string with_brackets(const std::string& name, const std::string& unit) {
 
 } // namespace
 
-std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file) {
+std::optional<std::array<double, 2>> PercentileRange::of(const index::ExtractionPtr& shown,
+                                                         const std::array<double, 2>& whole,
+                                                         const std::array<double, 2>& percentiles) {
+    if (shown == shown_ && whole == whole_ && percentiles == percentiles_)
+        return range_;
+    shown_ = shown;
+    whole_ = whole;
+    percentiles_ = percentiles;
+    range_ = shown ? range_of_shares(*shown, whole, {percentiles[0] / 100, percentiles[1] / 100})
+                   : std::nullopt;
+    return range_;
+}
+
+std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file,
+                                      const index::ExtractionPtr& shown, PercentileRange& cached) {
     ColorScale scale;
     switch (state.coloring.by) {
     case interaction::ColorBy::surface: return std::nullopt;
@@ -40,14 +54,17 @@ std::optional<ColorScale> color_scale(const ExplorerState& state, const index::I
         scale.whole = {file.info().times.front(), file.info().times.back()};
         break;
     }
-    scale.range = state.coloring.range.value_or(scale.whole);
+    std::optional<std::array<double, 2>> range = state.coloring.range;
+    if (!range && state.coloring.percentiles)
+        range = cached.of(shown, scale.whole, *state.coloring.percentiles);
+    scale.range = range.value_or(scale.whole);
     scale.map = state.coloring.map;
     scale.colors = state.coloring.colors;
     scale.use = {state.coloring.reversed, state.coloring.bands};
     if (state.coloring.logarithmic && scale.range[1] > 0) {
         // Without a range of its own a map goes by logarithms over six decades at most.
         constexpr double kDecades = 1e-6;
-        if (!state.coloring.range && !(scale.range[0] > kDecades * scale.range[1]))
+        if (!range && !(scale.range[0] > kDecades * scale.range[1]))
             scale.range[0] = kDecades * scale.range[1];
         scale.logarithmic = scale.range[0] > 0;
     }

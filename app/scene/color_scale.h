@@ -37,7 +37,23 @@ std::optional<std::array<double, 2>> range_of_shares(const index::Extraction& sh
                                                      const std::array<double, 2>& whole,
                                                      const std::array<double, 2>& shares);
 
+/// The range of the last set that it was asked for, which is only sorted when something changes.
+class PercentileRange {
+  public:
+    /// @param shown null: no range @param percentiles 0 to 100, ascending
+    std::optional<std::array<double, 2>> of(const index::ExtractionPtr& shown,
+                                            const std::array<double, 2>& whole,
+                                            const std::array<double, 2>& percentiles);
+
+  private:
+    index::ExtractionPtr shown_;
+    std::array<double, 2> whole_{}, percentiles_{};
+    std::optional<std::array<double, 2>> range_;
+};
+
 /// Nothing when colors tell surfaces apart, or when there is no second array to color by.
-std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file);
+/// @param shown cells whose percentiles are the range, if the state says so
+std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file,
+                                      const index::ExtractionPtr& shown, PercentileRange& cached);
 
 } // namespace isochron::app

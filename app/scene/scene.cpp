@@ -209,29 +209,35 @@ void Scene::draw_mark(const render::View& view, const interaction::Similarity& r
 
 void Scene::draw(std::span<const render::View> views,
                  const interaction::Similarity& room_from_physical, render::Footprint footprint,
-                 const std::optional<interaction::Pose>& wand) {
+                 const std::optional<interaction::Pose>& wand, const SceneSlice& slice) {
     const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
     // Rank 0 may have chosen a footprint that these cells do not have here yet.
     footprint = footprints().best(footprint);
-    if (background_)
+    if (background_ && slice.begins)
         for (const render::View& view : views)
             background_pass_.draw(view, *background_);
     // Soft edges blend with what is drawn before them. What splats may hide must come before these
     // all the same, since they write no depth.
     appearance_.cut = cut_in(room_from_physical);
     const bool depth = writes_depth(footprint);
-    if (!depth)
+    if (!depth && slice.begins)
         draw_among_cells(views, placement, room_from_physical, wand);
     if (footprint == render::Footprint::surface)
         (draws_resting_ ? *resting_ : cells_).compute_corners();
     if (appearance_.near_fade && !views.empty()) // all views are of one viewer
         appearance_.near_fade->between_eyes = head_of(views.front());
-    cell_pass_.draw(views, placement, drawn(), footprint, appearance_);
+    cell_pass_.draw(views, placement, drawn(), footprint, appearance_, slice.cells);
+    if (!slice.ends)
+        return;
     if (depth)
         draw_among_cells(views, placement, room_from_physical, wand);
     draw_before_cells(views, placement);
     for (const render::View& view : views)
         draw_over_cells(view, room_from_physical);
+}
+
+std::size_t Scene::work(std::size_t views, render::Footprint footprint) const {
+    return cell_pass_.work(views, drawn(), footprints().best(footprint), appearance_);
 }
 
 /// Whether the cells write depth, so that they hide things behind them that are drawn later.

@@ -27,6 +27,14 @@
 
 namespace isochron::app {
 
+/// What a call of `Scene::draw` draws of a picture: all of it, or one of several slices, which come
+/// in the order: beginning, cells, end. All slices give the same picture as the whole, to the bit.
+struct SceneSlice {
+    bool begins = true; ///< what comes before the cells
+    render::DrawPart cells = {};
+    bool ends = true; ///< what comes after the cells
+};
+
 class Scene {
   public:
     Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config);
@@ -106,7 +114,9 @@ class Scene {
     /// @param wand drawn as a ray; empty: none
     void draw(std::span<const render::View> views,
               const interaction::Similarity& room_from_physical, render::Footprint footprint,
-              const std::optional<interaction::Pose>& wand);
+              const std::optional<interaction::Pose>& wand, const SceneSlice& slice = {});
+    /// Work of drawing the cells into so many views, in the units of `SceneSlice::cells`.
+    std::size_t work(std::size_t views, render::Footprint footprint) const;
 
     /// Over a finished picture: a wand's ray, and what a cursor is over.
     void draw_aids(const render::View& view, const interaction::Similarity& room_from_physical,

@@ -113,13 +113,21 @@ Commands Session::commands_from(const interaction::InputState& input) {
     return commands;
 }
 
-/// The color scale of the drawn cells. Empty until the drawn cells have the current coloring:
-/// before that, their color coordinates have another meaning.
-std::optional<ColorScale> Session::shown_scale() const {
+/// Whether the drawn cells have the current coloring. Before that, their color coordinates have
+/// another meaning.
+bool Session::colored_as_asked() const {
     const index::ExtractionPtr& shown = scene_.shown();
-    if (!shown || shown->query.coloring != state_.surfaces().coloring)
-        return std::nullopt;
-    return color_scale(state_, *file_);
+    return shown && shown->query.coloring == state_.surfaces().coloring;
+}
+
+std::optional<ColorScale> Session::scale() const {
+    return color_scale(state_, *file_, colored_as_asked() ? scene_.shown() : index::ExtractionPtr(),
+                       percentiles_);
+}
+
+/// The color scale of the drawn cells. Empty until these have the current coloring.
+std::optional<ColorScale> Session::shown_scale() const {
+    return colored_as_asked() ? scale() : std::nullopt;
 }
 
 void Session::set_headset_period(std::optional<interaction::Seconds> period) {
@@ -204,7 +212,7 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     if (report.cells > frames_->surface_limit())
         for (render::FootprintSet* set : {&footprints, &possible})
             set->remove(render::Footprint::surface);
-    const Choosing how = live ? Choosing::by_measurement : Choosing::by_pace;
+    const Choosing how = choosing(waiting);
     const bool had_mesh = mesh_wanted_;
     const index::DetailQuery had_detail = detail_;
     bool measure = quality_.choose(state_, changed, how, footprints, possible, report);
@@ -220,6 +228,7 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
                         detail_, report);
     }
     now.footprint = report.footprint;
+    rest_in_slices(now, waiting, report);
     // While a headset wants no picture, there is nothing to draw or to measure.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure);
 }
@@ -232,9 +241,14 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
                                              draw_panel_overlay(size, report);
                                          }
                                        : Outputs::Overlay();
+    if (report.in_slices && !report.redrawn && now.footprint != *report.in_slices) {
+        draw_slices(now, panel, report);
+        return outputs_.draw_room(input, panel);
+    }
     drawn_ = now;
     StopWatch watch;
     if (report.redrawn) {
+        slices_.reset();
         scene_.forget_views();
         outputs_.leave_free(now.free);
         outputs_.show_aside(now.aside);
@@ -246,7 +260,9 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
         scene_.set_veil(now.veil);
         scene_.look(state_, now.audience.viewers.front().head, now.scale);
         const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
-            draw_views(place, views);
+            if (!place.kept)
+                scene_.note_views(views);
+            draw_views(place, views, *drawn_);
         };
         const DrawLoad of_cell = outputs_.draw(now.audience, scene, panel);
         quality_.end(report, of_cell, report.upload + watch.lap());

@@ -17,6 +17,7 @@
 #include "app/frame/frame_quality.h"
 #include "app/frame/history.h"
 #include "app/frame/late_latch.h"
+#include "app/frame/slice_pace.h"
 #include "app/output/outputs.h"
 #include "app/panel/operator_panel.h"
 #include "app/panel/panel_in_room.h"
@@ -152,6 +153,16 @@ class Session {
         bool operator==(const Picture&) const = default;
     };
 
+    /// A picture that is drawn over several frames, as far as it is.
+    struct Slices {
+        Slices(const Picture& wanted, Milliseconds each_frame)
+            : picture(wanted), pace(each_frame) {}
+        Picture picture;
+        SlicePace pace;
+        Outputs::SlicePlace place;
+        std::size_t done = 0; ///< work, of the place's cells
+    };
+
     /// What shows where somebody points.
     struct Aids {
         std::optional<interaction::Pose> wand;
@@ -164,6 +175,8 @@ class Session {
     interaction::Commands way_to_start() const;
     void request_cells(Waiting waiting);
     void take_newest_cells(Waiting waiting, FrameReport& report);
+    bool colored_as_asked() const;
+    std::optional<ColorScale> scale() const;
     std::optional<ColorScale> shown_scale() const;
     Picture picture(const interaction::InputState& input, const FrameReport& report);
     Aids aids(const interaction::InputState& input) const;
@@ -185,7 +198,13 @@ class Session {
     bool captures(const FrameReport& report);
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
-    void draw_views(const ScenePlace& place, std::span<const render::View> views);
+    Choosing choosing(Waiting waiting) const;
+    void rest_in_slices(Picture& now, Waiting waiting, FrameReport& report);
+    void draw_slices(const Picture& now, const Outputs::Overlay& overlay, FrameReport& report);
+    bool draw_slice(const ScenePlace& place, std::span<const render::View> views, std::size_t work,
+                    std::size_t& done);
+    void draw_views(const ScenePlace& place, std::span<const render::View> views,
+                    const Picture& picture, const SceneSlice& slice = {});
     std::vector<interaction::DeviceKind> devices_at_hand() const;
     OperatorPanel::Model panel_models(const FrameReport& report) const;
     glm::ivec2 panel_places() const;
@@ -212,8 +231,10 @@ class Session {
     index::Extractor extractor_;
     Scene scene_;
     DetailChoice details_;
-    std::optional<Picture> drawn_; ///< last picture
-    Aids over_;                    ///< drawn over it, where that is done
+    mutable PercentileRange percentiles_; ///< keeps what it has sorted
+    std::optional<Picture> drawn_;        ///< last picture
+    std::optional<Slices> slices_;        ///< the next one, if it is made in slices
+    Aids over_;                           ///< drawn over it, where that is done
     OperatorPanel panel_;
     PanelInRoom room_panel_;
     Picker picker_;

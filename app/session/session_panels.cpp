@@ -84,13 +84,12 @@ std::optional<interaction::Pose> Session::ray_at(const interaction::MouseMoveEve
 }
 
 PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) const {
-    const auto scale = color_scale(state_, *file_);
+    const auto scale = this->scale();
     return {.info = file_->info(),
             .stats = file_->stats(),
             .asked = state_,
             .second_array = file_->color() != nullptr,
-            .whole_range = scale ? scale->whole : std::array{0.0, 0.0},
-            .cells = scale && scene_.shown() ? scene_.shown().get() : nullptr,
+            .scale_range = scale ? scale->range : std::array{0.0, 0.0},
             .color_maps = config_.color_maps,
             .frame = report,
             .frame_times = log_.stage(&FrameReport::total, kShownFrames),

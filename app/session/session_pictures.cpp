@@ -16,18 +16,17 @@ bool Session::in_windows(const FrameReport& report) {
     return !in_headset_ || report.time - *in_headset_ > kMoment;
 }
 
-void Session::draw_views(const ScenePlace& place, std::span<const render::View> views) {
-    if (!place.kept)
-        scene_.note_views(views);
+void Session::draw_views(const ScenePlace& place, std::span<const render::View> views,
+                         const Picture& picture, const SceneSlice& slice) {
     const bool aids = !place.kept || config_.picture_ray;
-    scene_.set_pointed(aids ? drawn_->pointed : std::nullopt);
+    scene_.set_pointed(aids ? picture.pointed : std::nullopt);
     scene_.set_orientation(place.kept ? config_.picture_caption
                                       : on_desktop() && !state_.room_panel.shown);
     scene_.set_caption(place.kept && config_.picture_caption && scene_.shown()
                            ? caption_text(scene_.shown()->query, file_->info())
                            : std::string());
-    scene_.draw(views, drawn_->room_from_physical, drawn_->footprint,
-                aids ? drawn_->audience.wand : std::nullopt);
+    scene_.draw(views, picture.room_from_physical, picture.footprint,
+                aids ? picture.audience.wand : std::nullopt, slice);
 }
 
 /// Where mouse and keyboard play the wand, it points while the cursor does.

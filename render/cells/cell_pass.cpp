@@ -76,19 +76,44 @@ float CellPass::gaussian_falloff() const {
 }
 
 void CellPass::draw(std::span<const View> views, const Placement& placement,
-                    const CellBuffers& cells, Footprint footprint,
-                    const CellAppearance& appearance) {
+                    const CellBuffers& cells, Footprint footprint, const CellAppearance& appearance,
+                    DrawPart part) {
     if (cells.size() == 0)
         return;
     assert(footprint != Footprint::mesh || cells.has_mesh());
-    const bool apart = !two_views_at_once_ || (!has_layers(footprint) && seen_only_);
+    std::size_t before = 0;
     for (const Layer& layer : layers_of(cells, footprint, appearance)) {
-        const bool in_order = footprint == Footprint::mesh && layer.blended; // sorted for each view
-        const std::size_t at_once = apart || in_order ? 1 : 2;
-        for (std::size_t first = 0; first < views.size(); first += at_once)
-            draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)), placement,
-                         cells, footprint, layer, appearance);
+        const std::size_t at_once = views_at_once(footprint, layer);
+        const std::size_t work = work_of(cells, footprint, layer);
+        for (std::size_t first = 0; first < views.size(); first += at_once, before += work)
+            if (const DrawPart cut = part.among(before, work); cut.count > 0)
+                draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)),
+                             placement, cells, footprint, layer, appearance, cut);
     }
+}
+
+std::size_t CellPass::work(std::size_t views, const CellBuffers& cells, Footprint footprint,
+                           const CellAppearance& appearance) const {
+    std::size_t work = 0;
+    for (const Layer& layer : layers_of(cells, footprint, appearance)) {
+        const std::size_t at_once = views_at_once(footprint, layer);
+        work += (views + at_once - 1) / at_once * work_of(cells, footprint, layer);
+    }
+    return cells.size() == 0 ? 0 : work;
+}
+
+std::size_t CellPass::views_at_once(Footprint footprint, const Layer& layer) const {
+    const bool apart = !two_views_at_once_ || (!has_layers(footprint) && seen_only_);
+    const bool in_order = footprint == Footprint::mesh && layer.blended; // sorted for each view
+    return apart || in_order ? 1 : 2;
+}
+
+std::size_t CellPass::work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer) {
+    if (!has_layers(footprint))
+        return 1;
+    return footprint == Footprint::mesh && !layer.blended
+               ? MeshPass::triangles(cells, layer.surfaces)
+               : cells.size();
 }
 
 std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footprint footprint,
@@ -106,7 +131,7 @@ std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footp
 
 void CellPass::draw_at_once(std::span<const View> views, const Placement& placement,
                             const CellBuffers& cells, Footprint footprint, const Layer& layer,
-                            const CellAppearance& appearance) {
+                            const CellAppearance& appearance, DrawPart part) {
     const bool blended = layer.blended;
     FrameBlock frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended, placement,
                                 cells.surroundings(), cells.slots().largest > 0);
@@ -148,9 +173,9 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         gl_->Disable(GL_BLEND);
     }
     if (footprint == Footprint::surface)
-        surface_.draw(quads_, cells, blended, views.size());
+        surface_.draw(quads_, cells, blended, views.size(), part);
     else if (footprint == Footprint::mesh)
-        draw_mesh(views, placement, cells, layer, appearance, frame);
+        draw_mesh(views, placement, cells, layer, appearance, frame, part);
     else
         draw_footprints(sequence.cells, static_cast<int>(views.size()), footprint,
                         form_of(views, placement, footprint, cells));
@@ -231,7 +256,7 @@ bool CellPass::triangles_are_small(std::span<const View> views, const Placement&
 
 void CellPass::draw_mesh(std::span<const View> views, const Placement& placement,
                          const CellBuffers& cells, const Layer& layer,
-                         const CellAppearance& appearance, const FrameBlock& frame) {
+                         const CellAppearance& appearance, const FrameBlock& frame, DrawPart part) {
     CellAppearance opaque = appearance;
     for (SurfaceAppearance& surface : opaque.surfaces)
         surface.opacity = 1.0f;
@@ -241,9 +266,11 @@ void CellPass::draw_mesh(std::span<const View> views, const Placement& placement
                               .near = !hides_what_is_behind(opaque, placement),
                               .small = triangles_are_small(views, placement, cells)};
     if (layer.blended)
-        mesh_.draw_blended(cells, look, orders_.order(cells, key_of(views.front(), placement)));
+        mesh_.draw_blended(
+            cells, look,
+            orders_.order(cells, key_of(views.front(), placement)).subspan(part.first, part.count));
     else
-        mesh_.draw(cells, look, views.size());
+        mesh_.draw(cells, look, views.size(), part);
 }
 
 void CellPass::draw_footprints(std::size_t cells, int views, Footprint footprint, Form form) {

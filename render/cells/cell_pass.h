@@ -4,6 +4,7 @@
 
 #include "render/cells/cell_appearance.h"
 #include "render/cells/cell_buffers.h"
+#include "render/cells/draw_part.h"
 #include "render/cells/footprints.h"
 #include "render/cells/frame_block.h"
 #include "render/cells/mesh_pass.h"
@@ -40,12 +41,19 @@ class CellPass {
     /// need `CellBuffers::has_mesh`.
     /// Leaves depth test, depth writes and GL_FRAMEBUFFER_SRGB on, blending and culling off, and
     /// the viewport undefined.
+    /// @param part of the work: drawn one after the other, all parts give the same picture as the
+    /// whole, to the bit
     void draw(std::span<const View> views, const Placement& placement, const CellBuffers& cells,
-              Footprint footprint, const CellAppearance& appearance = {});
+              Footprint footprint, const CellAppearance& appearance = {}, DrawPart part = {});
     void draw(const View& view, const Placement& placement, const CellBuffers& cells,
               Footprint footprint, const CellAppearance& appearance = {}) {
         draw(std::span(&view, 1), placement, cells, footprint, appearance);
     }
+
+    /// Work of drawing these cells into so many views, of which `draw` can do a part: cells of the
+    /// exact surface, triangles of a mesh. A drawing of quads or splats is one piece.
+    std::size_t work(std::size_t views, const CellBuffers& cells, Footprint footprint,
+                     const CellAppearance& appearance) const;
 
     /// Whether two views are drawn in one pass: the vertex shader can choose the viewport.
     bool draws_two_views_at_once() const { return two_views_at_once_; }
@@ -94,10 +102,13 @@ class CellPass {
     /// cells would be right.
     static std::vector<Layer> layers_of(const CellBuffers& cells, Footprint footprint,
                                         const CellAppearance& appearance);
+    /// Views that are drawn in one pass, at most.
+    std::size_t views_at_once(Footprint footprint, const Layer& layer) const;
+    static std::size_t work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer);
     /// Draws one or two views in one pass; two need `Programs::two`.
     void draw_at_once(std::span<const View> views, const Placement& placement,
                       const CellBuffers& cells, Footprint footprint, const Layer& layer,
-                      const CellAppearance& appearance);
+                      const CellAppearance& appearance, DrawPart part);
     /// The fastest form that shows the same picture in all views.
     Form form_of(std::span<const View> views, const Placement& placement, Footprint footprint,
                  const CellBuffers& cells) const;
@@ -108,7 +119,7 @@ class CellPass {
                              const CellBuffers& cells) const;
     void draw_mesh(std::span<const View> views, const Placement& placement,
                    const CellBuffers& cells, const Layer& layer, const CellAppearance& appearance,
-                   const FrameBlock& frame);
+                   const FrameBlock& frame, DrawPart part);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
     float gaussian_falloff() const;
 

@@ -91,7 +91,16 @@ void MeshPass::draw_triangles(const CellBuffers& cells, GLuint indices, std::siz
     gl_->BindVertexArray(0);
 }
 
-void MeshPass::draw(const CellBuffers& cells, const Look& look, std::size_t views) {
+std::size_t MeshPass::triangles(const CellBuffers& cells, std::int32_t surfaces) {
+    const auto all = cells.mesh().surfaces();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if ((surfaces >> i & 1) != 0)
+            count += all[i].indices / 3;
+    return count;
+}
+
+void MeshPass::draw(const CellBuffers& cells, const Look& look, std::size_t views, DrawPart part) {
     if (look.colored) {
         find_styles(cells);
         if (styles_version_ != cells.version()) {
@@ -107,15 +116,21 @@ void MeshPass::draw(const CellBuffers& cells, const Look& look, std::size_t view
     gl_->UseProgram(of_look);
     tell_surfaces(of_look, cells);
     const auto surfaces = cells.mesh().surfaces();
+    std::size_t before = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const auto& [first_vertex, first_index, indices] = surfaces[i];
-        if ((look.surfaces >> i & 1) == 0 || indices == 0)
+        if ((look.surfaces >> i & 1) == 0)
             continue;
+        const DrawPart cut = part.among(before, indices / 3);
+        before += indices / 3;
+        if (cut.count == 0)
+            continue;
+        const std::size_t from = first_index / 3 + cut.first;
         if (look.colored)
-            gl_->ProgramUniform1i(of_look, 0, static_cast<GLint>(first_index / 3));
+            gl_->ProgramUniform1i(of_look, 0, static_cast<GLint>(from));
         else
             gl_->ProgramUniform3f(of_look, 0, look.colors[i].x, look.colors[i].y, look.colors[i].z);
-        draw_triangles(cells, cells.mesh().indices(), first_index, indices, first_vertex, views);
+        draw_triangles(cells, cells.mesh().indices(), 3 * from, 3 * cut.count, first_vertex, views);
     }
 }
 

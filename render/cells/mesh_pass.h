@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/cells/cell_buffers.h"
+#include "render/cells/draw_part.h"
 
 #include <glm/vec4.hpp>
 #include <string>
@@ -34,7 +35,10 @@ class MeshPass {
     /// Draws with the frame and viewports that CellPass has bound, and its depth and blend state.
     /// @param cells with a mesh, see `CellBuffers::has_mesh`
     /// @param views 1 or 2
-    void draw(const CellBuffers& cells, const Look& look, std::size_t views);
+    /// @param part of the triangles of the surfaces that are drawn
+    void draw(const CellBuffers& cells, const Look& look, std::size_t views, DrawPart part);
+    /// Triangles of the surfaces that `draw` draws.
+    static std::size_t triangles(const CellBuffers& cells, std::int32_t surfaces);
     /// Draws blended triangles, cell by cell in this order. @param back_to_front slots of the cells
     void draw_blended(const CellBuffers& cells, const Look& look,
                       std::span<const std::uint32_t> back_to_front);

@@ -22,13 +22,14 @@ SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once, const std::string
 }
 
 void SurfacePass::draw(const QuadIndices& quads, const CellBuffers& cells, bool blended,
-                       std::size_t views) const {
+                       std::size_t views, DrawPart part) const {
     gl_->BindTextureUnit(3, cells.corner_values_texture());
     gl_->BindTextureUnit(4, cells.corner_gradients_texture());
     GLint samples = 0;
     gl_->GetIntegerv(GL_SAMPLES, &samples); // of the target
     gl_->UseProgram(programs_[samples > 1][blended][views - 1]->name());
-    quads.draw(cells.size(), static_cast<int>(views));
+    const DrawPart cut = part.among(0, cells.size());
+    quads.draw(cut.count, static_cast<int>(views), cut.first);
 }
 
 } // namespace isochron::render

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/cells/cell_buffers.h"
+#include "render/cells/draw_part.h"
 #include "render/gl/quad_indices.h"
 
 #include <array>
@@ -25,8 +26,9 @@ class SurfacePass {
     /// @param blended several layers within a cell are blended from far to near, pre-multiplied
     /// @param cells after `CellBuffers::compute_corners`
     /// @param views 1 or 2
-    void draw(const QuadIndices& quads, const CellBuffers& cells, bool blended,
-              std::size_t views) const;
+    /// @param part of the cells, in the order in which they are drawn
+    void draw(const QuadIndices& quads, const CellBuffers& cells, bool blended, std::size_t views,
+              DrawPart part) const;
 
   private:
     /// [blended][views - 1]

@@ -21,13 +21,13 @@ QuadIndices::QuadIndices(const Gl& gl) : gl_(&gl), vertex_array_(gl), indices_(g
     gl.VertexArrayElementBuffer(vertex_array_.name(), indices_.name());
 }
 
-void QuadIndices::draw(std::size_t quads, int instances) const {
+void QuadIndices::draw(std::size_t quads, int instances, std::size_t begin) const {
     gl_->BindVertexArray(vertex_array_.name());
     for (std::size_t first = 0; first < quads; first += kQuadsPerDraw) {
         const std::size_t count = std::min(quads - first, kQuadsPerDraw);
         gl_->DrawElementsInstancedBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(6 * count),
                                              GL_UNSIGNED_SHORT, nullptr, instances,
-                                             static_cast<GLint>(4 * first));
+                                             static_cast<GLint>(4 * (begin + first)));
     }
     gl_->BindVertexArray(0);
 }

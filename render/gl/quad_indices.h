@@ -16,7 +16,8 @@ class QuadIndices {
     /// Draws `quads` quads with the current program; corners go counter-clockwise from the lower
     /// left: (-1,-1), (1,-1), (1,1), (-1,1).
     /// @param instances of each quad; within an instance the quads keep their order
-    void draw(std::size_t quads, int instances = 1) const;
+    /// @param begin number of the first quad
+    void draw(std::size_t quads, int instances = 1, std::size_t begin = 0) const;
 
     /// The same for shaders that place one point per vertex.
     void draw_points(std::size_t points, int instances = 1) const;

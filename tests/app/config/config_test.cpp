@@ -66,6 +66,8 @@ range = [0.1, 0.3]
     EXPECT_EQ(config.coloring.by, interaction::ColorBy::value);
     EXPECT_EQ(config.coloring.map, "coolwarm"); // by its older name
     EXPECT_EQ(config.coloring.range, (std::array{0.1, 0.3}));
+    EXPECT_EQ(parse_config("[coloring]\npercentiles = [2, 98]\n", "test.toml").coloring.percentiles,
+              (std::array{2.0, 98.0}));
 }
 
 constexpr const char* kMaps = R"([
@@ -133,6 +135,10 @@ TEST(Config, LooksThatCannotBeAreErrorsWithTheirPlace) {
     EXPECT_THAT(error_of("[look]\nocclusion = 2\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[coloring]\nmap = \"rainbow\"\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[coloring]\nrange = [2, 1]\n"), HasSubstr("ascending"));
+    EXPECT_THAT(error_of("[coloring]\npercentiles = [98, 2]\n"), HasSubstr("ascending"));
+    EXPECT_THAT(error_of("[coloring]\npercentiles = [2, 101]\n"), HasSubstr("0 to 100"));
+    EXPECT_THAT(error_of("[coloring]\npercentiles = [2, 98]\nrange = [1, 2]\n"),
+                HasSubstr("one of them"));
     EXPECT_THAT(error_of("[lighting]\nkey_direction = [0, 0, 0]\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[[surfaces]]\nisovalue = 1\nquantile = 0.5\n"), HasSubstr("quantile"));
     EXPECT_THAT(error_of("[[surfaces]]\ncolor = [0, 0, 2]\n"), HasSubstr("sRGB"));

@@ -64,6 +64,61 @@ TEST_F(QualityInMotion, MotionDoesNotFlickerWhateverItCosts) {
     }
 }
 
+TEST_F(QualityInMotion, ALoadOfOthersThatEndsIsNoticedThoughNothingComesToRest) {
+    double others = 10;
+    SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad&) {
+        return others * (2 + static_cast<double>(rung(footprint)));
+    });
+    display.run(200); // at rest: 20, 30 and 40 ms
+    display.input.pace = Pace::moving;
+    display.run(200);
+    ASSERT_EQ(display.frames.back().choice.footprint, Footprint::quad);
+    others = 1;
+    EXPECT_NE(display.run(600).choice.footprint, Footprint::quad)
+        << "eight times the time of quads, at most, would be too long";
+}
+
+TEST_F(QualityInMotion, WhatOnceFailedByAccidentIsTriedAgainAndDearThingsNever) {
+    for (const double accident : {25.0, 400.0}) {
+        bool now = true;
+        SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad&) {
+            return footprint == Footprint::quad ? 3.0 : now ? accident : 4.0;
+        });
+        display.run(100);
+        now = false;
+        display.input.pace = Pace::moving;
+        const std::size_t first = display.frames.size();
+        display.run(4 * QualityController::kLongestWait);
+        EXPECT_EQ(display.over_budget(first), 0);
+        EXPECT_EQ(display.frames.back().choice.footprint != Footprint::quad, accident < 100);
+        // Where it is no accident, it costs one late frame in thousands.
+        now = true;
+        const std::size_t again = display.frames.size();
+        display.run(8 * QualityController::kLongestWait);
+        EXPECT_LE(display.over_budget(again), 8);
+    }
+}
+
+TEST_F(QualityInMotion, BesideSlicesNothingIsTriedThatTakesLong) {
+    // At rest the surface comes in slices; gaussians may take 8 times as long as quads.
+    SimulatedDisplay display(200, constant({10, 60, 90}));
+    display.input.in_slices = Footprint::surface;
+    SimulatedDisplay tight(kBudget, constant({20, 120, 150}));
+    tight.input.in_slices = Footprint::surface;
+    display.run(3000);
+    tight.run(3000);
+    EXPECT_EQ(display.frames.back().choice.footprint, Footprint::surface) << "within the budget";
+    EXPECT_EQ(tight.at(Footprint::quad), 3000);
+    EXPECT_TRUE(tight.frames.back().choice.final);
+    // What the slices took tells whether moving frames can have it, too.
+    SimulatedDisplay cheap(kBudget, constant({2, 30, 5}));
+    cheap.controller.measured(Footprint::quad, cheap.input.load, Milliseconds(2));
+    cheap.controller.measured_in_slices(Footprint::surface, cheap.input.load, Milliseconds(6));
+    cheap.input.pace = Pace::moving;
+    EXPECT_EQ(cheap.run(40).choice.footprint, Footprint::surface);
+    EXPECT_EQ(cheap.over_budget(), 0);
+}
+
 TEST_F(QualityInMotion, NothingIsTriedThatWouldFreezeThePicture) {
     SimulatedDisplay display(kBudget, [](Footprint footprint, const DrawLoad& load) {
         constexpr std::array kPerCell{1e-4, 8e-4, 12e-4};

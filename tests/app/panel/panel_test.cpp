@@ -1,6 +1,7 @@
 // The panel without a window can be laid out, whatever the names and values of the data.
 #include "app/config/config.h"
 #include "app/panel/panel.h"
+#include "app/panel/panel_colors.h"
 #include "app/panel/panel_tools.h"
 
 #include <gtest/gtest.h>
@@ -142,6 +143,30 @@ TEST_F(MovieButtons, AskForAMovieOfTheRecordingOrOfTheSeriesWhereThereIsOne) {
 TEST_F(MovieButtons, AMovieThatIsBeingMadeCanOnlyBeGivenUp) {
     movies_.progress = 0.5f;
     EXPECT_EQ(wishes(), std::set{MovieWish::give_up});
+}
+
+TEST(NewSurfaces, WhatLiesAroundThemGivesWayAndNothingElse) {
+    using interaction::Isosurface;
+    const auto opacities = [](std::vector<Isosurface> surfaces, std::size_t added) {
+        let_see(surfaces, added);
+        std::vector<bool> translucent;
+        for (const Isosurface& surface : surfaces)
+            translucent.push_back(surface.opacity < 1.0f);
+        return translucent;
+    };
+    const auto at = [](double isovalue) { return Isosurface{isovalue, glm::vec3(1), 1.0f}; };
+    // Around all others; inside all others; between two.
+    EXPECT_EQ(opacities({at(5), at(9), at(2)}, 2), (std::vector{false, false, true}));
+    EXPECT_EQ(opacities({at(5), at(2), at(9)}, 2), (std::vector{true, true, false}));
+    EXPECT_EQ(opacities({at(2), at(9), at(5)}, 2), (std::vector{true, false, true}));
+    EXPECT_EQ(opacities({at(5)}, 0), std::vector{false});
+    EXPECT_EQ(opacities({at(5), at(5)}, 1), (std::vector{false, false})) << "neither is outside";
+    // What is translucent already stays as it is.
+    std::vector<Isosurface> surfaces{at(2), at(9)};
+    surfaces[0].opacity = 0.1f;
+    let_see(surfaces, 1);
+    EXPECT_EQ(surfaces[0].opacity, 0.1f);
+    EXPECT_EQ(surfaces[1].opacity, 1.0f);
 }
 
 } // namespace

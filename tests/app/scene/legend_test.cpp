@@ -80,7 +80,16 @@ TEST(ColorScales, SharesOfWhatIsShownMakeARange) {
     ASSERT_TRUE(range);
     EXPECT_NEAR((*range)[0], 100.2, 0.05);
     EXPECT_NEAR((*range)[1], 109.8, 0.05);
+    // The range for a set is sorted out once, and anew for another set or other percentiles.
+    PercentileRange cached;
+    const auto set = std::make_shared<index::Extraction>(shown);
+    EXPECT_EQ(cached.of(set, {100, 200}, {2, 98}), range);
+    EXPECT_EQ(cached.of(set, {100, 200}, {2, 98}), range);
+    EXPECT_NEAR(cached.of(set, {100, 200}, {50, 98}).value()[0], 105, 0.05);
+    EXPECT_NEAR(cached.of(set, {0, 100}, {50, 98}).value()[0], 5, 0.05);
+    EXPECT_FALSE(cached.of(nullptr, {0, 100}, {50, 98}));
     shown.colors.assign(10, 77);
+    EXPECT_FALSE(cached.of(std::make_shared<index::Extraction>(shown), {0, 100}, {50, 98}));
     EXPECT_FALSE(range_of_shares(shown, {0, 1}, {0.02, 0.98})) << "one value alone";
 }
 

@@ -102,6 +102,26 @@ TEST_P(SessionColors, BySecondArrayRunThroughTheMapAlongIt) {
     EXPECT_EQ(session.log().frames().back().footprint, render::kBestFootprint);
 }
 
+TEST_P(SessionColors, BetweenPercentilesFollowTheShownSurface) {
+    Session session(without_box(), file_, *context_);
+    Commands commands = colored(ColorBy::value, 2);
+    const auto all = picture(session, commands);
+    commands.coloring->percentiles = {0, 100}; // the sphere's own ends: x is 7 to 21
+    const auto between = picture(session, commands);
+    EXPECT_NE(between.rgba, all.rgba);
+    const Ends ends = ends_in(between);
+    EXPECT_GT(ends.blue, 30u);
+    EXPECT_GT(ends.red, 30u);
+    EXPECT_LT(ends.blue_x, ends.red_x - 5);
+    // A step later the sphere is a voxel further on, and so is the range.
+    commands.step = 3;
+    EXPECT_GT(ends_in(picture(session, commands)).blue, 30u);
+    // A range that is given comes first.
+    commands.coloring->range = {0, 31};
+    commands.step = 2;
+    EXPECT_EQ(picture(session, commands).rgba, all.rgba);
+}
+
 TEST_P(SessionColors, ByFirstCrossingAreBlueAtFirstAndRedAtLast) {
     Session session(without_box(), file_, *context_);
     const Ends first = ends_in(picture(session, colored(ColorBy::first_crossing, 0)));

@@ -15,6 +15,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
+#include <span>
 
 namespace isochron::render {
 namespace {
@@ -64,8 +66,12 @@ class MeshPassTest : public GlTest {
         const View view{.clip_from_eye = glm::perspective(0.6f, 1.0f, 5.0f, 200.0f),
                         .eye_from_room = glm::lookAt(eye, glm::vec3(15), glm::vec3(0, 1, 0)),
                         .size = kSize};
-        pass_.draw(view, Placement::of(field_.view().grid, glm::mat4(1.0f)), cells, footprint,
-                   look);
+        const Placement placement = Placement::of(field_.view().grid, glm::mat4(1.0f));
+        const std::size_t work = pass_.work(1, cells, footprint, look);
+        parts_ = 0;
+        for (std::size_t first = 0; first < work; first += part_.value_or(work), ++parts_)
+            pass_.draw(std::span(&view, 1), placement, cells, footprint, look,
+                       {first, part_.value_or(work)});
         return target.read();
     }
 
@@ -88,6 +94,8 @@ class MeshPassTest : public GlTest {
                    14 * std::sqrt((x - 15) * (x - 15) + (y - 15) * (y - 15) + (z - 15) * (z - 15));
         }};
     CellPass pass_{gl_};
+    std::optional<std::size_t> part_; ///< work of each part that is drawn; empty: all at once
+    int parts_ = 0;                   ///< of the last picture
 };
 
 INSTANTIATE_TEST_SUITE_P(, MeshPassTest, both_contexts(), context_name);
@@ -131,6 +139,27 @@ TEST_P(MeshPassTest, WhatIsCutAwayIsThatOfTheExactSurface) {
     const Image mesh = draw(set, Footprint::mesh, look);
     EXPECT_GT(differing(mesh, draw(set, Footprint::mesh, {})), 0.02);
     EXPECT_LT(differing(mesh, draw(set, Footprint::surface, look)), 0.01);
+}
+
+TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
+    const auto set = extraction({90.5, 150.5}, true);
+    Texture map(gl_, GL_TEXTURE_1D);
+    gl_.TextureStorage1D(map.name(), 1, GL_RGBA8, 2);
+    constexpr std::array<std::uint8_t, 8> kTexels{255, 0, 0, 255, 0, 0, 255, 255};
+    gl_.TextureSubImage1D(map.name(), 0, 0, 2, GL_RGBA, GL_UNSIGNED_BYTE, kTexels.data());
+    for (const bool colored : {false, true})
+        for (const float opacity : {1.0f, 0.4f})
+            for (const Footprint footprint : {Footprint::mesh, Footprint::surface}) {
+                CellAppearance look;
+                look.surfaces[0].opacity = opacity;
+                if (colored)
+                    look.values = {.map = map.name()};
+                const Image whole = draw(set, footprint, look);
+                part_ = 700;
+                EXPECT_EQ(draw(set, footprint, look).rgba, whole.rgba);
+                EXPECT_GT(parts_, 2);
+                part_.reset();
+            }
 }
 
 TEST_P(MeshPassTest, AMeshComesInPortionsAndIsShownWhole) {

@@ -1,0 +1,84 @@
+// The exact picture at rest, which is drawn over several frames beside the one that is shown.
+#include "app/session/session.h"
+
+#include "app/frame/stop_watch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::app {
+
+/// How footprints are chosen in a frame. The frames of a cluster, of a headset and of a replay are
+/// each drawn at once.
+Choosing Session::choosing(Waiting waiting) const {
+    if (waiting != Waiting::never)
+        return Choosing::by_pace;
+    return frames_->alone() && !outputs_.headset() ? Choosing::with_slices
+                                                   : Choosing::by_measurement;
+}
+
+/// Shows the picture at rest that was made in slices for as long as nothing changes.
+void Session::rest_in_slices(Picture& now, Waiting waiting, FrameReport& report) {
+    if (!report.in_slices || !drawn_)
+        return;
+    now.footprint = *report.in_slices;
+    const bool shown = now == drawn_;
+    if (!shown)
+        now.footprint = report.footprint;
+    report.footprint = now.footprint;
+    report.reason = QualityReason::in_slices;
+    report.final = shown && is_finest(waiting);
+    if (shown)
+        report.expected = std::exchange(report.better, std::nullopt);
+}
+
+/// Draws as much of the picture at rest as this frame has time for, and shows it once it is whole.
+void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
+                          FrameReport& report) {
+    Picture wanted = now;
+    wanted.footprint = *report.in_slices;
+    if (!slices_ || slices_->picture != wanted)
+        slices_.emplace(wanted, quality_.slice_budget());
+    SlicePace& pace = slices_->pace;
+    pace.begin_frame();
+    StopWatch watch;
+    while (const std::size_t work = pace.next()) {
+        std::size_t done = 0;
+        const bool whole = outputs_.draw_slice(
+            slices_->place, [&](const ScenePlace& place, std::span<const render::View> views) {
+                return draw_slice(place, views, work, done);
+            });
+        pace.took(done, watch.lap());
+        if (!whole)
+            continue;
+        outputs_.show_slices(overlay);
+        quality_.learn_slices(wanted.footprint, report.cells, pace.whole());
+        drawn_ = std::move(wanted);
+        slices_.reset();
+        report.footprint = drawn_->footprint;
+        report.redrawn = true;
+        return;
+    }
+    outputs_.draw_again(now.audience, overlay);
+}
+
+/// Draws the next of: what comes before the cells of a viewport, some of the cells, what comes
+/// after them. @param done work that was done, of at most `work` @return whether it was the last
+bool Session::draw_slice(const ScenePlace& place, std::span<const render::View> views,
+                         std::size_t work, std::size_t& done) {
+    SceneSlice slice{.begins = slices_->place.begins, .cells = {slices_->done, 0}, .ends = false};
+    const std::size_t all = scene_.work(views.size(), slices_->picture.footprint);
+    if (slice.begins) {
+        slices_->done = 0;
+    } else if (slices_->done < all) {
+        done = std::min(work, all - slices_->done);
+        slice.cells.count = done;
+        slices_->done += done;
+    } else {
+        slice.ends = true;
+    }
+    draw_views(place, views, slices_->picture, slice);
+    return slice.ends;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,27 @@
+// A part of the work of drawing, so that one picture can be drawn over several frames.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace isochron::render {
+
+/// Some of the things that are drawn one after the other; by default all of them.
+struct DrawPart {
+    std::size_t first = 0;
+    std::size_t count = std::numeric_limits<std::size_t>::max();
+
+    bool operator==(const DrawPart&) const = default;
+
+    /// The part of this one that lies among `things` things which come after `before` others,
+    /// counted from the first of them. Its count is 0 where there is none.
+    DrawPart among(std::size_t before, std::size_t things) const {
+        const std::size_t most = std::numeric_limits<std::size_t>::max();
+        const std::size_t end = count > most - first ? most : first + count;
+        const std::size_t from = std::max(first, before), to = std::min(end, before + things);
+        return from < to ? DrawPart{from - before, to - from} : DrawPart{0, 0};
+    }
+};
+
+} // namespace isochron::render

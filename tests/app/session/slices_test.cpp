@@ -1,0 +1,215 @@
+// The exact picture at rest in slices: the same as the whole, to the bit, and given up for input.
+#include "tests/support/eventually.h"
+#include "tests/support/session_fixture.h"
+
+#include <functional>
+#include <string>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using render::Footprint;
+using stereo::Eye;
+using stereo::StereoMode;
+
+class Slices : public SessionTest {
+  protected:
+    /// Frames have time for one piece each, and no footprint but quads fits.
+    static Config sliced(StereoMode mode = StereoMode::side_by_side) {
+        Config config = small_config(mode);
+        config.frame_rate_limit = 60;
+        config.frame_budget_ms = 1e-6;
+        config.still_budget_ms = 1e-6;
+        config.samples = 1;
+        return config;
+    }
+    FrameReport frame(Session& session, const Commands& commands = {}, double head = 0) {
+        interaction::InputState input = head_at_rest(frame_++ / 60.0);
+        input.devices[0].pose->position.x = static_cast<float>(head);
+        return session.frame(input, commands, Waiting::never);
+    }
+    /// Many frames at rest, or until one is as wanted: the worker may take its time.
+    bool rests_until(Session& session, const std::function<bool(const FrameReport&)>& wanted,
+                     double head = 0) {
+        return test_support::eventually([&] {
+            for (int i = 0; i < 50; ++i)
+                if (wanted(frame(session, {}, head)))
+                    return true;
+            return false;
+        });
+    }
+    /// Frames at rest until the picture is final. @return how many
+    int settle(Session& session) {
+        const int first = frame_;
+        EXPECT_TRUE(rests_until(session, &FrameReport::final));
+        return frame_ - first;
+    }
+    /// Frames at rest until slices are made. @return whether they are
+    bool begin_slices(Session& session) {
+        return rests_until(session, [](const FrameReport& report) {
+            return report.in_slices && report.footprint != *report.in_slices;
+        });
+    }
+    /// Shows a surface of some thousand cells.
+    void start(Session& session, Commands commands = {}) {
+        if (!commands.isosurfaces)
+            commands.isovalue = 2.0;
+        session.frame(head_at_rest(frame_++ / 60.0), commands, Waiting::for_cells);
+    }
+    /// Every picture that a session shows.
+    static std::vector<std::vector<std::uint8_t>> pictures(const Session& session) {
+        const stereo::Display& display = session.outputs().display();
+        std::vector<std::vector<std::uint8_t>> all{display.read_window().rgba};
+        for (const Eye eye : stereo::eyes_of(display.mode()))
+            all.push_back(display.read_eye(eye).rgba);
+        if (stereo::upright(display.mode()) == StereoMode::quadbuffer)
+            all.push_back(display.read_right_buffer().rgba);
+        return all;
+    }
+    /// A session that draws each picture at once, as a replay does.
+    Session at_once(Config config, Footprint footprint = Footprint::surface) const {
+        config.settled_footprint = footprint;
+        return Session(config, file_, *context_);
+    }
+    std::vector<std::vector<std::uint8_t>> whole(Session& at_once, const Commands& commands) {
+        for (int i = 0; i < 30; ++i)
+            at_once.frame(head_at_rest(replayed_++ / 60.0), i == 0 ? commands : Commands{},
+                          Waiting::for_cells);
+        return pictures(at_once);
+    }
+    int frame_ = 0, replayed_ = 0;
+};
+
+INSTANTIATE_TEST_SUITE_P(, Slices,
+                         testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
+                         context_name);
+
+TEST_P(Slices, GiveTheWholePictureToTheBitInEveryStereoMode) {
+    const Config config = sliced();
+    Session session(config, file_, *context_), reference = at_once(config);
+    start(session);
+    for (const StereoMode mode : stereo::all_stereo_modes()) {
+        SCOPED_TRACE(stereo::name_of(mode));
+        Commands commands;
+        commands.isovalue = 2.0;
+        commands.stereo = stereo::name_of(mode);
+        EXPECT_FALSE(frame(session, commands).final);
+        EXPECT_GT(settle(session), 3);
+        const FrameReport& report = session.log().frames().back();
+        EXPECT_EQ(report.footprint, Footprint::surface);
+        EXPECT_EQ(report.reason, QualityReason::in_slices);
+        EXPECT_FALSE(report.redrawn);
+        EXPECT_EQ(pictures(session), whole(reference, commands));
+        EXPECT_EQ(reference.log().frames().back().footprint, Footprint::surface);
+    }
+}
+
+TEST_P(Slices, GiveTheWholePictureOfTranslucentSurfacesAndOfSeveralSamples) {
+    Config config = sliced();
+    config.samples = 4;
+    Commands commands;
+    commands.isosurfaces = {{{2.0, {0.9f, 0.3f, 0.2f}, 0.4f}, {8.0, {0.2f, 0.5f, 0.9f}, 1.0f}}};
+    Session session(config, file_, *context_), reference = at_once(config);
+    start(session, commands);
+    EXPECT_GT(settle(session), 3);
+    EXPECT_EQ(session.log().frames().back().footprint, Footprint::surface);
+    EXPECT_EQ(pictures(session), whole(reference, commands));
+}
+
+TEST_P(Slices, EndAtWhatIsConfiguredForAPictureAtRest) {
+    Config config = sliced();
+    config.settled_footprint = Footprint::gaussian;
+    Session session(config, file_, *context_);
+    Session reference = at_once(config, Footprint::gaussian);
+    start(session);
+    settle(session);
+    EXPECT_EQ(session.log().frames().back().footprint, Footprint::gaussian);
+    Commands same;
+    same.isovalue = 2.0;
+    EXPECT_EQ(pictures(session), whole(reference, same));
+}
+
+TEST_P(Slices, ShowNothingUntilTheyAreWhole) {
+    Session session(sliced(), file_, *context_);
+    start(session);
+    ASSERT_TRUE(begin_slices(session));
+    const auto before = pictures(session);
+    FrameReport report;
+    int frames = 0;
+    do {
+        EXPECT_EQ(pictures(session), before);
+        report = frame(session);
+        ++frames;
+    } while (!report.redrawn && frames < 1000);
+    EXPECT_GT(frames, 3);
+    EXPECT_EQ(report.footprint, Footprint::surface);
+    EXPECT_NE(pictures(session), before);
+}
+
+TEST_P(Slices, AreGivenUpInTheFrameThatChangesSomething) {
+    const std::function<void(Commands&, double&)> changes[] = {
+        [](Commands&, double& head) { head = 0.2; },
+        [](Commands& commands, double&) { commands.bounding_box = false; },
+        [](Commands& commands, double&) { commands.stereo = "top_bottom"; },
+        [](Commands& commands, double&) { commands.step = 1; }};
+    for (const auto& change : changes) {
+        SCOPED_TRACE(&change - changes);
+        Session session(sliced(), file_, *context_);
+        start(session);
+        ASSERT_TRUE(begin_slices(session));
+        frame(session);
+        Commands commands;
+        double head = 0;
+        change(commands, head);
+        FrameReport report = frame(session, commands, head);
+        EXPECT_FALSE(report.in_slices);
+        EXPECT_EQ(report.footprint, Footprint::quad);
+        if (!commands.step) { // the cells of another step come later
+            EXPECT_TRUE(report.redrawn);
+            Session fresh(sliced(), file_, *context_);
+            Commands same;
+            same.isovalue = 2.0;
+            fresh.frame(head_at_rest(0), same, Waiting::for_cells);
+            interaction::InputState input = head_at_rest(1);
+            input.devices[0].pose->position.x = static_cast<float>(head);
+            fresh.frame(input, commands, Waiting::never);
+            EXPECT_EQ(pictures(session), pictures(fresh)) << "nothing of the slices is left";
+        }
+        EXPECT_TRUE(rests_until(session, &FrameReport::final, head));
+        EXPECT_EQ(session.log().frames().back().footprint, Footprint::surface) << "they begin anew";
+    }
+}
+
+TEST_P(Slices, AreNotMadeWithoutABudgetAtRestNorInFastAndPaperModeNorInAReplay) {
+    for (const interaction::QualityMode mode :
+         {interaction::QualityMode::automatic, interaction::QualityMode::fast,
+          interaction::QualityMode::paper}) {
+        Config config = sliced();
+        config.quality = mode;
+        if (mode == interaction::QualityMode::automatic)
+            config.still_budget_ms = 0;
+        Session session(config, file_, *context_);
+        start(session);
+        for (int i = 0; i < 120; ++i)
+            EXPECT_FALSE(frame(session).in_slices);
+    }
+    Session session(sliced(), file_, *context_);
+    for (int i = 0; i < 60; ++i)
+        EXPECT_FALSE(session.frame(head_at_rest(i / 60.0), {}, Waiting::for_cells).in_slices);
+    EXPECT_EQ(session.log().frames().back().footprint, Footprint::surface);
+}
+
+TEST_P(Slices, TellWhatTheExactPictureCosts) {
+    Config config = sliced();
+    config.frame_budget_ms = 1000; // all fits once it is known to
+    Session session(config, file_, *context_);
+    start(session);
+    settle(session);
+    const FrameReport report = frame(session, {}, 0.3);
+    EXPECT_EQ(report.pace, interaction::Pace::moving);
+    EXPECT_EQ(report.footprint, Footprint::surface) << "known to fit before anything moved";
+}
+
+} // namespace
+} // namespace isochron::app

@@ -216,6 +216,7 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
     // display's values shows in dark places.
     const bool leaves_out =
         seen_only_ && !all_cells_ && !has_layers(footprint) &&
+        !(placement.rectilinear && cells.slots().largest > 0) && // of mixed levels
         !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&
         (shapes_.shape == CellShape::voxel || cells.slots().planes.size() == cells.size());
     if (!leaves_out)

@@ -243,6 +243,9 @@ TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {
             compare(exact, lit(picture(mixed, values.grid, footprint, CellShape::plane)));
         EXPECT_GT(areas.first, 3000);
         EXPECT_LE(areas.missed, areas.first / 50) << name_of(footprint);
+        EXPECT_TRUE(picture(mixed, values.grid, Footprint::quad, CellShape::plane).rgba ==
+                    picture(mixed, values.grid, Footprint::quad, CellShape::plane, true).rgba)
+            << "culling changes the picture";
         if (footprint == Footprint::quad) {
             EXPECT_LE(areas.extra, areas.first / 10);
         }

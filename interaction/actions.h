@@ -75,6 +75,8 @@ enum class Action : std::uint8_t {
     quality_paper,
     exaggerate,
     flatten,
+    next_array,
+    next_color_array,
     count
 };
 static_assert(static_cast<int>(Action::count) <= 64); // recordings keep one bit each of 64

@@ -18,8 +18,9 @@
 namespace isochron::interaction {
 
 inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
-inline constexpr std::size_t kLongestText = 256; ///< [byte]
-inline constexpr std::size_t kMostEvents = 64;   ///< stamps, or haptic pulses, of one frame
+inline constexpr std::size_t kLongestText = 256;       ///< [byte]
+inline constexpr std::size_t kLongestArrayName = 4096; ///< [byte] of an array
+inline constexpr std::size_t kMostEvents = 64;         ///< stamps, or haptic pulses, of one frame
 
 /// The properties of a field, which are the same in every record that has it.
 struct Field {
@@ -59,6 +60,7 @@ void each_field(Visit&& visit, Records&... r) {
 template <class Visit, Of<Coloring>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{"by"}, r.by...);
+    visit(Field{.key = "array", .most = kLongestArrayName, .may_lack = true}, r.array...);
     visit(Field{"map"}, r.map...);
     visit(Field{"range"}, r.range...);
     visit(Field{.key = "reversed", .may_lack = true}, r.reversed...);
@@ -121,6 +123,7 @@ void each_field(Visit&& visit, Records&... r) {
 /// settings have members of the same names.
 template <class Visit, class... Records>
 void each_setting(Visit&& visit, Records&... r) {
+    visit(Field{.key = "array", .most = kLongestArrayName}, r.array...);
     visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces, .dragged = true},
           r.isosurfaces...);
     visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);

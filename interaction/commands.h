@@ -55,7 +55,7 @@ struct Isosurface {
 /// What the colors on the surfaces show.
 enum class ColorBy : std::uint8_t {
     surface,       ///< which surface it is
-    value,         ///< the second array that the index carries
+    value,         ///< an array to color by
     first_crossing ///< when a surface of this isovalue first crossed the place
 };
 template <>
@@ -80,6 +80,9 @@ struct Coloring {
     /// Where there is no `range`: it goes from one of these percentiles of the values on the shown
     /// surfaces to the other, 0 to 100, ascending; nothing: see `range`.
     std::optional<std::array<double, 2>> percentiles = {};
+    /// Name of the array of `value`; empty: the one that the index carries for colors, or else its
+    /// first that is not the surfaces'.
+    std::string array = {};
     bool operator==(const Coloring&) const = default;
 };
 
@@ -169,6 +172,7 @@ inline constexpr double kLongestPulse = 1.0; ///< [s]
 
 /// Absolute results, not increments: applying them again changes nothing.
 struct Commands {
+    std::optional<std::string> array; ///< of the surfaces, by name; empty: the index's first
     std::optional<std::vector<Isosurface>> isosurfaces; ///< all of them, 1 to kMostIsosurfaces
     std::optional<std::uint32_t> picked; ///< the surface that `isovalue` moves, counted from 0
     std::optional<double> isovalue;

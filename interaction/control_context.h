@@ -67,7 +67,12 @@ struct ControlContext {
     bool bounding_box = true;
     std::uint32_t isosurfaces = 1, picked = 0; ///< their number, and the one the isovalue moves
     Coloring coloring;
-    bool has_second_array = false;                          ///< the index has one to color by
+    /// Names of the arrays to color by, and the one that colors stand for, or would; may be null or
+    /// empty.
+    std::vector<std::string> const* color_arrays = nullptr;
+    std::size_t color_array = 0;
+    const Commands* next_array =
+        nullptr; ///< commands that show the next array; null: there is none
     std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
     Tools tools;
     ToolState state;

@@ -46,6 +46,21 @@ struct KeyRepeat {
     }
 };
 
+bool has_colors(const ControlContext& context) {
+    return context.color_arrays && !context.color_arrays->empty();
+}
+
+/// Colors by an array: at first by the one that was chosen before, then by the one after it.
+Coloring by_next_array(const ControlContext& context) {
+    const std::vector<std::string>& names = *context.color_arrays;
+    const bool goes_on = context.coloring.by == ColorBy::value;
+    Coloring changed = context.coloring;
+    changed.by = ColorBy::value;
+    changed.array = names[(context.color_array + (goes_on ? 1 : 0)) % names.size()];
+    changed.range.reset();
+    return changed;
+}
+
 /// The next quantity to color by. The range belonged to the previous one, so it is dropped.
 Coloring after(const Coloring& coloring, bool has_second_array) {
     const auto next =
@@ -183,7 +198,13 @@ struct Controls::State {
         if (now.pressed(Action::next_surface) && context.isosurfaces > 1)
             commands.picked = (context.picked + 1) % context.isosurfaces;
         if (now.pressed(Action::next_coloring))
-            commands.coloring = after(context.coloring, context.has_second_array);
+            commands.coloring = after(context.coloring, has_colors(context));
+        if (now.pressed(Action::next_color_array) && has_colors(context))
+            commands.coloring = by_next_array(context);
+        if (now.pressed(Action::next_array) && context.next_array) {
+            commands.isovalue.reset(); // it was of the array before
+            merge(commands, *context.next_array);
+        }
         if (now.pressed(Action::panel))
             commands.panel = !context.panel;
         if (now.pressed(Action::room_panel) || now.pressed(WandButton::room_panel) ||

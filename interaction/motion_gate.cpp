@@ -24,8 +24,8 @@ bool is_pending(const DeviceState& device) {
 }
 
 bool is_pending(const Commands& commands) {
-    return commands.isovalue || commands.isosurfaces || commands.step || commands.playback ||
-           commands.room_from_physical;
+    return commands.array || commands.isovalue || commands.isosurfaces || commands.step ||
+           commands.playback || commands.room_from_physical;
 }
 
 } // namespace

@@ -31,6 +31,16 @@ std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
 } // namespace
 
 BuildArguments with_path_within(BuildArguments arguments) {
+    const bool several = arguments.all_arrays || arguments.arrays.size() > 1;
+    if (arguments.all_arrays && !arguments.arrays.empty())
+        throw UsageError("--all-arrays and --array: expected one of them");
+    if (several && arguments.read.component)
+        throw UsageError("--component: for several arrays it stands behind a name: --array "
+                         "velocity.magnitude");
+    if (several && arguments.read.value_unit)
+        throw UsageError("--value-unit: expected for one array only");
+    if (!arguments.arrays.empty())
+        arguments.read.array = arguments.arrays.front();
     const auto path = take_path_within(arguments.files);
     if (path && arguments.read.array)
         throw UsageError(fmt::format("--array {} and {} in the name of a file: expected one",
@@ -96,7 +106,15 @@ BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held)
     if (arguments.codec.empty())
         build.codec = held.codec();
     arguments.refer = arguments.refer || held.referral();
-    if (!arguments.read.array) {
+    if (!arguments.read.array && held.arrays() > 1) {
+        for (std::size_t number = 0; number < held.arrays(); ++number) {
+            const index::Metadata& one = held.array(number).metadata();
+            arguments.arrays.push_back(one.chosen_array.value_or(one.info.array) +
+                                       (one.chosen_component ? "." + *one.chosen_component : ""));
+        }
+        arguments.all_arrays = false;
+        arguments.read.array = arguments.arrays.front();
+    } else if (!arguments.read.array) {
         arguments.read.array = known.chosen_array;
         arguments.read.component = known.chosen_component;
     }
@@ -108,11 +126,14 @@ BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held)
 }
 
 std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOptions& options) {
-    index::TierSet wanted = options.tiers.value_or(held.plan().tiers);
-    if (options.with_tree)
-        wanted = wanted.with(index::Tier::tree);
-    if (wanted != held.plan().tiers)
-        return fmt::format("tiers {} instead of {}", names_of(wanted), names_of(held.plan().tiers));
+    for (std::size_t number = 0; number < held.arrays(); ++number) {
+        const index::TierSet has = held.array(number).plan().tiers;
+        index::TierSet wanted = options.tiers.value_or(has);
+        if (options.with_tree)
+            wanted = wanted.with(index::Tier::tree);
+        if (wanted != has)
+            return fmt::format("tiers {} instead of {}", names_of(wanted), names_of(has));
+    }
     if (options.codec != held.codec())
         return fmt::format("codec {} instead of {}",
                            index::kCodecNames[static_cast<std::size_t>(options.codec)],
@@ -126,7 +147,16 @@ std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOp
 
 void add_reading_options(Command& command, BuildArguments& arguments) {
     index::ReadOptions& read = arguments.read;
-    command.option("--array", read.array, "Array to read, if the files hold several")
+    command
+        .option("--array", arguments.arrays,
+                "Array to read, if the files hold several. Given several times, each becomes an "
+                "array of the index; a component may stand behind its name: velocity.magnitude")
+        .repeatable()
+        .type_name("NAME")
+        .group("Reading");
+    command
+        .flag("--all-arrays", arguments.all_arrays,
+              "Read every array that has the same shape as the first, of vectors the magnitude")
         .group("Reading");
     command
         .option(

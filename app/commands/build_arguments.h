@@ -20,13 +20,19 @@ struct BuildArguments {
     std::vector<double> spacing, origin;
     index::BuildOptions build;
     std::string tiers, codec;
+    /// Arrays to read; the first is also `read.array`. A component may stand behind the name:
+    /// `velocity.magnitude`.
+    std::vector<std::string> arrays;
+    bool all_arrays = false;
     std::optional<std::string> color, color_component, color_unit;
     bool quiet = false, append = false, refer = false;
     double timeout = 30; ///< [s]
 };
 
-/// Turns `run.h5:/fields/rho` into run.h5 with `--array /fields/rho`.
-/// @throws UsageError when `--array` is given as well
+/// Turns `run.h5:/fields/rho` into run.h5 with `--array /fields/rho`, and makes the first array the
+/// one that is read.
+/// @throws UsageError when `--array` is given as well, or options are of one array and there are
+///         several
 BuildArguments with_path_within(BuildArguments arguments);
 
 index::ReadOptions read_options(const BuildArguments& arguments);

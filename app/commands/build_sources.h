@@ -5,13 +5,25 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace isochron::app {
 
-/// The volume and the array to color by; no volume when there is nothing to append.
+/// One array, and the options that select it in the files.
+struct ArraySource {
+    std::unique_ptr<index::VolumeSeries> series;
+    std::optional<std::string> array, component;
+};
+
+/// The first array, the array to color by, and the further arrays; no volume when there is nothing
+/// to append.
 struct BuildSources {
     std::unique_ptr<index::VolumeSeries> volume, colors;
+    std::optional<std::string> array, component; ///< that select the volume
+    std::vector<ArraySource> further;
+    std::vector<std::string> notes; ///< on arrays that were left out
 };
 
 /// Files of values, or one index, also of an older file version.
@@ -19,7 +31,12 @@ struct BuildSources {
 BuildSources open_sources(const std::vector<std::filesystem::path>& files,
                           const BuildArguments& arguments);
 
-/// What was asked for, with the colors of the sources, which outlive it.
+/// The same series for `build --append`, from the steps that an index has on.
+/// @throws index::Error when it has other arrays, or as `index::append_to`
+void append_sources(BuildSources& sources, const std::shared_ptr<const index::IndexFile>& held,
+                    const std::string& name);
+
+/// What was asked for, with the colors and further arrays of the sources, which outlive it.
 index::BuildOptions build_options(const BuildArguments& arguments, const BuildSources& sources);
 
 } // namespace isochron::app

@@ -206,7 +206,10 @@ Facts facts_of(const Config& config) {
 
 Facts facts_of(const Config& config, const index::IndexFile& file) {
     Facts facts = facts_of(config);
-    facts.emplace_back("data set", fmt::format("content hash {:016x}", file.content_hash()));
+    std::string hashes;
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        hashes += fmt::format(" {:016x}", file.array(number).content_hash());
+    facts.emplace_back("data set", "content hash" + hashes);
     return facts;
 }
 

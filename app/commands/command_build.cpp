@@ -27,13 +27,18 @@ namespace fs = std::filesystem;
 
 std::string summary(const fs::path& out, const index::IndexFile& file) {
     const index::SeriesInfo& info = file.info();
-    const index::IndexStats& stats = file.stats();
     const auto& n = info.grid.vertices;
-    std::string text = fmt::format("{}: {} x {} x {} vertices, {} step{}, {}, values {} to {}{}\n"
-                                   "{}\n",
-                                   out.string(), n[0], n[1], n[2], info.steps(),
-                                   info.steps() == 1 ? "" : "s", index::name_of(info.type),
-                                   stats.low, stats.high, with_space(info.value_unit), sizes(file));
+    std::string text = fmt::format("{}: {} x {} x {} vertices, {} step{}", out.string(), n[0], n[1],
+                                   n[2], info.steps(), info.steps() == 1 ? "" : "s");
+    for (std::size_t number = 0; number < file.arrays(); ++number) {
+        const index::IndexFile& array = file.array(number);
+        const index::SeriesInfo& one = array.info();
+        const index::IndexStats& stats = array.stats();
+        text += file.arrays() == 1 ? ", " : fmt::format("\n{}: ", one.array);
+        text += fmt::format("{}, values {} to {}{}\n{}", index::name_of(one.type), stats.low,
+                            stats.high, with_space(one.value_unit), sizes(array));
+    }
+    text += "\n";
     for (const std::string& note : info.notes)
         text += fmt::format("note: {}\n", note);
     return text;
@@ -76,15 +81,16 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
         const std::vector<fs::path> files = expand_patterns(arguments.files);
         refuse_input_as_output(files, arguments.out);
         sources = open_sources(files, arguments);
-        if (held) {
-            sources.volume =
-                index::append_to(held, arguments.out.string(), std::move(sources.volume));
-            sources.colors =
-                index::append_colors_to(held, arguments.out.string(), std::move(sources.colors));
-        }
+        if (held)
+            append_sources(sources, held, arguments.out.string());
         options = build_options(arguments, sources);
-        if (arguments.refer)
+        for (std::size_t i = 0; held && arguments.tiers.empty() && i < options.further.size(); ++i)
+            options.further[i].plan = held->array(i + 1).plan();
+        if (arguments.refer) {
             options.referral = referral_to(files, arguments);
+            options.referral->options.array = sources.array;
+            options.referral->options.component = sources.component;
+        }
     });
     if (!sources.volume) { // nothing to append
         if (reports)
@@ -113,6 +119,9 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
     }
     if (reports)
         fmt::print("{}{}", summary(arguments.out, *index::IndexFile::open(arguments.out)), note);
+    if (reports)
+        for (const std::string& left_out : sources.notes)
+            fmt::print("note: {}\n", left_out);
 }
 
 /// Prints `what` and ends the job. Not all processes know of the error, so none can be waited for.

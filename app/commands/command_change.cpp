@@ -26,6 +26,7 @@ struct ChangeArguments {
     std::int64_t step = 0;
     std::optional<std::int64_t> to_step;
     std::uint32_t repeats = 5;
+    std::optional<std::string> array;
     bool json = false;
 };
 
@@ -67,7 +68,7 @@ void run_change(const ChangeArguments& arguments) {
             refuse_input_as_output({arguments.file}, out);
     if (!arguments.to_step && !arguments.to_isovalue)
         throw UsageError("change from what to what: --to-step or --to-isovalue is missing");
-    const auto file = open_index_to_show(arguments.file);
+    const auto file = array_called(open_index_to_show(arguments.file), arguments.array);
     const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
     const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),
                                     arguments.to_isovalue.value_or(arguments.isovalue));
@@ -91,12 +92,16 @@ void run_change(const ChangeArguments& arguments) {
     if (!arguments.removed.empty())
         write_ids(arguments.removed, found.removed);
     if (arguments.json) {
-        const nlohmann::ordered_json j{
-            {"file", arguments.file.string()}, {"step", from.step},
-            {"isovalue", from.isovalue},       {"to_step", to.step},
-            {"to_isovalue", to.isovalue},      {"added", found.added.size()},
-            {"removed", found.removed.size()}, {"searched_anew", whole},
-            {"change_ms", middle->count()}};
+        const nlohmann::ordered_json j{{"file", arguments.file.string()},
+                                       {"array", file->info().array},
+                                       {"step", from.step},
+                                       {"isovalue", from.isovalue},
+                                       {"to_step", to.step},
+                                       {"to_isovalue", to.isovalue},
+                                       {"added", found.added.size()},
+                                       {"removed", found.removed.size()},
+                                       {"searched_anew", whole},
+                                       {"change_ms", middle->count()}};
         fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
     }
@@ -119,6 +124,8 @@ void add_change(Command& program) {
         program.subcommand("change", "List the cells that become active, and those that stop being "
                                      "active, between two steps or isovalues.");
     command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
+    command.option("--array", arguments->array,
+                   "Array to search, if the index has several (default: its first)");
     command.option("--isovalue", arguments->isovalue, "From this isovalue").required();
     command.option("--step", arguments->step, "From this step").required();
     command.option("--to-isovalue", arguments->to_isovalue, "To this isovalue (default: the same)");
@@ -137,9 +144,10 @@ void add_change(Command& program) {
         .between(1u, 1000u)
         .shows_default();
     command.flag("--json", arguments->json, "Print one JSON object");
-    command.footer("JSON keys: file, step, isovalue, to_step, to_isovalue, added, removed (numbers "
-                   "of cells), searched_anew\n(true if that was cheaper than finding the changes), "
-                   "change_ms (median).");
+    command.footer(
+        "JSON keys: file, array, step, isovalue, to_step, to_isovalue, added, removed (numbers "
+        "of cells), searched_anew\n(true if that was cheaper than finding the changes), "
+        "change_ms (median).");
     command.on_run([arguments] { run_change(*arguments); });
 }
 

@@ -196,7 +196,10 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
             earlier ? state_of(*earlier, opened->state(), held_hash(*file, earlier->data_hash),
                                steps, "--resume")
                     : opened->state();
-        opened->set_state(start_from(start, options, steps));
+        opened->set_state(start);
+        if (!earlier)
+            opened->set_state(with_first_array(*opened, options, *file));
+        opened->set_state(start_from(opened->state(), options, steps));
         opened->outputs().set_screenshots(options.screenshots);
         opened->set_data_name(std::filesystem::path(options.data_name).filename().string());
         if (config.cluster.swap_group && job.size() > 1)

@@ -42,7 +42,7 @@ void run_info(const InfoArguments& given) {
         throw UsageError(fmt::format("--tree: {} is no index, and has none", first));
     if (is_data)
         return describe_sources(arguments, given.json);
-    const auto file = open_index(first);
+    const auto file = array_called(open_index(first), arguments.read.array);
     const IndexReport report{first, *file, given.tree};
     fmt::print("{}", given.json ? as_json(report) : as_text(report));
 }
@@ -76,6 +76,9 @@ void add_info(Command& program) {
         "equal bins over low to high), file_bytes, volume_bytes, bricks_bytes, cells_bytes,\n"
         "deltas_bytes, tree_bytes, raw_bytes, percent_of_raw (file without volume), tiers, plan\n"
         "(why these), levels, lossless, refers_to (files; null when it carries the values),\n"
+        "arrays (all that have search structures: array, value_unit, type, low, high, nan_values, "
+        "tiers,\n"
+        "content_hash; the other keys are of the first, or of the one that --array names),\n"
         "color (only with an array to color by: array, value_unit, type, low, high, nan_values,\n"
         "bytes), lattice and max_variation (of the paper's tree), tree_entries and coherence (only "
         "with a\n"

@@ -57,6 +57,11 @@ Option& Option::values(int count) {
     return *this;
 }
 
+Option& Option::repeatable() {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
 Option& Option::comma_separated() {
     option_->delimiter(',');
     return *this;

@@ -49,6 +49,8 @@ class Option {
     Option& needs(const Option& other);
     /// Takes exactly `count` values.
     Option& values(int count);
+    /// Takes one value each time that it is given, and may be given several times.
+    Option& repeatable();
     /// Takes several values with commas between them.
     Option& comma_separated();
     /// Help shows the value that the variable has now.

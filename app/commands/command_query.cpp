@@ -27,6 +27,7 @@ struct QueryArguments {
     std::uint32_t repeats = 5;
     std::uint32_t level = 0;
     std::string method;
+    std::optional<std::string> array;
     bool json = false;
 };
 
@@ -105,6 +106,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
     const index::ReadUse reading = file.reading();
     nlohmann::ordered_json j{
         {"file", arguments.file.string()},
+        {"array", info.array},
         {"step", arguments.step},
         {"time", info.times[result.set->query.step]},
         {"time_unit", info.time_unit},
@@ -176,7 +178,7 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
 void run_query(const QueryArguments& arguments) {
     if (!arguments.ids.empty())
         refuse_input_as_output({arguments.file}, arguments.ids);
-    const auto file = open_index(arguments.file);
+    const auto file = array_called(open_index(arguments.file), arguments.array);
     const auto steps = static_cast<std::int64_t>(file->info().steps());
     if (arguments.step < 0 || arguments.step >= steps)
         throw index::Error(fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(),
@@ -203,6 +205,8 @@ void add_query(Command& program) {
     Command command = program.subcommand(
         "query", "Find the active cells of an isovalue at a step: min < isovalue <= max.");
     command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
+    command.option("--array", arguments->array,
+                   "Array to search, if the index has several (default: its first)");
     command
         .option("--isovalue", arguments->isovalue,
                 "Isovalue, in the unit of the values (after scaling)")
@@ -231,7 +235,8 @@ void add_query(Command& program) {
                                          index::kSearchMethodNames.end()));
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer(
-        "JSON keys: file, step, time, time_unit, isovalue (null unless finite), value_unit,\n"
+        "JSON keys: file, array, step, time, time_unit, isovalue (null unless finite), "
+        "value_unit,\n"
         "level (of detail), method (cells, bricks, tree or scan) of the first run, active_cells, "
         "id_bits (32, or 64 "
         "where ids do not fit),\ncandidates (tested exactly), "

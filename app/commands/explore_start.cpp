@@ -22,6 +22,13 @@
 namespace isochron::app {
 namespace {
 
+/// Number of the array to begin with. What an index was made for is its first.
+std::size_t first_array(const ExploreOptions& options, const index::IndexFile& file) {
+    const auto& arrays = options.sources.arrays;
+    const bool made_before = options.data_name == *options.data;
+    return made_before && !arrays.empty() ? array_number(file, arrays.front()) : 0;
+}
+
 /// Refuses to overwrite an existing recording, which only --force allows.
 void refuse_to_replace(const std::string& recording) {
     for (const std::string& name : {recording, recording + ".part"})
@@ -73,7 +80,15 @@ void check_start(const ExploreOptions& options, const index::IndexFile& file, st
         throw UsageError(
             fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
     if (options.isovalue)
-        warn_beyond(*options.isovalue, file);
+        warn_beyond(*options.isovalue, file.array(first_array(options, file)));
+}
+
+ExplorerState with_first_array(const Session& session, const ExploreOptions& options,
+                               const index::IndexFile& file) {
+    ExplorerState state = session.state();
+    if (const std::size_t number = first_array(options, file); number > 0)
+        state.apply(session.way_to_array(number), file.info().steps());
+    return state;
 }
 
 ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps) {

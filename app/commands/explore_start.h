@@ -3,6 +3,7 @@
 
 #include "app/commands/cluster_job.h"
 #include "app/commands/explore_options.h"
+#include "app/session/session.h"
 #include "index/file/index_file.h"
 #include "stereo/windows.h"
 
@@ -23,6 +24,11 @@ void check_start(const ExploreOptions& options, const index::IndexFile& file, st
 /// Reports now the errors in output paths that would otherwise show, or destroy a file, only when
 /// the session ends.
 void check_outputs(const ExploreOptions& options, const ClusterJob& job);
+
+/// The session's state with the array that the options name instead of the first.
+/// @throws index::Error when the index lacks it
+ExplorerState with_first_array(const Session& session, const ExploreOptions& options,
+                               const index::IndexFile& file);
 
 /// The state to begin with. @param steps that the data have now
 ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps);

@@ -19,10 +19,55 @@ double raw_bytes(const SeriesInfo& info) {
     return static_cast<double>(info.steps()) * static_cast<double>(info.grid.cell_count()) * 24;
 }
 
+/// Of all arrays of the file together.
 double percent_of_raw(const index::IndexFile& file) {
+    std::uint64_t besides = file.stats().file_bytes;
+    double raw = 0;
+    for (std::size_t number = 0; number < file.arrays(); ++number) {
+        const index::IndexStats& stats = file.array(number).stats();
+        besides -= stats.volume_bytes + stats.detail_bytes;
+        raw += raw_bytes(file.array(number).info());
+    }
+    return 100 * static_cast<double>(besides) / raw;
+}
+
+/// Bytes of the parts of one array.
+std::uint64_t own_bytes(const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
-    return 100 * static_cast<double>(stats.file_bytes - stats.volume_bytes - stats.detail_bytes) /
-           raw_bytes(file.info());
+    std::uint64_t bytes = stats.volume_bytes + stats.detail_bytes + stats.color_bytes;
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        bytes += stats.bytes_of(static_cast<index::Tier>(i));
+    return bytes;
+}
+
+std::vector<std::string_view> tier_names(const index::IndexFile& file) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (file.plan().tiers.has(static_cast<index::Tier>(i)))
+            names.push_back(index::kTierNames[i]);
+    return names;
+}
+
+std::string array_text(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    const auto tiers = tier_names(file);
+    return fmt::format("{}: {}, {} to {}{}, {} NaN, {}, {}", file.info().array,
+                       index::name_of(file.info().type), stats.low, stats.high,
+                       with_space(file.info().value_unit), grouped(stats.nan_values),
+                       tiers.empty() ? "no tiers" : fmt::format("{}", fmt::join(tiers, ", ")),
+                       human_bytes(static_cast<double>(own_bytes(file))));
+}
+
+nlohmann::ordered_json array_json(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    return {{"array", file.info().array},
+            {"value_unit", file.info().value_unit},
+            {"type", index::name_of(file.info().type)},
+            {"low", stats.low},
+            {"high", stats.high},
+            {"nan_values", stats.nan_values},
+            {"tiers", tier_names(file)},
+            {"content_hash", fmt::format("{:016x}", file.content_hash())}};
 }
 
 /// The time nodes of the paper's tree if the index has one, else of the cell tier; may be empty.
@@ -92,7 +137,7 @@ std::string tree_text(const index::IndexFile& file) {
 std::string sizes(const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
     const auto bytes = [](std::uint64_t n) { return human_bytes(static_cast<double>(n)); };
-    std::string text = bytes(stats.file_bytes);
+    std::string text = bytes(file.arrays() == 1 ? stats.file_bytes : own_bytes(file));
     text += file.referral() ? ": volume in its sources"
                             : fmt::format(": volume {}", bytes(stats.volume_bytes));
     for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
@@ -126,7 +171,9 @@ std::string as_text(const IndexReport& report) {
     };
     line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
     line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
-    if (const index::ColorArray* color = file.color())
+    for (std::size_t number = 0; file.arrays() > 1 && number < file.arrays(); ++number)
+        line(number == 0 ? "arrays" : "", array_text(file.array(number)));
+    if (const index::ColorArray* color = file.array(0).color())
         line("colors", fmt::format("{}, {}, {} to {}{}, {} NaN", color->array,
                                    index::name_of(color->type), color->low, color->high,
                                    with_space(color->value_unit), grouped(color->nan_values)));
@@ -188,11 +235,12 @@ std::string as_json(const IndexReport& report) {
         {"detail", nlohmann::ordered_json::array()},
         {"raw_bytes", raw_bytes(info)},
         {"percent_of_raw", percent_of_raw(file)},
-        {"tiers", nlohmann::ordered_json::array()},
+        {"tiers", tier_names(file)},
         {"plan", file.plan().reasons},
         {"levels", nullptr},
         {"lossless", nullptr},
         {"refers_to", nullptr},
+        {"arrays", nlohmann::ordered_json::array()},
         {"lattice", file.tree_options().lattice},
         {"max_variation", file.tree_options().max_variation},
     });
@@ -203,10 +251,9 @@ std::string as_json(const IndexReport& report) {
         j["levels"] = levels->levels();
         j["lossless"] = levels->lossless();
     }
-    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
-        if (file.plan().tiers.has(static_cast<index::Tier>(i)))
-            j["tiers"].push_back(index::kTierNames[i]);
-    if (const index::ColorArray* color = file.color())
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        j["arrays"].push_back(array_json(file.array(number)));
+    if (const index::ColorArray* color = file.array(0).color())
         j["color"] = {{"array", color->array},
                       {"value_unit", color->value_unit},
                       {"type", index::name_of(color->type)},

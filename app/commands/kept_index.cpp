@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <list>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -60,6 +61,10 @@ std::string options_text(const BuildArguments& arguments) {
         const std::string said = text.value_or("-");
         key += fmt::format("{}:{};", said.size(), said);
     }
+    for (const std::string& array : arguments.arrays)
+        key += fmt::format("{}:{};", array.size(), array);
+    if (arguments.all_arrays)
+        key += "all;";
     key += fmt::format("{} {} {} {} {} {} {}", read.allow_surplus, read.extra_axis_is_time,
                        read.times_from_names, read.big_endian, read.header_bytes,
                        read.time_step.value_or(0), arguments.type);
@@ -150,8 +155,11 @@ class KeptBuild {
     std::size_t held() const { return held_ ? held_->info().steps() : 0; }
 
     std::uint64_t bytes_of_step() const {
-        return sources_.volume->info().step_bytes() +
-               (sources_.colors ? sources_.colors->info().step_bytes() : 0);
+        std::uint64_t bytes = sources_.volume->info().step_bytes() +
+                              (sources_.colors ? sources_.colors->info().step_bytes() : 0);
+        for (const ArraySource& source : sources_.further)
+            bytes += source.series->info().step_bytes();
+        return bytes;
     }
 
     void report_held() const {
@@ -165,9 +173,13 @@ class KeptBuild {
             : volume(*sources.volume, steps), options(build_options(arguments, sources)) {
             if (sources.colors)
                 options.color = &colors.emplace(*sources.colors, steps);
+            for (std::size_t i = 0; i < sources.further.size(); ++i)
+                options.further[i].series =
+                    &further.emplace_back(*sources.further[i].series, steps);
         }
         index::FirstSteps volume;
         std::optional<index::FirstSteps> colors;
+        std::list<index::FirstSteps> further;
         index::BuildOptions options;
     };
 
@@ -260,8 +272,9 @@ fs::path kept_index(const BuildArguments& arguments, const fs::path& folder,
         fs::last_write_time(path, fs::file_time_type::clock::now(), ignored); // when it was used
         return path;
     }
-    for (const std::string& note : sources.volume->info().notes)
-        fmt::print(stderr, "note: {}\n", note);
+    for (const auto* notes : {&sources.volume->info().notes, &sources.notes})
+        for (const std::string& note : *notes)
+            fmt::print(stderr, "note: {}\n", note);
     make_room(folder, path, most_bytes);
     return path;
 }

@@ -5,6 +5,7 @@
 #include "index/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace isochron::app {
 
@@ -35,6 +36,27 @@ std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem
                         "those of an isovalue",
                         path.string(), grid.cell_count()));
     return file;
+}
+
+std::vector<std::string> array_names(const index::IndexFile& file) {
+    std::vector<std::string> names;
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        names.push_back(file.array(number).info().array);
+    return names;
+}
+
+std::shared_ptr<const index::IndexFile>
+array_called(const std::shared_ptr<const index::IndexFile>& file,
+             const std::optional<std::string>& name) {
+    return name ? index::array_of(file, array_number(*file, *name)) : file;
+}
+
+std::size_t array_number(const index::IndexFile& file, const std::string& name) {
+    const auto number = file.array_called(name);
+    if (!number)
+        throw index::Error(fmt::format("{}: no array {}, expected {}", file.name(), name,
+                                       fmt::join(array_names(file), ", ")));
+    return *number;
 }
 
 void warn_beyond(double isovalue, const index::IndexFile& file) {

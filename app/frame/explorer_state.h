@@ -10,6 +10,7 @@
 namespace isochron::app {
 
 struct ExplorerState {
+    std::string array; ///< of the surfaces; empty: the first of the index
     std::vector<interaction::Isosurface> isosurfaces{{}}; ///< 1 to kMostIsosurfaces
     std::uint32_t picked = 0;                             ///< surface whose isovalue is moved
     interaction::Coloring coloring;

@@ -46,6 +46,10 @@ nlohmann::json query_json(const index::SurfacesQuery& query) {
     nlohmann::json json{{"step", query.step}, {"isovalue", query.isovalues.front()}};
     if (query.isovalues.size() > 1)
         json["more_isovalues"] = std::vector(query.isovalues.begin() + 1, query.isovalues.end());
+    if (query.array > 0)
+        json["array"] = query.array;
+    if (query.coloring == index::CellColoring::value && query.colors > 0)
+        json["colors"] = query.colors;
     if (query.coloring != index::CellColoring::none)
         json["coloring"] = index::kCellColoringNames[static_cast<std::size_t>(query.coloring)];
     return json;

@@ -341,6 +341,7 @@ Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages)
     tip("save a picture of every window (P)");
     if (model.place != PanelPlace::in_room)
         page_buttons(pages);
+    array_section(model, commands);
     isovalue_section(model, commands);
     surfaces_section(model, commands);
     ImGui::Separator();

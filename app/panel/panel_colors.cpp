@@ -141,6 +141,19 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
 
 } // namespace
 
+void array_section(const PanelModel& model, Commands& commands) {
+    if (model.arrays.size() < 2)
+        return;
+    ImGui::SetNextItemWidth(-60.0f);
+    if (ImGui::BeginCombo("array", model.arrays[model.array].c_str())) {
+        for (std::size_t i = 0; i < model.arrays.size(); ++i)
+            if (ImGui::Selectable(model.arrays[i].c_str(), i == model.array) && i != model.array)
+                interaction::merge(commands, model.way_to_array(i));
+        ImGui::EndCombo();
+    }
+    tip("array whose isosurfaces are shown (Ctrl + A)");
+}
+
 void surfaces_section(const PanelModel& model, Commands& commands) {
     std::vector<Isosurface> surfaces = model.asked.isosurfaces;
     std::optional<std::uint32_t> removed;
@@ -206,17 +219,25 @@ void coloring_section(const PanelModel& model, Commands& commands) {
                 choose(i);
         ImGui::EndCombo();
     };
-    constexpr std::array<std::string_view, 3> kWords{"which surface", "second array",
-                                                     "first crossing"};
-    choice("color", std::string(kWords[static_cast<std::size_t>(coloring.by)]), kWords,
+    const bool several = model.color_arrays.size() > 1;
+    const std::array<std::string_view, 3> words{
+        "which surface", several ? "an array" : "second array", "first crossing"};
+    choice("color", std::string(words[static_cast<std::size_t>(coloring.by)]), words,
            "what surfaces are colored by (U)", [&](std::size_t i) {
                const auto by = static_cast<interaction::ColorBy>(i);
-               if (by == interaction::ColorBy::value && !model.second_array)
+               if (by == interaction::ColorBy::value && model.color_arrays.empty())
                    return;
                if (by != coloring.by)
                    coloring.range.reset();
                coloring.by = by;
            });
+    if (coloring.by == interaction::ColorBy::value && several)
+        choice("by", model.color_arrays[model.color_array], model.color_arrays,
+               "array to color by (Ctrl + U)", [&](std::size_t i) {
+                   if (i != model.color_array)
+                       coloring.range.reset();
+                   coloring.array = model.color_arrays[i];
+               });
     if (coloring.by != interaction::ColorBy::surface) {
         std::vector<std::string> names{render::kColorMapNames.begin(),
                                        render::kColorMapNames.end()};

@@ -9,6 +9,9 @@
 
 namespace isochron::app {
 
+/// The choice of the array, if the index has several.
+void array_section(const PanelModel& model, interaction::Commands& commands);
+
 /// The list of isosurfaces: the user picks, colors, adds and removes them.
 void surfaces_section(const PanelModel& model, interaction::Commands& commands);
 

@@ -9,7 +9,9 @@
 #include "interaction/control_context.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,9 +44,13 @@ struct PanelModel {
     const index::SeriesInfo& info;
     const index::IndexStats& stats;
     const ExplorerState& asked;
-    bool second_array = false;                       ///< there is one to color by
-    std::array<double, 2> scale_range{};             ///< of the color scale
-    std::span<const LoadedColorMap> color_maps = {}; ///< of the configuration
+    std::span<const std::string> arrays = {};       ///< names, of those with surfaces
+    std::size_t array = 0;                          ///< the one that is asked for
+    std::span<const std::string> color_arrays = {}; ///< names, of those to color by
+    std::size_t color_array = 0;                    ///< the one that colors stand for, or would
+    std::function<interaction::Commands(std::size_t)> way_to_array; ///< shows an array, by number
+    std::array<double, 2> scale_range{};                            ///< of the color scale
+    std::span<const LoadedColorMap> color_maps = {};                ///< of the configuration
     const FrameReport& frame;
     TimeSummary frame_times; ///< of the last frames
     double frames_per_second = 0;

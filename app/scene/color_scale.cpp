@@ -2,6 +2,7 @@
 #include "app/scene/color_scale.h"
 
 #include "index/extraction/cell_colors.h"
+#include "index/file/color_source.h"
 #include "index/formats/time_unit.h"
 #include "render/gl/srgb.h"
 
@@ -19,6 +20,11 @@ std::string with_brackets(const std::string& name, const std::string& unit) {
 }
 
 } // namespace
+
+std::size_t color_array(const ExplorerState& state, const index::IndexFile& file) {
+    return index::color_source_called(file, state.coloring.array,
+                                      file.array_called(state.array).value_or(0));
+}
 
 std::optional<std::array<double, 2>> PercentileRange::of(const index::ExtractionPtr& shown,
                                                          const std::array<double, 2>& whole,
@@ -39,11 +45,12 @@ std::optional<ColorScale> color_scale(const ExplorerState& state, const index::I
     switch (state.coloring.by) {
     case interaction::ColorBy::surface: return std::nullopt;
     case interaction::ColorBy::value: {
-        const index::ColorArray* color = file.color();
-        if (!color)
+        if (index::ColorSource::count(file) == 0)
             return std::nullopt;
-        scale.title = with_brackets(color->array, color->value_unit);
-        scale.whole = {color->low, color->high};
+        const std::size_t number = color_array(state, file);
+        const index::ColorArray color = index::ColorSource(file, number).array();
+        scale.title = with_brackets(color.array, color.value_unit);
+        scale.whole = {color.low, color.high};
         break;
     }
     case interaction::ColorBy::first_crossing:

@@ -51,7 +51,10 @@ class PercentileRange {
     std::optional<std::array<double, 2>> range_;
 };
 
-/// Nothing when colors tell surfaces apart, or when there is no second array to color by.
+/// Number of the array that colors by value stand for, as ColorSource has it. @param file any array
+std::size_t color_array(const ExplorerState& state, const index::IndexFile& file);
+
+/// Nothing when colors tell surfaces apart, or when there is no array to color by.
 /// @param shown cells whose percentiles are the range, if the state says so
 std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file,
                                       const index::ExtractionPtr& shown, PercentileRange& cached);

@@ -44,8 +44,20 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
       veil_pass_(gl) {
     appearance_.linear_light = blends_light(gl, config.blending);
+    prepare_for(info);
+}
+
+void Scene::prepare_for(const index::SeriesInfo& array) {
     // The storage of values depends only on their type, not on their range.
-    cells_.prepare(index::BrickValues(info.type, info.scaling, 0, 1).held());
+    held_types_.push_back(index::BrickValues(array.type, array.scaling, 0, 1).held());
+    cells_.prepare(held_types_.back());
+}
+
+void Scene::set_array(const index::SeriesInfo& array) {
+    if (info_.array == array.array)
+        return;
+    info_.array = array.array;
+    info_.value_unit = array.value_unit;
 }
 
 std::vector<std::string> Scene::given_up() const {

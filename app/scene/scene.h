@@ -87,6 +87,10 @@ class Scene {
     /// The driver's features that do not work as promised and are not used, a line each.
     std::vector<std::string> given_up() const;
 
+    /// Makes ready for another array of the same shape. Call it before the first frame.
+    void prepare_for(const index::SeriesInfo& array);
+    /// Sets the array whose name and unit stand beside its values.
+    void set_array(const index::SeriesInfo& array);
     void set_guides(const Guides& guides) { guides_ = lines_of(guides); }
     void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }
     void set_pointed(const std::optional<interaction::Pointed>& pointed) { pointed_ = pointed; }
@@ -151,9 +155,10 @@ class Scene {
     bool hidden_by_panel(const render::View& view, const glm::vec3& at) const;
 
     const render::Gl& gl_;
-    const index::SeriesInfo info_;
-    const std::size_t upload_bytes_; ///< per frame
-    const std::uint64_t mesh_room_;  ///< 0: no set comes with a mesh
+    index::SeriesInfo info_;
+    std::vector<index::ValueType> held_types_; ///< types of the values in bricks, of all arrays
+    const std::size_t upload_bytes_;     ///< per frame
+    const std::uint64_t mesh_room_;      ///< 0: no set comes with a mesh
     bool box_ = true;
     Axes axes_;
     std::vector<interaction::Isosurface> surfaces_;

@@ -15,7 +15,8 @@ void Scene::prepare_for_rest() {
     if (resting_)
         return;
     resting_.emplace(gl_, info_.grid);
-    resting_->prepare(index::BrickValues(info_.type, info_.scaling, 0, 1).held());
+    for (const index::ValueType held : held_types_)
+        resting_->prepare(held);
 }
 
 void Scene::upload(const index::ExtractionPtr& newest, render::SendVolume volume, Use use) {

@@ -30,6 +30,13 @@ Latch latch_of(const interaction::RecordedFrame& frame) {
     return [&frame] { return frame.latched; };
 }
 
+/// Before the first picture is made.
+void expect_arrays(const Session& session, const interaction::Recording& recording) {
+    for (const interaction::RecordedFrame& frame : recording.frames)
+        if (frame.commands.array)
+            session.expect_array(*frame.commands.array);
+}
+
 } // namespace
 
 ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,
@@ -52,6 +59,7 @@ std::vector<std::string> replay_fixed_step(Session& session,
                                            const interaction::Recording& recording,
                                            const ReplayOptions& options, const FrameDone& done) {
     std::vector<std::string> different;
+    expect_arrays(session, recording);
     for (std::size_t number = 0; number < recording.frames.size(); ++number) {
         const interaction::RecordedFrame& frame = recording.frames[number];
         if (options.from_devices) {
@@ -82,6 +90,7 @@ void replay_pattern(PatternShow& show, const interaction::Recording& recording,
 void replay_live(Session& session, const interaction::Recording& recording,
                  const ReplayOptions& options) {
     const auto& frames = recording.frames;
+    expect_arrays(session, recording);
     const auto clock = [start = std::chrono::steady_clock::now(), &frames] {
         return std::chrono::steady_clock::now() - start + frames.front().input.time;
     };

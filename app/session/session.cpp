@@ -34,7 +34,9 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       room_panel_(outputs_.gl(), config_.panel), picker_(file_),
       // Beside a headset the window's refresh rate does not count.
       quality_(outputs_.gl(), config_,
-               outputs_.headset() ? std::nullopt : outputs_.windows().first().refresh_rate()) {}
+               outputs_.headset() ? std::nullopt : outputs_.windows().first().refresh_rate()) {
+    take_arrays();
+}
 
 bool Session::should_close() const {
     return outputs_.windows().should_close() || frames_->close_wanted();
@@ -51,9 +53,11 @@ interaction::ControlContext Session::control_context() const {
     context.picked = state_.picked;
     context.coloring = state_.coloring;
     context.bounding_box = state_.bounding_box;
-    context.has_second_array = file_->color() != nullptr;
-    context.low = file_->stats().low;
-    context.high = file_->stats().high;
+    context.color_arrays = &color_names_;
+    context.color_array = color_array(state_, *file_);
+    context.next_array = next_array_ ? &*next_array_ : nullptr;
+    context.low = array().stats().low;
+    context.high = array().stats().high;
     context.step = state_.step;
     context.times = &times_;
     context.follow = state_.follow;
@@ -99,6 +103,9 @@ Commands Session::way_to_start() const {
 
 Commands Session::commands_from(const interaction::InputState& input) {
     start_ = way_to_start();
+    next_array_.reset();
+    if (file_->arrays() > 1)
+        next_array_ = way_to_array((array_number() + 1) % file_->arrays());
     PanelInRoom::Outcome panel = room_panel_.outcome(input, state_.room_panel);
     interaction::ControlContext context = control_context();
     if (panel.touched) // the wand points at the panel, which is in front of the data
@@ -117,7 +124,9 @@ Commands Session::commands_from(const interaction::InputState& input) {
 /// another meaning.
 bool Session::colored_as_asked() const {
     const index::ExtractionPtr& shown = scene_.shown();
-    return shown && shown->query.coloring == state_.surfaces().coloring;
+    const index::SurfacesQuery wanted = surfaces();
+    return shown && shown->query.coloring == wanted.coloring &&
+           shown->query.colors == wanted.colors && shown->query.array == wanted.array;
 }
 
 std::optional<ColorScale> Session::scale() const {
@@ -258,6 +267,7 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
         scene_.set_tools(now.tools, now.clip);
         scene_.set_near_fade(config_.comfort, now.audience.viewers);
         scene_.set_veil(now.veil);
+        scene_.set_array(array().info());
         scene_.look(state_, now.audience.viewers.front().head, now.scale);
         const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
             if (!place.kept)
@@ -310,6 +320,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     const ExplorerState before = state_;
     grow_with(commands);
     state_.apply(commands, file_->info().steps());
+    turn_to_array(before);
     if (times_.size() != steps())
         times_.assign(file_->info().times.begin(),
                       file_->info().times.begin() + static_cast<std::ptrdiff_t>(steps()));
@@ -317,7 +328,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     if (commands.screenshot)
         captures_.ask();
     report.comfort = comfort_.update(input, state_.room_from_physical);
-    report.asked = state_.surfaces();
+    report.asked = surfaces();
     report.pace = gate_.update(rest, commands, state_.quality);
     request_cells(waiting);
     take_newest_cells(waiting, report);

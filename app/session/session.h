@@ -27,11 +27,13 @@
 #include "interaction/controls.h"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace isochron::app {
 
@@ -53,7 +55,14 @@ class Session {
     bool should_close() const;
 
     const ExplorerState& state() const { return state_; }
-    void set_state(const ExplorerState& state) { state_ = state; }
+    /// @throws index::Error when the index lacks the array of the surfaces
+    void set_state(const ExplorerState& state);
+    /// Commands that show an array as it was left, or as at a first look.
+    /// @param number as `index::IndexFile::array` takes it
+    interaction::Commands way_to_array(std::size_t number) const;
+    /// @param name of an array of the surfaces; empty: the first
+    /// @throws index::Error when the index has no such array
+    void expect_array(const std::string& name) const;
     const ExplorerState& home() const { return home_; }
     /// Continues with the same data that have more steps. The command `steps` makes them visible.
     void grow(std::shared_ptr<const index::IndexFile> file);
@@ -169,6 +178,19 @@ class Session {
         std::optional<interaction::Pointed> pointed;
     };
 
+    /// How an array was left.
+    struct ArrayView {
+        std::vector<interaction::Isosurface> isosurfaces;
+        std::uint32_t picked = 0;
+        interaction::Coloring coloring;
+    };
+
+    void take_arrays();
+    void turn_to_array(const ExplorerState& before);
+    std::size_t array_number() const { return file_->array_called(state_.array).value_or(0); }
+    /// The array whose surfaces are asked for.
+    const index::IndexFile& array() const { return file_->array(array_number()); }
+    index::SurfacesQuery surfaces() const;
     interaction::ControlContext control_context() const;
     void grow_with(const interaction::Commands& commands);
     std::size_t steps() const { return state_.known_steps(file_->info().steps()); }
@@ -225,6 +247,9 @@ class Session {
     ExplorerState state_;
     ExplorerState home_;
     interaction::Commands start_; ///< commands that lead back to home_
+    std::vector<std::string> array_names_, color_names_;
+    std::map<std::size_t, ArrayView> left_; ///< arrays that were shown before, by number
+    std::optional<interaction::Commands> next_array_;
     interaction::Controls controls_;
     interaction::MotionGate gate_;
     interaction::Comfort comfort_;

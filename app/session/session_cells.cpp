@@ -15,7 +15,7 @@ Scene::Use use_of(const index::ExtractionPtr& set) {
 } // namespace
 
 void Session::request_cells(Waiting waiting) {
-    index::SurfacesQuery query = state_.surfaces();
+    index::SurfacesQuery query = surfaces();
     query.mesh_room = mesh_wanted_ ? config_.mesh_room() : 0;
     query.detail = detail_;
     index::Request request{frames_->ask(query, waiting), std::nullopt};
@@ -52,7 +52,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
             cells = frames_->cells(extractor_, scene_.shown(), waiting);
         }
     }
-    scene_.draw_at_rest(!in_motion, state_.surfaces());
+    scene_.draw_at_rest(!in_motion, surfaces());
     if (cells.show)
         say_refused(*cells.show, report);
     if (cells.stage && scene_.stage(cells.stage, use_of(cells.stage)))
@@ -125,7 +125,7 @@ void Session::choose_set(Picture& now, Waiting waiting, FrameReport& report) {
     const index::ExtractionPtr& moving = scene_.held(Scene::Use::always);
     if (rests_ || !moving || scene_.shown() == moving)
         return;
-    scene_.draw_at_rest(false, state_.surfaces());
+    scene_.draw_at_rest(false, surfaces());
     now.cells = scene_.shown();
     now.scale = shown_scale();
     report_cells(report);
@@ -147,9 +147,9 @@ index::DetailQuery Session::wanted_detail(Waiting waiting, const FrameReport& re
 }
 
 index::DetailQuery Session::detail_for_live(const FrameReport& report) {
-    const index::SurfacesQuery surfaces = state_.surfaces();
+    const index::SurfacesQuery wanted = surfaces();
     const auto shows = [&](const index::ExtractionPtr& set) {
-        return set && set->query.of_cells() == surfaces;
+        return set && set->query.of_cells() == wanted;
     };
     const index::ExtractionPtr& held = scene_.held(Scene::Use::always);
     const index::DetailQuery moving =

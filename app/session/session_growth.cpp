@@ -10,7 +10,7 @@ namespace isochron::app {
 void Session::grow(std::shared_ptr<const index::IndexFile> file) {
     file_ = std::move(file);
     newest_->set(file_);
-    picker_.set_file(file_);
+    picker_.set_file(array_of(file_, array_number()));
     extractor_.forget(); // color coordinates span all times, or all values of the second array
 }
 

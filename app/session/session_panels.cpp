@@ -85,10 +85,14 @@ std::optional<interaction::Pose> Session::ray_at(const interaction::MouseMoveEve
 
 PanelModel Session::panel_model(PanelPlace place, const FrameReport& report) const {
     const auto scale = this->scale();
-    return {.info = file_->info(),
-            .stats = file_->stats(),
+    return {.info = array().info(),
+            .stats = array().stats(),
             .asked = state_,
-            .second_array = file_->color() != nullptr,
+            .arrays = array_names_,
+            .array = array_number(),
+            .color_arrays = color_names_,
+            .color_array = color_array(state_, *file_),
+            .way_to_array = [this](std::size_t number) { return way_to_array(number); },
             .scale_range = scale ? scale->range : std::array{0.0, 0.0},
             .color_maps = config_.color_maps,
             .frame = report,

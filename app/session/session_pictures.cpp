@@ -22,9 +22,10 @@ void Session::draw_views(const ScenePlace& place, std::span<const render::View> 
     scene_.set_pointed(aids ? picture.pointed : std::nullopt);
     scene_.set_orientation(place.kept ? config_.picture_caption
                                       : on_desktop() && !state_.room_panel.shown);
-    scene_.set_caption(place.kept && config_.picture_caption && scene_.shown()
-                           ? caption_text(scene_.shown()->query, file_->info())
-                           : std::string());
+    scene_.set_caption(
+        place.kept && config_.picture_caption && scene_.shown()
+            ? caption_text(scene_.shown()->query, file_->array(scene_.shown()->query.array).info())
+            : std::string());
     scene_.draw(views, picture.room_from_physical, picture.footprint,
                 aids ? picture.audience.wand : std::nullopt, slice);
 }

@@ -4,7 +4,6 @@
 #include <vector>
 
 namespace isochron::app {
-namespace {
 
 std::vector<interaction::Isosurface> first_surfaces(const Config& config,
                                                     const index::IndexStats& stats) {
@@ -17,10 +16,10 @@ std::vector<interaction::Isosurface> first_surfaces(const Config& config,
     return surfaces;
 }
 
-} // namespace
-
 ExplorerState start_state(const Config& config, const index::IndexFile& file) {
     ExplorerState state;
+    if (file.arrays() > 1)
+        state.array = file.info().array;
     state.room_from_physical = place(file.info(), config.placement);
     state.quality = config.quality;
     state.grid = config.grid;

@@ -1,36 +1,15 @@
 // Builds .isochron files, and appends steps to them.
 #pragma once
 
-#include "index/file/chunk_codec.h"
+#include "index/build/build_options.h"
 #include "index/file/index_file.h"
 #include "index/progress.h"
 #include "index/system/byte_sink.h"
 #include "index/system/team.h"
 
-namespace isochron::index {
+#include <filesystem>
 
-struct BuildOptions {
-    std::optional<TierSet> tiers =
-        {}; ///< instead of the planner's choice, which never includes the tree
-    /// The plan of an index that is written anew: kept, instead of a choice, if it is still
-    /// possible.
-    std::optional<TierPlan> plan = {};
-    bool with_tree = false; ///< add the tree to the planner's choice
-    ThiOptions tree = {};
-    unsigned threads = 0; ///< 0: one for each processor
-    /// Most bytes that wait in memory to be packed: planes of a level of detail, and of steps whose
-    /// values have more than 8 bits. More of them wait in a file.
-    std::uint64_t waiting_bytes = 64 << 20;
-    Codec codec = Codec::fitting;
-    /// If set, the file refers to these files instead of carrying a copy of the values.
-    std::optional<Referral> referral = {};
-    /// The array to color by: another array of the same files; null: none. Outlives the build.
-    VolumeSeries* color = nullptr;
-    /// The options that select it in the files, for an index that refers to them.
-    std::optional<std::string> color_array = {}, color_component = {};
-    /// The options that select the volume itself.
-    std::optional<std::string> array = {}, component = {};
-};
+namespace isochron::index {
 
 /// Reads a series once and writes NAME.isochron under a temporary name, then renames it. Reported
 /// fractions are of the whole build, not of the phase. A build that fails or is canceled leaves
@@ -53,10 +32,10 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
 /// whole epochs: if an epoch has fewer new steps than old ones, its cells wait until it is
 /// complete, and searches use bricks there meanwhile.
 /// @param series all steps; steps that the index holds are read only if cells need their values
-/// @param held the newest state of the file @param file opened for writing, with `alone` on
+/// @param held the newest state of the file, with as many arrays as are given @param file opened for writing, with `alone` on
 ///        rank 0 only @param options tiers, codec, referral and colors as the index has them
-/// @return false, without writing anything, if appending is impossible: the type has more than 8
-///         bits and the levels of the cells lack values of the new steps
+/// @return false, with the index as it was, if appending is impossible: the type of an array has
+///         more than 8 bits and the levels of its cells lack values of the new steps
 /// @throws Error as `build_index`; the index stays as it was
 bool append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
                   const std::filesystem::path& out, const BuildOptions& options,

@@ -4,22 +4,30 @@
 #include "index/file/index_file.h"
 #include "index/system/byte_sink.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace isochron::index {
 
-/// Writes the sections one after the other, and sets their offsets and checksums in the header.
-/// They go after the end of the file, or, in an index that grows, over the sections of the state
-/// before the present one if these leave enough room. After the end of an index that grows, half as
-/// much room again is left free, so that two places, used in turn, last for long.
-/// @param held the index that grows; null for a new one @param end of the file, a multiple of 64
+/// The contents of an array's sections.
+struct ArraySections {
+    std::uint64_t content_hash = 0;
+    Section tree; ///< which is in the file already
+    std::vector<StepEntry> steps;
+    std::vector<UnitEntry> directory;
+    std::vector<std::uint64_t> checksums;
+    Metadata metadata; ///< without the further arrays, which are filled in
+};
+
+/// Writes the sections one after the other, and sets content hash, offsets and checksums in the
+/// header. They go after the end of the file, or, in an index that grows, over the sections of the
+/// state before the present one if these leave enough room. After the end of an index that grows,
+/// half as much room again is left free, so that two places, used in turn, last for long.
+/// @param arrays at least one @param held the index that grows; null for a new one
+/// @param end of the file, a multiple of 64
 /// @return the new end of the file
-std::uint64_t
-write_sections(const std::vector<std::pair<SectionKind, std::span<const std::byte>>>& sections,
-               const IndexFile* held, std::uint64_t end, FileHeader& header, ByteSink& file);
+std::uint64_t write_sections(std::vector<ArraySections>& arrays, const IndexFile* held,
+                             std::uint64_t end, FileHeader& header, ByteSink& file);
 
 } // namespace isochron::index

@@ -102,12 +102,10 @@ bool DetailSearch::color(const Query& query, unsigned level, const CellSet& set,
             color_by_first_crossing(*first, file_->info().times, set.ids, colors);
         return first != nullptr;
     }
-    if (coloring_ != CellColoring::value)
-        return true;
-    const ChunkStore* const store = file_->color_chunks(level);
+    const ChunkStore* const store = source_ ? source_->chunks(level) : nullptr;
     if (!store || set.ids.empty() || has_wide_ids(store->info().grid))
         return true;
-    return searcher(level).color_cells(query, set.ids, colors, stop);
+    return searcher(level).color_cells(query, *source_, set.ids, colors, stop);
 }
 
 /// Finds the whole levels, the coarsest first, until there are too many cells or the next level will
@@ -310,6 +308,9 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query, bool too_ma
     if (top_ == 0 || !has_mixed_levels(file_->info().grid) || query.step >= file_->info().steps())
         return Outcome::whole;
     coloring_ = query.coloring;
+    source_.reset();
+    if (coloring_ == CellColoring::value && query.colors < ColorSource::count(*file_))
+        source_.emplace(*file_, query.colors);
     std::erase_if(crossings_, [&](const auto& known) {
         return coloring_ != CellColoring::first_crossing || !known.second ||
                std::ranges::find(query.isovalues, known.first.first) == query.isovalues.end();
@@ -342,8 +343,7 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query, bool too_ma
     if (!add_lost(query, finest, result, stop))
         return Outcome::stopped;
     result.colors.clear();
-    if (query.coloring == CellColoring::first_crossing ||
-        (query.coloring == CellColoring::value && file_->color()))
+    if (query.coloring == CellColoring::first_crossing || source_)
         for (const auto& of_surface : colors_)
             result.colors.insert(result.colors.end(), of_surface.begin(), of_surface.end());
     return Outcome::made;

@@ -89,6 +89,7 @@ class DetailSearch {
     std::vector<std::size_t> in_region_;             ///< cells of that level
     std::vector<std::vector<std::uint16_t>> colors_; ///< of the result, by surface
     CellColoring coloring_ = CellColoring::none;     ///< of the query
+    std::optional<ColorSource> source_;              ///< of the colors, where they are values
     std::map<std::pair<double, unsigned>, FirstCrossingsPtr> crossings_; ///< by isovalue and level
 };
 

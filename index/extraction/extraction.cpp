@@ -209,7 +209,7 @@ Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading s
     };
     return [newest = std::move(newest), shading, made = std::make_shared<Made>()](
                const SurfacesQuery& query, const std::stop_token& stop) {
-        if (auto file = newest->get(); file != made->file)
+        if (auto file = array_of(newest->get(), query.array); file != made->file)
             *made = {file, extract_from(file, std::nullopt, shading)};
         return made->extract(query, stop);
     };

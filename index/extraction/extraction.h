@@ -22,7 +22,7 @@ struct Extraction {
     std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows if asked for
     std::vector<float> levels;     ///< the isovalues in brick units: see BrickLevels
     /// Color coordinates of the cells, surface after surface in the order of ids; empty if none
-    /// were asked for, or the index has no second array to color by.
+    /// were asked for, or the index has no array to color by.
     std::vector<std::uint16_t> colors;
     VolumeBricks bricks;           ///< of the step, for all surfaces
     SurroundingField surroundings; ///< of all surfaces; none where there are no cells
@@ -68,7 +68,8 @@ class NewestIndex {
     std::shared_ptr<const IndexFile> file_;
 };
 
-/// The same as `extract_from`, from the index that `newest` holds at each call.
+/// The same as `extract_from`, at each call from the array that the query names of the index that
+/// `newest` holds.
 Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading shading);
 
 /// Makes an extraction from an open index. Each surface has its own incremental search. Copies

@@ -241,9 +241,10 @@ bool LayerSearch::make_mesh(const Query& query, std::span<const CellId> ids, Cel
     return finished;
 }
 
-bool LayerSearch::color_cells(const Query& query, std::span<const CellId> cells,
-                              std::span<std::uint16_t> out, const std::stop_token& stop) {
-    const ColorArray& array = *file_->color();
+bool LayerSearch::color_cells(const Query& query, const ColorSource& source,
+                              std::span<const CellId> cells, std::span<std::uint16_t> out,
+                              const std::stop_token& stop) {
+    const ColorArray& array = source.array();
     return for_each_layer_of(
         query.step, cells,
         [&](StepSlab& slab, std::uint32_t layer) {
@@ -251,7 +252,7 @@ bool LayerSearch::color_cells(const Query& query, std::span<const CellId> cells,
             if (ids.empty())
                 return;
             const std::vector<CellId> local = counted_from(slab.first_around(), ids);
-            StepSlab colors(*file_->color_chunks(level_));
+            StepSlab colors(*source.chunks(level_));
             colors.begin(query.step, layer, stop);
             slab.fill_around(local, false);
             colors.fill_around(local, false);

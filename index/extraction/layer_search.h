@@ -6,6 +6,7 @@
 #include "index/extraction/layer_results.h"
 #include "index/extraction/mesh_maker.h"
 #include "index/extraction/step_slab.h"
+#include "index/file/color_source.h"
 #include "index/file/index_file.h"
 #include "index/volume/query.h"
 
@@ -38,8 +39,8 @@ class LayerSearch {
     /// @param ids active cells, ascending
     bool make_mesh(const Query& query, std::span<const CellId> ids, CellMesh& mesh,
                    const std::stop_token& stop);
-    /// Uses the array to color by, which the index must carry.
-    bool color_cells(const Query& query, std::span<const CellId> cells,
+    /// @param source has chunks at this level
+    bool color_cells(const Query& query, const ColorSource& source, std::span<const CellId> cells,
                      std::span<std::uint16_t> out, const std::stop_token& stop);
 
   private:

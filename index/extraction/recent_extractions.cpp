@@ -31,7 +31,8 @@ std::uint64_t bytes_of(const Extraction& extraction) {
 } // namespace
 
 bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b) {
-    return a.coloring == b.coloring && a.detail == b.detail &&
+    return a.array == b.array && a.coloring == b.coloring && a.colors == b.colors &&
+           a.detail == b.detail &&
            std::ranges::equal(a.isovalues, b.isovalues, {}, std::bit_cast<std::uint64_t, double>,
                               std::bit_cast<std::uint64_t, double>);
 }

@@ -17,9 +17,14 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
                          const std::stop_token& stop) {
     forget_all_but(query);
     out.clear();
-    const ColorArray* array = file_->color();
-    if (query.coloring == CellColoring::none || (query.coloring == CellColoring::value && !array))
+    if (query.coloring == CellColoring::none)
         return true;
+    std::optional<ColorSource> source;
+    if (query.coloring == CellColoring::value) {
+        if (query.colors >= ColorSource::count(*file_))
+            return true;
+        source.emplace(*file_, query.colors);
+    }
     std::size_t rank = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const auto& cells = surfaces[i].ids;
@@ -27,8 +32,8 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
             continue;
         out.resize(rank + cells.size());
         const auto part = std::span(out).subspan(rank);
-        if (query.coloring == CellColoring::value) {
-            if (!color_by_value(query.surface(i), cells, step, part, stop))
+        if (source) {
+            if (!color_by_value(query.surface(i), *source, cells, step, part, stop))
                 return false;
         } else {
             const FirstCrossings* first = crossings(query.isovalues[i], stop);
@@ -41,13 +46,13 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
     return true;
 }
 
-bool SurfaceColors::color_by_value(const Query& query, std::span<const CellId> cells,
-                                   const StepValues* step, std::span<std::uint16_t> out,
-                                   const std::stop_token& stop) {
+bool SurfaceColors::color_by_value(const Query& query, const ColorSource& source,
+                                   std::span<const CellId> cells, const StepValues* step,
+                                   std::span<std::uint16_t> out, const std::stop_token& stop) {
     if (!step)
-        return layers_.color_cells(query, cells, out, stop);
-    const ColorArray& array = *file_->color();
-    const LoadedStep colors = file_->load_color(query.step, stop);
+        return layers_.color_cells(query, source, cells, out, stop);
+    const ColorArray& array = source.array();
+    const LoadedStep colors = source.load(query.step, stop);
     return color_cells(*step, colors.values, query, cells, array.low, array.high, out, stop);
 }
 

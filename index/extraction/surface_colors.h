@@ -28,7 +28,8 @@ class SurfaceColors {
               const StepValues* step, std::vector<std::uint16_t>& out, const std::stop_token& stop);
 
   private:
-    bool color_by_value(const Query& query, std::span<const CellId> cells, const StepValues* step,
+    bool color_by_value(const Query& query, const ColorSource& source,
+                        std::span<const CellId> cells, const StepValues* step,
                         std::span<std::uint16_t> out, const std::stop_token& stop);
     void forget_all_but(const SurfacesQuery& query);
     const FirstCrossings* crossings(double isovalue, const std::stop_token& stop);

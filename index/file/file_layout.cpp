@@ -90,14 +90,18 @@ FileHeader checked_header(const ByteSource& file) {
     if (newest->file_bytes > file.size())
         throw Error(fmt::format("{}: truncated: {} bytes, the header says {}", name, file.size(),
                                 newest->file_bytes));
-    for (std::size_t i = 0; i < newest->sections.size(); ++i)
-        if (const Section& section = newest->sections[i];
-            section.offset % kPartAlignment || section.offset < kDataBegin ||
-            section.offset > newest->file_bytes ||
-            section.bytes > newest->file_bytes - section.offset)
-            throw Error(fmt::format("{}: damaged header: section {} lies outside the file", name,
-                                    kSectionNames[i]));
+    check_sections(file, *newest, "header");
     return *newest;
+}
+
+void check_sections(const ByteSource& file, const FileHeader& header, const char* called) {
+    for (std::size_t i = 0; i < header.sections.size(); ++i)
+        if (const Section& section = header.sections[i];
+            section.offset % kPartAlignment || section.offset < kDataBegin ||
+            section.offset > header.file_bytes ||
+            section.bytes > header.file_bytes - section.offset)
+            throw Error(fmt::format("{}: damaged {}: section {} lies outside the file", file.name(),
+                                    called, kSectionNames[i]));
 }
 
 } // namespace isochron::index

@@ -95,6 +95,9 @@ constexpr std::uint64_t slot_of(const FileHeader& header) {
 /// @throws Error: foreign, other byte order, other version, damaged header, truncated
 FileHeader checked_header(const ByteSource& file);
 
+/// @throws Error when a section lies outside the file @param called what names them
+void check_sections(const ByteSource& file, const FileHeader& header, const char* called);
+
 /// The other slot than that of the header that counts.
 struct OtherSlot {
     bool sound = false; ///< it holds an older, intact header

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMaxMetadataBytes = 256 << 20;
 constexpr std::uint64_t kPage = 4096;
+constexpr std::uint32_t kMostLevels = 64; ///< levels of detail of an array and of its colors
 
 const char* section_name(SectionKind kind) {
     return kSectionNames[static_cast<std::size_t>(kind)];
@@ -33,7 +34,12 @@ struct JoinedStep {
 
 IndexFile::IndexFile(std::unique_ptr<ByteSource> bytes, std::uint64_t cache_bytes)
     : bytes_(std::move(bytes)), cache_bytes_(cache_bytes ? cache_bytes : memory_limit() / 4),
-      cache_(cache_bytes_), header_(checked_header(*bytes_)) {
+      cache_(std::make_shared<ByteCache>(cache_bytes_)), header_(checked_header(*bytes_)) {
+    read();
+    open_further();
+}
+
+void IndexFile::read() {
     if (const std::uint64_t size = header_.section(SectionKind::metadata).bytes;
         size > kMaxMetadataBytes)
         throw damaged(fmt::format("metadata of {} bytes", size));
@@ -82,7 +88,7 @@ bool IndexFile::lies_within(std::uint64_t offset, std::uint64_t bytes) const {
 ChunkArray IndexFile::level_of(const std::string& called, std::size_t number,
                                const SeriesInfo& info, bool fine) const {
     ChunkArray array{.called = called,
-                     .number = static_cast<std::uint32_t>(number),
+                     .number = static_cast<std::uint32_t>(number_ * kMostLevels + number),
                      .info = info,
                      .steps = {},
                      .has_bricks = number < details_ && metadata_.plan.tiers.has(Tier::bricks),
@@ -111,7 +117,7 @@ std::vector<std::unique_ptr<ChunkStore>> IndexFile::array_of(const char* called,
         const std::size_t level = levels.size();
         of_level.grid = grid;
         levels.push_back(std::make_unique<ChunkStore>(
-            *bytes_, cache_,
+            *bytes_, *cache_,
             level_of(level == 0 ? called : fmt::format("{} at level {}", called, level),
                      first + level, of_level, level == 0)));
         std::uint64_t& bytes = level > 0   ? metadata_.stats.detail_bytes
@@ -204,9 +210,11 @@ void IndexFile::set_cells() {
         stats.deltas_bytes += unit.deltas_bytes;
         stats.cell_entries += unit.entries;
     }
-    // Cells and values share the budget.
-    cells_.emplace(Chunking(grid), held, cells, deltas, &units_, cache_bytes_ / 2);
-    cache_.limit(cache_bytes_ - cache_bytes_ / 2);
+    // Cells, of all arrays, and values share the budget.
+    const std::uint64_t of_cells = cache_bytes_ / 2;
+    cells_.emplace(Chunking(grid), held, cells, deltas, &units_,
+                   of_cells / (first().metadata_.further.size() + 1));
+    cache_->limit(cache_bytes_ - of_cells);
 }
 
 std::span<const std::uint64_t> IndexFile::color_checksums() const {
@@ -219,11 +227,15 @@ std::span<const std::uint64_t> IndexFile::source_states() const {
 }
 
 ReadUse IndexFile::reading() const {
-    const ByteCache::Use use = cache_.use();
+    const ByteCache::Use use = cache_->use();
+    std::uint64_t held = use.held;
+    for (std::size_t number = 0; number < arrays(); ++number)
+        if (const CellTier* cells = array(number).cells())
+            held += cells->held_bytes();
     return {.bytes = bytes_->bytes_read(),
             .hits = use.hits,
             .misses = use.misses,
-            .held = use.held + (cells_ ? cells_->held_bytes() : 0),
+            .held = held,
             .budget = cache_bytes_};
 }
 
@@ -291,7 +303,7 @@ void IndexFile::check_step(const LoadedStep& loaded, std::uint32_t step, std::ui
             fmt::format("the checksum of the {} of step {} does not match", called, step));
 }
 
-void IndexFile::verify(const Progress& progress) const {
+void IndexFile::verify_parts(const Progress& progress) const {
     const auto total = static_cast<double>(checksums_.size());
     std::size_t next = 0;
     const auto take = [&](const char* called) {
@@ -321,7 +333,6 @@ void IndexFile::verify(const Progress& progress) const {
     for (std::uint32_t step = 0; !colors_.empty() && step < steps(); ++step)
         check_step(load_color(step), step, take("colors"), "colors");
     verify_details(progress);
-    check_gaps();
 }
 
 /// Checks the levels of detail by reading them: their chunks and tables have their own checksums.
@@ -344,32 +355,6 @@ Error IndexFile::damaged(const std::string& what) const {
 }
 Error IndexFile::mismatch(SectionKind kind) const {
     return damaged(fmt::format("the checksum of section {} does not match", section_name(kind)));
-}
-
-/// Checks that padding, which no checksum covers, is zero. Longer gaps hold parts of earlier
-/// headers.
-void IndexFile::check_gaps() const {
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> used{{0, kDataBegin}};
-    for (const StepEntry& step : step_entries_)
-        used.emplace_back(step.offset, step.bytes);
-    for (const UnitEntry& unit : directory_) {
-        used.emplace_back(unit.cells_offset, unit.cells_bytes);
-        used.emplace_back(unit.deltas_offset, unit.deltas_bytes);
-    }
-    for (const Section& section : header_.sections)
-        if (section.bytes > 0)
-            used.emplace_back(section.offset, section.bytes);
-    std::sort(used.begin(), used.end());
-    std::uint64_t end = 0;
-    std::vector<std::byte> gap;
-    for (const auto& [offset, bytes] : used) {
-        gap.resize(offset > end && offset - end < kPartAlignment ? offset - end : 0);
-        bytes_->read(end, gap);
-        for (std::size_t i = 0; i < gap.size(); ++i)
-            if (gap[i] != std::byte{0})
-                throw damaged(fmt::format("byte {} is not zero", end + i));
-        end = std::max(end, offset + bytes);
-    }
 }
 
 std::shared_ptr<const IndexFile> IndexFile::open(const std::filesystem::path& path,

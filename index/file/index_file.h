@@ -26,11 +26,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace isochron::index {
 
-/// An open index: immutable except for its cache, thread-safe. Opening reads the header, the
+/// An open index: immutable except for its cache, thread-safe. One of several arrays of a file is an
+/// index of its own, which shares the file and its cache with the others. Opening reads the header, the
 /// metadata and the offsets of all parts; other parts are read, and checked, when they are needed.
 /// If the file becomes shorter or its disk fails, the function that needs a part throws Error.
 class IndexFile {
@@ -46,6 +49,15 @@ class IndexFile {
     using OpenBytes = std::function<std::unique_ptr<ByteSource>()>;
     static std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open,
                                                         std::uint64_t cache_bytes = 0);
+
+    /// Number of arrays of the file that have search structures.
+    std::size_t arrays() const { return first().further_.size() + 1; }
+    /// One of them, whichever this is. @param number from 0, below `arrays()`
+    const IndexFile& array(std::size_t number) const {
+        return number == 0 ? first() : *first().further_[number - 1];
+    }
+    /// The number of the array with this name (`SeriesInfo::array`), if there is one.
+    std::optional<std::size_t> array_called(std::string_view name) const;
 
     const std::string& name() const { return bytes_->name(); }
     const SeriesInfo& info() const { return metadata_.info; }
@@ -106,7 +118,8 @@ class IndexFile {
     /// A message if the other header is of a newer state and is damaged, though its sections are
     /// whole.
     std::optional<std::string> lost_state() const;
-    /// The place of the previous state's sections, which the next state may overwrite.
+    /// The place of the previous state's sections, of all arrays, which the next state may
+    /// overwrite.
     struct Room {
         std::uint64_t offset = 0, bytes = 0;
     };
@@ -123,7 +136,7 @@ class IndexFile {
     /// The state of each step's source when it was indexed; 0 if unknown.
     std::span<const std::uint64_t> source_states() const;
     /// Use and budget of the cache of values.
-    ByteCache::Use cache() const { return cache_.use(); }
+    ByteCache::Use cache() const { return cache_->use(); }
     /// The budget [bytes] of everything that is kept of the file.
     std::uint64_t cache_bytes() const { return cache_bytes_; }
     /// What has been read since the file was opened, and what the cache had.
@@ -135,7 +148,16 @@ class IndexFile {
 
   private:
     IndexFile(std::unique_ptr<ByteSource> bytes, std::uint64_t cache_bytes);
+    IndexFile(const IndexFile& first, const ArrayPlace& place);
 
+    const IndexFile& first() const { return first_ ? *first_ : *this; }
+    void read();
+    void open_further();
+    void expect_same_shape(const IndexFile& first) const;
+    void verify_parts(const Progress& progress) const;
+    using Used = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
+    void add_parts(Used& used) const;
+    Used all_parts() const;
     std::size_t steps() const { return metadata_.info.steps(); }
     template <class T>
     std::vector<T> section(SectionKind kind) const;
@@ -156,11 +178,13 @@ class IndexFile {
     Error damaged(const std::string& what) const;
     Error mismatch(SectionKind kind) const;
 
-    std::unique_ptr<ByteSource> bytes_;
+    const IndexFile* first_ = nullptr; ///< the first array of the file; null: this is it
+    std::shared_ptr<ByteSource> bytes_;
     std::uint64_t cache_bytes_;
-    mutable ByteCache cache_;
+    std::shared_ptr<ByteCache> cache_;
     FileHeader header_;
     Metadata metadata_;
+    std::uint32_t number_ = 0; ///< of the array
     std::vector<StepEntry> step_entries_;
     std::size_t details_ = 0; ///< levels of detail, the volume itself included
     std::vector<std::uint64_t> checksums_;
@@ -177,6 +201,14 @@ class IndexFile {
     mutable std::once_flag all_read_;
     mutable std::shared_ptr<std::byte> all_;
     mutable StepValues values_;
+    std::vector<std::unique_ptr<IndexFile>> further_; ///< the other arrays, of the first one only
 };
+
+/// One array of a file that stays open as long as this.
+/// @param number as `IndexFile::array` takes it
+inline std::shared_ptr<const IndexFile> array_of(const std::shared_ptr<const IndexFile>& file,
+                                                 std::size_t number) {
+    return {file, &file->array(number)};
+}
 
 } // namespace isochron::index

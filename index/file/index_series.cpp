@@ -6,6 +6,7 @@
 #include "index/system/running_checksum.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>
@@ -58,6 +59,8 @@ class IndexSeries final : public VolumeSeries {
         if (header.version != OldHeader::kVersion) {
             file_ = IndexFile::open(std::move(bytes));
             info_ = file_->info();
+            for (std::size_t number = 0; number < file_->arrays(); ++number)
+                names_.push_back(file_->array(number).info().array);
             if (file_->color())
                 color_ = *file_->color();
             if (file_->referral())
@@ -70,19 +73,26 @@ class IndexSeries final : public VolumeSeries {
 
     const SeriesInfo& info() const override { return info_; }
     const std::optional<ColorArray>& color() const { return color_; }
+    /// Of the arrays with search structures.
+    const std::vector<std::string>& names() const { return names_; }
 
-    /// Chooses between the volume and the colors.
+    /// Chooses between the arrays and the colors.
     void choose(const ReadOptions& options) {
-        if (options.array && color_ && *options.array == color_->array) {
+        if (const auto number = file_ && options.array ? file_->array_called(*options.array)
+                                                       : std::optional<std::size_t>()) {
+            file_ = array_of(file_, *number);
+            info_ = file_->info();
+        } else if (options.array && color_ && *options.array == color_->array) {
             as_colors_ = true;
             info_.array = color_->array;
             info_.value_unit = color_->value_unit;
             info_.type = color_->type;
             info_.scaling = color_->scaling;
         } else if (options.array && *options.array != info_.array) {
-            refuse(fmt::format("has no array {}, only {}{}", *options.array, info_.array,
-                               color_ ? " and " + color_->array : ""));
+            refuse(fmt::format("has no array {}, only {}{}", *options.array,
+                               fmt::join(names_, ", "), color_ ? " and " + color_->array : ""));
         }
+        info_.arrays = names_;
         info_ = with_overrides(std::move(info_), options);
     }
 
@@ -183,6 +193,7 @@ class IndexSeries final : public VolumeSeries {
         if (metadata.referral)
             refuse("refers to its sources: build from these");
         info_ = metadata.info;
+        names_ = {info_.array};
         color_ = metadata.color;
         checksums_ = section<std::uint64_t>(header.checksums, info_.steps());
         volume_ = header.volume.offset;
@@ -197,6 +208,7 @@ class IndexSeries final : public VolumeSeries {
 
     std::string name_;
     SeriesInfo info_;
+    std::vector<std::string> names_;
     std::optional<ColorArray> color_;
     bool as_colors_ = false;
     std::shared_ptr<const IndexFile> file_; ///< if of this version
@@ -221,6 +233,10 @@ bool is_index(const std::filesystem::path& path) {
 std::optional<std::string> color_of_index(const std::filesystem::path& path) {
     const auto color = IndexSeries(path).color();
     return color ? std::optional(color->array) : std::nullopt;
+}
+
+std::vector<std::string> arrays_of_index(const std::filesystem::path& path) {
+    return IndexSeries(path).names();
 }
 
 std::unique_ptr<VolumeSeries> open_index_series(const std::filesystem::path& path,

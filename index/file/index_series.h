@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::index {
 
@@ -17,7 +18,11 @@ bool is_index(const std::filesystem::path& path);
 /// @throws Error as `open_index_series`
 std::optional<std::string> color_of_index(const std::filesystem::path& path);
 
-/// The volume of an index, or its array to color by if `options.array` names that. Grid, times and
+/// The names of its arrays that have search structures; at least one.
+/// @throws Error as `open_index_series`
+std::vector<std::string> arrays_of_index(const std::filesystem::path& path);
+
+/// The first array of an index, or the one that `options.array` names, also its array to color by. Grid, times and
 /// units in `options` override those of the index.
 /// @throws Error: damaged, neither version 2 nor this version, refers to its sources, no such array
 std::unique_ptr<VolumeSeries> open_index_series(const std::filesystem::path& path,

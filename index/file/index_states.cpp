@@ -94,18 +94,9 @@ IndexFile::Room IndexFile::free_room() const {
         if (section.bytes > 0)
             room.offset = std::min(room.offset, section.offset);
     std::uint64_t end = header_.file_bytes;
-    const auto named = [&](std::uint64_t offset, std::uint64_t bytes) {
+    for (const auto& [offset, bytes] : all_parts())
         if (bytes > 0 && offset + bytes > room.offset)
             end = std::min(end, std::max(offset, room.offset));
-    };
-    for (const StepEntry& step : step_entries_)
-        named(step.offset, step.bytes);
-    for (const UnitEntry& unit : directory_) {
-        named(unit.cells_offset, unit.cells_bytes);
-        named(unit.deltas_offset, unit.deltas_bytes);
-    }
-    for (const Section& section : header_.sections)
-        named(section.offset, section.bytes);
     room.bytes = end - room.offset;
     return room;
 }

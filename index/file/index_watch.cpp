@@ -4,6 +4,18 @@
 #include <utility>
 
 namespace isochron::index {
+namespace {
+
+bool has_arrays_of(const IndexFile& file, const IndexFile& known) {
+    if (file.arrays() != known.arrays() || (file.color() == nullptr) != (known.color() == nullptr))
+        return false;
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        if (file.array(number).info().array != known.array(number).info().array)
+            return false;
+    return true;
+}
+
+} // namespace
 
 std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const IndexFile& known) {
     try {
@@ -11,7 +23,7 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
         if (now.content_hash == known.content_hash())
             return nullptr;
         auto file = IndexFile::open(path, known.cache_bytes());
-        return file->info().steps() > known.info().steps() &&
+        return file->info().steps() > known.info().steps() && has_arrays_of(*file, known) &&
                        file->has_had(known.content_hash(), known.info().steps())
                    ? file
                    : nullptr;

@@ -12,8 +12,8 @@
 
 namespace isochron::index {
 
-/// Opens the index again if it now has more steps than `known` and begins with the steps of
-/// `known`; else, or if it cannot be read at the moment, null.
+/// Opens the index again if it now has more steps than `known`, the same arrays, and begins with
+/// the steps of `known`; else, or if it cannot be read at the moment, null.
 std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const IndexFile& known);
 
 /// Checks every `kPeriod` on a thread of its own.

@@ -2,18 +2,16 @@
 #include "index/file/metadata.h"
 
 #include "index/error.h"
+#include "index/file/metadata_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace isochron::index {
 namespace {
-
-using nlohmann::json;
 
 constexpr std::size_t kMaxDepth = 8;
 constexpr std::array kAnatomies{"none", "ras", "lps", "enu"};
@@ -25,23 +23,6 @@ json numbers(const glm::dvec3& v) {
 glm::dvec3 vector_of(const json& value) {
     const auto v = value.get<std::array<double, 3>>();
     return {v[0], v[1], v[2]};
-}
-
-/// Reads a whole number with a check, as the JSON library converts any number without an error.
-template <class T>
-T whole(const json& value) {
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<T>::max())
-        throw Error(fmt::format("expected a whole number up to {}, got {}",
-                                std::numeric_limits<T>::max(), value.dump()));
-    return value.get<T>();
-}
-
-template <class Numbers>
-void get_whole(const json& values, Numbers& out) {
-    if (!values.is_array() || values.size() != out.size())
-        throw Error(fmt::format("expected {} whole numbers", out.size()));
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = whole<typename Numbers::value_type>(values[i]);
 }
 
 /// Limits the depth of JSON, since the parser accepts any depth.
@@ -60,36 +41,6 @@ void check_depth(std::string_view text) {
         } else if (!quoted && (c == ']' || c == '}') && depth > 0)
             --depth;
     }
-}
-
-/// The name of a file or an array: as text if it is UTF-8, which JSON requires, else as a list of
-/// bytes.
-json exact(const std::string& name) {
-    try {
-        json text = name;
-        text.dump(); // throws if it is not UTF-8
-        return text;
-    } catch (const json::type_error&) {
-        return std::vector<std::uint8_t>(name.begin(), name.end());
-    }
-}
-
-json exact(const std::vector<std::string>& names) {
-    json all = json::array();
-    for (const std::string& name : names)
-        all.push_back(exact(name));
-    return all;
-}
-
-std::string exact_text(const json& value) {
-    if (value.is_string())
-        return value.get<std::string>();
-    if (!value.is_array())
-        throw Error("expected a name");
-    std::string name;
-    for (const json& byte : value)
-        name += static_cast<char>(whole<std::uint8_t>(byte));
-    return name;
 }
 
 SeriesInfo info_of(const json& j) {
@@ -206,102 +157,6 @@ TierPlan plan_of(const json& j) {
     return plan;
 }
 
-template <class T>
-void put_optional(json& j, const char* key, const std::optional<T>& value) {
-    if constexpr (std::is_same_v<T, std::string>) {
-        if (value)
-            j[key] = exact(*value);
-    } else if (value) {
-        j[key] = *value;
-    }
-}
-template <class T>
-void get_optional(const json& j, const char* key, std::optional<T>& value) {
-    if (!j.contains(key))
-        return;
-    if constexpr (std::is_same_v<T, std::string>)
-        value = exact_text(j.at(key));
-    else
-        value = j.at(key).get<T>();
-}
-
-json json_of(const Referral& referral) {
-    const ReadOptions& options = referral.options;
-    json j{{"files", json::array()},
-           {"big_endian", options.big_endian},
-           {"header_bytes", options.header_bytes}};
-    for (const std::filesystem::path& file : referral.files)
-        j["files"].push_back(exact(file.string()));
-    if (options.allow_surplus)
-        j["allow_surplus"] = true;
-    if (options.times_from_names)
-        j["times_from_names"] = true;
-    if (options.extra_axis_is_time)
-        j["extra_axis_is_time"] = true;
-    put_optional(j, "array", options.array);
-    put_optional(j, "component", options.component);
-    put_optional(j, "dims", options.dims);
-    put_optional(j, "resample", options.resample);
-    if (options.type)
-        j["type"] = name_of(*options.type);
-    return j;
-}
-
-/// Reads only the options that say how to read the files: grid, times and units are in the index.
-Referral referral_of(const json& j) {
-    Referral referral;
-    for (const json& file : j.at("files"))
-        referral.files.emplace_back(exact_text(file));
-    ReadOptions& options = referral.options;
-    options.allow_surplus = j.value("allow_surplus", false);
-    options.times_from_names = j.value("times_from_names", false);
-    options.extra_axis_is_time = j.value("extra_axis_is_time", false);
-    j.at("big_endian").get_to(options.big_endian);
-    options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
-    get_optional(j, "array", options.array);
-    get_optional(j, "component", options.component);
-    for (auto [key, to] : {std::pair("dims", &options.dims), {"resample", &options.resample}})
-        if (j.contains(key))
-            get_whole(j.at(key), to->emplace());
-    if (j.contains("type"))
-        options.type = value_type_from_name(j.at("type").get<std::string>());
-    return referral;
-}
-
-json json_of(const ColorArray& color) {
-    json j{{"array", exact(color.array)},
-           {"value_unit", color.value_unit},
-           {"type", name_of(color.type)},
-           {"slope", color.scaling.slope},
-           {"intercept", color.scaling.intercept},
-           {"low", color.low},
-           {"high", color.high},
-           {"nan_values", color.nan_values}};
-    put_optional(j, "chosen_array", color.chosen_array);
-    put_optional(j, "chosen_component", color.chosen_component);
-    return j;
-}
-
-ColorArray color_of(const json& j) {
-    ColorArray color;
-    color.array = exact_text(j.at("array"));
-    j.at("value_unit").get_to(color.value_unit);
-    const auto type = value_type_from_name(j.at("type").get<std::string>());
-    if (!type)
-        throw Error("unknown type of colors");
-    color.type = *type;
-    j.at("slope").get_to(color.scaling.slope);
-    j.at("intercept").get_to(color.scaling.intercept);
-    j.at("low").get_to(color.low);
-    j.at("high").get_to(color.high);
-    if (!(color.low <= color.high) || !std::isfinite(color.low) || !std::isfinite(color.high))
-        throw Error(fmt::format("colors from {} to {}", color.low, color.high));
-    color.nan_values = whole<std::uint64_t>(j.at("nan_values"));
-    get_optional(j, "chosen_array", color.chosen_array);
-    get_optional(j, "chosen_component", color.chosen_component);
-    return color;
-}
-
 } // namespace
 
 void set_counts(Metadata& metadata, ValueCounts counts) {
@@ -357,6 +212,8 @@ std::string to_json(const Metadata& metadata) {
         j["referral"] = json_of(*metadata.referral);
     if (metadata.color)
         j["color"] = json_of(*metadata.color);
+    if (!metadata.further.empty())
+        j["arrays"] = json_of(metadata.further);
     // Texts from files may have any bytes; JSON may not.
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -392,6 +249,8 @@ Metadata metadata_from_json(std::string_view text) try {
         metadata.referral = referral_of(j.at("referral"));
     if (j.contains("color"))
         metadata.color = color_of(j.at("color"));
+    if (j.contains("arrays"))
+        metadata.further = further_of(j.at("arrays"));
     return metadata;
 } catch (const json::exception& error) {
     throw Error(error.what());

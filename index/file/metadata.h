@@ -2,15 +2,30 @@
 #pragma once
 
 #include "index/file/chunk_codec.h"
+#include "index/file/file_layout.h"
 #include "index/file/index_contents.h"
 #include "index/file/series_content.h"
 #include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace isochron::index {
+
+/// Most arrays that one index may have, the first included.
+constexpr std::size_t kMostArrays = 64;
+
+/// Where a further array of an index lies: its sections, as in FileHeader. It has a whole set of
+/// them, with metadata of its own; offsets count from the start of the file.
+struct ArrayPlace {
+    std::uint64_t content_hash = 0;
+    std::array<Section, kSectionNames.size()> sections{};
+};
 
 /// The metadata section. It holds no sizes of `stats`: those follow from the header.
 struct Metadata {
@@ -27,6 +42,8 @@ struct Metadata {
     std::optional<ColorArray> color = {};
     /// The options that select the array in the files: `ReadOptions::array` and `component`.
     std::optional<std::string> chosen_array = {}, chosen_component = {};
+    /// The arrays of the index besides this one; only the first array lists them.
+    std::vector<ArrayPlace> further = {};
 };
 
 /// Sets the counts of a series' values, and range and histogram, which follow from them.

@@ -29,7 +29,7 @@ constexpr std::size_t kMostSurfaces = 8;
 /// The quantity of the cells' color coordinates (index/extraction/cell_colors.h).
 enum class CellColoring : std::uint8_t {
     none,
-    value,         ///< the second array on the surface
+    value,         ///< an array to color by, on the surface
     first_crossing ///< the time at which a surface of the isovalue first passed through the cell
 };
 constexpr std::array<std::string_view, 3> kCellColoringNames{"none", "value", "first_crossing"};
@@ -55,6 +55,8 @@ struct SurfacesQuery {
     /// Bytes that the meshes of all surfaces together may take: either all have one or none; 0: none.
     std::uint64_t mesh_room = 0;
     DetailQuery detail{};
+    std::uint32_t array = 0;  ///< of the index, by number
+    std::uint32_t colors = 0; ///< array to color by (ColorSource), by number: for coloring `value`
 
     Query surface(std::size_t i) const { return {step, isovalues[i]}; }
     /// The same surfaces, however they are drawn and at any level of detail.

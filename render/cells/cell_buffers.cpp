@@ -65,13 +65,24 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
 
 void CellBuffers::prepare(index::ValueType held) {
     bricks_.emplace(*gl_, grid_, held);
-    compute_.emplace(*gl_, grid_, *axes_, held);
+    volume_version_ = 0; // of no set
+    held_ = held;
+    const auto [made, is_new] = computes_.try_emplace(held, *gl_, grid_, *axes_, held);
+    compute_ = &made->second;
+    if (!is_new)
+        return;
     const index::Extraction none;
     compute_->enter_pages(*bricks_);
     compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, message_, points_);
     compute_->set_styles(none, styles_, points_);
     compute_->fill_planes(none, *bricks_, points_);
     compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_);
+}
+
+/// Makes ready for values of this type; drops bricks of another.
+void CellBuffers::hold(index::ValueType held) {
+    if (!bricks_ || held_ != held)
+        prepare(held);
 }
 
 bool CellBuffers::upload(const index::ExtractionPtr& newest, std::size_t byte_budget,
@@ -128,7 +139,7 @@ void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& wh
     sending_bricks_ = sending_mesh_ = false;
     volume_version_ = 0; // of no set
     if (bricks_)         // which may have got only a part
-        bricks_.emplace(*gl_, grid_, (set ? set : shown_)->bricks.held);
+        bricks_.emplace(*gl_, grid_, held_);
 }
 
 /// Begins to send a new set, or the volume of the shown one, if there is anything to send.
@@ -159,8 +170,7 @@ bool CellBuffers::make_room_for(const index::VolumeBricks& bricks) {
 
 /// @return false when the set is refused
 bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
-    if (!bricks_)
-        prepare(set->bricks.held);
+    hold(set->bricks.held);
     const bool with_points = set->shaded();
     refused_ = nullptr;
     refusal_.clear();
@@ -234,6 +244,7 @@ void CellBuffers::send_volume_of_shown(std::size_t bytes, std::size_t& sent) {
     if (!shown_ || has_volume() || no_volume_version_ == version_ || shown_->coarse())
         return;
     if (!sending_bricks_) {
+        hold(shown_->bricks.held);
         if (!make_room_for(shown_->bricks))
             return;
         sending_bricks_ = true;

@@ -18,6 +18,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -58,7 +59,8 @@ class CellBuffers {
 
     /// Makes the compute programs and runs each once, over no cells: compiling them takes longer
     /// than a frame may. Without this the first upload does it.
-    /// @param held type of the values in the volume bricks of all sets
+    /// @param held type of the values in the volume bricks of sets; those of others, from other arrays
+    /// of an index, can be made ready first
     void prepare(index::ValueType held);
 
     /// Sends at most `byte_budget` bytes (at least StagingRing::kUnit), fewer if the GPU has not
@@ -129,6 +131,7 @@ class CellBuffers {
     const BrickPool* bricks() const { return bricks_ ? &*bricks_ : nullptr; }
 
   private:
+    void hold(index::ValueType held);
     void give_up(const index::ExtractionPtr& set, const OutOfMemory& why);
     bool take_up(const index::ExtractionPtr& newest, SendVolume volume, std::size_t bytes,
                  std::size_t& sent);
@@ -151,8 +154,10 @@ class CellBuffers {
     DeviceArray points_, message_, styles_, corner_values_, corner_gradients_;
     MeshBuffers mesh_;
     Surroundings surroundings_;
-    std::optional<BrickPool> bricks_;    ///< made when the type is known
-    std::optional<CellCompute> compute_; ///< likewise
+    std::optional<BrickPool> bricks_;                  ///< made when the type is known
+    index::ValueType held_{};                          ///< of its values
+    std::map<index::ValueType, CellCompute> computes_; ///< by type of the values
+    CellCompute* compute_ = nullptr;                   ///< for `held_`; likewise
     index::ExtractionPtr shown_, refused_;
     std::string refusal_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set

@@ -3,8 +3,10 @@
 
 #include "index/error.h"
 #include "index/extraction/cell_change.h"
+#include "index/extraction/extraction.h"
 #include "index/extraction/index_search.h"
 #include "index/extraction/layer_search.h"
+#include "index/file/color_source.h"
 #include "tests/support/index_repair.h"
 
 #include <algorithm>
@@ -86,9 +88,30 @@ void use_index(const std::shared_ptr<const index::IndexFile>& file) {
     attempt([&] { file->verify(); });
 }
 
+/// The surfaces of the first array in the colors of each that there is to color by.
+void use_colors(const std::shared_ptr<const index::IndexFile>& file) {
+    constexpr std::size_t kMostBytes = 256 << 10, kMostColors = 3;
+    if (file->info().step_bytes() > kMostBytes || file->referral())
+        return;
+    const index::Extract extract = index::extract_from(file);
+    const double middle = file->stats().low / 2 + file->stats().high / 2;
+    const std::size_t colors = index::ColorSource::count(*file);
+    for (std::uint32_t number = 0; number < std::min(colors, kMostColors); ++number)
+        attempt([&] {
+            extract({.step = 0,
+                     .isovalues = {middle},
+                     .coloring = index::CellColoring::value,
+                     .colors = number},
+                    {});
+        });
+}
+
 void fuzz_index_file(Bytes input) {
     attempt([&] {
-        use_index(index::IndexFile::open(std::make_unique<IndexInMemory>(input), 1 << 20));
+        const auto file = index::IndexFile::open(std::make_unique<IndexInMemory>(input), 1 << 20);
+        for (std::size_t number = 0; number < std::min<std::size_t>(file->arrays(), 3); ++number)
+            use_index(index::array_of(file, number));
+        use_colors(file);
     });
 }
 

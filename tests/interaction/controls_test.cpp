@@ -163,7 +163,8 @@ TEST(Controls, LooksGoRoundByKeys) {
     EXPECT_EQ(desk.tap(bit(Action::next_coloring)).coloring,
               (Coloring{ColorBy::first_crossing, "dusk", {}}));
     desk.tap(bit(Action::next_coloring));
-    desk.context.has_second_array = true;
+    const std::vector<std::string> arrays{"u"};
+    desk.context.color_arrays = &arrays;
     EXPECT_EQ(desk.tap(bit(Action::next_coloring)).coloring,
               (Coloring{ColorBy::value, "dusk", {}}));
 }

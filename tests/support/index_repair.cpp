@@ -10,10 +10,14 @@
 #include "index/file/file_layout.h"
 #include "index/file/metadata.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace isochron::index {
 namespace {
@@ -31,6 +35,7 @@ class IndexRepair {
             header_ = at<FileHeader>(begin);
             if (header_.magic != FileHeader{}.magic || slot_of(header_) != begin)
                 continue;
+            repair_further_arrays();
             repair_parts();
             for (Section& section : header_.sections)
                 section.checksum = sum(section.offset, section.bytes);
@@ -68,6 +73,26 @@ class IndexRepair {
         } catch (const Error&) {
             return std::nullopt;
         }
+    }
+
+    /// Their checksums are hexadecimal digits in the metadata of the first array.
+    void repair_further_arrays() {
+        const auto known = metadata();
+        const FileHeader first = header_;
+        const Section& text = first.section(SectionKind::metadata);
+        for (const ArrayPlace& place : known ? known->further : std::vector<ArrayPlace>()) {
+            header_.sections = place.sections;
+            repair_parts();
+            for (const Section& section : place.sections) {
+                const auto digits = [](std::uint64_t sum) { return fmt::format("{:016x}", sum); };
+                const std::string_view all(
+                    reinterpret_cast<const char*>(file_.data() + text.offset), text.bytes);
+                const std::string now = digits(sum(section.offset, section.bytes));
+                if (const auto at = all.find(digits(section.checksum)); at != all.npos)
+                    std::memcpy(file_.data() + text.offset + at, now.data(), now.size());
+            }
+        }
+        header_ = first;
     }
 
     void repair_parts() {

@@ -7,6 +7,7 @@
 #include "index/extraction/index_search.h"
 #include "index/file/index_watch.h"
 #include "index/system/growing_file.h"
+#include "tests/support/files_in_memory.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -36,65 +37,11 @@ std::unique_ptr<MemorySeries> series_of(const StepValues& values, bool colors = 
     return series;
 }
 
-/// What was done to a file, in its order.
-struct Write {
-    enum Kind { write, flush, cut } kind;
-    std::uint64_t offset = 0; ///< or what is left of it
-    std::string bytes = {};
-};
-
-/// A file in memory that keeps a log.
-class LoggedFile final : public GrowingSink {
-  public:
-    explicit LoggedFile(std::string bytes) : bytes_(std::move(bytes)) {}
-
-    void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override {
-        log.push_back(
-            {Write::write, offset, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}});
-        written += bytes.size();
-        apply(bytes_, log.back());
-    }
-    void flush() override { log.push_back({Write::flush}); }
-    void cut(std::uint64_t bytes) override {
-        log.push_back({Write::cut, bytes});
-        apply(bytes_, log.back());
-    }
-
-    static void apply(std::string& file, const Write& write) {
-        if (write.kind == Write::cut && file.size() > write.offset)
-            file.resize(write.offset);
-        if (write.kind != Write::write)
-            return;
-        if (file.size() < write.offset + write.bytes.size())
-            file.resize(write.offset + write.bytes.size());
-        file.replace(write.offset, write.bytes.size(), write.bytes);
-    }
-
-    const std::string& bytes() const { return bytes_; }
-    std::vector<Write> log;
-    std::uint64_t written = 0;
-
-  private:
-    std::string bytes_;
-};
-
-/// A file in memory that is read.
-class BytesInMemory final : public ByteSource {
-  public:
-    explicit BytesInMemory(std::string bytes) : bytes_(std::move(bytes)) {}
-    const std::string& name() const override { return name_; }
-    std::uint64_t size() const override { return bytes_.size(); }
-
-  protected:
-    std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
-        const std::size_t count = std::min<std::size_t>(out.size(), bytes_.size() - offset);
-        std::memcpy(out.data(), bytes_.data() + offset, count);
-        return count;
-    }
-
-  private:
-    std::string name_ = "memory", bytes_;
-};
+std::unique_ptr<MemorySeries> flow_series(const StepValues& values) {
+    auto series = std::make_unique<MemorySeries>(values);
+    series->info().array = "flow";
+    return series;
+}
 
 std::shared_ptr<const IndexFile> opened(const std::string& bytes) {
     return IndexFile::open(std::make_unique<BytesInMemory>(bytes));
@@ -108,8 +55,10 @@ class IndexAppendTest : public testing::Test {
     }
 
     /// Appends to an index in memory; the bytes as they are then.
+    /// @param further of a second array, called `flow`
     std::string appended(const std::string& before, const StepValues& values,
-                         BuildOptions options = {}, const StepValues* colors = nullptr) {
+                         BuildOptions options = {}, const StepValues* colors = nullptr,
+                         const StepValues* further = nullptr) {
         const auto held = opened(before);
         options.codec = held->codec();
         LoggedFile file(before);
@@ -117,6 +66,11 @@ class IndexAppendTest : public testing::Test {
         if (colors)
             of_colors = append_colors_to(held, "memory", series_of(*colors, true));
         options.color = of_colors.get();
+        std::unique_ptr<VolumeSeries> of_further;
+        if (further)
+            of_further = append_to(array_of(held, 1), "memory", flow_series(*further));
+        if (further)
+            options.further.push_back({.series = of_further.get()});
         const auto series = append_to(held, "memory", series_of(values));
         if (!append_index(*series, *held, file, path, options, {}, *alone()))
             return {};
@@ -256,15 +210,22 @@ TEST_F(IndexAppendTest, AnyPrefixOfWhatItWritesLeavesTheOldIndexOrTheNewOne) {
     const TestField heat({18, 17, 9}, 6, ValueType::f32, turbulence(random));
     const auto series = series_of(first_steps(field.view(), 2));
     const auto colors = series_of(first_steps(heat.view(), 2), true);
-    build_index(*series, path, {.color = colors.get()});
+    const TestField flow({18, 17, 9}, 6, ValueType::u8, scaled(turbulence(random), 50, 90));
+    const auto further = flow_series(first_steps(flow.view(), 2));
+    build_index(*series, path, {.color = colors.get(), .further = {{.series = further.get()}}});
     std::string before = read_file(path);
     for (const std::size_t steps : {4, 5, 6}) { // both slots, and one that was used before
         const StepValues more = first_steps(heat.view(), steps);
         before += std::string(random() % 300, 'x'); // what a killed append left
-        const std::string after = appended(before, first_steps(field.view(), steps), {}, &more);
+        const StepValues more_flow = first_steps(flow.view(), steps);
+        const std::string after =
+            appended(before, first_steps(field.view(), steps), {}, &more, &more_flow);
         const std::uint64_t old_hash = opened(before)->content_hash();
         const std::uint64_t new_hash = opened(after)->content_hash();
         ASSERT_NE(old_hash, new_hash);
+        const std::uint64_t old_flow = opened(before)->array(1).content_hash();
+        const std::uint64_t new_flow = opened(after)->array(1).content_hash();
+        ASSERT_NE(old_flow, new_flow);
         int olds = 0, news = 0;
         const auto expect_one = [&](const std::string& file) {
             const auto index = opened(file);
@@ -272,6 +233,7 @@ TEST_F(IndexAppendTest, AnyPrefixOfWhatItWritesLeavesTheOldIndexOrTheNewOne) {
             const std::uint64_t hash = index->content_hash();
             (hash == new_hash ? news : olds) += 1;
             ASSERT_TRUE(hash == old_hash || hash == new_hash);
+            ASSERT_EQ(index->array(1).content_hash(), hash == new_hash ? new_flow : old_flow);
         };
         std::string durable = before; // what was flushed
         std::vector<Write> pending;

@@ -269,6 +269,38 @@ TEST_P(CellUpload, WhatIsPreparedCompilesNothingWhenTheFirstSetComes) {
     expect_whole(buffers);
 }
 
+TEST_P(CellUpload, SetsOfArraysWithValuesOfOtherTypesFollowEachOther) {
+    const TestField floats({kSide + 1, kSide + 1, kSide + 1}, 2, ValueType::f32,
+                           index::turbulence(random_));
+    Extractions of_floats(floats.view());
+    const auto by_place = [&](const CellBuffers& buffers) {
+        std::vector<std::array<std::uint32_t, 4>> all;
+        for (const index::CellPoint& p : drawn_points(buffers))
+            all.push_back({p.x, p.y, p.z, p.plane});
+        std::ranges::sort(all);
+        return all;
+    };
+    real_link = gl_.LinkProgram;
+    gl_.LinkProgram = counting_link;
+    CellBuffers buffers(gl_, field_.view().grid);
+    buffers.prepare(ValueType::u8);
+    buffers.prepare(ValueType::f32);
+    linked = 0;
+    for (int turn = 0; turn < 3; ++turn) {
+        const auto set =
+            turn % 2 == 0 ? extractions_.active(0, {100.5}) : of_floats.active(1, {0.1});
+        ASSERT_GT(set->cells(), 100u);
+        ASSERT_TRUE(buffers.upload(set, kEnough));
+        EXPECT_EQ(linked, 0) << "both were made ready";
+        EXPECT_TRUE(buffers.has_volume());
+        expect_whole(buffers);
+        CellBuffers fresh(gl_, field_.view().grid);
+        ASSERT_TRUE(fresh.upload(set, kEnough));
+        EXPECT_EQ(by_place(buffers), by_place(fresh)) << turn;
+        linked = 0;
+    }
+}
+
 GLenum APIENTRY never_passed(GLsync, GLbitfield, GLuint64) {
     return GL_TIMEOUT_EXPIRED;
 }

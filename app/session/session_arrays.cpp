@@ -1,0 +1,74 @@
+// Which array of the index a session shows, and by which it colors.
+#include "app/session/session.h"
+
+#include "app/scene/color_scale.h"
+#include "app/session/start_state.h"
+#include "index/error.h"
+#include "index/file/color_source.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace isochron::app {
+
+void Session::take_arrays() {
+    for (std::size_t number = 0; number < file_->arrays(); ++number) {
+        array_names_.push_back(file_->array(number).info().array);
+        if (number > 0)
+            scene_.prepare_for(file_->array(number).info());
+    }
+    for (std::size_t number = 0; number < index::ColorSource::count(*file_); ++number)
+        color_names_.push_back(index::ColorSource(*file_, number).array().array);
+}
+
+void Session::expect_array(const std::string& name) const {
+    if (!name.empty() && !file_->array_called(name))
+        throw index::Error(fmt::format("{}: no array {}, expected {}", file_->name(), name,
+                                       fmt::join(array_names_, ", ")));
+}
+
+void Session::set_state(const ExplorerState& state) {
+    expect_array(state.array);
+    state_ = state;
+    picker_.set_file(array_of(file_, array_number()));
+}
+
+/// Remembers how the array before was left, if there is another now.
+void Session::turn_to_array(const ExplorerState& before) {
+    expect_array(state_.array);
+    const std::size_t left = file_->array_called(before.array).value_or(0);
+    if (left == array_number())
+        return;
+    left_[left] = {before.isosurfaces, before.picked, before.coloring};
+    picker_.set_file(array_of(file_, array_number()));
+}
+
+interaction::Commands Session::way_to_array(std::size_t number) const {
+    interaction::Commands way;
+    way.array = array_names_[number];
+    if (const auto known = left_.find(number); known != left_.end()) {
+        way.isosurfaces = known->second.isosurfaces;
+        way.picked = known->second.picked;
+        way.coloring = known->second.coloring;
+    } else {
+        way.isosurfaces = first_surfaces(config_, file_->array(number).stats());
+        way.picked = 0;
+        way.coloring = state_.coloring;
+        if (way.coloring->by == interaction::ColorBy::value && way.coloring->array.empty())
+            way.coloring->range.reset(); // colors may stand for another array
+    }
+    if (state_.mark.point)
+        way.mark = interaction::Mark{}; // its value is of the array before
+    return way;
+}
+
+/// What is asked for: the state's surfaces, of its arrays.
+index::SurfacesQuery Session::surfaces() const {
+    index::SurfacesQuery query = state_.surfaces();
+    query.array = static_cast<std::uint32_t>(array_number());
+    if (query.coloring == index::CellColoring::value)
+        query.colors = static_cast<std::uint32_t>(color_array(state_, *file_));
+    return query;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,62 @@
+// The arrays by which surfaces of an index can be colored.
+#include "index/file/color_source.h"
+
+namespace isochron::index {
+namespace {
+
+/// The array of values alone belongs to the first array of the file.
+const ColorArray* values_alone_of(const IndexFile& file) {
+    return file.array(0).color();
+}
+
+ColorArray described(const IndexFile& file) {
+    const SeriesInfo& info = file.info();
+    const IndexStats& stats = file.stats();
+    return {.array = info.array,
+            .value_unit = info.value_unit,
+            .type = info.type,
+            .scaling = info.scaling,
+            .low = stats.low,
+            .high = stats.high,
+            .nan_values = stats.nan_values};
+}
+
+} // namespace
+
+std::size_t ColorSource::count(const IndexFile& file) {
+    const std::size_t arrays = file.arrays();
+    if (values_alone_of(file))
+        return arrays + 1;
+    return arrays > 1 ? arrays : 0;
+}
+
+ColorSource::ColorSource(const IndexFile& file, std::size_t number)
+    : file_(&file.array(0)), values_alone_(number == 0 && values_alone_of(file)) {
+    if (values_alone_) {
+        array_ = *file_->color();
+        return;
+    }
+    file_ = &file.array(number - (values_alone_of(file) ? 1 : 0));
+    array_ = described(*file_);
+}
+
+const ChunkStore* ColorSource::chunks(std::size_t level) const {
+    if (values_alone_)
+        return file_->color_chunks(level);
+    return level == 0 && file_->referral() ? nullptr : &file_->chunks(level);
+}
+
+LoadedStep ColorSource::load(std::uint32_t step, const std::stop_token& stop) const {
+    return values_alone_ ? file_->load_color(step, stop) : file_->load(step, stop);
+}
+
+std::size_t color_source_called(const IndexFile& file, std::string_view name,
+                                std::size_t surfaces) {
+    const std::size_t count = ColorSource::count(file), before = values_alone_of(file) ? 1 : 0;
+    for (std::size_t number = 0; !name.empty() && number < count; ++number)
+        if (ColorSource(file, number).array().array == name)
+            return number;
+    return before == 0 && surfaces == 0 && count > 1 ? 1 : 0;
+}
+
+} // namespace isochron::index

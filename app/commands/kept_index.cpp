@@ -272,9 +272,10 @@ fs::path kept_index(const BuildArguments& arguments, const fs::path& folder,
         fs::last_write_time(path, fs::file_time_type::clock::now(), ignored); // when it was used
         return path;
     }
-    for (const auto* notes : {&sources.volume->info().notes, &sources.notes})
-        for (const std::string& note : *notes)
-            fmt::print(stderr, "note: {}\n", note);
+    std::vector<std::string> notes = sources.volume->info().notes;
+    notes.insert(notes.end(), sources.notes.begin(), sources.notes.end());
+    for (const std::string& note : notes)
+        fmt::print(stderr, "note: {}\n", note);
     make_room(folder, path, most_bytes);
     return path;
 }

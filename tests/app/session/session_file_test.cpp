@@ -158,6 +158,7 @@ TEST(SessionFile, NoPixelOfAnyRestoredSessionDiffers) {
             {-0.6, 0.9, -1.9}, glm::normalize(glm::dquat(0.9, 0.1, 0.3, 0.1 * i)), 0.04};
         commands.isosurfaces = {{{3.0 + 0.5 * i, {0.2f, 0.7f, 0.9f}, i % 2 ? 0.4f : 1.0f}}};
         commands.isovalue.reset();
+        commands.array.reset(); // the index has one
         commands.leaving.reset();
         state.apply(commands, kSteps);
         state.playback.playing = false; // time goes on while it plays

@@ -3,6 +3,7 @@
 #include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/extraction.h"
+#include "index/extraction/recent_extractions.h"
 #include "index/file/color_source.h"
 #include "index/file/index_series.h"
 #include "index/file/index_watch.h"
@@ -232,6 +233,17 @@ TEST_F(IndexArrays, ColorTheSurfacesOfOthers) {
             EXPECT_EQ(found->surfaces[1].ids, expected->surfaces[1].ids);
             EXPECT_EQ(found->query, query);
         }
+}
+
+TEST_F(IndexArrays, WhatWasExtractedOfOneIsNotTakenForAnother) {
+    const SurfacesQuery query{.step = 3, .isovalues = {0.5}, .coloring = CellColoring::value};
+    SurfacesQuery surfaces = query, colors = query, step = query;
+    surfaces.array = 1;
+    colors.colors = 1;
+    step.step = 4;
+    EXPECT_TRUE(same_but_for_step(query, step));
+    EXPECT_FALSE(same_but_for_step(query, surfaces));
+    EXPECT_FALSE(same_but_for_step(query, colors));
 }
 
 TEST_F(IndexArrays, AnIndexWithOneKeepsItsBytesAndHasNoList) {

@@ -70,7 +70,8 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     const std::size_t row_size = values.grid.vertices[0];
     const std::size_t slice_size = row_size * values.grid.vertices[1];
     const T* const volume = values.step<T>(set.query.step).data();
-    const bool float_is_enough = kSmall && smallest >= kFloatIsEnough && !values.grid.rectilinear();
+    const bool regular = !values.grid.rectilinear();
+    const bool float_is_enough = kSmall && smallest >= kFloatIsEnough && regular;
     CellWalk walk(values.grid);
     // The current row:
     std::uint32_t y = 0, z = 0, inner_width = 0; // number of cells, from the second on, for `fast`
@@ -104,7 +105,7 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
         if (!differences)
             differences.emplace(values, set.query.step, y, z);
         exact.add(points[i], (*differences)(x), differences->slope(x, level),
-                  values.grid.even_size({x, y, z}));
+                  regular ? glm::dvec3(1.0) : values.grid.even_size({x, y, z}));
     }
     fast.finish();
     exact.finish();

@@ -30,20 +30,26 @@ void sort_ids(std::vector<CellId>& ids, std::uint64_t cells) {
         marks.of_ids.resize(words);
         marks.of_words.resize((words + 63) / 64);
     }
+    // Of many ids nearly every word has one, so that marks of words gain nothing.
+    const bool many = ids.size() >= cells / 256;
     for (const CellId id : ids)
         if (id < cells) {
             marks.of_ids[id / 64] |= std::uint64_t{1} << id % 64;
-            marks.of_words[id / 4096] |= std::uint64_t{1} << id / 64 % 64;
+            if (!many)
+                marks.of_words[id / 4096] |= std::uint64_t{1} << id / 64 % 64;
         }
     std::size_t out = 0;
-    for (std::size_t first = 0; first < words; first += 64) {
-        std::uint64_t& some = marks.of_words[first / 64];
-        for (; some != 0; some &= some - 1) {
-            const std::size_t word = first + std::countr_zero(some);
-            for (std::uint64_t& bits = marks.of_ids[word]; bits != 0; bits &= bits - 1)
-                ids[out++] = static_cast<CellId>(word * 64 + std::countr_zero(bits));
-        }
-    }
+    const auto take = [&](std::size_t word) {
+        for (std::uint64_t& bits = marks.of_ids[word]; bits != 0; bits &= bits - 1)
+            ids[out++] = static_cast<CellId>(word * 64 + std::countr_zero(bits));
+    };
+    if (many)
+        for (std::size_t word = 0; word < words; ++word)
+            take(word);
+    else
+        for (std::size_t first = 0; first < words; first += 64)
+            for (std::uint64_t& some = marks.of_words[first / 64]; some != 0; some &= some - 1)
+                take(first + std::countr_zero(some));
     ids.resize(out);
 }
 

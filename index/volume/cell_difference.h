@@ -17,44 +17,53 @@
 namespace isochron::index {
 
 /// Weights of the four planes around a cell in the differences along one axis: the planes of its
-/// two vertices and their outer neighbors. At the border, differences are one-sided. On a rectilinear
-/// grid they are the slopes per even coordinate (`Grid::slope_weights`).
+/// two vertices and their outer neighbors. At the border, differences are one-sided.
 struct AxisTaps {
-    AxisTaps(const Grid& grid, int axis, std::uint32_t cell, std::ptrdiff_t step) {
-        const std::uint32_t vertices = grid.vertices[static_cast<std::size_t>(axis)];
+    AxisTaps(std::uint32_t cell, std::uint32_t vertices, std::ptrdiff_t step) {
         const bool first = cell == 0, last = cell + 2 == vertices;
         below = first ? 0 : -step;
         above = last ? step : 2 * step;
         low_weight = first ? 1.0 : 0.5;
         high_weight = last ? 1.0 : 0.5;
         next = step;
-        even = grid.positions[static_cast<std::size_t>(axis)].even();
-        if (!even) {
-            low = grid.slope_weights(axis, cell);
-            high = grid.slope_weights(axis, cell + 1);
-        }
     }
     /// Sum of the differences at the cell's two vertices of one edge along this axis.
     template <class T>
     double operator()(const T* edge) const {
-        if (!even) {
-            const double own = static_cast<double>(edge[next]) - static_cast<double>(edge[0]);
-            double sum = (low.behind + high.before) * own;
-            if (below != 0)
-                sum +=
-                    low.before * (static_cast<double>(edge[0]) - static_cast<double>(edge[below]));
-            if (above != next)
-                sum += high.behind *
-                       (static_cast<double>(edge[above]) - static_cast<double>(edge[next]));
-            return sum;
-        }
         return low_weight * (static_cast<double>(edge[next]) - static_cast<double>(edge[below])) +
                high_weight * (static_cast<double>(edge[above]) - static_cast<double>(edge[0]));
     }
     std::ptrdiff_t below, next, above;
     double low_weight, high_weight;
-    Grid::SlopeWeights low, high; ///< where vertices are uneven
+};
+
+/// The same on a rectilinear grid, where the differences are slopes per even coordinate
+/// (`Grid::slope_weights`). Apart from AxisTaps, as it takes twice the time.
+struct UnevenAxisTaps {
+    UnevenAxisTaps(const Grid& grid, std::size_t axis, std::uint32_t cell, std::ptrdiff_t step)
+        : taps(cell, grid.vertices[axis], step), even(grid.positions[axis].even()) {
+        if (!even) {
+            low = grid.slope_weights(static_cast<int>(axis), cell);
+            high = grid.slope_weights(static_cast<int>(axis), cell + 1);
+        }
+    }
+    template <class T>
+    double operator()(const T* edge) const {
+        if (even)
+            return taps(edge);
+        const auto difference = [edge](std::ptrdiff_t from, std::ptrdiff_t to) {
+            return static_cast<double>(edge[to]) - static_cast<double>(edge[from]);
+        };
+        double sum = (low.behind + high.before) * difference(0, taps.next);
+        if (taps.below != 0)
+            sum += low.before * difference(taps.below, 0);
+        if (taps.above != taps.next)
+            sum += high.behind * difference(taps.next, taps.above);
+        return sum;
+    }
+    AxisTaps taps;
     bool even;
+    Grid::SlopeWeights low, high;
 };
 
 /// The slope of a cell's own eight values, and the way from their mean to the isovalue.
@@ -74,19 +83,15 @@ class CellDifferences {
   public:
     CellDifferences(const StepValues& values, std::uint32_t step, std::uint32_t y, std::uint32_t z)
         : nx_(values.grid.vertices[0]), row_(nx_),
-          slice_(std::ptrdiff_t{nx_} * values.grid.vertices[1]), grid_(values.grid),
-          dy_(grid_, 1, y, row_), dz_(grid_, 2, z, slice_),
+          slice_(std::ptrdiff_t{nx_} * values.grid.vertices[1]), grid_(values.grid), y_(y), z_(z),
+          regular_(!grid_.rectilinear()), dy_(y, grid_.vertices[1], row_),
+          dz_(z, grid_.vertices[2], slice_),
           first_(values.step<T>(step).data() + y * row_ + z * slice_) {}
 
     /// Four times the mean of the eight vertices' differences along every axis, per even coordinate.
     glm::dvec3 operator()(std::uint32_t x) const {
-        const T* v = first_ + x;
-        const AxisTaps dx(grid_, 0, x, 1);
-        return {dx(v) + dx(v + row_) + dx(v + slice_) + dx(v + row_ + slice_),
-                dy_(v) + dy_(v + 1) + dy_(v + slice_) + dy_(v + 1 + slice_),
-                dz_(v) + dz_(v + 1) + dz_(v + row_) + dz_(v + 1 + row_)};
+        return regular_ ? sums(x, AxisTaps(x, nx_, 1), dy_, dz_) : uneven_sums(x);
     }
-
     /// @param level isovalue among stored values
     CellSlope slope(std::uint32_t x, double level) const {
         std::array<double, 8> v;
@@ -103,10 +108,24 @@ class CellDifferences {
     }
 
   private:
+    template <class Taps>
+    glm::dvec3 sums(std::uint32_t x, const Taps& dx, const Taps& dy, const Taps& dz) const {
+        const T* v = first_ + x;
+        return {dx(v) + dx(v + row_) + dx(v + slice_) + dx(v + row_ + slice_),
+                dy(v) + dy(v + 1) + dy(v + slice_) + dy(v + 1 + slice_),
+                dz(v) + dz(v + 1) + dz(v + row_) + dz(v + 1 + row_)};
+    }
+    [[gnu::noinline]] glm::dvec3 uneven_sums(std::uint32_t x) const {
+        return sums(x, UnevenAxisTaps(grid_, 0, x, 1), UnevenAxisTaps(grid_, 1, y_, row_),
+                    UnevenAxisTaps(grid_, 2, z_, slice_));
+    }
+
     std::uint32_t nx_;
     std::ptrdiff_t row_, slice_;
     const Grid& grid_;
-    AxisTaps dy_, dz_;
+    std::uint32_t y_, z_;
+    bool regular_;
+    AxisTaps dy_, dz_; ///< for regular grids
     const T* first_;
 };
 

@@ -22,8 +22,8 @@ fs::path folder_of(const char* kind, const Target& target) {
 
 std::vector<Target> all_targets() {
     std::vector<Target> all;
-    for (const auto& group :
-         {volume_targets(), index_targets(), interaction_targets(), app_targets()})
+    for (const auto& group : {volume_targets(), decoder_targets(), index_targets(),
+                              interaction_targets(), app_targets()})
         all.insert(all.end(), group.begin(), group.end());
     return all;
 }

@@ -16,8 +16,13 @@ struct Target {
     void (*run)(Bytes input);
 };
 
-/// Files of volumes, whole: header and values. Units of time, two lines. Messages of readers.
+/// Files of volumes, whole: header and values; headers of BOV, MetaImage and NRRD beside files of
+/// values. Units of time, two lines. Messages of readers.
 std::span<const Target> volume_targets();
+
+/// What readers parse themselves: XDMF documents; Zarr hierarchies, as
+/// text with a line `@key` before each value, and as zip files; descriptions in TIFF files.
+std::span<const Target> decoder_targets();
 
 /// Indices, whole: their checksums are made to match before they are read.
 std::span<const Target> index_targets();

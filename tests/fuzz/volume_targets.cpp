@@ -1,4 +1,5 @@
 // Fuzz targets: files of volumes that the program decodes itself.
+#include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/targets.h"
 
 #include "index/error.h"
@@ -7,36 +8,14 @@
 #include "index/formats/time_unit.h"
 #include "index/reader/reader_messages.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace isochron::fuzz {
 namespace {
-
-/// A file in memory, with a name under which it is opened.
-class MemoryFile {
-  public:
-    explicit MemoryFile(Bytes bytes) : file_(::memfd_create("input", MFD_CLOEXEC)) {
-        if (file_ < 0 ||
-            ::write(file_, bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size()))
-            throw std::runtime_error("no file in memory");
-    }
-    ~MemoryFile() { ::close(file_); }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-
-    std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
-
-  private:
-    int file_;
-};
 
 /// Options that come with the input's length, so that a file alone is an input.
 index::ReadOptions options_for(Bytes input) {
@@ -47,12 +26,12 @@ index::ReadOptions options_for(Bytes input) {
     return options;
 }
 
-/// Opens the input and reads its steps from the last to the first, and then the last one again.
-void read_all(Bytes input, index::OpenVolumeFile open, const index::ReadOptions& options) {
+/// Opens a file and reads its steps from the last to the first, and then the last one again.
+void read_file(const std::string& path, index::OpenVolumeFile open,
+               const index::ReadOptions& options) {
     constexpr std::size_t kMostBytes = 256 << 10, kMostSteps = 8;
-    const MemoryFile file(input);
     try {
-        const auto series = index::open_file_series({{file.path(), open, std::nullopt}}, options);
+        const auto series = index::open_file_series({{path, open, std::nullopt}}, options);
         const index::SeriesInfo& info = series->info();
         claim(info.steps() > 0, "a series has a step");
         if (info.step_bytes() > kMostBytes)
@@ -66,6 +45,29 @@ void read_all(Bytes input, index::OpenVolumeFile open, const index::ReadOptions&
     } catch (const index::Error& error) {
         claim_one_line(error.what());
     }
+}
+
+void read_all(Bytes input, index::OpenVolumeFile open, const index::ReadOptions& options) {
+    const MemoryFile file(input);
+    read_file(file.path(), open, options);
+}
+
+/// The input is a header beside files of values: `a`, `b`, `c` of 4,096 bytes, and `v01` to `v04`.
+void read_header(Bytes input, const char* name, index::OpenVolumeFile open) {
+    static const ValueFiles kFiles;
+    read_file(kFiles.with_header(name, input), open, options_for(input));
+}
+
+void fuzz_nrrd_parts(Bytes input) {
+    read_header(input, "h.nhdr", index::open_nrrd);
+}
+
+void fuzz_metaimage_parts(Bytes input) {
+    read_header(input, "h.mhd", index::open_metaimage);
+}
+
+void fuzz_bov(Bytes input) {
+    read_header(input, "h.bov", index::open_bov);
 }
 
 void fuzz_nrrd(Bytes input) {
@@ -124,10 +126,15 @@ void fuzz_reader(Bytes input) {
 } // namespace
 
 std::span<const Target> volume_targets() {
-    static constexpr std::array kTargets{
-        Target{"nrrd", fuzz_nrrd},           Target{"metaimage", fuzz_metaimage},
-        Target{"nifti", fuzz_nifti},         Target{"raw", fuzz_raw},
-        Target{"time_unit", fuzz_time_unit}, Target{"reader", fuzz_reader}};
+    static constexpr std::array kTargets{Target{"nrrd", fuzz_nrrd},
+                                         Target{"metaimage", fuzz_metaimage},
+                                         Target{"nifti", fuzz_nifti},
+                                         Target{"raw", fuzz_raw},
+                                         Target{"time_unit", fuzz_time_unit},
+                                         Target{"reader", fuzz_reader},
+                                         Target{"nrrd_parts", fuzz_nrrd_parts},
+                                         Target{"metaimage_parts", fuzz_metaimage_parts},
+                                         Target{"bov", fuzz_bov}};
     return kTargets;
 }
 

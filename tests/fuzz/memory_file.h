@@ -26,7 +26,7 @@ class MemoryFile {
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
 
-    std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
+    std::string path() const { return std::string("/proc/self/fd/").append(std::to_string(file_)); }
 
   private:
     int file_;

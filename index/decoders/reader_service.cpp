@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <new>
 #include <optional>
 
@@ -84,12 +85,13 @@ class Service {
         try {
             return work();
         } catch (const Error& error) {
-            return Refused{error.what()};
+            return Refused{in_one_line(error.what())};
         } catch (const std::bad_alloc&) {
             return Refused{fmt::format("{}: cannot be read: out of memory ({})", path_.string(),
                                        limits_->text())};
         } catch (const std::exception& other) {
-            return Refused{fmt::format("{}: cannot be read: {}", path_.string(), other.what())};
+            return Refused{
+                in_one_line(fmt::format("{}: cannot be read: {}", path_.string(), other.what()))};
         }
     }
 
@@ -109,6 +111,12 @@ std::uint32_t slices_worth_asking(const SeriesInfo& info) {
     const std::uint64_t slice = info.step_bytes() / info.grid.vertices[2];
     return static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(kBytes / slice, 1, info.grid.vertices[2]));
+}
+
+std::string in_one_line(std::string message) {
+    std::ranges::replace_if(
+        message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    return message;
 }
 
 void serve(MessageSocket& socket, std::span<const Decoder> decoders,

@@ -5,6 +5,7 @@
 #include "index/reader/message_socket.h"
 
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Decoder {
 
 using ReadCollectionFile =
     std::vector<std::pair<std::filesystem::path, double>> (*)(const std::filesystem::path&);
+
+/// The message as one line: control characters, as names inside files may have, become blanks.
+std::string in_one_line(std::string message);
 
 /// Answers requests until the other end is closed.
 /// @param collection reads .pvd; null if this reader does not

@@ -183,6 +183,8 @@ void expect_few_steps(std::size_t steps, const std::string& file) {
     constexpr std::size_t kMost = std::size_t{1} << 20;
     if (steps > kMost)
         throw Error(fmt::format("{}: {} steps, at most {} are supported", file, steps, kMost));
+    if (steps == 0)
+        throw Error(fmt::format("{}: no steps", file));
 }
 
 void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file) {

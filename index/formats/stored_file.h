@@ -37,7 +37,7 @@ void give_times(SeriesInfo& info, const StoredLayout& layout, std::size_t steps)
 /// @throws Error naming the file when one is zero or not finite, or all lie in a plane
 void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file);
 
-/// Checks that there are at most a million steps; a header with more must be wrong.
+/// Checks that there are 1 to a million steps; a header with more must be wrong.
 /// @throws Error naming the file
 void expect_few_steps(std::size_t steps, const std::string& file);
 

@@ -4,6 +4,7 @@
 #include "tests/fuzz/targets.h"
 
 #include "index/decoders/decoders.h"
+#include "index/decoders/reader_service.h"
 #include "index/decoders/tiff_metadata.h"
 #include "index/decoders/zarr_store.h"
 #include "index/error.h"
@@ -49,7 +50,7 @@ void open_and_read(const Open& open, Bytes input) {
         if (file)
             read_decoded(*file);
     } catch (const index::Error& error) {
-        claim_one_line(error.what());
+        claim_one_line(index::in_one_line(error.what())); // as a reader sends it
     }
 }
 

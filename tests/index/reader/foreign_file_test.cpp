@@ -99,6 +99,14 @@ TEST(ForeignFile, WhoseReaderIsKilledIsOneLine) {
     expect_good(*file); // in another
 }
 
+TEST(ForeignFile, WhoseNameHasControlCharactersIsRefusedInOneLine) {
+    ReaderPool pool;
+    TestFolder folder;
+    folder.write("a\nb.vti", "<VTKFile>");
+    EXPECT_THAT(error_of([&] { open_in(pool, folder.path() / "a\nb.vti"); }),
+                AllOf(HasSubstr("a b.vti"), testing::Not(HasSubstr("\n"))));
+}
+
 // What an earlier file has done to a reader is no fault of this one.
 TEST(ForeignFile, IsReadAgainWhereItsReaderHadSeenOthers) {
     ReaderPool pool;

@@ -124,9 +124,16 @@ void ZarrArray::fill_with(const json& value) {
         });
 }
 
+std::vector<std::size_t> ZarrArray::lengths_in(const json& list) const {
+    for (const json& length : list)
+        if (!length.is_number_unsigned())
+            throw Error(fmt::format("{}: {}, expected a whole number", where(""), length.dump()));
+    return list.get<std::vector<std::size_t>>();
+}
+
 void ZarrArray::describe_v2(const json& j) {
-    j.at("shape").get_to(shape_);
-    j.at("chunks").get_to(chunk_);
+    shape_ = lengths_in(j.at("shape"));
+    chunk_ = lengths_in(j.at("chunks"));
     const json& dtype = j.at("dtype");
     const std::string name = dtype.is_string() ? dtype.get<std::string>() : "";
     type_ = type_of_zarr(name);
@@ -151,14 +158,14 @@ void ZarrArray::describe_v2(const json& j) {
 }
 
 void ZarrArray::describe_v3(const json& j) {
-    j.at("shape").get_to(shape_);
+    shape_ = lengths_in(j.at("shape"));
     const json& type = j.at("data_type");
     type_ = type_of_zarr(type.is_string() ? type.get<std::string>() : "");
     const json& grid = j.at("chunk_grid");
     if (grid.at("name") != "regular")
         throw Error(fmt::format("{}: a chunk grid {}, expected regular", where(""),
                                 grid.at("name").dump()));
-    grid.at("configuration").at("chunk_shape").get_to(chunk_);
+    chunk_ = lengths_in(grid.at("configuration").at("chunk_shape"));
     const json encoding = j.value("chunk_key_encoding", json::object());
     const bool slashes = encoding.value("name", "default") == "default";
     prefix_ = slashes ? "c" : "";
@@ -183,7 +190,7 @@ ZarrArray::Pipeline ZarrArray::pipeline_v3(const json& codecs, bool outer) {
         if (name == "bytes")
             pipeline.big_endian = configuration.value("endian", "little") == "big";
         else if (name == "transpose")
-            configuration.at("order").get_to(pipeline.order);
+            pipeline.order = lengths_in(configuration.at("order"));
         else if (name == "sharding_indexed" && outer && codecs.size() == 1)
             take_shard(configuration);
         else
@@ -199,7 +206,7 @@ ZarrArray::Pipeline ZarrArray::pipeline_v3(const json& codecs, bool outer) {
 }
 
 void ZarrArray::take_shard(const json& configuration) {
-    configuration.at("chunk_shape").get_to(inner_);
+    inner_ = lengths_in(configuration.at("chunk_shape"));
     pipeline_ = pipeline_v3(configuration.at("codecs"), false);
     index_ = pipeline_v3(configuration.at("index_codecs"), false);
     index_at_end_ = configuration.value("index_location", "end") == "end";

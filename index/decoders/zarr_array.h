@@ -55,6 +55,8 @@ class ZarrArray {
     };
     ZarrArray(const ZarrStore& store, std::string path) : store_(&store), path_(std::move(path)) {}
 
+    /// @throws Error where one is not whole, or negative
+    std::vector<std::size_t> lengths_in(const nlohmann::json& list) const;
     void describe_v2(const nlohmann::json& j);
     void describe_v3(const nlohmann::json& j);
     Pipeline pipeline_v3(const nlohmann::json& codecs, bool outer);

@@ -141,7 +141,7 @@ void fuzz_tiff_description(Bytes input) {
               "every plane has a page");
         claim(std::isfinite(stack.time_step), "times are finite");
     } catch (const index::Error& error) {
-        claim_one_line(error.what());
+        claim_one_line(index::in_one_line(error.what()));
     }
 }
 

@@ -50,20 +50,21 @@ bool may_be_seen(const glm::mat4& clip_from_index, const glm::vec3& low, const g
 
 } // namespace
 
-/// A region in even coordinates, and the mean sides of its cells of level 0.
-struct DetailChoice::Box {
-    glm::vec3 low, high, cell;
-};
+DetailChoice::DetailChoice(const index::Grid& grid, std::uint64_t most)
+    : regions_(grid), most_(most), small_(grid.cell_count() <= kSmallVolume) {
+    for (std::size_t i = 0; i < regions_.size(); ++i)
+        boxes_.push_back(box_of(i, grid));
+}
 
-DetailChoice::Box DetailChoice::box_of(std::size_t region) const {
+DetailChoice::Box DetailChoice::box_of(std::size_t region, const index::Grid& grid) const {
     const auto at = regions_.at(region);
     Box box{};
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const std::uint32_t first = at[a] * regions_.edge();
-        const std::uint32_t last = std::min(first + regions_.edge(), grid_.cells()[a]);
-        box.low[axis] = static_cast<float>(grid_.even_place(axis, first));
-        box.high[axis] = static_cast<float>(grid_.even_place(axis, last));
+        const std::uint32_t last = std::min(first + regions_.edge(), grid.cells()[a]);
+        box.low[axis] = static_cast<float>(grid.even_place(axis, first));
+        box.high[axis] = static_cast<float>(grid.even_place(axis, last));
         box.cell[axis] = (box.high[axis] - box.low[axis]) / static_cast<float>(last - first);
     }
     return box;
@@ -72,16 +73,13 @@ DetailChoice::Box DetailChoice::box_of(std::size_t region) const {
 void DetailChoice::look(std::span<const render::View> views, const render::Placement& placement) {
     ideal_.assign(views.empty() ? 0 : regions_.size(), kFarthest);
     const glm::vec3 spacing = placement.spacing();
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < ideal_.size(); ++i)
-        boxes.push_back(box_of(i));
     for (const render::View& view : views) {
         const glm::mat4 clip_from_index =
             view.clip_from_eye * view.eye_from_room * placement.room_from_index;
         const glm::vec3 eye(glm::inverse(placement.room_from_index) *
                             glm::vec4(view.eye_in_room(), 1.0f));
         for (std::size_t i = 0; i < ideal_.size(); ++i) {
-            const auto& [low, high, cell] = boxes[i];
+            const auto& [low, high, cell] = boxes_[i];
             const glm::vec3 sides = cell * spacing;
             const double pixels = pixels_at_one_meter(view, std::max({sides.x, sides.y, sides.z}));
             const glm::vec3 beside = eye - glm::clamp(eye, low, high);

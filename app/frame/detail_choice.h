@@ -27,8 +27,7 @@ class DetailChoice {
     static constexpr std::uint64_t kSmallVolume = 1 << 18;
 
     /// @param most cells that a set may have at all
-    DetailChoice(const index::Grid& grid, std::uint64_t most)
-        : grid_(grid), regions_(grid), most_(most), small_(grid.cell_count() <= kSmallVolume) {}
+    DetailChoice(const index::Grid& grid, std::uint64_t most);
 
     /// Whether the volume is so small that nothing has to be chosen.
     bool small() const { return small_; }
@@ -51,11 +50,14 @@ class DetailChoice {
     index::DetailQuery at_rest(std::uint64_t cells) const;
 
   private:
-    struct Box;
-    Box box_of(std::size_t region) const;
+    /// A region in even coordinates, and the mean sides of its cells of level 0.
+    struct Box {
+        glm::vec3 low, high, cell;
+    };
+    Box box_of(std::size_t region, const index::Grid& grid) const;
 
-    index::Grid grid_;
     index::DetailRegions regions_;
+    std::vector<Box> boxes_; ///< by region
     std::uint64_t most_;
     bool small_;
     int step_ = -1;                 ///< the chosen number of cells; below 0: none yet

@@ -29,7 +29,8 @@ std::size_t color_array(const ExplorerState& state, const index::IndexFile& file
 std::optional<std::array<double, 2>> PercentileRange::of(const index::ExtractionPtr& shown,
                                                          const std::array<double, 2>& whole,
                                                          const std::array<double, 2>& percentiles) {
-    if (shown == shown_ && whole == whole_ && percentiles == percentiles_)
+    const bool same_set = !shown.owner_before(shown_) && !shown_.owner_before(shown);
+    if (same_set && whole == whole_ && percentiles == percentiles_)
         return range_;
     shown_ = shown;
     whole_ = whole;

@@ -6,6 +6,7 @@
 #include "render/passes/color_map.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,7 +47,7 @@ class PercentileRange {
                                             const std::array<double, 2>& percentiles);
 
   private:
-    index::ExtractionPtr shown_;
+    std::weak_ptr<const index::Extraction> shown_; ///< keeps no set that is shown no longer
     std::array<double, 2> whole_{}, percentiles_{};
     std::optional<std::array<double, 2>> range_;
 };

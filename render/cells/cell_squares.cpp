@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -228,10 +229,10 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells,
 
 /// Projects the next cells and stores the results from index `i` of the arrays.
 /// @param planes null if the cells are spheres
-template <bool kMixed, bool kUneven>
+template <CellKind kKind>
 HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* words,
                              const std::uint32_t* planes, std::size_t i, const SquareArrays& out) {
-    auto cells = boxes<kMixed, kUneven>(p, words);
+    auto cells = boxes<kKind>(p, words);
     if (planes) {
         const auto shape = ellipsoids(p, planes, cells);
         project_shape<true>(p, shape, cells, i, out);
@@ -242,28 +243,26 @@ HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* wor
     }
 }
 
-template <bool kMixed, bool kUneven>
+template <CellKind kKind>
 HWY_INLINE void project_all(const SquareProjection& p, const std::uint32_t* words,
                             const std::uint32_t* planes, std::size_t cells,
                             const SquareArrays& out) {
     for (std::size_t i = 0; i < cells; i += hn::Lanes(Floats()))
-        project_next<kMixed, kUneven>(p, words + 2 * i, planes ? planes + i : nullptr, i, out);
+        project_next<kKind>(p, words + 2 * i, planes ? planes + i : nullptr, i, out);
 }
 
 } // namespace
 
-/// @param mixed the cells are of several levels of detail
 void project(const SquareProjection& projection, const std::uint32_t* words,
-             const std::uint32_t* planes, std::size_t cells, bool mixed, const SquareArrays& out) {
-    const bool uneven = projection.places[0] != nullptr;
-    if (mixed && uneven)
-        project_all<true, true>(projection, words, planes, cells, out);
-    else if (mixed)
-        project_all<true, false>(projection, words, planes, cells, out);
-    else if (uneven)
-        project_all<false, true>(projection, words, planes, cells, out);
-    else
-        project_all<false, false>(projection, words, planes, cells, out);
+             const std::uint32_t* planes, std::size_t cells, CellKind kind,
+             const SquareArrays& out) {
+    switch (kind) {
+    case CellKind::even: return project_all<CellKind::even>(projection, words, planes, cells, out);
+    case CellKind::mixed:
+        return project_all<CellKind::mixed>(projection, words, planes, cells, out);
+    case CellKind::uneven:
+        return project_all<CellKind::uneven>(projection, words, planes, cells, out);
+    }
 }
 
 } // namespace isochron::render::HWY_NAMESPACE
@@ -320,8 +319,11 @@ void CellSquares::project(const View& view, const Placement& placement, const Sp
         projection.sides[axis] = axes_[axis].side.data();
         projection.last[axis] = static_cast<std::int32_t>(axes_[axis].place.size()) - 1;
     }
+    const bool mixed = slots.largest > 0;
+    assert(!(mixed && grid_));
+    const CellKind kind = grid_ ? CellKind::uneven : mixed ? CellKind::mixed : CellKind::even;
     HWY_DYNAMIC_DISPATCH(project)
-    (projection, words_.data(), on_planes ? planes_.data() : nullptr, whole, slots.largest > 0,
+    (projection, words_.data(), on_planes ? planes_.data() : nullptr, whole, kind,
      {x_.data(), y_.data(), z_.data(), inner_.data(), outer_.data(), inner_disc_.data(),
       outer_disc_.data(), xx_.data(), xy_.data(), yy_.data()});
 }

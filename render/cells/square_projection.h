@@ -11,6 +11,13 @@
 
 namespace isochron::render {
 
+/// Where the cells of a set lie. Those of mixed levels on a rectilinear grid are not projected.
+enum class CellKind : std::uint8_t {
+    even,  ///< on a regular grid
+    mixed, ///< of mixed levels of detail, on a regular grid
+    uneven ///< on a rectilinear grid
+};
+
 /// The data that all cells share.
 struct SquareProjection {
     glm::vec4 row_x, row_y, row_z, row_w; ///< from index to clip space, x and y in pixels

@@ -3,6 +3,7 @@
 
 #include "app/commands/file_patterns.h"
 #include "index/file/index_file.h"
+#include "index/formats/resampled_series.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -56,6 +57,8 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
         read.dims = {arguments.dims[0], arguments.dims[1], arguments.dims[2]};
     if (!arguments.resample.empty())
         read.resample = {arguments.resample[0], arguments.resample[1], arguments.resample[2]};
+    if (arguments.resample_by_cell)
+        read.resample = index::kBySmallestCell;
     if (!arguments.type.empty())
         read.type = index::value_type_from_name(arguments.type);
     read.spacing = vector_of(arguments.spacing);
@@ -181,6 +184,10 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .values(3)
         .type_name("NX NY NZ")
         .between(2u, 65537u)
+        .group("Reading");
+    command
+        .flag("--resample-by-cell", arguments.resample_by_cell,
+              "The same, with the smallest cell's size as the distance between vertices")
         .group("Reading");
     command
         .flag("--times-from-names", read.times_from_names,

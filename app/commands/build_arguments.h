@@ -17,6 +17,7 @@ struct BuildArguments {
     index::ReadOptions read;
     std::string type;
     std::vector<std::uint32_t> dims, resample;
+    bool resample_by_cell = false; ///< by the size of the smallest cell
     std::vector<double> spacing, origin;
     index::BuildOptions build;
     std::string tiers, codec;

@@ -104,7 +104,7 @@ bool only_describes(const ExploreOptions& options) {
 /// What there is of a session whose display is gone.
 void save(const ExploreOptions& options, LiveLoop& live, Session& session) {
     try {
-        live.finish(session.state());
+        live.finish(session);
         session.outputs().pictures().finish();
         if (options.record)
             fmt::print(stderr, "recording: {}\n", *options.record);
@@ -173,6 +173,8 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
         }
         file = open_index_to_show(*options.data, config.cache_bytes());
         if (job.leads())
+            warn_of_colors(config, *file);
+        if (job.leads())
             check_start(options, *file, indexing ? indexing->state().of : file->info().steps());
         check_outputs(options, job);
     });
@@ -197,7 +199,9 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
                                steps, "--resume")
                     : opened->state();
         opened->set_state(start);
-        if (!earlier)
+        if (earlier)
+            opened->recall_arrays(earlier->arrays);
+        else
             opened->set_state(with_first_array(*opened, options, *file));
         opened->set_state(start_from(opened->state(), options, steps));
         opened->outputs().set_screenshots(options.screenshots);
@@ -242,7 +246,7 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
         job.follow(session);
     }
     session.frames().end();
-    live.finish(session.state());
+    live.finish(session);
     session.outputs().pictures().finish();
     if (session.panel().introduced())
         memory.set_introduced();

@@ -11,10 +11,13 @@
 #include "app/session/recording_file.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/file/color_source.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <vector>
@@ -151,6 +154,19 @@ stereo::Windows open_windows(const ExploreOptions& options, const Config& config
          .console = job.leads() ? config.panel.console : std::nullopt,
          .rank = job.rank(),
          .ranks = job.size()});
+}
+
+void warn_of_colors(const Config& config, const index::IndexFile& file) {
+    const std::string& wanted = config.coloring.array;
+    if (wanted.empty())
+        return;
+    std::vector<std::string> there;
+    for (std::size_t number = 0; number < index::ColorSource::count(file); ++number)
+        there.push_back(index::ColorSource(file, number).array().array);
+    if (std::ranges::find(there, wanted) == there.end())
+        fmt::print(stderr, "isochron: warning: {}: no array {} to color by, there {}\n",
+                   file.name(), wanted,
+                   there.empty() ? "is none" : fmt::format("are {}", fmt::join(there, ", ")));
 }
 
 void warn(const Config& config) {

@@ -17,6 +17,9 @@ Config configure(const ExploreOptions& options);
 /// Warns of what is wrong with a configuration, or missing for it.
 void warn(const Config& config);
 
+/// Says so if the data lack the array that the configuration colors by.
+void warn_of_colors(const Config& config, const index::IndexFile& file);
+
 /// @param steps of the whole series, of which the file may have the first only
 /// @throws UsageError when the session cannot start as it was asked to
 void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps);

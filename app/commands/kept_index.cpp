@@ -71,6 +71,8 @@ std::string options_text(const BuildArguments& arguments) {
     key += fmt::format("{} {} {} {}", fmt::join(arguments.dims, ","),
                        fmt::join(arguments.resample, ","), fmt::join(arguments.spacing, ","),
                        fmt::join(arguments.origin, ","));
+    if (arguments.resample_by_cell)
+        key += "by cell";
     return key;
 }
 

@@ -80,7 +80,8 @@ void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& pa
     if (path)
         live.keep_session(*path,
                           {std::string(kProgram), std::filesystem::absolute(data).string(),
-                           data_hash_of(file), session.state().as_commands(), live.standing()},
+                           data_hash_of(file), session.state().as_commands(), live.standing(),
+                           session.left_arrays()},
                           earlier.has_value());
 }
 

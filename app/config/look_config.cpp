@@ -42,6 +42,7 @@ void read_coloring(TomlReader& reader, const std::string& name, interaction::Col
         coloring.map = word;
         coloring.colors = std::ranges::find(color_maps, word, &LoadedColorMap::name)->colors;
     });
+    reader.text("array", coloring.array);
     reader.flag("reversed", coloring.reversed);
     int bands = static_cast<int>(coloring.bands);
     reader.integer("bands", 0, static_cast<int>(interaction::kMostBands), bands);

@@ -198,7 +198,8 @@ void LiveLoop::run(Session& session) {
             record({input, commands, from_panel, name_of(drawn.footprint), session.latched()});
         session.show_messages(recording_.messages());
         if (keeper_) {
-            keeper_->update(session.state(), emulation_.standing(), input.time);
+            keeper_->update(session.state(), emulation_.standing(), input.time,
+                            session.left_arrays());
             session.show_messages(keeper_->messages());
         }
         make_movies(session);
@@ -225,7 +226,7 @@ void LiveLoop::run(PatternShow& show) {
     }
 }
 
-void LiveLoop::finish(const ExplorerState& state) {
+void LiveLoop::finish(const Session& session) {
     if (movies_) {
         movies_->finish();
         last_words_ = movies_->messages();
@@ -234,7 +235,7 @@ void LiveLoop::finish(const ExplorerState& state) {
     if (recorder_)
         recorder_->finish();
     if (keeper_)
-        keeper_->finish(state, emulation_.standing());
+        keeper_->finish(session.state(), emulation_.standing(), session.left_arrays());
 }
 
 std::vector<std::string> LiveLoop::status() const {

@@ -4,7 +4,7 @@
 //     LiveLoop live(config, std::move(trackers), {}, session.outputs().headset());
 //     live.record("walk.jsonl", header);
 //     live.run(session);
-//     live.finish(session.state());
+//     live.finish(session);
 #pragma once
 
 #include "app/config/config.h"
@@ -86,7 +86,7 @@ class LiveLoop {
 
     /// Completes the recording, if there is one, and saves the session.
     /// @throws index::Error, interaction::Error when it cannot be written
-    void finish(const ExplorerState& state);
+    void finish(const Session& session);
     /// Status of the trackers and the headset, a line each.
     std::vector<std::string> status() const;
 

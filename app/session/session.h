@@ -60,6 +60,9 @@ class Session {
     /// Commands that show an array as it was left, or as at a first look.
     /// @param number as `index::IndexFile::array` takes it
     interaction::Commands way_to_array(std::size_t number) const;
+    /// How arrays that are not shown were left, and the same again, as `SavedSession` has it.
+    std::vector<interaction::Commands> left_arrays() const;
+    void recall_arrays(const std::vector<interaction::Commands>& left);
     /// @param name of an array of the surfaces; empty: the first
     /// @throws index::Error when the index has no such array
     void expect_array(const std::string& name) const;
@@ -178,13 +181,6 @@ class Session {
         std::optional<interaction::Pointed> pointed;
     };
 
-    /// How an array was left.
-    struct ArrayView {
-        std::vector<interaction::Isosurface> isosurfaces;
-        std::uint32_t picked = 0;
-        interaction::Coloring coloring;
-    };
-
     void take_arrays();
     void turn_to_array(const ExplorerState& before);
     std::size_t array_number() const { return file_->array_called(state_.array).value_or(0); }
@@ -248,7 +244,8 @@ class Session {
     ExplorerState home_;
     interaction::Commands start_; ///< commands that lead back to home_
     std::vector<std::string> array_names_, color_names_;
-    std::map<std::size_t, ArrayView> left_; ///< arrays that were shown before, by number
+    /// How arrays that were shown before were left, by number.
+    std::map<std::size_t, interaction::Commands> left_;
     std::optional<interaction::Commands> next_array_;
     interaction::Controls controls_;
     interaction::MotionGate gate_;

@@ -39,18 +39,34 @@ void Session::turn_to_array(const ExplorerState& before) {
     const std::size_t left = file_->array_called(before.array).value_or(0);
     if (left == array_number())
         return;
-    left_[left] = {before.isosurfaces, before.picked, before.coloring};
+    interaction::Commands& kept = left_[left];
+    kept.array = array_names_[left];
+    kept.isosurfaces = before.isosurfaces;
+    kept.picked = before.picked;
+    kept.coloring = before.coloring;
     picker_.set_file(array_of(file_, array_number()));
+}
+
+std::vector<interaction::Commands> Session::left_arrays() const {
+    std::vector<interaction::Commands> left;
+    for (const auto& [number, commands] : left_)
+        if (number != array_number())
+            left.push_back(commands);
+    return left;
+}
+
+void Session::recall_arrays(const std::vector<interaction::Commands>& left) {
+    for (const interaction::Commands& commands : left)
+        if (const auto number = file_->array_called(*commands.array))
+            left_[*number] = commands;
 }
 
 interaction::Commands Session::way_to_array(std::size_t number) const {
     interaction::Commands way;
-    way.array = array_names_[number];
     if (const auto known = left_.find(number); known != left_.end()) {
-        way.isosurfaces = known->second.isosurfaces;
-        way.picked = known->second.picked;
-        way.coloring = known->second.coloring;
+        way = known->second;
     } else {
+        way.array = array_names_[number];
         way.isosurfaces = first_surfaces(config_, file_->array(number).stats());
         way.picked = 0;
         way.coloring = state_.coloring;

@@ -40,6 +40,24 @@ interaction::StandingPlace place_from(const json& value) {
     return head;
 }
 
+std::vector<interaction::Commands> arrays_from(const json& value) {
+    std::vector<interaction::Commands> arrays;
+    for (const json& one : interaction::list(value, "arrays", 0, index::kMostArrays)) {
+        arrays.push_back(interaction::commands_from(one, "arrays"));
+        const interaction::Commands& left = arrays.back();
+        if (!left.array || !left.isosurfaces || !left.picked || !left.coloring)
+            throw interaction::Error("arrays: expected array, isosurfaces, picked and coloring");
+    }
+    return arrays;
+}
+
+json arrays_json(const std::vector<interaction::Commands>& arrays) {
+    json list = json::array();
+    for (const interaction::Commands& left : arrays)
+        list.push_back(interaction::commands_json(left));
+    return list;
+}
+
 SavedSession session_from(const json& value) {
     interaction::Members members(value, "session");
     if (interaction::text(members.at("format"), "format") != kFormat)
@@ -51,20 +69,24 @@ SavedSession session_from(const json& value) {
     saved.data_hash = interaction::text(members.at("data_hash"), "data_hash");
     saved.state = interaction::commands_from(members.at("state"), "state");
     saved.head = place_from(members.at("head"));
-    members.done({"format", "version", "program", "data", "data_hash", "state", "head"});
+    if (const json* arrays = members.find("arrays"))
+        saved.arrays = arrays_from(*arrays);
+    members.done({"format", "version", "program", "data", "data_hash", "state", "head", "arrays"});
     return saved;
 }
 
 } // namespace
 
 void save_session(const std::filesystem::path& path, const SavedSession& session) {
-    const json value{{"format", kFormat},
-                     {"version", kVersion},
-                     {"program", session.program},
-                     {"data", session.data},
-                     {"data_hash", session.data_hash},
-                     {"state", interaction::commands_json(session.state)},
-                     {"head", place_json(session.head)}};
+    json value{{"format", kFormat},
+               {"version", kVersion},
+               {"program", session.program},
+               {"data", session.data},
+               {"data_hash", session.data_hash},
+               {"state", interaction::commands_json(session.state)},
+               {"head", place_json(session.head)}};
+    if (!session.arrays.empty())
+        value["arrays"] = arrays_json(session.arrays);
     const std::string text = value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
     index::NewFile file(path);
     file.write_at(0, std::as_bytes(std::span(text)));
@@ -93,6 +115,10 @@ ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,
     if (!state.resume(saved.state, steps))
         throw interaction::Error(
             fmt::format("{}: what it holds does not fit the data ({} steps)", name, steps));
+    for (const interaction::Commands& left : saved.arrays)
+        if (ExplorerState trial = state; !trial.apply(left, steps))
+            throw interaction::Error(
+                fmt::format("{}: how it left array {} does not fit the data", name, *left.array));
     state.leaving = false;
     return state;
 }

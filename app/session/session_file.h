@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
 
@@ -20,6 +21,9 @@ struct SavedSession {
     std::string data_hash;           ///< 16 hexadecimal digits
     interaction::Commands state;     ///< sets all settings
     interaction::StandingPlace head; ///< of the emulation by mouse and keyboard
+    /// How arrays of the surfaces that are not shown were left: each sets `array`, `isosurfaces`,
+    /// `picked` and `coloring`.
+    std::vector<interaction::Commands> arrays = {};
 };
 
 /// Writes readable JSON. The file appears under its name when complete, or not at all.

@@ -21,36 +21,35 @@ void save(const fs::path& path, const SavedSession& session, bool moves_earlier)
 SessionKeeper::SessionKeeper(fs::path path, SavedSession kept, bool resumed)
     : path_(std::move(path)), kept_(std::move(kept)), moves_earlier_(!resumed) {}
 
-bool SessionKeeper::changed(const ExplorerState& state,
-                            const interaction::StandingPlace& head) const {
-    return state.as_commands() != kept_.state || head != kept_.head;
-}
-
-void SessionKeeper::keep(const ExplorerState& state, const interaction::StandingPlace& head) {
-    kept_.state = state.as_commands();
+bool SessionKeeper::keep(const ExplorerState& state, const interaction::StandingPlace& head,
+                         const Arrays& arrays) {
+    interaction::Commands commands = state.as_commands();
+    if (commands == kept_.state && head == kept_.head && arrays == kept_.arrays)
+        return false;
+    kept_.state = std::move(commands);
     kept_.head = head;
+    kept_.arrays = arrays;
+    return true;
 }
 
 void SessionKeeper::update(const ExplorerState& state, const interaction::StandingPlace& head,
-                           interaction::Seconds now) {
+                           interaction::Seconds now, const Arrays& arrays) {
     if (now < next_)
         return;
     next_ = now + kInterval;
-    if (!changed(state, head))
+    if (!keep(state, head, arrays))
         return;
-    keep(state, head);
     writing_.post([path = path_, session = kept_, moves = std::exchange(moves_earlier_, false)] {
         save(path, session, moves);
         return std::string();
     });
 }
 
-void SessionKeeper::finish(const ExplorerState& state, const interaction::StandingPlace& head) {
+void SessionKeeper::finish(const ExplorerState& state, const interaction::StandingPlace& head,
+                           const Arrays& arrays) {
     writing_.finish();
-    if (!changed(state, head))
-        return;
-    keep(state, head);
-    save(path_, kept_, std::exchange(moves_earlier_, false));
+    if (keep(state, head, arrays))
+        save(path_, kept_, std::exchange(moves_earlier_, false));
 }
 
 } // namespace isochron::app

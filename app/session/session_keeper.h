@@ -22,19 +22,23 @@ class SessionKeeper {
     /// @param resumed it was resumed from the file `path`, which may be replaced
     SessionKeeper(std::filesystem::path path, SavedSession kept, bool resumed);
 
+    using Arrays = std::vector<interaction::Commands>; ///< as in `SavedSession`
+
     /// Called once a frame.
     void update(const ExplorerState& state, const interaction::StandingPlace& head,
-                interaction::Seconds now);
+                interaction::Seconds now, const Arrays& arrays = {});
     /// Saves the session if it has changed since. @throws index::Error when it cannot be written
-    void finish(const ExplorerState& state, const interaction::StandingPlace& head);
+    void finish(const ExplorerState& state, const interaction::StandingPlace& head,
+                const Arrays& arrays = {});
 
     const std::filesystem::path& path() const { return path_; }
     /// Errors of saving since the last call, for the user.
     std::vector<std::string> messages() { return writing_.messages(); }
 
   private:
-    bool changed(const ExplorerState& state, const interaction::StandingPlace& head) const;
-    void keep(const ExplorerState& state, const interaction::StandingPlace& head);
+    /// @return whether it differs from what was kept last
+    bool keep(const ExplorerState& state, const interaction::StandingPlace& head,
+              const Arrays& arrays);
 
     std::filesystem::path path_;
     SavedSession kept_;

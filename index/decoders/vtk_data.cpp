@@ -2,6 +2,7 @@
 // resampled (vtkXMLGenericDataObjectReader, vtkDataSetReader).
 #include "index/decoders/decoders.h"
 #include "index/decoders/vtk_ghosts.h"
+#include "index/decoders/vtk_resample.h"
 #include "index/decoders/vtk_session.h"
 #include "index/decoders/xml_markup.h"
 #include "index/error.h"
@@ -12,7 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetReader.h>
@@ -20,9 +20,7 @@
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkRectilinearGrid.h>
-#include <vtkResampleToImage.h>
 #include <vtkXMLGenericDataObjectReader.h>
 
 #include <algorithm>
@@ -69,28 +67,12 @@ std::vector<double> coordinates_of(vtkDataArray* array) {
     return at;
 }
 
-/// Means the same on a regular grid, where a vertex outside of all cells is hidden.
-vtkSmartPointer<vtkImageData> onto_image(vtkDataObject* data,
-                                         const std::array<std::uint32_t, 3>& vertices) {
-    const vtkNew<vtkResampleToImage> filter;
-    filter->SetInputDataObject(data);
-    filter->SetSamplingDimensions(static_cast<int>(vertices[0]), static_cast<int>(vertices[1]),
-                                  static_cast<int>(vertices[2]));
-    filter->Update();
-    vtkSmartPointer<vtkImageData> image = filter->GetOutput();
-    for (const char* mask : {"vtkValidPointMask", "vtkValidCellMask"}) { // flags say the same
-        image->GetPointData()->RemoveArray(mask);
-        image->GetCellData()->RemoveArray(mask);
-    }
-    return image;
-}
-
 class VtkDataFile final : public DecodedFile {
   public:
     VtkDataFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
         file_bytes(path_);
         with_vtk(path_, [&] {
-            const bool legacy = lower_case(path_.extension().string()) == ".vtk";
+            const bool legacy = head_of(path_, 16).starts_with("# vtk DataFile");
             auto read = legacy ? read_legacy(path_) : read_xml(path_);
             if (!read)
                 throw Error(fmt::format("{}: holds no data that VTK knows", path_.string()));
@@ -100,6 +82,9 @@ class VtkDataFile final : public DecodedFile {
             info_.arrays = chosen_.offered;
             info_.array = chosen_.label();
             info_.type = chosen_.value_type();
+            if (resampled_)
+                info_.notes.push_back(note_on_resampling(*read, *vtkImageData::SafeDownCast(data_),
+                                                         chosen_, hidden_));
             std::ranges::copy(chosen_.notes(), std::back_inserter(info_.notes));
             std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
                               std::back_inserter(info_.notes));
@@ -125,8 +110,8 @@ class VtkDataFile final : public DecodedFile {
                                     "--resample NX NY NZ makes a regular grid of it",
                                     path_.string(), read.GetClassName()));
         if (!image && !rectilinear) {
-            image = onto_image(&read, *options.resample);
-            info_.notes.push_back(fmt::format("resampled from {} by VTK", read.GetClassName()));
+            image = onto_image(read, *options.resample, path_.string());
+            resampled_ = true;
         }
         if (image) {
             data_ = image;
@@ -178,6 +163,7 @@ class VtkDataFile final : public DecodedFile {
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
     vtkSmartPointer<vtkDataSet> data_;
+    bool resampled_ = false;
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/formats/converted_file.h"
+#include "index/formats/numbered_name.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/time_unit.h"
 #include "index/system/input_file.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <string_view>
 #include <utility>
 
 namespace isochron::index {
@@ -130,12 +132,14 @@ class FileSeries final : public VolumeSeries {
         : files_(std::move(files)), options_(std::move(options)) {
         for (std::size_t i = 0; i < files_.size(); ++i)
             named(files_[i].path, [&] { add(i); });
+        note_missing_numbers();
         if (!options_.time_step)
             check_times();
         override_info();
     }
 
     const SeriesInfo& info() const override { return info_; }
+    void add_note(const std::string& note) { info_.notes.push_back(note); }
 
     /// For files with one step each.
     std::unique_ptr<VolumeSeries> another() const override {
@@ -213,6 +217,7 @@ class FileSeries final : public VolumeSeries {
         expect_few_steps(places_.size() + open_->steps(), name(index));
         const SeriesInfo& info = open_->info();
         if (index == 0) {
+            choose_as_in(info);
             info_ = info;
             info_.times.clear();
             info_.sources.clear();
@@ -251,6 +256,33 @@ class FileSeries final : public VolumeSeries {
                                                 : times[step]);
             places_.push_back({index, step});
         }
+    }
+
+    /// What was chosen of the first file is read of all, in whatever order they have their arrays.
+    void choose_as_in(const SeriesInfo& first) {
+        constexpr std::string_view kMagnitude = ".magnitude";
+        if (!options_.any_array || options_.array || options_.component || files_.size() == 1)
+            return;
+        const auto choose = [&](const std::string& name, const std::optional<std::string>& part) {
+            for (const std::string& offered : first.arrays)
+                if (offered.starts_with(name + " (")) {
+                    options_.array = name;
+                    options_.component = part;
+                }
+        };
+        if (first.array.ends_with(kMagnitude))
+            choose(first.array.substr(0, first.array.size() - kMagnitude.size()), "magnitude");
+        choose(first.array, std::nullopt);
+    }
+
+    void note_missing_numbers() {
+        if (timed_ || options_.time_step || places_.size() != files_.size())
+            return;
+        std::vector<std::filesystem::path> paths;
+        for (const SeriesFile& file : files_)
+            paths.push_back(file.path);
+        if (const auto note = note_on_missing(paths))
+            info_.notes.push_back(*note);
     }
 
     void open_file(std::size_t index) {
@@ -339,8 +371,12 @@ class FileSeries final : public VolumeSeries {
 } // namespace
 
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
-                                               const ReadOptions& options) {
-    return std::make_unique<FileSeries>(std::move(files), options);
+                                               const ReadOptions& options,
+                                               const std::optional<std::string>& note) {
+    auto series = std::make_unique<FileSeries>(std::move(files), options);
+    if (note)
+        series->add_note(*note);
+    return series;
 }
 
 } // namespace isochron::index

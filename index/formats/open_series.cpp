@@ -1,11 +1,13 @@
-// Finds the format of each file and opens them as a series.
+// Opens files as a series: lists of files, slices, parts, or a file for each step.
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/derived_series.h"
 #include "index/formats/dicom_files.h"
 #include "index/formats/file_series.h"
+#include "index/formats/folder_files.h"
 #include "index/formats/joined_blocks.h"
 #include "index/formats/json_series.h"
+#include "index/formats/known_formats.h"
 #include "index/formats/natural_order.h"
 #include "index/formats/readers.h"
 #include "index/formats/resampled_series.h"
@@ -15,55 +17,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 namespace isochron::index {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Format {
-    std::string_view extension;
-    std::unique_ptr<VolumeFile> (*open)(const fs::path&, const ReadOptions&);
-};
-
-/// One entry for each extension; the first that matches the end of a name is used.
-constexpr std::array kFormats{
-    Format{".vti", open_vti},       Format{".vtk", open_vtk},       Format{".mhd", open_metaimage},
-    Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},     Format{".nhdr", open_nrrd},
-    Format{".nii", open_nifti},     Format{".nii.gz", open_nifti},  Format{".hdr", open_nifti},
-    Format{".hdr.gz", open_nifti},  Format{".img", open_nifti},     Format{".img.gz", open_nifti},
-    Format{".nc", open_netcdf},     Format{".nc4", open_netcdf},    Format{".cdf", open_netcdf},
-    Format{".vtr", open_vtk_data},  Format{".pvti", open_vtk_data}, Format{".pvtr", open_vtk_data},
-    Format{".vtu", open_vtk_data},  Format{".vts", open_vtk_data},  Format{".pvtu", open_vtk_data},
-    Format{".pvts", open_vtk_data}, Format{".vtm", open_vtk_data},  Format{".vth", open_vtk_data},
-    Format{".tif", open_tiff},      Format{".tiff", open_tiff},     Format{".btf", open_tiff},
-    Format{".h5", open_hdf5},       Format{".hdf5", open_hdf5},     Format{".he5", open_hdf5},
-    Format{"zarr.json", open_zarr}, Format{".zattrs", open_zarr},   Format{".zarray", open_zarr},
-    Format{".zgroup", open_zarr},   Format{".zip", open_zarr},      Format{".ozx", open_zarr},
-    Format{".hdf", open_hdf5},      Format{".vtkhdf", open_hdf5},   Format{".raw", open_raw},
-    Format{".dcm", open_dicom},     Format{".dicom", open_dicom},   Format{".ima", open_dicom},
-    Format{".bov", open_bov},       Format{".xmf", open_xdmf},      Format{".xdmf", open_xdmf},
-};
-
-/// Of a Zarr folder the file that describes it; else the path itself.
-fs::path described_in(const fs::path& path) {
-    std::error_code ignored;
-    for (const char* name : {"zarr.json", ".zattrs", ".zarray", ".zgroup"})
-        if (fs::is_directory(path, ignored) && fs::is_regular_file(path / name, ignored))
-            return path / name;
-    return path;
-}
-
 SeriesFile series_file(const fs::path& given, const ReadOptions& options,
                        std::optional<double> time = {}) {
     const fs::path path = described_in(given);
     file_bytes(path);
-    const std::string name = lower_case(path.filename().string());
-    for (const Format& format : kFormats)
-        if (name.ends_with(format.extension))
-            return {path, format.open, time};
+    if (const OpenFormat format = format_of(path))
+        return {path, format, time};
     if (is_dicom(path))
         return {path, open_dicom, time};
     // Raw data may have any name; giving dimensions says that a file is raw.
@@ -130,48 +95,67 @@ bool names_its_files(const fs::path& path) {
     return is_pvd(path) || lower_case(path.extension().string()) == ".series";
 }
 
-std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given,
-                                            const ReadOptions& options) {
-    const std::vector<fs::path> files = with_dicom_folders(given);
+/// Of each folder the files in it, but for those that are read as they are.
+FolderFiles out_of_folders(const std::vector<fs::path>& given, const ReadOptions& options) {
+    FolderFiles all;
+    std::error_code ignored;
+    for (const fs::path& path : with_dicom_folders(given)) {
+        if (!fs::is_directory(path, ignored) || described_in(path) != path) {
+            all.files.push_back(path);
+            continue;
+        }
+        FolderFiles found = files_in_folder(path, options);
+        all.files.insert(all.files.end(), found.files.begin(), found.files.end());
+        if (found.note)
+            all.note = all.note ? *all.note + "; " + *found.note : found.note;
+    }
+    return all;
+}
+
+/// What a .pvd or .series names.
+std::vector<SeriesFile> listed_in(const fs::path& list, const ReadOptions& options) {
+    if (options.times_from_names)
+        throw Error(
+            fmt::format("{}: gives the times itself, --times-from-names cannot", list.string()));
+    file_bytes(list);
+    std::vector<SeriesFile> series;
+    for (const auto& [path, time] : is_pvd(list) ? read_pvd(list) : read_json_series(list))
+        series.push_back(series_file(path, options, time));
+    return is_pvd(list) ? joined_by_time(std::move(series)) : series;
+}
+
+/// The steps of a series and the files of each.
+std::vector<SeriesFile> series_of(const std::vector<fs::path>& files, const ReadOptions& options) {
     if (files.empty())
         throw Error("no files given");
-    std::vector<SeriesFile> series;
     const auto list = std::find_if(files.begin(), files.end(), names_its_files);
-    if (list != files.end()) {
-        const std::string name = list->string();
-        if (files.size() != 1)
-            throw Error(
-                fmt::format("{}: names its files itself, {} more given", name, files.size() - 1));
-        if (options.times_from_names)
-            throw Error(fmt::format("{}: gives the times itself, --times-from-names cannot", name));
-        file_bytes(*list);
-        for (const auto& [path, time] : is_pvd(*list) ? read_pvd(*list) : read_json_series(*list))
-            series.push_back(series_file(path, options, time));
-        return open_file_series(
-            is_pvd(*list) ? joined_by_time(std::move(series)) : std::move(series), options);
-    }
+    if (list != files.end() && files.size() != 1)
+        throw Error(fmt::format("{}: names its files itself, {} more given", list->string(),
+                                files.size() - 1));
+    if (list != files.end())
+        return listed_in(*list, options);
     if (options.times_from_names)
-        return open_file_series(timed_by_name(files, options), options);
+        return timed_by_name(files, options);
     if (!options.dims && std::ranges::all_of(files, is_dicom))
-        return open_file_series({dicom_series(files)}, options);
+        return {dicom_series(files)};
     if (std::ranges::all_of(files, is_tiff))
-        return open_file_series(tiff_series(files, options), options);
+        return tiff_series(files, options);
+    std::vector<SeriesFile> series;
     for (const fs::path& path : files)
         series.push_back(series_file(path, options));
     std::stable_sort(series.begin(), series.end(), [](const SeriesFile& a, const SeriesFile& b) {
         return natural_less(a.path.string(), b.path.string());
     });
-    return open_file_series(std::move(series), options);
+    return series;
+}
+
+std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given,
+                                            const ReadOptions& options) {
+    const FolderFiles found = out_of_folders(given, options);
+    return open_file_series(series_of(found.files, options), options, found.note);
 }
 
 } // namespace
-
-std::string known_extensions() {
-    std::string known = ".pvd .series";
-    for (const Format& format : kFormats)
-        known += fmt::format(" {}", format.extension);
-    return known;
-}
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options) {

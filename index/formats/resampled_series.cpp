@@ -1,6 +1,9 @@
 // Linear interpolation along three axes, a layer at a time.
 #include "index/formats/resampled_series.h"
 
+#include "index/error.h"
+#include "index/formats/misfit.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -91,25 +94,6 @@ class Layers {
     Layer layer_;
     std::size_t filled_ = 0;
     std::uint32_t z_ = 0;
-};
-
-/// How the new grid differs from the old values.
-struct Misfit {
-    double most = 0, squares = 0, low = HUGE_VAL, high = -HUGE_VAL;
-    std::uint64_t count = 0;
-
-    void add(double value, double interpolated) {
-        if (!std::isfinite(value))
-            return;
-        low = std::min(low, value);
-        high = std::max(high, value);
-        if (!std::isfinite(interpolated))
-            return;
-        const double off = std::abs(interpolated - value);
-        most = std::max(most, off);
-        squares += off * off;
-        ++count;
-    }
 };
 
 class ResampledSeries final : public VolumeSeries {
@@ -207,13 +191,9 @@ class ResampledSeries final : public VolumeSeries {
     }
 
     std::string note(const Misfit& misfit) const {
-        const double range = std::max(misfit.high - misfit.low, 1e-300);
-        const double mean =
-            misfit.count > 0 ? std::sqrt(misfit.squares / static_cast<double>(misfit.count)) : 0;
         return fmt::format("resampled from {} vertices; at these, in the first step, the new grid "
-                           "is {:.2g} % of the values' range off at most, {:.2g} % on the whole",
-                           fmt::join(series_->info().grid.vertices, " x "),
-                           100 * misfit.most / range, 100 * mean / range);
+                           "is {}",
+                           fmt::join(series_->info().grid.vertices, " x "), misfit.text());
     }
 
     std::unique_ptr<VolumeSeries> series_;
@@ -221,14 +201,38 @@ class ResampledSeries final : public VolumeSeries {
     std::array<std::vector<Between>, 3> places_; ///< of the new vertices between the old ones
 };
 
+/// As many as the least distance between neighbors asks for along each axis.
+std::array<std::uint32_t, 3> vertices_by_gaps(const Grid& grid) {
+    constexpr double kMostVertices = 1 << 30, kRounding = 1e-6;
+    std::array<std::uint32_t, 3> vertices = grid.vertices;
+    double all = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        double least = HUGE_VAL;
+        for (std::uint32_t i = 1; i < grid.vertices[a]; ++i)
+            least = std::min(least, grid.distance(axis, i) - grid.distance(axis, i - 1));
+        const double whole = grid.distance(axis, grid.cells()[a]);
+        const double count = std::ceil(whole / least - kRounding) + 1;
+        all *= count;
+        if (!(all <= kMostVertices))
+            throw Error(fmt::format("the least distance along axis {} asks for {:.0f} vertices, "
+                                    "expected fewer; --resample NX NY NZ says how many",
+                                    "xyz"[axis], count));
+        vertices[a] = std::max(static_cast<std::uint32_t>(count), 2u);
+    }
+    return vertices;
+}
+
 } // namespace
 
 std::unique_ptr<VolumeSeries> resampled(std::unique_ptr<VolumeSeries> series,
                                         const std::array<std::uint32_t, 3>& vertices) {
     const Grid& grid = series->info().grid;
-    if (!grid.rectilinear() && grid.vertices == vertices)
+    const bool by_gaps = vertices == kBySmallestCell;
+    if (!grid.rectilinear() && (by_gaps || grid.vertices == vertices))
         return series;
-    return std::make_unique<ResampledSeries>(std::move(series), vertices);
+    return std::make_unique<ResampledSeries>(std::move(series),
+                                             by_gaps ? vertices_by_gaps(grid) : vertices);
 }
 
 } // namespace isochron::index

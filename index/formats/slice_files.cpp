@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/natural_order.h"
+#include "index/formats/numbered_name.h"
 #include "index/formats/readers.h"
 #include "index/formats/text_header.h"
 
@@ -25,33 +26,6 @@ namespace fs = std::filesystem;
 /// What the numbers in names count.
 enum class Counted : std::uint8_t { slice, step, channel };
 
-/// A name taken apart: the texts between its numbers, and these.
-struct NumberedName {
-    std::vector<std::string> texts; ///< one more than there are numbers
-    std::vector<std::uint64_t> numbers;
-};
-
-NumberedName taken_apart(const std::string& name) {
-    constexpr std::size_t kMostDigits = 18;
-    NumberedName parts;
-    std::string text;
-    for (std::size_t i = 0; i < name.size();) {
-        std::size_t end = i;
-        while (end < name.size() && end - i < kMostDigits && name[end] >= '0' && name[end] <= '9')
-            ++end;
-        if (end == i) {
-            text += name[i++];
-            continue;
-        }
-        parts.texts.push_back(std::move(text));
-        text.clear();
-        parts.numbers.push_back(std::stoull(name.substr(i, end - i)));
-        i = end;
-    }
-    parts.texts.push_back(std::move(text));
-    return parts;
-}
-
 /// By the letters before a number.
 std::optional<Counted> counted_behind(const std::string& text) {
     std::size_t begin = text.size();
@@ -71,15 +45,31 @@ std::optional<Counted> counted_behind(const std::string& text) {
     return std::nullopt;
 }
 
+/// Whether a number stands in a folder's name.
+bool in_folder(const NumberedName& name, std::size_t number) {
+    return std::any_of(name.texts.begin() + static_cast<std::ptrdiff_t>(number) + 1,
+                       name.texts.end(),
+                       [](const std::string& text) { return text.find('/') != text.npos; });
+}
+
+/// The numbers that differ. One that a folder's name and a file's name both have counts once.
+std::vector<std::size_t> counting_numbers(const std::vector<NumberedName>& names) {
+    std::vector<std::size_t> counting;
+    for (const std::size_t i : varying_numbers(names))
+        if (std::ranges::none_of(counting, [&](std::size_t earlier) {
+                return in_folder(names.front(), earlier) && !in_folder(names.front(), i) &&
+                       std::ranges::all_of(names, [&](const NumberedName& name) {
+                           return name.numbers[i] == name.numbers[earlier];
+                       });
+            }))
+            counting.push_back(i);
+    return counting;
+}
+
 /// What each varying number counts. @throws Error when that cannot be told
 std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
                                         const std::vector<fs::path>& files, bool flat) {
-    std::vector<std::size_t> varying;
-    for (std::size_t i = 0; i < names.front().numbers.size(); ++i)
-        if (std::ranges::any_of(names, [&](const NumberedName& name) {
-                return name.numbers[i] != names.front().numbers[i];
-            }))
-            varying.push_back(i);
+    const std::vector<std::size_t> varying = counting_numbers(names);
     std::map<std::size_t, Counted> found;
     std::set<Counted> taken;
     for (const std::size_t i : varying)
@@ -88,6 +78,9 @@ std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
             found[i] = *counted;
     if (varying.size() == 1 && (found.empty() || (flat && found.begin()->second == Counted::step)))
         return {{varying.front(), flat ? Counted::slice : Counted::step}};
+    if (varying.size() == 2 && found.empty() && flat && in_folder(names.front(), varying[0]) &&
+        !in_folder(names.front(), varying[1])) // 003/0001.tif
+        return {{varying[0], Counted::step}, {varying[1], Counted::slice}};
     // One that is left is what is not there yet.
     for (const std::size_t i : varying)
         if (!found.contains(i) && varying.size() == found.size() + 1) {
@@ -115,6 +108,20 @@ void expect_even(const std::map<std::uint64_t, fs::path>& slices) {
                                     slice->second.string(), slice->first, before->first,
                                     before->second.string(), before->first + gap));
     }
+}
+
+/// The folder that all files are in, at some depth.
+fs::path common_folder(const std::vector<fs::path>& files) {
+    fs::path common = files.front().parent_path();
+    for (const fs::path& file : files) {
+        const fs::path folder = file.parent_path();
+        fs::path both;
+        for (auto a = common.begin(), b = folder.begin();
+             a != common.end() && b != folder.end() && *a == *b; ++a, ++b)
+            both /= *a;
+        common = both;
+    }
+    return common;
 }
 
 SeriesFile of_slices(std::vector<fs::path> slices) {
@@ -215,8 +222,9 @@ std::vector<SeriesFile> tiff_series(const std::vector<fs::path>& files,
     });
     const bool flat = is_flat_tiff(sorted.front());
     std::vector<NumberedName> names;
+    const std::string::size_type folder = common_folder(sorted).string().size();
     for (const fs::path& file : sorted) {
-        names.push_back(taken_apart(file.filename().string()));
+        names.push_back(taken_apart(file.string().substr(folder)));
         if (names.back().texts != names.front().texts)
             throw Error(fmt::format("{}, {}: names that differ in more than numbers, expected "
                                     "t01_c0_z001.tif and the like",

@@ -185,7 +185,7 @@ TEST_F(CommandLine, BadInputIsOneLineAndLeavesNothingBehind) {
     fails(build_of("t*.raw", {"--tiers", "deltas"}),
           "t0.raw: the tier deltas needs the tier cells");
     fails({"info", "none.isochron"}, "none.isochron: there is no such file");
-    fails({"info", "."}, ".: a folder, expected a file");
+    fails({"info", "."}, ".: a folder without a file of values");
 }
 
 TEST_F(CommandLine, BadUsageIsStatus2) {

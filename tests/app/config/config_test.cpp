@@ -66,6 +66,7 @@ range = [0.1, 0.3]
     EXPECT_EQ(config.coloring.by, interaction::ColorBy::value);
     EXPECT_EQ(config.coloring.map, "coolwarm"); // by its older name
     EXPECT_EQ(config.coloring.range, (std::array{0.1, 0.3}));
+    EXPECT_EQ(parse_config("[coloring]\narray = \"heat\"\n", "test.toml").coloring.array, "heat");
     EXPECT_EQ(parse_config("[coloring]\npercentiles = [2, 98]\n", "test.toml").coloring.percentiles,
               (std::array{2.0, 98.0}));
 }

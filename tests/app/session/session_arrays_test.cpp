@@ -112,6 +112,24 @@ TEST_P(SessionArrays, APictureIsThatOfAnIndexWithThatArrayAlone) {
     EXPECT_TRUE(same(picture(alone, colored, 2), colors_here));
 }
 
+TEST_P(SessionArrays, AResumedSessionKnowsHowEachWasLeft) {
+    Session session(small_config(), both_, *context_);
+    Commands moved;
+    moved.isovalue = 5.25;
+    picture(session, moved, 0);
+    picture(session, session.way_to_array(1), 1);
+    const auto left = session.left_arrays();
+    ASSERT_EQ(left.size(), 1u) << "the one that is shown is in the state";
+    EXPECT_EQ(left.front().array, "distance");
+
+    Session resumed(small_config(), both_, *context_);
+    resumed.set_state(session.state());
+    resumed.recall_arrays(left);
+    EXPECT_EQ(resumed.left_arrays(), left);
+    picture(resumed, resumed.way_to_array(0), 2);
+    EXPECT_EQ(resumed.state().isovalue(), 5.25);
+}
+
 TEST_P(SessionArrays, EachKeepsItsIsovalueAndAFirstVisitHasTheDefault) {
     Session session(small_config(), both_, *context_);
     EXPECT_EQ(session.state().array, "distance");

@@ -71,6 +71,12 @@ TEST(SessionFile, WhatIsNoneIsRefusedInOneLine) {
     EXPECT_THAT(complaint(with("0123456789abcdef", "fedcba9876543210")), HasSubstr("other data"));
     EXPECT_THAT(complaint(with("\"step\": 0", "\"step\": 6")), HasSubstr("does not fit the data"));
     EXPECT_THAT(complaint(with("\"yaw\"", "\"jaw\"")), HasSubstr("yaw"));
+    const auto left = [&](const std::string& arrays) {
+        return complaint(with("{\n", "{\n\"arrays\": " + arrays + ",\n"));
+    };
+    EXPECT_EQ(left("[]"), "no error");
+    EXPECT_THAT(left("[{\"array\": \"p\"}]"), HasSubstr("expected array, isosurfaces, picked"));
+    EXPECT_THAT(left("{}"), HasSubstr("arrays"));
 }
 
 TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
@@ -89,6 +95,19 @@ TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
         keeper.finish(state, head);
         EXPECT_TRUE(back_from(path).grid);
     }
+    {
+        SessionKeeper keeper(path, kept_of(state), true);
+        Commands heat;
+        heat.array = "heat";
+        heat.isosurfaces = {{7.5, {0.2f, 0.7f, 0.9f}, 0.5f}};
+        heat.picked = 0;
+        heat.coloring = interaction::Coloring{.by = interaction::ColorBy::value};
+        keeper.finish(state, head, {heat});
+        EXPECT_EQ(read_session(path).arrays, std::vector<Commands>{heat})
+            << "that alone has changed";
+    }
+    std::filesystem::remove(path.string());
+    save_session(path, kept_of(state));
     state.step = 3;
     SessionKeeper second(path, start, false);
     second.finish(state, head);

@@ -26,8 +26,11 @@ def field(*shape, dtype="f4"):
 
 def expect(files, values, *, spacing=(1, 1, 1), origin=(0, 0, 0), times=None, direction=None, positions=None, kind=None,
            **options):
-    """values: [time][z][y][x] or [z][y][x], after all scaling. options: array, component, extra_axis_is_time, ..."""
+    """values: [time][z][y][x] or [z][y][x], after all scaling. direction: of each index axis in physical space, by
+    default x, y and z. positions: of all vertices along each axis. options: array, component, extra_axis_is_time, ..."""
     values = np.asarray(values)
+    if direction is None:
+        direction = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
     if values.ndim == 3:
         values = values[None]
     name = f"values_{len(entries)}.bin"

@@ -112,7 +112,7 @@ for name, more, signs, kind in [("even.nrrd", "kinds: vector space space space\n
                                 ("turned.nrrd", turned, (1, -1, 1), "f8")]:
     file = vector(name, more, kind)
     u, v, w = (derivatives(wind[..., i].astype(kind), signs) for i in range(3))
-    where = dict(spacing=(1.5, 2, 0.5), kind="rounded")
+    where = dict(spacing=(1.5, 2, 0.5), kind="rounded", direction=[[1, 0, 0], [0, signs[1], 0], [0, 0, 1]])
     expect(file, np.sqrt((w[1] - v[2]) ** 2 + (u[2] - w[0]) ** 2 + (v[0] - u[1]) ** 2), component="vorticity", **where)
     gradient = np.array([u, v, w])
     rotation, strain = (gradient - gradient.swapaxes(0, 1)) / 2, (gradient + gradient.swapaxes(0, 1)) / 2

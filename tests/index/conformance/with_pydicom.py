@@ -207,6 +207,12 @@ two = stack("s1.dcm", moving[0], new_series(), SeriesDescription="thorax") + \
 refuse(two, "3 head")
 expect(two, moving[0], array="3 thorax", **grid)
 
+# A description in Latin-1, of which UTF-8 is made.
+named = stack("n1.dcm", moving[0], new_series(), SpecificCharacterSet="ISO_IR 100", SeriesDescription="Schädel") + \
+    stack("n2.dcm", moving[1], new_series(), SpecificCharacterSet="ISO_IR 192", SeriesDescription="Füße")
+expect(named, moving[0], array="3 Schädel", **grid)
+expect(named, moving[1], array="3 Füße", **grid)
+
 # Colors.
 colors = field(3, 4, 5, 3, dtype="u1")
 expect(stack("rgb.dcm", colors, new_series()), colors[..., 1], component="1", **grid)

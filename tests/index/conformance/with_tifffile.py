@@ -1,4 +1,6 @@
 """TIFF by tifffile: plain pages, ImageJ, OME, folders of slices and stacks."""
+import os
+
 import numpy as np
 import tifffile
 
@@ -77,6 +79,18 @@ names = [f"run_t{t}_c{c}_z{z:03d}.tif" for t in range(3) for c in range(2) for z
 refuse(names, "files of several channels, choose one with --array: channel 0, channel 1")
 expect(names, series, array="channel 0")
 expect(names, series // 2, array="channel 1")
+# A folder for each step, whose name may be repeated in the files' names, or for each channel.
+for t in range(3):
+    for z in range(4):
+        for name in (f"folders/t{t:02d}/z{z:03d}.tif", f"plain/{t}/{z:03d}.tif", f"twice/t{t}/scan_t{t}_z{z}.tif",
+                     f"colors/ch{t}/{z:04d}.tif"):
+            os.makedirs(os.path.dirname(path(name)), exist_ok=True)
+            tifffile.imwrite(path(name), series[t, z], metadata=None)
+for name in ("folders", "plain", "twice"):
+    expect(name, series)
+expect("colors", series[1], array="channel 1")
+with open(path("colors/notes.txt"), "w") as f:
+    f.write("a folder as users have it")
 refuse(names[:-1], "3 slices in step 2, the first has 4", array="channel 1")
 refuse(["slice_8.tif", "t00.tif"], "names that differ in more than numbers")
 

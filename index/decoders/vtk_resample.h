@@ -1,0 +1,31 @@
+// Puts VTK's curvilinear, unstructured and composite grids onto a regular one.
+#pragma once
+
+#include "index/formats/stored_scalar.h"
+
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+
+class vtkDataObject;
+class vtkImageData;
+
+namespace isochron::index {
+
+/// Interpolated values on a regular grid; a vertex outside of all cells is hidden.
+/// @param vertices along each axis, or `kBySmallestCell`
+/// @throws Error naming the file: no cells, or too many vertices by its smallest cell
+vtkSmartPointer<vtkImageData> onto_image(vtkDataObject& data,
+                                         const std::array<std::uint32_t, 3>& vertices,
+                                         const std::string& file);
+
+/// The resolution, and how far the regular grid is from the data's own values at their points, or
+/// at the centers of their cells.
+/// @param hidden vertices of the regular grid, see `hidden_by_flags`
+std::string note_on_resampling(vtkDataObject& data, vtkImageData& image, const ChosenScalar& chosen,
+                               std::span<const std::uint8_t> hidden);
+
+} // namespace isochron::index

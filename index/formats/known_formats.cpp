@@ -1,0 +1,96 @@
+// The table of formats.
+#include "index/formats/known_formats.h"
+
+#include "index/formats/readers.h"
+#include "index/formats/text_header.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <string_view>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+    std::string_view extension;
+    OpenFormat open;
+};
+
+/// One entry for each extension; the first that matches the end of a name is used.
+constexpr std::array kFormats{
+    Format{".vti", open_vti},       Format{".vtk", open_vtk},       Format{".mhd", open_metaimage},
+    Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},     Format{".nhdr", open_nrrd},
+    Format{".nii", open_nifti},     Format{".nii.gz", open_nifti},  Format{".hdr", open_nifti},
+    Format{".hdr.gz", open_nifti},  Format{".img", open_nifti},     Format{".img.gz", open_nifti},
+    Format{".nc", open_netcdf},     Format{".nc4", open_netcdf},    Format{".cdf", open_netcdf},
+    Format{".vtr", open_vtk_data},  Format{".pvti", open_vtk_data}, Format{".pvtr", open_vtk_data},
+    Format{".vtu", open_vtk_data},  Format{".vts", open_vtk_data},  Format{".pvtu", open_vtk_data},
+    Format{".pvts", open_vtk_data}, Format{".vtm", open_vtk_data},  Format{".vth", open_vtk_data},
+    Format{".tif", open_tiff},      Format{".tiff", open_tiff},     Format{".btf", open_tiff},
+    Format{".h5", open_hdf5},       Format{".hdf5", open_hdf5},     Format{".he5", open_hdf5},
+    Format{"zarr.json", open_zarr}, Format{".zattrs", open_zarr},   Format{".zarray", open_zarr},
+    Format{".zgroup", open_zarr},   Format{".zip", open_zarr},      Format{".ozx", open_zarr},
+    Format{".hdf", open_hdf5},      Format{".vtkhdf", open_hdf5},   Format{".raw", open_raw},
+    Format{".dcm", open_dicom},     Format{".dicom", open_dicom},   Format{".ima", open_dicom},
+    Format{".bov", open_bov},       Format{".xmf", open_xdmf},      Format{".xdmf", open_xdmf},
+};
+
+/// NetCDF-4 is HDF5 whose attributes have these names.
+bool holds_netcdf_names(std::string_view bytes) {
+    for (const char* name : {"_NCProperties", "_Netcdf4Dimid", "_Netcdf4Coordinates",
+                             "This is a netCDF dimension but not a netCDF variable"})
+        if (bytes.find(name) != bytes.npos)
+            return true;
+    return false;
+}
+
+OpenFormat format_of_content(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored))
+        return nullptr;
+    constexpr std::size_t kLooked = 1 << 16;
+    std::string bytes(kLooked, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    const std::string_view begin = bytes;
+    if (begin.starts_with("\x89HDF\r\n\x1a\n"))
+        return holds_netcdf_names(begin) ? open_netcdf : open_hdf5;
+    if (begin.starts_with("CDF\x01") || begin.starts_with("CDF\x02") ||
+        begin.starts_with("CDF\x05"))
+        return open_netcdf;
+    if (begin.starts_with("NRRD000"))
+        return open_nrrd;
+    return begin.starts_with("# vtk DataFile") ? open_vtk : nullptr;
+}
+
+} // namespace
+
+OpenFormat format_of(const fs::path& path) {
+    const std::string name = lower_case(path.filename().string());
+    for (const Format& format : kFormats)
+        if (name.ends_with(format.extension))
+            return format.open;
+    return format_of_content(path);
+}
+
+fs::path described_in(const fs::path& path) {
+    std::error_code ignored;
+    for (const char* name : {"zarr.json", ".zattrs", ".zarray", ".zgroup"})
+        if (fs::is_directory(path, ignored) && fs::is_regular_file(path / name, ignored))
+            return path / name;
+    return path;
+}
+
+std::string known_extensions() {
+    std::string known = ".pvd .series";
+    for (const Format& format : kFormats)
+        known += fmt::format(" {}", format.extension);
+    return known;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,45 @@
+// How far interpolated values are from those of the source.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace isochron::index {
+
+/// Collects differences at places of the source.
+class Misfit {
+  public:
+    /// A value that is not finite does not count; one that is, without a finite counterpart, only
+    /// widens the range.
+    void add(double value, double interpolated) {
+        if (!std::isfinite(value))
+            return;
+        low_ = std::min(low_, value);
+        high_ = std::max(high_, value);
+        if (!std::isfinite(interpolated))
+            return;
+        const double off = std::abs(interpolated - value);
+        most_ = std::max(most_, off);
+        squares_ += off * off;
+        ++count_;
+    }
+
+    /// `0.5 % of the values' range off at most, 0.1 % on the whole`: the latter is the root of the
+    /// mean square.
+    std::string text() const {
+        const double range = std::max(high_ - low_, 1e-300);
+        const double mean = count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0;
+        return fmt::format("{:.2g} % of the values' range off at most, {:.2g} % on the whole",
+                           100 * most_ / range, 100 * mean / range);
+    }
+
+  private:
+    double most_ = 0, squares_ = 0, low_ = HUGE_VAL, high_ = -HUGE_VAL;
+    std::uint64_t count_ = 0;
+};
+
+} // namespace isochron::index

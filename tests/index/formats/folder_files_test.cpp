@@ -1,0 +1,147 @@
+// Folders as users have them: one series beside other files, or several, which are listed.
+#include "tests/support/reader_fixtures.h"
+
+#include <gmock/gmock.h>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A folder with files in folders.
+class UsersFolder : public testing::Test {
+  protected:
+    fs::path write(const std::string& name, const std::string& content) {
+        fs::create_directories((folder_.path() / name).parent_path());
+        return folder_.write(name, content);
+    }
+    /// A volume of 2 x 2 x 2 bytes of one value.
+    fs::path nrrd(const std::string& name, char value) {
+        return write(name, "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n\n" +
+                               std::string(8, value));
+    }
+    std::vector<std::string> sources(const fs::path& path, const ReadOptions& options = {}) {
+        return open_series({path}, options)->info().sources;
+    }
+    std::vector<std::string> notes(const std::vector<fs::path>& files) {
+        return open_series(files)->info().notes;
+    }
+
+    TestFolder folder_;
+};
+
+TEST_F(UsersFolder, IsReadAsTheSeriesThatItHolds) {
+    nrrd("Größe 10.NRRD", 'c');
+    nrrd("Größe 9.NRRD", 'b');
+    write("readme.txt", "?");
+    write("run.log", "NRRD?");
+    write(".hidden_8.nrrd", "");
+    fs::create_symlink("nowhere", folder_.path() / "Größe 11.NRRD");
+    const auto series = open_series({folder_.path()});
+    EXPECT_THAT(series->info().sources, ElementsAre("Größe 9.NRRD", "Größe 10.NRRD"));
+    EXPECT_EQ(values_of<std::uint8_t>(*series, 1), std::vector<std::uint8_t>(8, 'c'));
+    EXPECT_THAT(series->info().notes, IsEmpty());
+}
+
+TEST_F(UsersFolder, MayHaveAFolderForEachStep) {
+    for (const char* step : {"2", "10", "1"})
+        nrrd(std::string("run/step_") + step + "/rho.nrrd", *step);
+    const auto series = open_series({folder_.path() / "run"});
+    ASSERT_EQ(series->info().steps(), 3u);
+    EXPECT_EQ(values_of<std::uint8_t>(*series, 1), std::vector<std::uint8_t>(8, '2'));
+}
+
+TEST_F(UsersFolder, OfOneSeriesSaysWhichFileItLeavesOut) {
+    nrrd("a1.nrrd", 'a');
+    nrrd("a2.nrrd", 'b');
+    nrrd("mask.nrrd", 'm');
+    const auto series = open_series({folder_.path()});
+    EXPECT_THAT(series->info().sources, ElementsAre("a1.nrrd", "a2.nrrd"));
+    EXPECT_THAT(series->info().notes,
+                ElementsAre(AllOf(HasSubstr("left out of"), HasSubstr(": mask.nrrd"))));
+}
+
+TEST_F(UsersFolder, OfSeveralSeriesListsThem) {
+    for (const char* name : {"a1.nrrd", "a2.nrrd", "b1.nrrd", "b2.nrrd", "b3.nrrd"})
+        nrrd(name, 'v');
+    const std::string message = error_of([&] { open_series({folder_.path()}); });
+    EXPECT_THAT(message, AllOf(HasSubstr("/a*.nrrd' (2 files)"), HasSubstr("/b*.nrrd' (3 files)")));
+    EXPECT_EQ(message.find('\n'), message.npos);
+}
+
+TEST_F(UsersFolder, CountsNoFilesThatOthersName) {
+    for (const char* step : {"1", "2"}) {
+        const std::string name = std::string("v") + step;
+        write(name + ".raw", std::string(8, *step));
+        write(name + ".mhd", "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\n"
+                             "ElementDataFile = " +
+                                 name + ".raw\n");
+    }
+    EXPECT_THAT(sources(folder_.path()), ElementsAre("v1.mhd", "v2.mhd"));
+    write("all.vti.series", R"({"files": [{"name": "v2.mhd", "time": 1}]})");
+    EXPECT_THAT(sources(folder_.path()), ElementsAre("v2.mhd"));
+    write("all2.vti.series", R"({"files": [{"name": "v1.mhd", "time": 1}]})");
+    EXPECT_THAT(error_of([&] { open_series({folder_.path()}); }), HasSubstr("several series"));
+}
+
+TEST_F(UsersFolder, OfRawValuesTakesWhatIsAsLargeAsSaid) {
+    write("d1.bin", std::string(8, 'a'));
+    write("d2.bin", std::string(8, 'b'));
+    write("info.json", "{}");
+    EXPECT_THAT(error_of([&] { open_series({folder_.path()}); }),
+                HasSubstr("a folder without a file of values"));
+    ReadOptions options;
+    options.dims = {{2, 2, 2}};
+    options.type = ValueType::u8;
+    EXPECT_THAT(sources(folder_.path(), options), ElementsAre("d1.bin", "d2.bin"));
+}
+
+TEST_F(UsersFolder, FormatIsToldByTheFirstBytesWhereTheNameDoesNot) {
+    EXPECT_THAT(sources(nrrd("wrfout_2020-01-01_00:00:00", 'a')),
+                ElementsAre("wrfout_2020-01-01_00:00:00"));
+    EXPECT_THAT(error_of([&] { open_series({write("plot_0001", "CDF\x01 cut")}); }),
+                AllOf(HasSubstr("plot_0001"), testing::Not(HasSubstr("unknown format"))));
+    EXPECT_THAT(
+        error_of([&] { open_series({write("chk_0001", std::string("\x89HDF\r\n\x1a\n cut"))}); }),
+        AllOf(HasSubstr("chk_0001"), testing::Not(HasSubstr("unknown format"))));
+}
+
+TEST_F(UsersFolder, MissingStepsAreSaid) {
+    std::vector<fs::path> files{nrrd("a_1.nrrd", 'a'), nrrd("a_2.nrrd", 'b'),
+                                nrrd("a_3.nrrd", 'c')};
+    EXPECT_THAT(notes(files), IsEmpty());
+    files.push_back(nrrd("a_5.nrrd", 'd'));
+    EXPECT_THAT(notes(files), Contains(HasSubstr("not evenly spaced (5 follows 3)")));
+    ReadOptions timed;
+    timed.times_from_names = true;
+    const auto series = open_series(files, timed);
+    EXPECT_EQ(series->info().times, (std::vector<double>{1, 2, 3, 5}));
+    EXPECT_THAT(series->info().notes, IsEmpty());
+    EXPECT_THAT(notes({nrrd("b_010.nrrd", 'a'), nrrd("b_020.nrrd", 'b'), nrrd("b_030.nrrd", 'c')}),
+                IsEmpty())
+        << "every tenth is even";
+}
+
+/// Arrays stand in another order in the second file: what was taken of the first is taken of all.
+TEST_F(UsersFolder, HasFilesWhoseArraysStandInAnyOrder) {
+    const auto vtk = [&](const std::string& name, const std::vector<std::string>& arrays) {
+        std::string text = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                           "DIMENSIONS 2 2 2\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 8\n";
+        for (const std::string& array : arrays)
+            text += "SCALARS " + array + " float 1\nLOOKUP_TABLE default\n" +
+                    (array == "p" ? "1 1 1 1 1 1 1 1\n" : "2 2 2 2 2 2 2 2\n");
+        return write(name, text);
+    };
+    ReadOptions any;
+    any.any_array = true;
+    const auto series = open_series({vtk("a1.vtk", {"p", "q"}), vtk("a2.vtk", {"q", "p"})}, any);
+    EXPECT_EQ(values_of<float>(*series, 1), std::vector<float>(8, 1.0f));
+}
+
+} // namespace
+} // namespace isochron::index

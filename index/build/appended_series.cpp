@@ -82,11 +82,16 @@ std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
     if (given.grid != held.grid || given.type != held.type || given.scaling != held.scaling ||
         given.array != held.array)
         refuse("the files differ from it in grid, type, scaling or array");
-    if (!begins_with(given.sources, held.sources) || !begins_with(given.times, held.times))
+    // One source of all steps may have another name now: a scan has that of its first file.
+    const bool named_alike = begins_with(given.sources, held.sources);
+    const bool one_source = given.sources.size() == 1 && held.sources.size() == 1;
+    if (!(named_alike || one_source) || !begins_with(given.times, held.times))
         refuse(fmt::format("the files given must begin with the {} steps that it holds, {} to {}",
                            held.steps(), held.sources.empty() ? "?" : held.sources.front(),
                            held.sources.empty() ? "?" : held.sources.back()));
-    expect_unchanged(name, *all, held.steps(), index->checksums(), index->source_states());
+    const std::vector<std::uint64_t> unknown(held.steps(), 0);
+    expect_unchanged(name, *all, held.steps(), index->checksums(),
+                     named_alike ? index->source_states() : unknown);
     if (given.steps() == held.steps())
         return nullptr;
     return std::make_unique<AppendedSeries>(std::move(index), std::move(all),

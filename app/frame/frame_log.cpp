@@ -1,6 +1,7 @@
 // A log of all frames, and its summary as text and JSON.
 #include "app/frame/frame_log.h"
 
+#include "app/frame/late_frame.h"
 #include "app/version.h"
 #include "index/system/new_file.h"
 
@@ -153,6 +154,17 @@ FrameLog::Rests FrameLog::rests() const {
     return rests;
 }
 
+FrameLog::Late FrameLog::late() const {
+    Late late;
+    for (const FrameReport& frame : frames_)
+        if (is_late(frame)) {
+            ++late.over_two;
+            late.over_three += frame.total > (kLate + 1) * frame.budget;
+            ++late.stages[longest_stage(frame)];
+        }
+    return late;
+}
+
 TimeSummary FrameLog::stage(Stage stage, std::size_t count) const {
     const std::size_t first = count == 0 || count > frames_.size() ? 0 : frames_.size() - count;
     std::vector<double> times;
@@ -185,6 +197,10 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
     report["rests"] = {{"count", still.count},
                        {"exact", still.exact_after.size()},
                        {"exact_after", summary_json(summarize(still.exact_after))}};
+    const Late all_late = late();
+    report["late"] = {{"over_two_budgets", all_late.over_two},
+                      {"over_three_budgets", all_late.over_three},
+                      {"stages", all_late.stages}};
     report["uploaded"] = upload_json(uploaded());
     report["reading"] = {{"bytes", reading.bytes},
                          {"hits", reading.hits},
@@ -192,6 +208,7 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                          {"held", reading.held},
                          {"budget", reading.budget}};
     nlohmann::json& rows = report["rows"] = nlohmann::json::array();
+    std::array<bool, render::kFootprints> seen{};
     for (const FrameReport& frame : frames_) {
         nlohmann::json row{{"t", frame.time.count()},
                            {"asked", query_json(frame.asked)},
@@ -209,7 +226,13 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"cells", frame.cells},
                            {"candidates", frame.candidates},
                            {"reused", frame.reused},
+                           {"processor_ms", frame.processor.count()},
+                           {"extracting", frame.extracting},
                            {"uploaded", upload_json(frame.uploaded)}};
+        bool& was_seen = seen[static_cast<std::size_t>(frame.footprint)];
+        const bool first = !std::exchange(was_seen, was_seen || frame.redrawn);
+        if (is_late(frame))
+            row["late"] = what_took(frame, first);
         if (!frame.refused.empty())
             row["refused"] = frame.refused;
         for (const auto& [name, member] : kStages)
@@ -251,6 +274,13 @@ std::string FrameLog::table() const {
     for (const render::Footprint footprint : kFootprints)
         text += fmt::format("  {:<14}{:>8} frames\n", name_of(footprint), frames_with(footprint));
     text += fmt::format("  {:<14}{:>8} refreshes of the display\n", "missed", missed());
+    if (const Late all = late(); all.over_two > 0) {
+        text += fmt::format("  {:<14}{:>8} frames over two budgets, {} over three:", "late",
+                            all.over_two, all.over_three);
+        for (const auto& [stage, frames] : all.stages)
+            text += fmt::format(" {} {}", stage, frames);
+        text += "\n";
+    }
     if (const Moving all = moving(); all.frames > 0)
         text += fmt::format("  {:<14}{:>8} frames, {:.0f} % of them as mesh or surface\n", "moving",
                             all.frames, 100.0 * double(all.as_surface) / double(all.frames));

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,7 +46,9 @@ struct FrameReport {
     Milliseconds search{0}, gather{0}; ///< of the shown set, on the worker: cells, bricks
     Milliseconds wait{0};              ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
-    Milliseconds barrier{0}; ///< between draw and present: until all processes have drawn
+    Milliseconds barrier{0};   ///< between draw and present: until all processes have drawn
+    Milliseconds processor{0}; ///< that all threads of the program computed during the frame
+    bool extracting = false;   ///< the worker was busy when the frame began or ended
     std::optional<Milliseconds> pose_age; ///< of the oldest head pose, when the views were made
     Milliseconds latency{0};              ///< from polling the devices until all was submitted
     interaction::ComfortState comfort;
@@ -89,6 +92,14 @@ class FrameLog {
         std::vector<double> exact_after; ///< [ms]
     };
     Rests rests() const;
+
+    /// Frames that took more than two budgets, and more than three; by the stage that took most of
+    /// them, as `longest_stage` says.
+    struct Late {
+        std::uint64_t over_two = 0, over_three = 0;
+        std::map<std::string, std::uint64_t> stages;
+    };
+    Late late() const;
 
     /// Rate of the newest `count` frames, by their session times; 0 before the second frame.
     double frames_per_second(std::size_t count) const;

@@ -3,10 +3,19 @@
 
 #include "app/frame/milliseconds.h"
 
+#include <time.h>
+
 #include <chrono>
 #include <utility>
 
 namespace isochron::app {
+
+/// Time that all threads of the program have computed.
+inline Milliseconds processor_time() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
 
 class StopWatch {
   public:

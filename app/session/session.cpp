@@ -311,6 +311,7 @@ void Session::show_messages(std::vector<std::string> messages) {
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
                                   Waiting waiting, const Latch& latch) {
     StopWatch whole, since_input;
+    const Milliseconds worked = processor_time();
     const Latch heads = frames_->begin(input, commands, waiting, latch, config_.installation);
     FrameReport report;
     report.time = input.time;
@@ -331,6 +332,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     report.asked = surfaces();
     report.pace = gate_.update(rest, commands, state_.quality);
     request_cells(waiting);
+    report.extracting = extractor_.busy();
     take_newest_cells(waiting, report);
     if (state_.room_panel.shown)
         room_panel_.lay_out(panel_model(PanelPlace::in_room, report), report.time);
@@ -354,6 +356,8 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
         outputs_.take_screenshots(note());
     show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
+    report.extracting |= extractor_.busy();
+    report.processor = processor_time() - worked;
     report.total = whole.lap();
     log_.add(report);
     return log_.frames().back();

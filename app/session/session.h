@@ -280,7 +280,7 @@ class Session {
     bool recording_ = false;
     MovieState movies_;
     std::string message_, standing_;
-    std::string refused_; ///< why the newest set is not shown; empty if it is
+    index::ExtractionPtr refused_; ///< the newest set if it is not shown; else null
     std::size_t messages_ = 0;
 };
 

@@ -92,14 +92,16 @@ bool Session::give_way(const index::ExtractionPtr& set) {
     return details_.most() < before;
 }
 
-/// Says once, in one line, that a set is too large to be shown.
+/// Says once, in one line, that a set is too large to be shown, and asks for fewer cells.
 void Session::say_refused(const index::ExtractionPtr& set, FrameReport& report) {
     report.refused = scene_.refusal(set);
-    if (!report.refused.empty() && report.refused != refused_) {
+    if (report.refused.empty()) {
+        refused_ = nullptr;
+    } else if (set != refused_) { // which may be refused with the same words as the last one
         show_messages({report.refused});
         give_way(set);
+        refused_ = set;
     }
-    refused_ = report.refused;
 }
 
 /// Whether no finer cells than those that are drawn will come for this picture.

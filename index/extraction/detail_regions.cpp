@@ -2,8 +2,10 @@
 #include "index/extraction/detail_regions.h"
 
 #include "index/file/chunk_grid.h"
+#include "index/volume/query.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace isochron::index {
 namespace {
@@ -26,10 +28,27 @@ std::vector<std::uint8_t> DetailRegions::levels(std::span<const std::int8_t> wis
     std::vector<std::uint8_t> levels(size());
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const int wish = i < wished.size() ? wished[i] : 0;
+        const int parts = std::max(wish + static_cast<int>(coarser), 0);
         levels[i] = static_cast<std::uint8_t>(
-            std::clamp(wish + static_cast<int>(coarser), 0, static_cast<int>(most)));
+            std::min(parts / DetailQuery::kPartsOfLevel, static_cast<int>(most)));
     }
     return levels;
+}
+
+std::vector<std::uint32_t> DetailRegions::from_the_middle() const {
+    std::vector<std::uint32_t> numbers(size());
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    const auto distance = [this](std::uint32_t number) { // squared, doubled
+        const auto here = at(number);
+        int sum = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int d = 2 * static_cast<int>(here[axis]) + 1 - static_cast<int>(counts_[axis]);
+            sum += d * d;
+        }
+        return sum;
+    };
+    std::ranges::stable_sort(numbers, {}, distance);
+    return numbers;
 }
 
 bool DetailRegions::draws(std::span<const std::uint8_t> levels, unsigned level,

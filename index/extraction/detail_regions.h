@@ -38,10 +38,13 @@ class DetailRegions {
         return std::min((cell << level) / edge_, counts_[axis] - 1);
     }
 
-    /// The levels if all wishes (DetailQuery::wished, which may be empty) are made coarser by
-    /// `coarser`: 0 to `most`.
+    /// The levels if all wishes (DetailQuery::wished, which may be empty) are made coarser by so
+    /// many parts of a level: 0 to `most`.
     std::vector<std::uint8_t> levels(std::span<const std::int8_t> wished, unsigned coarser,
                                      unsigned most) const;
+
+    /// Numbers of all regions, from the middle of the volume outwards.
+    std::vector<std::uint32_t> from_the_middle() const;
 
     /// Whether a cell of a level is drawn: if its region has this level; or if its region is finer,
     /// but one beside the cell has this level. So the cells of a region reach one cell into the

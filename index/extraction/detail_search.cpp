@@ -15,7 +15,8 @@ namespace isochron::index {
 namespace {
 
 /// A surface has about four times as many cells on the next finer level.
-constexpr double kFiner = 4;
+constexpr int kBitsFiner = 2;
+constexpr double kFiner = 1 << kBitsFiner;
 /// Cells of a chunk that has some: a smooth surface through it has about 300.
 constexpr double kLeastOfChunk = 64;
 /// How many more cells than asked for are better than another search.
@@ -46,7 +47,7 @@ std::size_t DetailCells::cells() const {
 }
 
 DetailSearch::DetailSearch(std::shared_ptr<const IndexFile> file)
-    : file_(std::move(file)), regions_(file_->info().grid),
+    : file_(std::move(file)), regions_(file_->info().grid), by_place_(regions_.from_the_middle()),
       top_(static_cast<unsigned>(file_->detail_levels() - 1)),
       by_bricks_(file_->plan().tiers.has(Tier::bricks)), searchers_(top_ + 1) {}
 
@@ -133,9 +134,15 @@ bool DetailSearch::count_down(const SurfacesQuery& query, const std::stop_token&
 double DetailSearch::expected_cells(const Levels& levels) const {
     double cells = 0;
     for (std::size_t i = 0; i < levels.size(); ++i)
-        cells += static_cast<double>(in_region_[i]) *
-                 std::pow(kFiner, static_cast<double>(counted_) - levels[i]);
+        cells += expected_cells(i, levels[i]);
     return cells;
+}
+
+/// In one region.
+double DetailSearch::expected_cells(std::size_t region, unsigned level) const {
+    return std::ldexp(static_cast<double>(in_region_[region]),
+                      kBitsFiner * (static_cast<int>(counted_) - static_cast<int>(level))) *
+           (level == 0 ? level_zero_ : 1.0);
 }
 
 /// What the chunks' ranges say: means may have lost much of a rough volume.
@@ -160,6 +167,42 @@ DetailSearch::Levels DetailSearch::lifted(const SurfacesQuery& query, unsigned c
     for (std::uint8_t& level : levels)
         level = std::max(level, static_cast<std::uint8_t>(finest));
     return levels;
+}
+
+/// The finest levels that are expected to have not too many cells, and by how much the wishes were
+/// made coarser: from `coarser` on. @return no levels if there are too many at the coarsest
+std::pair<DetailSearch::Levels, unsigned>
+DetailSearch::lifted_to_fit(const SurfacesQuery& query, unsigned coarser, unsigned finest) const {
+    const auto most = static_cast<double>(query.detail.most_cells);
+    const unsigned first = coarser, last = coarsest_lift(query);
+    Levels levels = lifted(query, coarser, finest);
+    double cells = expected_cells(levels);
+    Levels finer;
+    while (cells > most) {
+        if (coarser >= last)
+            return {{}, coarser};
+        finer = std::exchange(levels, lifted(query, ++coarser, finest));
+        cells = expected_cells(levels);
+    }
+    if (coarser == first)
+        return {std::move(levels), coarser};
+    for (const std::uint32_t region : by_place_) {
+        if (finer[region] == levels[region])
+            continue;
+        cells += expected_cells(region, finer[region]) - expected_cells(region, levels[region]);
+        if (cells > most)
+            break;
+        levels[region] = finer[region];
+    }
+    return {std::move(levels), coarser};
+}
+
+/// Parts of a level by which wishes can be made coarser until all regions are at the coarsest.
+unsigned DetailSearch::coarsest_lift(const SurfacesQuery& query) const {
+    const auto& wished = query.detail.wished;
+    const int least = wished.empty() ? 0 : std::ranges::min(wished);
+    return static_cast<unsigned>(
+        std::max(DetailQuery::kPartsOfLevel * static_cast<int>(top_) - least, 0));
 }
 
 /// The chunks of a level in which it draws cells.
@@ -302,8 +345,9 @@ unsigned DetailSearch::finest_that_fits(double most) const {
     return finest;
 }
 
-DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query, bool too_many,
-                                         DetailCells& result, const std::stop_token& stop) {
+DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query,
+                                         std::optional<std::uint64_t> known, DetailCells& result,
+                                         const std::stop_token& stop) {
     const auto most = static_cast<double>(query.detail.most_cells);
     if (top_ == 0 || !has_mixed_levels(file_->info().grid) || query.step >= file_->info().steps())
         return Outcome::whole;
@@ -318,25 +362,33 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query, bool too_ma
     if (!count_down(query, stop))
         return Outcome::stopped;
     unsigned coarser = 0;
+    level_zero_ = 1;
     if (const Levels levels = lifted(query, 0, 0); all_at(levels, 0)) {
-        if (!too_many && expected_cells(levels) <= most && least_cells_of_volume(query) <= most)
+        const double expected = expected_cells(levels);
+        const double cells =
+            known ? static_cast<double>(*known) : std::max(expected, least_cells_of_volume(query));
+        if (cells <= most)
             return Outcome::whole;
-        coarser = 1;
+        if (expected > 0)
+            level_zero_ = cells / expected;
+        else // nothing is known of where they are
+            while (all_at(lifted(query, coarser, 0), 0) && coarser < coarsest_lift(query))
+                ++coarser;
     }
     const unsigned finest = file_->referral() ? 1 : 0; // else there are no chunks of level 0
-    const auto& wished = query.detail.wished;
-    const int least_wish = wished.empty() ? 0 : std::ranges::min(wished);
-    for (bool last = false; !last; ++coarser) {
-        Levels levels = lifted(query, coarser, finest);
-        last = least_wish + static_cast<int>(coarser) >= static_cast<int>(top_);
-        if (expected_cells(levels) > most) {
-            if (!last)
-                continue;
-            std::ranges::fill(levels, static_cast<std::uint8_t>(finest_that_fits(most)));
-        }
+    for (bool last = false; !last;) {
+        auto [levels, lift] = lifted_to_fit(query, coarser, finest);
+        last = lift >= coarsest_lift(query);
+        if (levels.empty())
+            levels.assign(regions_.size(), static_cast<std::uint8_t>(finest_that_fits(most)));
         if (!gather(query, levels, result, stop))
             return Outcome::stopped;
-        last |= static_cast<double>(result.cells()) <= kTolerated * most;
+        const double times = static_cast<double>(result.cells()) / most;
+        last |= times <= kTolerated;
+        // There are about `kFiner` times fewer cells one level up.
+        coarser =
+            lift + static_cast<unsigned>(std::ceil(DetailQuery::kPartsOfLevel *
+                                                   std::log2(std::max(times, 1.0)) / kBitsFiner));
     }
     known_.clear();
     result.coarsest = std::ranges::max(result.levels);

@@ -28,9 +28,12 @@ struct DetailCells {
     std::size_t cells() const;        ///< of all surfaces
 };
 
-/// Every region gets the level that the query wishes. While that makes too many cells, all regions
-/// get coarser together. Numbers of cells are counted from the coarsest level down to the finest
-/// that has not too many, and assumed to be four times as many on each level below that.
+/// Every region gets the level that the query wishes. While that makes too many cells, all wishes get
+/// coarser by a part of a level, and regions whose wish comes to the next level take it; of the last
+/// ones that would, those nearest to the middle of the volume stay finer as long as there is room.
+/// Levels depend on the query and the data alone. Numbers of cells are counted from the coarsest
+/// level down to the finest that has not too many, and assumed to be four times as many on each level
+/// below that.
 /// What the levels lose (lost_cells.h) is added as cells of level 0: if these are more than
 /// a quarter of `most_cells`, they are joined to cells of the finest level at which they are not.
 /// Not thread-safe: keeps its work space.
@@ -48,10 +51,10 @@ class DetailSearch {
     std::optional<std::uint64_t> count(const SurfacesQuery& query, const std::stop_token& stop);
 
     /// @param query with `most_cells` above 0
-    /// @param too_many the volume itself is known to have too many cells
+    /// @param known number of active cells of the volume itself, where it is known
     /// @throws Error as ChunkStore does
-    Outcome find(const SurfacesQuery& query, bool too_many, DetailCells& result,
-                 const std::stop_token& stop);
+    Outcome find(const SurfacesQuery& query, std::optional<std::uint64_t> known,
+                 DetailCells& result, const std::stop_token& stop);
 
   private:
     struct LevelCells {
@@ -69,9 +72,13 @@ class DetailSearch {
     const FirstCrossings* crossings(double isovalue, unsigned level, const std::stop_token& stop);
     bool count_down(const SurfacesQuery& query, const std::stop_token& stop);
     double expected_cells(const Levels& levels) const;
+    double expected_cells(std::size_t region, unsigned level) const;
     unsigned finest_that_fits(double most) const;
     double least_cells_of_volume(const SurfacesQuery& query) const;
     Levels lifted(const SurfacesQuery& query, unsigned coarser, unsigned finest) const;
+    std::pair<Levels, unsigned> lifted_to_fit(const SurfacesQuery& query, unsigned coarser,
+                                              unsigned finest) const;
+    unsigned coarsest_lift(const SurfacesQuery& query) const;
     ChunkFilter chunks_of(const Levels& levels, unsigned level) const;
     bool gather(const SurfacesQuery& query, const Levels& levels, DetailCells& result,
                 const std::stop_token& stop);
@@ -81,12 +88,14 @@ class DetailSearch {
 
     std::shared_ptr<const IndexFile> file_;
     DetailRegions regions_;
-    unsigned top_; ///< the coarsest level
+    std::vector<std::uint32_t> by_place_; ///< regions, from the middle outwards
+    unsigned top_;                        ///< the coarsest level
     bool by_bricks_;
     std::vector<std::unique_ptr<LayerSearch>> searchers_; ///< by level
     std::map<unsigned, LevelCells> known_;                ///< whole levels, of the query
-    unsigned counted_ = 0;                           ///< the finest level of which all is known
-    std::vector<std::size_t> in_region_;             ///< cells of that level
+    unsigned counted_ = 0;               ///< the finest level of which all is known
+    std::vector<std::size_t> in_region_; ///< cells of that level
+    double level_zero_ = 1; ///< times as many cells are expected of level 0 as from in_region_
     std::vector<std::vector<std::uint16_t>> colors_; ///< of the result, by surface
     CellColoring coloring_ = CellColoring::none;     ///< of the query
     std::optional<ColorSource> source_;              ///< of the colors, where they are values

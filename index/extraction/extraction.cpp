@@ -32,13 +32,13 @@ class Extracting {
         try {
             // A large step is not searched as a whole before it is known that its cells fit.
             if (by_chunks_ && may_have_too_many(query))
-                if (const auto made = make_of_levels(result, false, stop))
+                if (const auto made = make_of_levels(result, stop))
                     return *made;
             if (!search(*result, stop))
                 return nullptr;
             result->volume_cells = result->cells();
             if (may_have_too_many(query) && result->cells() > query.detail.most_cells)
-                if (const auto made = make_of_levels(result, true, stop))
+                if (const auto made = make_of_levels(result, stop))
                     return *made;
             return fill(*result, stop) ? result : nullptr;
         } catch (const Stopped&) {
@@ -52,12 +52,11 @@ class Extracting {
         return query.detail.most_cells > 0 && cells > query.detail.most_cells;
     }
 
-    /// @param too_many the volume itself has too many cells
     /// @return null when stopped; empty if all cells should be those of the volume itself
     std::optional<ExtractionPtr> make_of_levels(const std::shared_ptr<Extraction>& result,
-                                                bool too_many, const std::stop_token& stop) {
+                                                const std::stop_token& stop) {
         DetailCells found;
-        switch (details_.find(result->query, too_many, found, stop)) {
+        switch (details_.find(result->query, result->volume_cells, found, stop)) {
         case DetailSearch::Outcome::stopped: return nullptr;
         case DetailSearch::Outcome::whole: return std::nullopt;
         case DetailSearch::Outcome::made: break;
@@ -66,7 +65,7 @@ class Extracting {
         result->colors = std::move(found.colors);
         result->detail = std::move(found.levels);
         result->coarsest = found.coarsest;
-        if (!too_many && result->query.detail.at_rest) { // there is time for it
+        if (!result->volume_cells && result->query.detail.at_rest) { // there is time for it
             result->volume_cells = details_.count(result->query, stop);
             if (stop.stop_requested())
                 return nullptr;

@@ -40,9 +40,11 @@ struct DetailQuery {
     /// More cells than this are replaced by those of coarser levels; 0: never.
     std::uint64_t most_cells = 0;
     bool at_rest = false; ///< for a picture at rest: a renderer holds it beside one for motion
-    /// Finest useful level of each region (index/extraction/detail_regions.h). Below 0 it is still
-    /// level 0 that is used, but the region gives way later than others when there are too many
-    /// cells. Empty: 0 everywhere.
+    /// Wishes are in these parts of a level, so that of regions of one level some give way first.
+    static constexpr int kPartsOfLevel = 4;
+    /// Finest useful level of each region (index/extraction/detail_regions.h), in parts of a level,
+    /// which are rounded down. Below 0 it is still level 0 that is used, but the region gives way
+    /// later than others when there are too many cells. Empty: 0 everywhere.
     std::vector<std::int8_t> wished;
     bool operator==(const DetailQuery&) const = default;
 };

@@ -12,6 +12,8 @@
 namespace isochron::app {
 namespace {
 
+constexpr int kParts = index::DetailQuery::kPartsOfLevel;
+
 index::Grid cube(std::uint32_t vertices) {
     index::Grid grid;
     grid.vertices = {vertices, vertices, vertices};
@@ -60,7 +62,8 @@ TEST(DetailChoice, AVoxelAtRestIsOfLevelZeroWhereverItIsLargerThanHalfAPixel) {
                 EXPECT_EQ(wished[r], 0) << pixels;
             }
             if (wished[r] > 0) {
-                EXPECT_LE(std::exp2(float(wished[r])) * pixels, 1.001f);
+                EXPECT_LE(std::exp2(float(wished[r]) / kParts) * pixels, 1.001f);
+                EXPECT_EQ(wished[r] % kParts, 0) << "whole levels";
                 ++coarse;
             }
         }
@@ -83,7 +86,7 @@ TEST(DetailChoice, NearRegionsAreFinerAndUnseenOnesCoarser) {
     behind.look(std::span(two).last(1), a_meter_wide(grid));
     EXPECT_EQ(both.for_motion(1e6, 0).wished, wished);
     EXPECT_EQ(behind.for_motion(1e6, 0).wished[regions.number({8, 8, 15})],
-              wished[regions.number({8, 8, 15})] + 2);
+              wished[regions.number({8, 8, 15})] + 2 * kParts);
 }
 
 TEST(DetailChoice, OnStretchedAxesAVoxelIsAsLargeAsItIsSeen) {

@@ -1,5 +1,6 @@
 // The log of frames: its sums and its report.
 #include "app/frame/frame_log.h"
+#include "app/frame/late_frame.h"
 #include "app/panel/panel.h"
 #include "tests/support/test_folder.h"
 
@@ -111,6 +112,56 @@ TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
     EXPECT_EQ(report["milliseconds"]["latency"]["worst"], 12.5);
     EXPECT_THAT(log.table(), HasSubstr("missed"));
     EXPECT_THAT(log.table(), HasSubstr("gaussian             2 frames"));
+}
+
+TEST(FrameLog, NamesWhatTookALateFrame) {
+    test_support::TestFolder folder;
+    FrameLog log;
+    FrameReport frame = frame_with(Footprint::quad, QualityReason::moving);
+    frame.budget = Milliseconds(100);
+    frame.draw = Milliseconds(150);
+    frame.total = Milliseconds(200);
+    log.add(frame);
+    EXPECT_FALSE(is_late(frame));
+    frame.total = Milliseconds(201);
+    frame.processor = Milliseconds(402);
+    frame.extracting = true;
+    frame.expected = Milliseconds(70);
+    log.add(frame);
+    frame.footprint = Footprint::surface;
+    frame.reason = QualityReason::trial;
+    frame.upload = Milliseconds(151);
+    frame.total = Milliseconds(302);
+    frame.uploaded.sets = 1;
+    frame.extracting = false;
+    frame.expected.reset();
+    log.add(frame);
+    frame.upload = Milliseconds(10);
+    frame.redrawn = false;
+    frame.uploaded.sets = 0;
+    frame.total = Milliseconds(1000);
+    log.add(frame);
+    const FrameLog::Late late = log.late();
+    EXPECT_EQ(late.over_two, 3u);
+    EXPECT_EQ(late.over_three, 2u);
+    EXPECT_EQ(late.stages,
+              (std::map<std::string, std::uint64_t>{{"draw", 1}, {"rest", 1}, {"upload", 1}}));
+    EXPECT_THAT(log.table(), HasSubstr("3 frames over two budgets, 2 over three: draw 1 rest 1"));
+    log.write(folder.path() / "report.json", "a context", {});
+    const auto report = nlohmann::json::parse(folder.read("report.json"));
+    EXPECT_EQ(report["late"]["over_two_budgets"], 3);
+    const auto& rows = report["rows"];
+    EXPECT_FALSE(rows[0].contains("late"));
+    EXPECT_EQ(rows[1]["late"], "draw took 150 of 201 ms (quad, moving, expected 70 ms; cells were "
+                               "being extracted; 2.0 processors worked)");
+    EXPECT_EQ(rows[2]["late"], "upload took 151 of 302 ms (surface, trial, for the first time; a "
+                               "set of cells came; 1.3 processors worked)");
+    EXPECT_EQ(rows[3]["late"],
+              "rest took 840 of 1000 ms (surface, trial, not drawn again; 0.4 processors worked)");
+    EXPECT_EQ(rows[1]["extracting"], true);
+    EXPECT_EQ(rows[1]["processor_ms"], 402.0);
+    frame.budget = Milliseconds(0);
+    EXPECT_FALSE(is_late(frame)) << "no budget";
 }
 
 TEST(QualityLine, SaysPaceFootprintCostAndWhy) {

@@ -1,12 +1,52 @@
 // Levels of detail in a session: what moves or sways is shown a set that fits, what rests all cells.
+#include "tests/support/context_in_between.h"
 #include "tests/support/eventually.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/session_fixture.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace isochron::app {
 namespace {
+
+/// A driver with little room: that many texels in a buffer, and bytes in one allocation.
+struct {
+    GLint texels = std::numeric_limits<GLint>::max();
+    GLsizeiptr bytes = std::numeric_limits<GLsizeiptr>::max();
+    bool ran_out = false;
+    PFNGLGETINTEGERVPROC integer = nullptr;
+    PFNGLNAMEDBUFFERDATAPROC data = nullptr;
+    PFNGLGETERRORPROC error = nullptr;
+} little;
+
+void APIENTRY little_integer(GLenum name, GLint* value) {
+    little.integer(name, value);
+    if (name == GL_MAX_TEXTURE_BUFFER_SIZE)
+        *value = std::min(*value, little.texels);
+}
+void APIENTRY little_data(GLuint buffer, GLsizeiptr bytes, const void* data, GLenum usage) {
+    if (bytes > little.bytes)
+        little.ran_out = true;
+    else
+        little.data(buffer, bytes, data, usage);
+}
+GLenum APIENTRY little_error() {
+    return std::exchange(little.ran_out, false) ? GL_OUT_OF_MEMORY : little.error();
+}
+void* with_little_room(std::string_view name, void* found) {
+    if (name == "glGetIntegerv")
+        return stereo::before(found, little.integer, &little_integer);
+    if (name == "glNamedBufferData")
+        return stereo::before(found, little.data, &little_data);
+    if (name == "glGetError")
+        return stereo::before(found, little.error, &little_error);
+    return found;
+}
 
 class SessionDetail : public SessionTest {
   protected:
@@ -68,6 +108,83 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
     EXPECT_EQ(report.volume_cells, all) << "it is known";
 }
 
+class SessionWithLittleRoom : public SessionDetail {
+  protected:
+    static constexpr int kRoom = 40'000; ///< cells
+    SessionWithLittleRoom() { little = {}; }
+    static interaction::Commands at(double isovalue) {
+        interaction::Commands commands;
+        commands.isovalue = isovalue;
+        return commands;
+    }
+    /// Frames until a set of that isovalue is shown and none is refused any more. What is shown
+    /// meanwhile is what was shown before.
+    void expect_coarser_cells(Session& session, double isovalue, const std::string& why) {
+        const FrameReport before = frame(session, false, at(isovalue));
+        FrameReport report = before;
+        int refused = 0, at_peace = 0;
+        ASSERT_TRUE(test_support::eventually([&] {
+            report = frame(session, true);
+            if (!report.refused.empty()) {
+                ++refused;
+                EXPECT_TRUE(report.refused.ends_with(why)) << report.refused;
+            }
+            const bool new_ones = report.shown && report.shown->isovalues.front() == isovalue;
+            if (!new_ones) {
+                EXPECT_EQ(report.cells, before.cells);
+            }
+            at_peace = new_ones && report.refused.empty() ? at_peace + 1 : 0;
+            return at_peace > 50;
+        }));
+        EXPECT_GT(refused, 0);
+        EXPECT_GT(report.coarsest, 0u);
+        EXPECT_GT(report.cells, 1000u);
+        EXPECT_LE(report.cells, std::uint64_t{kRoom});
+    }
+
+    stereo::ContextInBetween context_of_little_{GetParam(), {256, 128}, with_little_room};
+};
+
+TEST_P(SessionWithLittleRoom, ASetThatTheDriverCannotHoldGivesWayToACoarserOne) {
+    little.texels = kRoom;
+    Session session(config_with(1e6), large_, context_of_little_);
+    expect_coarser_cells(session, 0.1, "this GL can draw at most 40000, so the last ones stay");
+    FrameReport report = frame(session, true, at(2.0));
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, true);
+        EXPECT_EQ(report.refused, "") << "it is known what fits";
+        return report.shown->isovalues.front() == 2.0;
+    }));
+}
+
+TEST_P(SessionWithLittleRoom, ASetWithoutMemoryGivesWayHoweverOftenTheWordsAreTheSame) {
+    Session session(config_with(1e6), large_, context_of_little_);
+    FrameReport report = frame(session, true, at(2.95)); // specks
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, true);
+        return report.cells > 0;
+    }));
+    ASSERT_LT(report.cells, 5000u);
+    little.bytes = kRoom * GLsizeiptr{sizeof(index::CellPoint)};
+    expect_coarser_cells(session, 0.1, ", so the last cells stay");
+}
+
+TEST_P(SessionWithLittleRoom, AReplayShowsCoarserCellsInTheSameFrame) {
+    little.texels = kRoom;
+    Session session(config_with(1e6), large_, context_of_little_);
+    for (int i = 0; i < 3; ++i) {
+        const FrameReport report = session.frame(
+            head_at_rest(i), i == 0 ? at(0.1) : interaction::Commands(), Waiting::for_cells);
+        EXPECT_GT(report.cells, 1000u);
+        EXPECT_LE(report.cells, std::uint64_t{kRoom});
+        EXPECT_GT(report.coarsest, 0u);
+        EXPECT_EQ(report.refused, "");
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Contexts, SessionWithLittleRoom,
+                         testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
+                         context_name);
 INSTANTIATE_TEST_SUITE_P(Contexts, SessionDetail,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
                          context_name);

@@ -2,13 +2,17 @@
 #include "tests/bench/measures/detail_minute.h"
 
 #include "app/config/shipped_configs.h"
+#include "app/frame/late_frame.h"
 #include "app/session/session.h"
 #include "stereo/context/gl_context.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -17,9 +21,11 @@ namespace {
 
 using Seconds = interaction::Seconds;
 
-constexpr double kRound = 20, kRate = 60; ///< [s], [Hz]
-constexpr float kEyeHeight = 1.6f;        ///< [m]
-constexpr double kWayIn = 2.6;            ///< [m]
+constexpr double kRound = 20, kControl = 10; ///< [s]
+constexpr double kRate = 60;                 ///< [Hz]
+constexpr float kSway = 0.02f;               ///< [m], in the control
+constexpr float kEyeHeight = 1.6f;           ///< [m]
+constexpr double kWayIn = 2.6;               ///< [m]
 
 app::Config config_of(const MinuteOptions& options) {
     app::Config config = app::parse_config(*app::shipped_config("headless"), "headless");
@@ -49,17 +55,43 @@ struct Script {
             commands.step = static_cast<std::uint32_t>(jump(time)) % steps;
         return commands;
     }
-    interaction::InputState input(double time) const {
+    double way_in(double time) const {
         const double at = std::fmod(time, kRound);
-        const double way =
-            at > 9 && at < 16 ? kWayIn * std::sin(std::numbers::pi * (at - 9) / 7) : 0;
-        interaction::InputState input;
-        input.time = Seconds(time);
-        interaction::DeviceState head;
-        head.name = "head";
-        head.pose = interaction::Pose{{0.0f, kEyeHeight, static_cast<float>(-way)}, {1, 0, 0, 0}};
-        input.devices.push_back(head);
-        return input;
+        return at > 9 && at < 16 ? kWayIn * std::sin(std::numbers::pi * (at - 9) / 7) : 0;
+    }
+};
+
+interaction::InputState input_at(double time, double aside, double way) {
+    interaction::InputState input;
+    input.time = Seconds(time);
+    interaction::DeviceState head;
+    head.name = "head";
+    head.pose = interaction::Pose{{static_cast<float>(aside), kEyeHeight, static_cast<float>(-way)},
+                                  {1, 0, 0, 0}};
+    input.devices.push_back(head);
+    return input;
+}
+
+/// Frames of a kind while they are counted.
+struct Counted {
+    MinuteFrames frames;
+    std::vector<double> redrawn;
+
+    void add(const app::FrameReport& frame, double budget_ms) {
+        const double ms = frame.total.count();
+        ++frames.frames;
+        frames.over_two += ms > 2 * budget_ms;
+        frames.over_three += ms > 3 * budget_ms;
+        if (frame.redrawn)
+            redrawn.push_back(ms);
+    }
+    MinuteFrames summary() const {
+        MinuteFrames all = frames;
+        const app::TimeSummary times = app::summarize(redrawn);
+        all.redrawn = redrawn.size();
+        all.median_ms = times.median;
+        all.worst_ms = times.worst;
+        return all;
     }
 };
 
@@ -75,33 +107,38 @@ Minute measure_minute(const std::shared_ptr<const index::IndexFile>& file,
     app::Session session(config, file, *context);
     const Script script{options.low, options.high,
                         static_cast<std::uint32_t>(file->info().steps())};
-    session.frame(script.input(0), script.commands(0, 0), app::Waiting::never);
+    session.frame(input_at(0, 0, 0), script.commands(0, 0), app::Waiting::never);
     const auto started = Clock::now();
-    Minute minute;
-    std::vector<double> redrawn;
-    double time = 0;
-    while (time < options.seconds) {
+    Counted scripted, control;
+    std::vector<std::string> late;
+    std::set<render::Footprint> drawn;
+    double time = 0;    ///< of the session
+    double written = 0; ///< of the script, which stands still in the control
+    while (written < options.seconds) {
         const double before = std::exchange(
             time, std::chrono::duration<double>(Clock::now() - started).count() + 1e-6);
-        progress("scripted", time / options.seconds);
+        const double at = std::fmod(time, kRound + kControl);
+        const bool in_control = at >= kRound;
+        const double read =
+            std::floor(time / (kRound + kControl)) * kRound + std::min(at, kRound - 1e-3);
+        const double had = std::exchange(written, std::max(written, read));
+        progress("scripted", std::min(written / options.seconds, 1.0));
+        const double sways = in_control ? kSway * std::sin(std::numbers::pi * time) : 0;
         const app::FrameReport& frame =
-            session.frame(script.input(time), script.commands(time, before), app::Waiting::never);
-        ++minute.frames;
-        const double ms = frame.total.count();
-        minute.over_two += ms > 2 * options.budget_ms;
-        minute.over_three += ms > 3 * options.budget_ms;
-        if (frame.redrawn)
-            redrawn.push_back(ms);
+            session.frame(input_at(time, sways, in_control ? 0 : script.way_in(written)),
+                          in_control ? interaction::Commands() : script.commands(written, had),
+                          app::Waiting::never);
+        (in_control ? control : scripted).add(frame, options.budget_ms);
+        const bool first = frame.redrawn && drawn.insert(frame.footprint).second;
+        if (frame.total.count() > 2 * options.budget_ms)
+            late.push_back(fmt::format("{:.2f} s{}: {}", time, in_control ? " (control)" : "",
+                                       app::what_took(frame, first)));
         std::this_thread::sleep_until(
             started + std::chrono::duration_cast<Clock::duration>(Seconds(time + 1 / kRate)));
     }
-    minute.redrawn = redrawn.size();
-    const app::TimeSummary times = app::summarize(redrawn);
-    minute.median_ms = times.median;
-    minute.worst_ms = times.worst;
     if (!options.report.empty())
         session.log().write(options.report, session.drawing(), session.reading());
-    return minute;
+    return {scripted.summary(), control.summary(), std::move(late)};
 }
 
 } // namespace isochron::bench

@@ -123,7 +123,8 @@ TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
                 query.detail.most_cells = 1 + (all >> (2 * i));
                 if (i > 0)
                     for (std::size_t r = 0; r < regions.size(); ++r)
-                        query.detail.wished.push_back(static_cast<std::int8_t>(random_() % 6) - 3);
+                        query.detail.wished.push_back(
+                            static_cast<std::int8_t>(int(random_() % 24) - 12));
                 const ExtractionPtr found = extract(query, {});
                 if (!found->coarse()) {
                     EXPECT_LE(found->cells(), query.detail.most_cells);
@@ -163,6 +164,51 @@ TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
     EXPECT_GT(joined_cells, 5);
 }
 
+TEST_F(DetailSearchTest, RegionsGiveWayOneAfterTheOtherSoThatTheBudgetIsUsed) {
+    const TestField field({129, 127, 130}, 1, ValueType::f32,
+                          [](double x, double y, double z, double) {
+                              return std::sin(x / 9) + std::sin(y / 9) + std::sin(z / 9);
+                          });
+    const auto file = indexed(field);
+    const DetailRegions regions(file->info().grid);
+    const auto all = static_cast<double>(extract_from(file)({0, {0.2}}, {})->cells());
+    const std::vector<std::uint32_t> outwards = regions.from_the_middle();
+    ASSERT_EQ(std::set<std::uint32_t>(outwards.begin(), outwards.end()).size(), regions.size());
+    std::vector<std::int8_t> sideways; // the left half wants to be finer by half a level
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        sideways.push_back(regions.at(r)[0] < 2 ? 0 : DetailQuery::kPartsOfLevel / 2);
+    int mixed = 0;
+    for (const double part : {1.1, 1.6, 2.4, 3.6, 5.4, 8.1, 12.0})
+        for (const auto& wished : {std::vector<std::int8_t>(), sideways}) {
+            SurfacesQuery query{0, {0.2}};
+            query.detail.most_cells = static_cast<std::uint64_t>(all / part);
+            query.detail.wished = wished;
+            const ExtractionPtr found = extract_from(file)(query, {});
+            ASSERT_TRUE(found->coarse());
+            const double used =
+                static_cast<double>(found->cells()) / static_cast<double>(query.detail.most_cells);
+            EXPECT_GT(used, 0.6) << part;
+            EXPECT_LE(used, 1.5) << part;
+            const auto [finest, coarsest] = std::ranges::minmax(found->detail);
+            EXPECT_LE(coarsest, finest + 1);
+            mixed += coarsest > finest;
+            // In the same order at every budget: those that want it, and from the middle on.
+            bool given_way = false;
+            for (const int half : {0, 1}) {
+                for (const std::uint32_t r : outwards) {
+                    if (!wished.empty() && half != (regions.at(r)[0] < 2 ? 0 : 1))
+                        continue;
+                    given_way |= found->detail[r] == coarsest && coarsest > finest;
+                    EXPECT_EQ(given_way, found->detail[r] > finest) << part << " " << r;
+                }
+                if (wished.empty())
+                    break;
+            }
+            EXPECT_EQ(extract_from(file)(query, {})->detail, found->detail);
+        }
+    EXPECT_GT(mixed, 10);
+}
+
 TEST_F(DetailSearchTest, AllCellsAreThoseOfTheVolumeWhereTheyFit) {
     const TestField field({97, 65, 41}, 1, ValueType::f32, turbulence(random_));
     for (const std::uint64_t cache : {std::uint64_t{1}, std::uint64_t{1} << 30}) {
@@ -187,7 +233,8 @@ TEST_F(DetailSearchTest, FirstCrossingsAreThoseOfTheCellsOwnLevel) {
     const ExtractionPtr whole = extract_from(file)({2, {0.05}}, {});
     query.detail.most_cells = whole->cells() / 2;
     for (std::size_t r = 0; r < DetailRegions(file->info().grid).size(); ++r)
-        query.detail.wished.push_back(static_cast<std::int8_t>(r % 3));
+        query.detail.wished.push_back(
+            static_cast<std::int8_t>(DetailQuery::kPartsOfLevel * int(r % 3)));
     const ExtractionPtr mixed = extract_from(file)(query, {});
     ASSERT_TRUE(mixed->coarse());
     std::map<unsigned, std::vector<std::set<CellId>>> active; // by level and step
@@ -239,7 +286,8 @@ TEST_F(DetailSearchTest, ARayHitsMixedLevelsWhereItHitsTheSurfaceToAVoxelOfThem)
     const ExtractionPtr whole = extract(query, {});
     query.detail.most_cells = whole->cells() / 3;
     for (std::size_t r = 0; r < DetailRegions(values.grid).size(); ++r)
-        query.detail.wished.push_back(static_cast<std::int8_t>(r % 3));
+        query.detail.wished.push_back(
+            static_cast<std::int8_t>(DetailQuery::kPartsOfLevel * int(r % 3)));
     const ExtractionPtr mixed = extract(query, {});
     ASSERT_TRUE(mixed->coarse());
     const double voxel = 1 << mixed->coarsest;

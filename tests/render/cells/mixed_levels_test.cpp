@@ -21,6 +21,7 @@ namespace isochron::render {
 namespace {
 
 constexpr int kPicture = 160;
+constexpr int kParts = index::DetailQuery::kPartsOfLevel;
 constexpr std::size_t kRoom = std::size_t{1} << 26;
 
 double ball(double x, double y, double z, double) {
@@ -130,7 +131,8 @@ TEST_P(MixedLevels, AClosedSurfaceKeepsItsOutlineAndHasNoHolesInIt) {
             index::SurfacesQuery query{0, {0.0}};
             query.detail.most_cells = whole->cells() / 2;
             for (std::size_t r = 0; r < regions.size(); ++r)
-                query.detail.wished.push_back(static_cast<std::int8_t>(random_() % 3));
+                query.detail.wished.push_back(
+                    static_cast<std::int8_t>(kParts * int(random_() % 3)));
             const index::ExtractionPtr mixed = extract(query, {});
             ASSERT_TRUE(mixed->coarse());
             const Image seen = picture(mixed, Footprint::quad, CellShape::plane);
@@ -173,11 +175,11 @@ TEST_P(MixedLevels, CellsThatReachIntoFinerRegionsCloseTheGapBetweenTheSheets) {
     const index::DetailRegions regions(sheet.view().grid);
     query.detail.most_cells = whole->cells() - 1;
     for (std::size_t r = 0; r < regions.size(); ++r)
-        query.detail.wished.push_back(regions.at(r)[0] == 0 ? 3 : 0);
+        query.detail.wished.push_back(regions.at(r)[0] == 0 ? 3 * kParts : 0);
     const index::ExtractionPtr mixed = extract(query, {});
     ASSERT_TRUE(mixed->coarse());
     for (std::size_t r = 0; r < regions.size(); ++r)
-        ASSERT_EQ(mixed->detail[r], query.detail.wished[r]);
+        ASSERT_EQ(mixed->detail[r] * kParts, query.detail.wished[r]);
     look_from({-200, 50, 47}, true);
     view_.eye_from_room =
         glm::lookAt(glm::vec3(-200, 50, 47), glm::vec3(46, 50, 47), glm::vec3(0, 0, 1));
@@ -231,7 +233,7 @@ TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {
     const index::DetailRegions regions(values.grid);
     query.detail.most_cells = whole->cells() / 2;
     for (std::size_t r = 0; r < regions.size(); ++r)
-        query.detail.wished.push_back(static_cast<std::int8_t>(r % 3));
+        query.detail.wished.push_back(static_cast<std::int8_t>(kParts * int(r % 3)));
     const index::ExtractionPtr mixed = extract(query, {});
     ASSERT_TRUE(mixed->coarse());
     ASSERT_GT(std::ranges::max(mixed->detail), std::ranges::min(mixed->detail));
@@ -268,7 +270,7 @@ TEST_P(MixedLevels, WhereALevelGivesWayNoOutlineMovesByMoreThanAPixel) {
     const auto of_level = [&](unsigned level) {
         index::SurfacesQuery query{0, {0.0}};
         query.detail.most_cells = whole->cells() / 2;
-        query.detail.wished.assign(regions.size(), static_cast<std::int8_t>(level));
+        query.detail.wished.assign(regions.size(), static_cast<std::int8_t>(kParts * int(level)));
         index::ExtractionPtr set = level == 0 ? whole : extract(query, {});
         EXPECT_TRUE(std::ranges::all_of(set->detail, [&](auto of) { return of == level; }));
         return set;
@@ -317,7 +319,8 @@ TEST_P(MixedLevels, CellsThatOthersOfOtherLevelsHideMayBeLeftOut) {
         index::SurfacesQuery query{0, {0.0, 20.0}};
         query.detail.most_cells = 30'000u >> 2 * i;
         for (std::size_t r = 0; r < regions.size(); ++r)
-            query.detail.wished.push_back(static_cast<std::int8_t>(random_() % 4));
+            query.detail.wished.push_back(
+                static_cast<std::int8_t>(int(random_() % 4) * kParts + int(random_() % kParts)));
         const index::ExtractionPtr mixed = extract(query, {});
         ASSERT_TRUE(mixed->coarse());
         several += std::ranges::max(mixed->detail) > std::ranges::min(mixed->detail);

@@ -17,6 +17,7 @@ constexpr double kDown = 0.9;  ///< and below this share of it, it is left
 constexpr double kStay = 0.25; ///< levels beyond its range within which a wish stays
 constexpr double kUnseen = 2;  ///< levels by which unseen regions may be coarser
 constexpr double kNearest = -8, kFarthest = 8;
+constexpr int kParts = index::DetailQuery::kPartsOfLevel;
 
 /// The numbers of cells that are chosen from: each is the half more, or a third more, of the last.
 std::uint64_t cells_of(int step) {
@@ -108,9 +109,9 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
         ++step_;
     kept_.resize(ideal_.size());
     for (std::size_t i = 0; i < ideal_.size(); ++i) {
-        const double low = kept_[i] - kStay, high = kept_[i] + 1 + kStay;
-        if (ideal_[i] < low || ideal_[i] >= high)
-            kept_[i] = static_cast<std::int8_t>(std::floor(ideal_[i]));
+        const double wish = kParts * ideal_[i];
+        if (wish < kept_[i] - kParts * kStay || wish >= kept_[i] + 1 + kParts * kStay)
+            kept_[i] = static_cast<std::int8_t>(std::floor(wish));
     }
     return {std::min(cells_of(step_), most_), false, kept_};
 }
@@ -118,7 +119,7 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
 index::DetailQuery DetailChoice::at_rest(std::uint64_t cells) const {
     index::DetailQuery query{std::min(cells, most_), true, {}};
     const auto level = [](double ideal) {
-        return static_cast<std::int8_t>(std::max(std::floor(ideal), 0.0));
+        return static_cast<std::int8_t>(kParts * std::max(std::floor(ideal), 0.0));
     };
     if (std::ranges::any_of(ideal_, [&](double ideal) { return level(ideal) > 0; }))
         for (const double ideal : ideal_)

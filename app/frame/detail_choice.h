@@ -33,7 +33,10 @@ class DetailChoice {
     bool small() const { return small_; }
     std::uint64_t most() const { return most_; }
     /// Never more than this from now on: more could not be drawn.
-    void limit(std::uint64_t most) { most_ = std::clamp(most, kFewest, most_); }
+    void limit(std::uint64_t most) {
+        most_ = std::clamp(most, std::min(kFewest, most_), most_);
+        small_ = false;
+    }
 
     /// The finest useful level of each region: the coarsest of which a voxel is at most a pixel, or
     /// below 0 by how much larger voxels are. Regions that no view shows count as four times as far

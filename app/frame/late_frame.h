@@ -1,7 +1,7 @@
 // Says what took the time of a frame that came late.
 #pragma once
 
-#include "app/frame/frame_log.h"
+#include "app/frame/frame_report.h"
 
 #include <string>
 

@@ -1,7 +1,6 @@
 // Regions of one level of detail.
 #include "index/extraction/detail_regions.h"
 
-#include "index/file/chunk_grid.h"
 #include "index/volume/query.h"
 
 #include <algorithm>
@@ -67,6 +66,28 @@ bool DetailRegions::draws(std::span<const std::uint8_t> levels, unsigned level,
                 if (levels[number({x, y, z})] == level)
                     return true;
     return false;
+}
+
+std::vector<bool> DetailRegions::chunks_of(std::span<const std::uint8_t> levels, unsigned level,
+                                           const ChunkGrid& chunks) const {
+    std::vector<bool> wanted(chunks.count());
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        if (levels[i] != level)
+            continue;
+        const auto here = at(i);
+        std::array<std::uint32_t, 3> first{}, last{};
+        for (std::size_t axis = 0; axis < 3; ++axis) { // one cell more on each side
+            const std::uint32_t low = here[axis] * edge_ >> level;
+            const std::uint32_t high = (here[axis] + 1) * edge_ >> level;
+            first[axis] = (low > 0 ? low - 1 : 0) / kChunkEdge;
+            last[axis] = std::min(high / kChunkEdge, chunks.counts()[axis] - 1);
+        }
+        for (std::uint32_t z = first[2]; z <= last[2]; ++z)
+            for (std::uint32_t y = first[1]; y <= last[1]; ++y)
+                for (std::uint32_t x = first[0]; x <= last[0]; ++x)
+                    wanted[std::size_t{z} * chunks.chunks_of_layer() + chunks.place(x, y)] = true;
+    }
+    return wanted;
 }
 
 bool has_mixed_levels(const Grid& grid) {

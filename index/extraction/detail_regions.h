@@ -3,6 +3,7 @@
 #pragma once
 
 #include "index/extraction/cell_set.h"
+#include "index/file/chunk_grid.h"
 #include "index/volume/grid.h"
 
 #include <array>
@@ -51,6 +52,10 @@ class DetailRegions {
     /// finer regions around it, and no gap shows between the two surfaces.
     bool draws(std::span<const std::uint8_t> levels, unsigned level,
                const std::array<std::uint32_t, 3>& cell) const;
+
+    /// The chunks of a level, layer by layer, that hold cells which it draws.
+    std::vector<bool> chunks_of(std::span<const std::uint8_t> levels, unsigned level,
+                                const ChunkGrid& chunks) const;
 
   private:
     std::uint32_t edge_;

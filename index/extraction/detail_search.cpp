@@ -208,26 +208,11 @@ unsigned DetailSearch::coarsest_lift(const SurfacesQuery& query) const {
 /// The chunks of a level in which it draws cells.
 ChunkFilter DetailSearch::chunks_of(const Levels& levels, unsigned level) const {
     const ChunkGrid& grid = file_->chunks(level).grid();
-    std::vector<bool> wanted(grid.count());
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        if (levels[i] != level)
-            continue;
-        const auto at = regions_.at(i);
-        std::array<std::uint32_t, 3> first{}, last{};
-        for (std::size_t axis = 0; axis < 3; ++axis) { // one cell more on each side
-            const std::uint32_t low = at[axis] * regions_.edge() >> level;
-            const std::uint32_t high = (at[axis] + 1) * regions_.edge() >> level;
-            first[axis] = (low > 0 ? low - 1 : 0) / kChunkEdge;
-            last[axis] = std::min(high / kChunkEdge, grid.counts()[axis] - 1);
-        }
-        for (std::uint32_t z = first[2]; z <= last[2]; ++z)
-            for (std::uint32_t y = first[1]; y <= last[1]; ++y)
-                for (std::uint32_t x = first[0]; x <= last[0]; ++x)
-                    wanted[std::size_t{z} * grid.chunks_of_layer() + grid.place(x, y)] = true;
-    }
     return
-        [wanted = std::move(wanted), of_layer = std::size_t{grid.chunks_of_layer()}](
-            std::uint32_t layer, std::uint32_t place) { return wanted[layer * of_layer + place]; };
+        [wanted = regions_.chunks_of(levels, level, grid),
+         of_layer = std::size_t{grid.chunks_of_layer()}](std::uint32_t layer, std::uint32_t place) {
+            return wanted[layer * of_layer + place];
+        };
 }
 
 /// Adds the cells that a level draws.
@@ -346,8 +331,8 @@ unsigned DetailSearch::finest_that_fits(double most) const {
 }
 
 DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query,
-                                         std::optional<std::uint64_t> known, DetailCells& result,
-                                         const std::stop_token& stop) {
+                                         std::optional<std::uint64_t> volume_cells,
+                                         DetailCells& result, const std::stop_token& stop) {
     const auto most = static_cast<double>(query.detail.most_cells);
     if (top_ == 0 || !has_mixed_levels(file_->info().grid) || query.step >= file_->info().steps())
         return Outcome::whole;
@@ -365,8 +350,8 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query,
     level_zero_ = 1;
     if (const Levels levels = lifted(query, 0, 0); all_at(levels, 0)) {
         const double expected = expected_cells(levels);
-        const double cells =
-            known ? static_cast<double>(*known) : std::max(expected, least_cells_of_volume(query));
+        const double cells = volume_cells ? static_cast<double>(*volume_cells)
+                                          : std::max(expected, least_cells_of_volume(query));
         if (cells <= most)
             return Outcome::whole;
         if (expected > 0)

@@ -51,9 +51,9 @@ class DetailSearch {
     std::optional<std::uint64_t> count(const SurfacesQuery& query, const std::stop_token& stop);
 
     /// @param query with `most_cells` above 0
-    /// @param known number of active cells of the volume itself, where it is known
+    /// @param volume_cells number of active cells of the volume itself, where it is known
     /// @throws Error as ChunkStore does
-    Outcome find(const SurfacesQuery& query, std::optional<std::uint64_t> known,
+    Outcome find(const SurfacesQuery& query, std::optional<std::uint64_t> volume_cells,
                  DetailCells& result, const std::stop_token& stop);
 
   private:

@@ -151,6 +151,10 @@ TEST(DetailChoice, NumbersOfCellsFitAndAreLeftLate) {
     EXPECT_EQ(choice.at_rest(1e9).most_cells, 100'000u);
     EXPECT_TRUE(DetailChoice(cube(65), 1000).small());
     EXPECT_FALSE(DetailChoice(cube(66), 1000).small());
+    DetailChoice little(cube(65), 100'000);
+    little.limit(50'000);
+    EXPECT_FALSE(little.small()) << "it does not fit as it is";
+    EXPECT_EQ(little.most(), 50'000u);
 }
 
 } // namespace

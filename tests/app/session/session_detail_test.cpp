@@ -134,7 +134,7 @@ class SessionWithLittleRoom : public SessionDetail {
                 EXPECT_EQ(report.cells, before.cells);
             }
             at_peace = new_ones && report.refused.empty() ? at_peace + 1 : 0;
-            return at_peace > 50;
+            return at_peace > 20;
         }));
         EXPECT_GT(refused, 0);
         EXPECT_GT(report.coarsest, 0u);
@@ -182,8 +182,7 @@ TEST_P(SessionWithLittleRoom, AReplayShowsCoarserCellsInTheSameFrame) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Contexts, SessionWithLittleRoom,
-                         testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
+INSTANTIATE_TEST_SUITE_P(, SessionWithLittleRoom, testing::Values(stereo::ContextKind::egl),
                          context_name);
 INSTANTIATE_TEST_SUITE_P(Contexts, SessionDetail,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),

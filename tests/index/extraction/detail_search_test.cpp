@@ -153,8 +153,8 @@ TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
                         if (query.detail.wished[a] < query.detail.wished[b]) {
                             EXPECT_LE(found->detail[a], found->detail[b]);
                         }
-                if (*used.rbegin() + 1 < file->detail_levels()) {
-                    EXPECT_LE(found->cells(), 2 * query.detail.most_cells);
+                if (*used.rbegin() + 1 < file->detail_levels()) { // lost ones: one for each region
+                    EXPECT_LE(found->cells(), 2 * (query.detail.most_cells + regions.size()));
                 }
             }
         }
@@ -165,7 +165,7 @@ TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
 }
 
 TEST_F(DetailSearchTest, RegionsGiveWayOneAfterTheOtherSoThatTheBudgetIsUsed) {
-    const TestField field({129, 127, 130}, 1, ValueType::f32,
+    const TestField field({97, 98, 95}, 1, ValueType::f32,
                           [](double x, double y, double z, double) {
                               return std::sin(x / 9) + std::sin(y / 9) + std::sin(z / 9);
                           });
@@ -174,11 +174,11 @@ TEST_F(DetailSearchTest, RegionsGiveWayOneAfterTheOtherSoThatTheBudgetIsUsed) {
     const auto all = static_cast<double>(extract_from(file)({0, {0.2}}, {})->cells());
     const std::vector<std::uint32_t> outwards = regions.from_the_middle();
     ASSERT_EQ(std::set<std::uint32_t>(outwards.begin(), outwards.end()).size(), regions.size());
-    std::vector<std::int8_t> sideways; // the left half wants to be finer by half a level
+    std::vector<std::int8_t> sideways; // the left part wants to be finer by half a level
     for (std::size_t r = 0; r < regions.size(); ++r)
-        sideways.push_back(regions.at(r)[0] < 2 ? 0 : DetailQuery::kPartsOfLevel / 2);
+        sideways.push_back(regions.at(r)[0] < 1 ? 0 : DetailQuery::kPartsOfLevel / 2);
     int mixed = 0;
-    for (const double part : {1.1, 1.6, 2.4, 3.6, 5.4, 8.1, 12.0})
+    for (const double part : {1.1, 2.0, 3.6, 8.0})
         for (const auto& wished : {std::vector<std::int8_t>(), sideways}) {
             SurfacesQuery query{0, {0.2}};
             query.detail.most_cells = static_cast<std::uint64_t>(all / part);
@@ -194,9 +194,9 @@ TEST_F(DetailSearchTest, RegionsGiveWayOneAfterTheOtherSoThatTheBudgetIsUsed) {
             mixed += coarsest > finest;
             // In the same order at every budget: those that want it, and from the middle on.
             bool given_way = false;
-            for (const int half : {0, 1}) {
+            for (const int side : {0, 1}) {
                 for (const std::uint32_t r : outwards) {
-                    if (!wished.empty() && half != (regions.at(r)[0] < 2 ? 0 : 1))
+                    if (!wished.empty() && side != (regions.at(r)[0] < 1 ? 0 : 1))
                         continue;
                     given_way |= found->detail[r] == coarsest && coarsest > finest;
                     EXPECT_EQ(given_way, found->detail[r] > finest) << part << " " << r;
@@ -206,7 +206,7 @@ TEST_F(DetailSearchTest, RegionsGiveWayOneAfterTheOtherSoThatTheBudgetIsUsed) {
             }
             EXPECT_EQ(extract_from(file)(query, {})->detail, found->detail);
         }
-    EXPECT_GT(mixed, 10);
+    EXPECT_GT(mixed, 5);
 }
 
 TEST_F(DetailSearchTest, AllCellsAreThoseOfTheVolumeWhereTheyFit) {

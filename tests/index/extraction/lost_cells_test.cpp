@@ -57,7 +57,7 @@ class LostCellsTest : public testing::Test {
 
 TEST_F(LostCellsTest, SpecksAndTubesThatNoLevelHasAreDrawn) {
     SurfacesQuery query{0, {0.0}};
-    query.detail.most_cells = 1500;
+    query.detail.most_cells = 600;
     const ExtractionPtr found = extract_from(file_)(query, {});
     ASSERT_TRUE(found->coarse());
     ASSERT_GE(std::ranges::min(found->detail), 2);

@@ -49,7 +49,8 @@ class DetailChoice {
     /// @param drawn `most_cells` of the cells that are drawn
     index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn);
     /// For a picture at rest, and for pictures that are written: level 0 wherever a voxel is larger
-    /// than half a pixel. @param cells that it may have
+    /// than half a pixel, and elsewhere a level of which a voxel is at most 0.7 pixels.
+    /// @param cells that it may have
     index::DetailQuery at_rest(std::uint64_t cells) const;
 
   private:

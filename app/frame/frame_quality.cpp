@@ -78,6 +78,7 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     if (slices) {
         input.settled.reset();
         if (resting_ && resting_->input == input && resting_->possible == possible) {
+            ends_in_slices_ = true;
             report.in_slices = input.in_slices;
             report.budget = steady_.budget();
             tell(resting_->choice, resting_->final, report);
@@ -94,8 +95,8 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     wants_mesh_ = with_all.footprint == render::Footprint::mesh &&
                   choice.footprint <= render::Footprint::mesh;
     // What a mesh or slices may still change is not final.
-    const bool slices_come =
-        in_the_end && *in_the_end != choice.footprint && report.time - swayed_since_ < kNeverStill;
+    ends_in_slices_ = in_the_end && *in_the_end != choice.footprint;
+    const bool slices_come = ends_in_slices_ && report.time - swayed_since_ < kNeverStill;
     const bool final =
         choice.final && with_all.final && choice.footprint == with_all.footprint && !slices_come;
     tell(choice, final, report);

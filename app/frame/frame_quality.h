@@ -71,6 +71,9 @@ class FrameQuality {
     /// of those at rest, with room to spare; empty before the first measurement.
     std::optional<double> cells_that_fit(interaction::Pace pace) const;
 
+    /// Whether the picture of the last choice ends at another footprint, made in slices.
+    bool ends_in_slices() const { return ends_in_slices_; }
+
     /// Whether the last choice would have been a mesh if there had been one.
     bool wants_mesh() const { return wants_mesh_; }
 
@@ -111,7 +114,7 @@ class FrameQuality {
     DrawMeter meter_;
     DrawLoad view_; ///< of one cell in all views of the frame drawn last
     DrawLoad charged_;
-    bool wants_mesh_ = false;
+    bool wants_mesh_ = false, ends_in_slices_ = false;
 };
 
 } // namespace isochron::app

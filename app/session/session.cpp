@@ -215,7 +215,8 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     const bool live = waiting == Waiting::never;
     if (live && !log_.frames().empty())
         report.missed = quality_.missed(report.time - log_.frames().back().time);
-    const bool changed = now != drawn_;
+    const bool finer = only_gets_finer(now, waiting);
+    const bool changed = now != drawn_ && !finer;
     render::FootprintSet footprints = scene_.footprints();
     render::FootprintSet possible = scene_.possible_footprints();
     if (report.cells > frames_->surface_limit())
@@ -238,8 +239,11 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     }
     now.footprint = report.footprint;
     rest_in_slices(now, waiting, report);
+    // More cells than a frame can draw come in slices alone, which may begin some frames later.
+    comes_in_slices_ =
+        finer && quality_.ends_in_slices() && report.expected && *report.expected > report.budget;
     // While a headset wants no picture, there is nothing to draw or to measure.
-    report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure);
+    report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
 }
 
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
@@ -254,7 +258,8 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
         draw_slices(now, panel, report);
         return outputs_.draw_room(input, panel);
     }
-    drawn_ = now;
+    if (!comes_in_slices_)
+        drawn_ = now;
     StopWatch watch;
     if (report.redrawn) {
         slices_.reset();

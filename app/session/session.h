@@ -217,6 +217,7 @@ class Session {
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     Choosing choosing(Waiting waiting) const;
+    bool only_gets_finer(const Picture& now, Waiting waiting) const;
     void rest_in_slices(Picture& now, Waiting waiting, FrameReport& report);
     void draw_slices(const Picture& now, const Outputs::Overlay& overlay, FrameReport& report);
     bool draw_slice(const ScenePlace& place, std::span<const render::View> views, std::size_t work,
@@ -275,6 +276,7 @@ class Session {
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
     index::DetailQuery detail_;                      ///< of the sets that are asked for
     interaction::Seconds constant_since_{0};         ///< when the eyes last saw something change
+    bool comes_in_slices_ = false;                   ///< nothing but slices is drawn of the newest
     bool rests_ = false;                             ///< the set for pictures at rest may be drawn
     bool mesh_wanted_ = false;                       ///< by the last frame's choice of quality
     bool recording_ = false;

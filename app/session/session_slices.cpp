@@ -17,6 +17,19 @@ Choosing Session::choosing(Waiting waiting) const {
                                                    : Choosing::by_measurement;
 }
 
+/// Whether a picture at rest differs from the one that is shown in nothing but more detail, and may
+/// be made in slices.
+bool Session::only_gets_finer(const Picture& now, Waiting waiting) const {
+    if (!rests_ || !drawn_ || choosing(waiting) != Choosing::with_slices ||
+        now.cells == drawn_->cells || now.cells != scene_.held(Scene::Use::at_rest))
+        return false;
+    Picture same = now;
+    same.cells = drawn_->cells;
+    same.footprint = drawn_->footprint;
+    same.scale = drawn_->scale;
+    return same == drawn_;
+}
+
 /// Shows the picture at rest that was made in slices for as long as nothing changes.
 void Session::rest_in_slices(Picture& now, Waiting waiting, FrameReport& report) {
     if (!report.in_slices || !drawn_)

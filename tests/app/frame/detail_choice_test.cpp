@@ -62,7 +62,7 @@ TEST(DetailChoice, AVoxelAtRestIsOfLevelZeroWhereverItIsLargerThanHalfAPixel) {
                 EXPECT_EQ(wished[r], 0) << pixels;
             }
             if (wished[r] > 0) {
-                EXPECT_LE(std::exp2(float(wished[r]) / kParts) * pixels, 1.001f);
+                EXPECT_LE(std::exp2(float(wished[r]) / kParts) * pixels, 0.708f);
                 EXPECT_EQ(wished[r] % kParts, 0) << "whole levels";
                 ++coarse;
             }

@@ -94,7 +94,11 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
     }
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        return report.coarsest == 0;
+        if (report.redrawn && report.coarsest == 0) {
+            EXPECT_EQ(report.reason, QualityReason::in_slices) << "no frame holds all cells";
+            EXPECT_NE(report.footprint, render::Footprint::quad);
+        }
+        return report.coarsest == 0 && report.final;
     }));
     const std::uint64_t all = report.cells;
     EXPECT_GT(all, 3 * DetailChoice::kFewest);

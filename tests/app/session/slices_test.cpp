@@ -176,9 +176,10 @@ TEST_P(Slices, AreGivenUpInTheFrameThatChangesSomething) {
         change(commands, head);
         FrameReport report = frame(session, commands, head);
         EXPECT_FALSE(report.in_slices);
-        EXPECT_EQ(report.footprint, Footprint::quad);
-        if (!commands.step) { // the cells of another step come later
-            EXPECT_TRUE(report.redrawn);
+        EXPECT_NE(report.footprint, Footprint::surface);
+        EXPECT_TRUE(report.redrawn || commands.step) << "the cells of another step come later";
+        // At rest a load of other programs that ends may be the time to try splats.
+        if (!commands.step && report.footprint == Footprint::quad) {
             Session fresh(sliced(), file_, *context_);
             Commands same;
             same.isovalue = 2.0;

@@ -41,6 +41,18 @@ class MpiBuild : public testing::Test {
 
     ChildResult build(int processes, const std::string& type, const std::string& out,
                       const std::vector<std::string>& more = {}) {
+        std::vector<std::string> given{type.substr(0, 1) + "?.raw",
+                                       "--dims",
+                                       std::to_string(kX),
+                                       std::to_string(kY),
+                                       std::to_string(kZ),
+                                       "--type",
+                                       type};
+        given.insert(given.end(), more.begin(), more.end());
+        return build_of(processes, given, out);
+    }
+    ChildResult build_of(int processes, const std::vector<std::string>& given,
+                         const std::string& out) {
         // The MPI library itself leaks.
         std::vector<std::string> arguments{"ASAN_OPTIONS=detect_leaks=0",
                                            "mpirun",
@@ -51,15 +63,34 @@ class MpiBuild : public testing::Test {
                                            test_support::binary_root() + "/isochron"};
         if (processes == 0)
             arguments = {test_support::binary_root() + "/isochron"};
-        arguments.insert(arguments.end(),
-                         {"build", type.substr(0, 1) + "?.raw", "--dims", std::to_string(kX),
-                          std::to_string(kY), std::to_string(kZ), "--type", type, "-o", out});
-        arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.insert(arguments.end(), {"build", "-o", out});
+        arguments.insert(arguments.end(), given.begin(), given.end());
         return run_child("/usr/bin/env", arguments, folder.path());
     }
 
     TestFolder folder;
 };
+
+TEST_F(MpiBuild, GivesTheSameBytesOfSeveralArrays) {
+    for (int t = 0; t < kSteps; ++t) {
+        const std::string bytes = folder.read("u" + std::to_string(t) + ".raw");
+        std::string pairs;
+        for (const char value : bytes)
+            (pairs += value) += static_cast<char>(255 - static_cast<unsigned char>(value));
+        folder.write("v" + std::to_string(t) + ".nrrd",
+                     "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 2 70 50 45\n"
+                     "kinds: vector domain domain domain\nencoding: raw\n\n" +
+                         pairs);
+    }
+    const std::vector<std::string> given{"v?.nrrd",  "--array", "values.0",        "--array",
+                                         "values.1", "--array", "values.magnitude"};
+    ASSERT_EQ(build_of(0, given, "alone").status, 0);
+    for (const int processes : {2, 3}) {
+        const ChildResult result = build_of(processes, given, "job");
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(folder.read("job"), folder.read("alone")) << processes;
+    }
+}
 
 TEST_F(MpiBuild, GivesTheSameBytesWhateverTheNumberOfProcesses) {
     for (const std::string type : {"u8", "f32"}) {

@@ -143,6 +143,10 @@ for name, steps in [("image.vtkhdf", 0), ("temporal.vtkhdf", 4)]:
         else:
             g["PointData/p"], g["PointData/v"], g["CellData/c"] = points, vectors, cells
 where = dict(spacing=(0.5, 1, 2), origin=(1, 2, 3))
+with h5py.File(path("temporal.vtkhdf")) as f, h5py.File(path("offsets.vtkhdf"), "w") as out:  # steps in an order of their own
+    f.copy("VTKHDF", out)
+    out["VTKHDF/Steps/PointDataOffsets/p"] = np.array([2, 0, 3, 1])
+expect("offsets.vtkhdf", series[[2, 0, 3, 1]], times=[0, 0.5, 1.5, 2.0], **where)
 refuse("image.vtkhdf", "several arrays, choose one with --array: c (f32, cell data), p (f32), v (f32 x 3)")
 expect("image.vtkhdf", points, array="p", **where)
 expect("image.vtkhdf", vectors[..., 2], array="v", component="2", **where)

@@ -54,6 +54,15 @@ expect(write("skipped.nhdr", nhdr + "byte skip: 7\ndata file: head%d.raw 0 5 1\n
 expect(write("at_end.nhdr", nhdr + "byte skip: -1\ndata file: head%d.raw 0 5 1\n"), values, **placed)
 expect(write("gz.nhdr", nhdr.replace("raw", "gzip") + "data file: s%d.gz 0 5 1\n"), values, **placed)
 expect(write("bz.nhdr", nhdr.replace("raw", "bzip2") + "data file: s%d.bz2 0 5 1\n"), values, **placed)
+large = nhdr.replace("little", "big")
+expect(write("big.nhdr", large + "data file: big%d.raw 0 5 1\n"), values, **placed)
+expect(write("big.nrrd", large.encode() + b"\n" + values.astype(">i2").tobytes()), values, **placed)
+# A space whose x counts to the left is turned to right-anterior-superior.
+left = "space: left-anterior-superior\n"
+as_ras = dict(placed, origin=(-5, 6, 7), direction=[[-1, 0, 0], [0, 1, 0], [0, 0, 1]])
+expect(write("las.nhdr", nhdr + left + "axis mins: 5 6 7\ndata file: slice%03d.raw 1 6 1\n"), values, **as_ras)
+expect(write("las_directions.nhdr", nhdr.replace("spacings: 1 2 3\n", "") + left + "space directions: (1,0,0) (0,2,0) (0,0,3)\n"
+             "space origin: (5,6,7)\ndata file: slice%03d.raw 1 6 1\n"), values, **as_ras)
 digits = values.tobytes().hex()
 expect(write("hex.nrrd", nhdr.replace("raw", "hex") + "\n" + digits), values, **placed)
 expect(write("lines.nrrd", nhdr.replace("raw", "hex") + "\n" +

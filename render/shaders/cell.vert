@@ -28,9 +28,15 @@ flat out vec4 shaded;
 const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
 #endif
 
-// A matrix F with F F^T = s, the ellipse's shape in pixels; its columns are the half axes. If the
-// ellipse is nearly a circle its axes are arbitrary, so the quad is turned upright instead.
+// A matrix F with F F^T = s, the ellipse's shape in pixels: it leads from the unit disc to the
+// ellipse. For an ellipse in a point any will do. For a rectangle its columns are the half axes; if
+// the ellipse is nearly a circle these are arbitrary, so the quad is turned upright instead.
 mat2 half_axes(float xx, float xy, float yy) {
+#if defined(POINTS) && defined(ROUND)
+    float right = sqrt(xx);
+    float aside = xy / right;
+    return mat2(right, aside, 0, sqrt(max(yy - aside * aside, 1e-6 * yy)));
+#else
     float h = 0.5 * (xx - yy), mean = 0.5 * (xx + yy);
     float t = sqrt(h * h + xy * xy);
     float major = mean + t;
@@ -47,6 +53,7 @@ mat2 half_axes(float xx, float xy, float yy) {
     vec2 q = normalize(mix(vec2(1, 0), u, smoothstep(0.1, 0.3, t / mean)));
     float c = dot(u, q), s = q.x * u.y - q.y * u.x;
     return mat2(u, vec2(-u.y, u.x)) * mat2(lengths.x, 0, 0, lengths.y) * mat2(c, -s, s, c);
+#endif
 }
 
 void main() {
@@ -99,13 +106,12 @@ void main() {
         mat2 axes = half_axes(shape.x, shape.y, shape.z);
 #ifdef POINTS
         // The square around the ellipse, or around the rectangle on its axes.
-        vec2 u = abs(axes[0]), v = abs(axes[1]);
 #ifdef ROUND
-        vec2 reach = sqrt(u * u + v * v);
+        float half_size = sqrt(max(shape.x, shape.z));
 #else
-        vec2 reach = u + v;
-#endif
+        vec2 reach = abs(axes[0]) + abs(axes[1]);
         float half_size = max(reach.x, reach.y);
+#endif
         mat2 from_point = half_size * inverse(axes);
         disc_from_point = vec4(from_point[0], from_point[1]);
         gl_PointSize = 2.0 * half_size;

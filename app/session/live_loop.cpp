@@ -95,7 +95,7 @@ void LiveLoop::open(const std::filesystem::path& data, Session& session) {
     else if (!options_.why_not_open)
         reason = "other data are not opened in this session";
     else if (opening_)
-        reason = fmt::format("{} is being opened", opening_->data.filename().string());
+        open_next_ = data; // what was chosen last counts
     else
         opening_ = {data, std::async(std::launch::async, options_.why_not_open, data)};
     if (!reason.empty())
@@ -114,11 +114,13 @@ void LiveLoop::take_next_data(Session& session) {
     if (!opening_ || opening_->why_not.wait_for(Seconds(0)) != std::future_status::ready)
         return;
     const std::string reason = opening_->why_not.get();
-    if (reason.empty())
-        next_data_ = opening_->data;
-    else
+    if (!reason.empty())
         session.show_messages({reason});
+    else if (!open_next_)
+        next_data_ = opening_->data;
     opening_.reset();
+    if (const auto next = std::exchange(open_next_, std::nullopt))
+        open(*next, session);
 }
 
 /// The devices of a frame that begins now.

@@ -116,6 +116,7 @@ class LiveLoop {
         std::future<std::string> why_not;
     };
     std::optional<Opening> opening_;
+    std::optional<std::filesystem::path> open_next_; ///< chosen while others are being opened
     BackgroundWork recording_;
     /// Used only on the thread of `recording_`.
     std::shared_ptr<interaction::RecordingWriter> recorder_;

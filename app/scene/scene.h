@@ -48,6 +48,8 @@ class Scene {
     /// when it is complete.
     void upload(const index::ExtractionPtr& newest,
                 render::SendVolume volume = render::SendVolume::with_cells, Use use = Use::always);
+    /// Pictures do not depend on earlier sets from now on: see render::CellBuffers::send_whole.
+    void send_whole();
     /// Uploads a set without showing it; a later `upload` of the same set shows it.
     /// @return true when it is completely on the GPU
     bool stage(const index::ExtractionPtr& set, Use use = Use::always) {
@@ -157,8 +159,8 @@ class Scene {
     const render::Gl& gl_;
     index::SeriesInfo info_;
     std::vector<index::ValueType> held_types_; ///< types of the values in bricks, of all arrays
-    const std::size_t upload_bytes_;     ///< per frame
-    const std::uint64_t mesh_room_;      ///< 0: no set comes with a mesh
+    const std::size_t upload_bytes_;           ///< per frame
+    const std::uint64_t mesh_room_;            ///< 0: no set comes with a mesh
     bool box_ = true;
     Axes axes_;
     std::vector<interaction::Isosurface> surfaces_;
@@ -170,7 +172,7 @@ class Scene {
     bool on_light_ = false;                              ///< what is drawn on it is dark
     render::CellBuffers cells_;                          ///< always
     std::optional<render::CellBuffers> resting_;         ///< at rest
-    bool draws_resting_ = false;
+    bool draws_resting_ = false, sends_whole_ = false;
     std::vector<render::View> views_;
     render::CellPass cell_pass_;
     render::LinePass line_pass_;

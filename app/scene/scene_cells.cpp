@@ -15,6 +15,8 @@ void Scene::prepare_for_rest() {
     if (resting_)
         return;
     resting_.emplace(gl_, info_.grid);
+    if (sends_whole_)
+        resting_->send_whole();
     for (const index::ValueType held : held_types_)
         resting_->prepare(held);
 }
@@ -25,6 +27,13 @@ void Scene::upload(const index::ExtractionPtr& newest, render::SendVolume volume
         cells_.upload(nullptr, upload_bytes_, volume); // what was on its way arrives
     else if (resting_)
         resting_->upload(nullptr, upload_bytes_, volume);
+}
+
+void Scene::send_whole() {
+    sends_whole_ = true;
+    cells_.send_whole();
+    if (resting_)
+        resting_->send_whole();
 }
 
 void Scene::draw_at_rest(bool at_rest, const index::SurfacesQuery& surfaces) {

@@ -32,6 +32,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     const render::UploadCount before = scene_.uploaded();
     StopWatch watch;
     if (waiting == Waiting::for_cells) {
+        scene_.send_whole();
         extractor_.wait();
         report.wait = watch.lap();
     }

@@ -192,7 +192,7 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     if (with_points)
         ranked_ = std::make_unique<RankedPoints>(*set);
     else
-        plan_ = shown_ && shown_->coarse()
+        plan_ = !by_changes_ || (shown_ && shown_->coarse())
                     ? std::make_unique<SlotPlan>(grid_, nullptr, kNoSlots, *set)
                     : std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
     merged_ = false;

@@ -76,6 +76,10 @@ class CellBuffers {
     bool upload(const index::ExtractionPtr& newest, std::size_t byte_budget,
                 SendVolume volume = SendVolume::with_cells);
 
+    /// Sends each set whole from now on, also where its changes are less: the order in which cells
+    /// are drawn, which decides where two are equally near, then does not depend on earlier sets.
+    void send_whole() { by_changes_ = false; }
+
     /// The same for one set, without showing it; the next `upload` of this set shows it.
     /// @return true when it is completely on the GPU, or refused
     bool stage(const index::ExtractionPtr& set, std::size_t byte_budget);
@@ -158,6 +162,7 @@ class CellBuffers {
     index::ValueType held_{};                          ///< of its values
     std::map<index::ValueType, CellCompute> computes_; ///< by type of the values
     CellCompute* compute_ = nullptr;                   ///< for `held_`; likewise
+    bool by_changes_ = true;                           ///< else each set is sent whole
     index::ExtractionPtr shown_, refused_;
     std::string refusal_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set

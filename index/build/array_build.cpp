@@ -1,11 +1,9 @@
-// Builds one array of an index: one pass over the series, then the tiers from the values that were kept.
+// Builds one array of an index: plans the pass over its values, then makes the tiers from those that were kept.
 #include "index/build/array_build.h"
 
 #include "index/build/color_pass.h"
 #include "index/build/tier_plan.h"
 #include "index/build/unit_pass.h"
-#include "index/build/volume_pass.h"
-#include "index/build/work_progress.h"
 #include "index/file/detail_levels.h"
 #include "index/file/step_levels.h"
 #include "index/system/mapped_file.h"
@@ -14,6 +12,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,11 +32,9 @@ std::uint32_t covered_steps(std::uint32_t held, std::uint32_t steps, std::uint32
 class ArrayBuild::Work {
   public:
     Work(VolumeSeries& series, const std::filesystem::path& out, const BuildOptions& options,
-         const Progress& progress, Team& team, BuildTarget& target, const IndexFile* held,
-         std::uint64_t end)
-        : series_(series), out_(out), options_(options), work_(progress),
-          progress_([this](std::string_view phase, double done) { work_.report(phase, done); }),
-          team_(team), threads_(thread_count(options.threads)), target_(target),
+         std::size_t number, Team& team, BuildTarget& target, const IndexFile* held)
+        : series_(series), out_(out), options_(options), number_(number), team_(team),
+          threads_(thread_count(options.threads)), target_(target),
           held_(held), metadata_{.info = series.info(),
                                  .codec = options.codec,
                                  .tree = options.tree,
@@ -45,46 +42,59 @@ class ArrayBuild::Work {
                                  .chosen_array = options.array,
                                  .chosen_component = options.component},
           steps_(static_cast<std::uint32_t>(series.info().steps())),
-          levels_(detail_grids(series.info().grid).size()), end_(end) {
+          levels_(detail_grids(series.info().grid).size()) {
         if (held)
             take(*held);
-    }
-
-    bool write_parts() {
         plan_cells();
         plan_tiers_ahead();
-        plan_work(kept_.file != nullptr);
-        read_steps();
+        work_ = estimated_work(kept_.file != nullptr);
+    }
+
+    const ArrayWork& work() const { return work_; }
+
+    ArrayPass pass() {
+        if (options_.color)
+            team_.together([&] {
+                ChunkContents values_alone = contents();
+                values_alone.bricks = false;
+                colors_.emplace(*options_.color, fresh_, held_ ? held_->color() : nullptr,
+                                values_alone, means(".colors"), team_);
+            });
+        return {series_,    window_,          kept_,
+                contents(), means(".chunks"), colors_ ? &*colors_ : nullptr};
+    }
+
+    bool take(VolumeFindings found) {
+        counts_.merge(metadata_.info.type, found.counts);
+        set_counts(metadata_, counts_);
+        append_to(checksums_, found.checksums);
+        append_to(states_, found.states);
+        append_steps(volume_steps_, found.steps);
+        if (found.colors)
+            take_colors(std::move(*found.colors));
+        found_levels_ = std::move(found.levels);
+        content_hash_ = content_hash_of(metadata_.info, checksums_);
         if (held_ && !fits_held_levels())
             return false;
-        const SeriesInfo& info = metadata_.info;
-        values_ = {.grid = info.grid,
-                   .type = info.type,
-                   .scaling = info.scaling,
-                   .steps = info.steps(),
-                   .first = nullptr,
-                   .stride = step_stride(info.step_bytes()),
-                   .first_step = window_};
-        if (kept_.file) {
-            team_.together([&] { written_.emplace(scratch_->sink().temporary()); });
-            values_.first = written_->bytes().data();
-        }
+        take_kept_values();
         if (!held_)
             plan();
-        plan_work(has(Tier::cells));
-        write_cells();
+        work_ = estimated_work(has(Tier::cells));
+        return true;
+    }
+
+    std::uint64_t write_tiers(std::uint64_t end, const Progress& progress) {
+        end_ = end;
+        write_cells(progress);
         team_.together([&] {
             if (team_.rank() == 0)
-                write_tree();
+                write_tree(progress);
         });
         end_ = team_.gather_items(std::vector{end_}).front();
         written_.reset();
         scratch_.reset();
-        return true;
+        return end_;
     }
-
-    std::uint64_t end() const { return end_; }
-    void report_flushing() const { progress_("flushing to disk", 0.0); }
 
     ArraySections take_sections() {
         ArraySections sections{.content_hash = content_hash_,
@@ -183,47 +193,33 @@ class ArrayBuild::Work {
         });
     }
 
-    /// Estimates the work of each phase in bytes that are read. Building cells takes about four
-    /// times as long as reading and packing; flushing takes a twentieth of all the rest.
-    void plan_work(bool cells) {
+    /// Building cells takes about four times as long as reading and packing.
+    ArrayWork estimated_work(bool cells) const {
         const auto step = static_cast<double>(metadata_.info.step_bytes());
         const auto fresh = static_cast<double>(steps_ - fresh_);
+        const auto window = static_cast<double>(steps_ - window_);
         const double colors =
             options_.color ? fresh * static_cast<double>(options_.color->info().step_bytes()) : 0;
-        const double covered = cells ? 4 * step * static_cast<double>(steps_ - window_) : 0;
-        const double reading = step * static_cast<double>(steps_ - window_) + colors;
-        work_.plan({{"reading", reading},
-                    {"indexing", covered},
-                    {"flushing to disk", (reading + covered) / 20}});
+        return {step * window + colors, cells ? 4 * step * window : 0};
     }
 
     static bool asks_for_values(const TierSet& tiers) {
         return tiers.has(Tier::cells) || tiers.has(Tier::tree);
     }
 
-    void read_steps() {
+    void take_kept_values() {
         const SeriesInfo& info = metadata_.info;
-        align();
-        std::optional<ColorPass> colors;
-        if (options_.color)
-            team_.together([&] {
-                ChunkContents values_alone = contents();
-                values_alone.bricks = false;
-                colors.emplace(*options_.color, fresh_, held_ ? held_->color() : nullptr,
-                               values_alone, means(".colors"), team_);
-            });
-        VolumeFindings found = read_volume(series_, window_, fresh_, kept_,
-                                           {target_.sink(), end_, contents(), means(".chunks")},
-                                           colors ? &*colors : nullptr, team_, progress_);
-        counts_.merge(info.type, found.counts);
-        set_counts(metadata_, counts_);
-        append_to(checksums_, found.checksums);
-        append_to(states_, found.states);
-        append_steps(volume_steps_, found.steps);
-        if (found.colors)
-            take_colors(std::move(*found.colors));
-        found_levels_ = std::move(found.levels);
-        content_hash_ = content_hash_of(info, checksums_);
+        values_ = {.grid = info.grid,
+                   .type = info.type,
+                   .scaling = info.scaling,
+                   .steps = info.steps(),
+                   .first = nullptr,
+                   .stride = step_stride(info.step_bytes()),
+                   .first_step = window_};
+        if (!kept_.file)
+            return;
+        team_.together([&] { written_.emplace(scratch_->sink().temporary()); });
+        values_.first = written_->bytes().data();
     }
 
     /// Whether the levels of the existing cells have every value of the new steps.
@@ -258,7 +254,9 @@ class ArrayBuild::Work {
     WriterMeans means(const char* what) const {
         return {threads_, options_.waiting_bytes, spill(what), options_.color != nullptr};
     }
-    std::string spill(const char* what) const { return out_.string() + what; }
+    std::string spill(const char* what) const {
+        return out_.string() + what + (number_ > 0 ? std::to_string(number_) : "");
+    }
     /// Moves the end to where the next part begins.
     void align() { end_ = align_up(end_, kPartAlignment); }
 
@@ -270,7 +268,7 @@ class ArrayBuild::Work {
         metadata_.color->chosen_component = options_.color_component;
     }
 
-    void write_cells() {
+    void write_cells(const Progress& progress) {
         if (!has(Tier::cells))
             return;
         metadata_.cell_steps = covered_;
@@ -281,15 +279,15 @@ class ArrayBuild::Work {
         covered.steps = covered_;
         const UnitFindings units =
             write_units(covered, first_epoch_, *written_, *metadata_.levels, has(Tier::deltas),
-                        target_.sink(), end_, spill(".units"), threads_, team_, progress_);
+                        target_.sink(), end_, spill(".units"), threads_, team_, progress);
         append_to(directory_, units.directory);
         append_to(unit_checksums_, units.checksums);
     }
 
-    void write_tree() {
+    void write_tree(const Progress& progress) {
         align();
         const std::vector<std::byte> tree =
-            has(Tier::tree) ? build_thi_tree(values_, options_.tree, progress_, threads_)
+            has(Tier::tree) ? build_thi_tree(values_, options_.tree, progress, threads_)
                             : std::vector<std::byte>();
         tree_ = {end_, tree.size(), checksum_of(tree)};
         target_.sink().write_at(end_, tree);
@@ -300,13 +298,14 @@ class ArrayBuild::Work {
     VolumeSeries& series_;
     const std::filesystem::path& out_;
     const BuildOptions& options_;
-    WorkProgress work_;
-    Progress progress_;
+    std::size_t number_; ///< of the array in the index
     Team& team_;
     unsigned threads_;
     BuildTarget& target_;
     std::optional<NewTarget> scratch_; ///< the kept values; never committed
     KeptValues kept_;
+    std::optional<ColorPass> colors_;
+    ArrayWork work_;
     bool bricks_ = true; ///< in the chunks
     const IndexFile* held_;
     Metadata metadata_;
@@ -325,27 +324,30 @@ class ArrayBuild::Work {
     std::vector<UnitEntry> directory_;
     std::vector<std::uint64_t> checksums_, unit_checksums_, color_checksums_, states_;
     std::vector<std::vector<StepEntry>> volume_steps_, color_steps_; ///< by level of detail
-    std::uint64_t end_;                                              ///< of what has been written
+    std::uint64_t end_ = 0;                                          ///< of what has been written
 };
 
 ArrayBuild::ArrayBuild(VolumeSeries& series, const std::filesystem::path& out,
-                       const BuildOptions& options, const Progress& progress, Team& team,
-                       BuildTarget& target, const IndexFile* held, std::uint64_t end)
-    : work_(std::make_unique<Work>(series, out, options, progress, team, target, held, end)) {}
+                       const BuildOptions& options, std::size_t number, Team& team,
+                       BuildTarget& target, const IndexFile* held)
+    : work_(std::make_unique<Work>(series, out, options, number, team, target, held)) {}
 
 ArrayBuild::~ArrayBuild() = default;
 
-bool ArrayBuild::write_parts() {
-    return work_->write_parts();
+ArrayWork ArrayBuild::work() const {
+    return work_->work();
 }
-std::uint64_t ArrayBuild::end() const {
-    return work_->end();
+ArrayPass ArrayBuild::pass() {
+    return work_->pass();
+}
+bool ArrayBuild::take(VolumeFindings found) {
+    return work_->take(std::move(found));
+}
+std::uint64_t ArrayBuild::write_tiers(std::uint64_t end, const Progress& progress) {
+    return work_->write_tiers(end, progress);
 }
 ArraySections ArrayBuild::take_sections() {
     return work_->take_sections();
-}
-void ArrayBuild::report_flushing() const {
-    work_->report_flushing();
 }
 
 } // namespace isochron::index

@@ -1,9 +1,10 @@
-// Builds one array of an index: reads its series once, and writes all its parts but the sections.
+// Builds one array of an index: what to do with its values when they are read, then its tiers.
 #pragma once
 
 #include "index/build/build_options.h"
 #include "index/build/build_target.h"
 #include "index/build/section_writer.h"
+#include "index/build/volume_pass.h"
 #include "index/progress.h"
 #include "index/system/team.h"
 
@@ -13,26 +14,31 @@
 
 namespace isochron::index {
 
+/// How long the build of an array takes, in bytes that are read.
+struct ArrayWork {
+    double reading = 0, indexing = 0;
+};
+
 /// All members of a team make one with the same arguments, which outlive it, and call the same
-/// functions.
+/// functions: `pass`, then `take`, then `write_tiers`. All throw as `build_index`.
 class ArrayBuild {
   public:
-    /// @param options of this array @param held the array to append to; null for a new one
-    /// @param end of the file so far
+    /// @param options of this array @param number of this array in the index
+    /// @param held the array to append to; null for a new one
     ArrayBuild(VolumeSeries& series, const std::filesystem::path& out, const BuildOptions& options,
-               const Progress& progress, Team& team, BuildTarget& target, const IndexFile* held,
-               std::uint64_t end);
+               std::size_t number, Team& team, BuildTarget& target, const IndexFile* held);
     ~ArrayBuild();
 
-    /// @return false if appending would give cells whose levels lack values @throws Error as
-    ///         `build_index`
-    bool write_parts();
-    /// The end of the file with these parts, a multiple of 64.
-    std::uint64_t end() const;
+    /// Estimates; better ones once values have been taken.
+    ArrayWork work() const;
+    /// What the pass over the sources has to do with this array. Valid as long as this.
+    ArrayPass pass();
+    /// @return false if appending would give cells whose levels lack values
+    bool take(VolumeFindings found);
+    /// @return the end of the file with these tiers, a multiple of 64
+    std::uint64_t write_tiers(std::uint64_t end, const Progress& progress);
     /// What the sections have to hold. Call it once, on rank 0.
     ArraySections take_sections();
-    /// Reports that all is written, but not flushed to disk.
-    void report_flushing() const;
 
   private:
     class Work;

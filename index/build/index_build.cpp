@@ -1,17 +1,20 @@
-// Builds .isochron files: array after array, then the sections of all.
+// Builds .isochron files: one pass over the sources of all arrays, then their tiers, then their sections.
 #include "index/build/index_build.h"
 
 #include "index/build/array_build.h"
 #include "index/build/color_pass.h"
 #include "index/build/section_writer.h"
+#include "index/build/volume_pass.h"
+#include "index/build/work_progress.h"
 #include "index/error.h"
 #include "index/file/file_layout.h"
 #include "index/system/input_file.h"
+#include "index/system/parallel.h"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <memory>
+#include <deque>
 #include <set>
 #include <string>
 #include <vector>
@@ -83,44 +86,97 @@ BuildOptions options_of(const FurtherArray& array, const BuildOptions& all) {
     return options;
 }
 
-/// Writes the arrays one after the other, then all their sections.
+/// The arrays that are built together.
+class Arrays {
+  public:
+    Arrays(VolumeSeries& first, const std::filesystem::path& out, const BuildOptions& all,
+           const Progress& progress, Team& team, BuildTarget& target, const IndexFile* held)
+        : work_(progress) {
+        for (std::size_t number = 0; number <= all.further.size(); ++number) {
+            const FurtherArray* further = number > 0 ? &all.further[number - 1] : nullptr;
+            options_.push_back(further ? options_of(*further, all) : all);
+            builds_.emplace_back(further ? *further->series : first, out, options_.back(), number,
+                                 team, target, held ? &held->array(number) : nullptr);
+        }
+    }
+
+    /// Reads every step once, writes its chunks, then the tiers of one array after the other.
+    /// @return false if appending is impossible
+    bool write(const PassTarget& to, std::size_t fresh, Team& team) {
+        plan_work();
+        std::vector<ArrayPass> passes;
+        for (ArrayBuild& build : builds_) {
+            passes.push_back(build.pass());
+            passes.back().means.lends |= builds_.size() > 1;
+        }
+        std::vector<VolumeFindings> found =
+            read_volumes(passes, fresh, to, team, [this](std::string_view phase, double done) {
+                work_.report(phase, done);
+            });
+        for (std::size_t number = 0; number < builds_.size(); ++number)
+            if (!builds_[number].take(std::move(found[number])))
+                return false;
+        plan_work();
+        double before = 0;
+        for (ArrayBuild& build : builds_) {
+            const double own = build.work().indexing;
+            to.end = build.write_tiers(to.end, [&](std::string_view phase, double done) {
+                work_.report(phase, indexing_ > 0 ? (before + own * done) / indexing_ : done);
+            });
+            before += own;
+        }
+        return true;
+    }
+
+    std::vector<ArraySections> take_sections() {
+        std::vector<ArraySections> sections;
+        for (ArrayBuild& build : builds_)
+            sections.push_back(build.take_sections());
+        return sections;
+    }
+
+    /// Reports that all is written, but not flushed to disk.
+    void report_flushing() { work_.report("flushing to disk", 0); }
+
+  private:
+    /// Flushing takes a twentieth of all the rest.
+    void plan_work() {
+        double reading = 0;
+        indexing_ = 0;
+        for (const ArrayBuild& build : builds_) {
+            reading += build.work().reading;
+            indexing_ += build.work().indexing;
+        }
+        work_.plan({{"reading", reading},
+                    {"indexing", indexing_},
+                    {"flushing to disk", (reading + indexing_) / 20}});
+    }
+
+    WorkProgress work_;
+    double indexing_ = 0;              ///< the work of all arrays
+    std::deque<BuildOptions> options_; ///< deques, since the builds refer to the options
+    std::deque<ArrayBuild> builds_;
+};
+
+/// Writes all arrays, then their sections.
 /// @return false if appending is impossible
 bool build_arrays(VolumeSeries& first, const std::filesystem::path& out, const BuildOptions& all,
                   const Progress& progress, Team& team, BuildTarget& target,
                   const IndexFile* held) {
-    struct One {
-        BuildOptions options;
-        Progress progress;
-        std::unique_ptr<ArrayBuild> build;
-    };
-    std::vector<std::unique_ptr<One>> arrays;
-    std::uint64_t end = held ? held->header().file_bytes : kDataBegin;
-    const std::size_t count = all.further.size() + 1;
-    for (std::size_t number = 0; number < count; ++number) {
-        One& one = *arrays.emplace_back(std::make_unique<One>());
-        one.options = number == 0 ? all : options_of(all.further[number - 1], all);
-        one.progress = [&progress, number, count](std::string_view phase, double done) {
-            if (progress)
-                progress(phase, (static_cast<double>(number) + done) / static_cast<double>(count));
-        };
-        one.build = std::make_unique<ArrayBuild>(
-            number == 0 ? first : *all.further[number - 1].series, out, one.options, one.progress,
-            team, target, held ? &held->array(number) : nullptr, end);
-        if (!one.build->write_parts())
-            return false;
-        end = one.build->end();
-    }
+    Arrays arrays(first, out, all, progress, team, target, held);
+    std::uint64_t end = align_up(held ? held->header().file_bytes : kDataBegin, kPartAlignment);
+    if (!arrays.write({target.sink(), end, out.string() + ".chunks", thread_count(all.threads)},
+                      held ? held->info().steps() : 0, team))
+        return false;
     FileHeader header;
     header.sequence = held ? held->header().sequence + 1 : 0;
     team.together([&] {
         if (team.rank() > 0)
             return;
-        std::vector<ArraySections> sections;
-        for (const auto& one : arrays)
-            sections.push_back(one->build->take_sections());
+        auto sections = arrays.take_sections();
         write_sections(sections, held, end, header, target.sink());
     });
-    arrays.back()->build->report_flushing();
+    arrays.report_flushing();
     target.commit(header);
     return true;
 }

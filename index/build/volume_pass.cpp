@@ -1,4 +1,4 @@
-// The pass of a build over the series: reads every step once, analyzes and packs it.
+// The pass of a build over its arrays: reads every step once, analyzes and packs it.
 #include "index/build/volume_pass.h"
 
 #include "index/build/layer_stream.h"
@@ -8,8 +8,9 @@
 #include "index/file/metadata.h"
 #include "index/system/running_checksum.h"
 
-#include <algorithm>
+#include <deque>
 #include <optional>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -54,58 +55,115 @@ class Observer {
     std::vector<std::uint64_t> checksums_;
 };
 
+/// What a member finds in, and writes of, one array.
+class Reading {
+  public:
+    explicit Reading(const ArrayPass& pass)
+        : pass_(pass), stride_(step_stride(info().step_bytes())), observer_(info()),
+          writer_(info(), pass.contents, pass.means) {}
+
+    const ArrayPass& pass() const { return pass_; }
+
+    void keep(std::size_t step, const LayerView& layer) {
+        if (pass_.kept.file && (pass_.kept.always || observer_.lossless()))
+            pass_.kept.file->write_at((step - pass_.first) * stride_ + layer.begin * layer.plane,
+                                      layer.own());
+    }
+
+    void take(std::size_t step, const LayerView& layer, PartWriter& parts) {
+        observer_.look(step, layer);
+        keep(step, layer);
+        writer_.take(layer, parts, steps_);
+    }
+
+    void take_states(std::size_t begin, std::size_t end) {
+        for (std::size_t step = begin; step < end; ++step)
+            states_.push_back(pass_.series.state(step));
+    }
+
+    /// @param begin of this member's parts in the file
+    VolumeFindings agreed(std::uint64_t begin, Team& team) {
+        VolumeFindings found = observer_.agreed(states_, team);
+        found.steps =
+            agreed_steps(std::move(steps_), begin, detail_grids(info().grid).size(), team);
+        if (pass_.colors)
+            found.colors = pass_.colors->agreed(begin, team);
+        return found;
+    }
+
+  private:
+    const SeriesInfo& info() const { return pass_.series.info(); }
+
+    const ArrayPass& pass_;
+    std::size_t stride_;
+    Observer observer_;
+    StepWriter writer_;
+    std::vector<StepEntry> steps_;
+    std::vector<std::uint64_t> states_;
+};
+
+/// Reads this member's share of all steps.
+void read_share(std::deque<Reading>& readings, std::size_t fresh, const PassTarget& target,
+                PartWriter& parts, const Team& team, const Progress& progress) {
+    const auto stream = [&](std::span<VolumeSeries* const> arrays, std::size_t begin,
+                            std::size_t end, const TakeLayer& take) {
+        stream_layers(arrays, begin, end, target.threads, take, [&](double done) {
+            if (progress)
+                progress("reading", done);
+        });
+    };
+    struct Part {
+        Reading* reading;
+        bool colors;
+    };
+    std::vector<VolumeSeries*> arrays;
+    std::vector<Part> of;
+    for (Reading& reading : readings) {
+        const ArrayPass& pass = reading.pass();
+        // Held steps are divided among the members, and so are new steps.
+        VolumeSeries* const alone[]{&pass.series};
+        if (const auto [begin, end] = team.share(fresh - pass.first); begin < end)
+            stream(alone, pass.first + begin, pass.first + end,
+                   [&](std::size_t, std::size_t step, const LayerView& layer) {
+                       reading.keep(step, layer);
+                   });
+        arrays.push_back(&pass.series);
+        of.push_back({&reading, false});
+        if (!pass.colors)
+            continue;
+        arrays.push_back(&pass.colors->series());
+        of.push_back({&reading, true});
+    }
+    const auto [begin, end] = team.share(arrays.front()->info().steps() - fresh);
+    stream(arrays, fresh + begin, fresh + end,
+           [&](std::size_t array, std::size_t step, const LayerView& layer) {
+               const auto [reading, colors] = of[array];
+               if (colors)
+                   reading->pass().colors->take(layer, parts);
+               else
+                   reading->take(step, layer, parts);
+           });
+    for (Reading& reading : readings)
+        reading.take_states(fresh + begin, fresh + end);
+}
+
 } // namespace
 
-VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t fresh,
-                           const KeptValues& kept, const PassTarget& target, ColorPass* colors,
-                           Team& team, const Progress& progress) {
-    const SeriesInfo& info = series.info();
-    const std::size_t stride = step_stride(info.step_bytes());
-    Observer observer(info);
+std::vector<VolumeFindings> read_volumes(std::span<const ArrayPass> arrays, std::size_t fresh,
+                                         const PassTarget& target, Team& team,
+                                         const Progress& progress) {
     std::optional<PartWriter> parts;
-    std::vector<StepEntry> steps;
-    std::vector<std::uint64_t> states;
+    std::deque<Reading> readings; // which cannot move
     team.together([&] {
-        parts.emplace(target.file, target.end, target.means.beside, team);
-        StepWriter writer(info, target.contents, target.means);
-        const auto keep = [&](std::size_t step, const LayerView& layer) {
-            if (kept.file && (kept.always || observer.lossless()))
-                kept.file->write_at((step - first) * stride + layer.begin * layer.plane,
-                                    layer.own());
-        };
-        const auto stream = [&](std::span<VolumeSeries* const> arrays, std::size_t begin,
-                                std::size_t end, const TakeLayer& take) {
-            stream_layers(arrays, begin, end, target.means.threads, take, [&](double done) {
-                if (progress)
-                    progress("reading", done);
-            });
-        };
-        std::vector<VolumeSeries*> arrays{&series};
-        // Held steps are divided among the members, and so are new steps.
-        if (const auto [begin, end] = team.share(fresh - first); begin < end)
-            stream(
-                arrays, first + begin, first + end,
-                [&](std::size_t, std::size_t step, const LayerView& layer) { keep(step, layer); });
-        if (colors)
-            arrays.push_back(&colors->series());
-        const auto [begin, end] = team.share(info.steps() - fresh);
-        stream(arrays, fresh + begin, fresh + end,
-               [&](std::size_t array, std::size_t step, const LayerView& layer) {
-                   if (array > 0)
-                       return colors->take(layer, *parts);
-                   observer.look(step, layer);
-                   keep(step, layer);
-                   writer.take(layer, *parts, steps);
-               });
-        for (std::size_t step = fresh + begin; step < fresh + end; ++step)
-            states.push_back(series.state(step));
+        parts.emplace(target.file, target.end, target.beside, team);
+        for (const ArrayPass& array : arrays)
+            readings.emplace_back(array);
+        read_share(readings, fresh, target, *parts, team, progress);
     });
-    VolumeFindings found = observer.agreed(states, team);
     const PartWriter::Placed placed = parts->place(team);
-    const std::uint64_t mine = target.end + placed.start;
-    found.steps = agreed_steps(std::move(steps), mine, detail_grids(info.grid).size(), team);
-    if (colors)
-        found.colors = colors->agreed(mine, team);
+    std::vector<VolumeFindings> found;
+    for (Reading& reading : readings)
+        found.push_back(reading.agreed(target.end + placed.start, team));
     target.end += placed.bytes;
     return found;
 }

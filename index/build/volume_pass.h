@@ -1,4 +1,4 @@
-// The pass of a build over the series: reads every step once, analyzes and packs it.
+// The pass of a build over its arrays: reads every step once, analyzes and packs it.
 #pragma once
 
 #include "index/build/color_pass.h"
@@ -10,17 +10,21 @@
 #include "index/system/team.h"
 #include "index/volume/level_map.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace isochron::index {
 
-/// The output of a pass.
+/// Where a pass writes.
 struct PassTarget {
     ByteSink& file;
-    std::uint64_t& end; ///< of the file so far; moves to the end of what was written
-    ChunkContents contents;
-    WriterMeans means; ///< `beside` also takes the parts of team members that must wait for others
+    std::uint64_t& end;           ///< of the file so far; moves to the end of what was written
+    std::filesystem::path beside; ///< for temporary files without a name: see ScratchFile
+    unsigned threads = 1;
 };
 
 /// Keeps the values from which cells or the tree are built.
@@ -30,7 +34,17 @@ struct KeptValues {
     bool always = true;
 };
 
-/// The results of the pass, the same for every member of the team.
+/// What a pass does with one of the arrays that it reads.
+struct ArrayPass {
+    VolumeSeries& series;
+    std::size_t first; ///< the first step whose values are kept
+    KeptValues kept;
+    ChunkContents contents;
+    WriterMeans means;
+    ColorPass* colors; ///< gets each new step right after this array; null if there is none
+};
+
+/// The results of the pass for an array, the same for every member of the team.
 struct VolumeFindings {
     ValueCounts counts;
     std::vector<std::uint64_t> checksums; ///< of every step
@@ -40,12 +54,13 @@ struct VolumeFindings {
     std::optional<ColorFindings> colors;
 };
 
-/// Reads each member's share of the steps from `first` on, a layer of chunks ahead of the work.
-/// Keeps the values of all of them, step after step, each padded to `step_stride`; analyzes and
-/// packs only the steps from `fresh` on.
-/// @param colors gets each of those steps right after the volume's; null if there is none
-VolumeFindings read_volume(VolumeSeries& series, std::size_t first, std::size_t fresh,
-                           const KeptValues& kept, const PassTarget& target, ColorPass* colors,
-                           Team& team, const Progress& progress);
+/// Reads each member's share of the steps, a layer of chunks ahead of the work: of every step from
+/// `fresh` on all arrays, one right after the other, so that a file that holds several comes from
+/// its disk once; their parts lie in the file in the same order. Keeps the values of all steps from
+/// an array's first on, step after step, each padded to `step_stride`; analyzes and packs only those
+/// from `fresh` on.
+std::vector<VolumeFindings> read_volumes(std::span<const ArrayPass> arrays, std::size_t fresh,
+                                         const PassTarget& target, Team& team,
+                                         const Progress& progress);
 
 } // namespace isochron::index

@@ -3,6 +3,7 @@
 #include "tests/support/session_fixture.h"
 
 #include "app/session/recording_file.h"
+#include "tests/support/nearness_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
 
@@ -55,6 +56,50 @@ class ClusterJobTest : public testing::Test {
                 frame.commands.step = static_cast<std::uint32_t>(i);
             if (i % 5 == 0)
                 frame.commands.stamps = {"stamp"};
+            writer.append(frame);
+        }
+        writer.finish();
+    }
+
+    /// The array of the surfaces changes, then what colors them, and both at once.
+    void record_changing_arrays(const std::string& configuration) {
+        MovingSphere sphere(12);
+        NearnessSeries nearness(sphere.info());
+        build_index(sphere, folder_.path() / "both.isochron",
+                    {.further = {{.series = &nearness, .array = "nearness"}}});
+        interaction::RecordingHeader header;
+        header.configuration = configuration;
+        header.data = "both.isochron";
+        header.start.isovalue = 8.0;
+        header.start.stereo = "quadbuffer";
+        interaction::RecordingWriter writer(folder_.path() / "arrays.jsonl", header);
+        const auto surface = [](double isovalue) {
+            return std::vector{interaction::Isosurface{.isovalue = isovalue}};
+        };
+        const auto colored_by = [](const std::string& array) {
+            interaction::Coloring coloring{.by = interaction::ColorBy::value};
+            coloring.array = array;
+            return coloring;
+        };
+        for (int i = 0; i < 8; ++i) {
+            interaction::RecordedFrame frame;
+            frame.input = head_at_rest(1.0 + i);
+            frame.commands.step = static_cast<std::uint32_t>(i);
+            frame.commands.stamps = {"stamp"};
+            if (i == 1)
+                frame.commands.coloring = colored_by("nearness");
+            if (i == 3) {
+                frame.commands.array = "nearness";
+                frame.commands.isosurfaces = surface(70);
+                frame.commands.coloring = interaction::Coloring{};
+            }
+            if (i == 4)
+                frame.commands.coloring = colored_by("distance");
+            if (i == 6) {
+                frame.commands.array = "distance";
+                frame.commands.isosurfaces = surface(6);
+                frame.commands.coloring = colored_by("nearness");
+            }
             writer.append(frame);
         }
         writer.finish();
@@ -141,6 +186,23 @@ TEST_F(ClusterJobTest, PicturesEqualThoseOfASingleProcess) {
     EXPECT_THAT(folder_.read("timing.json"), HasSubstr("\"barrier\""));
     EXPECT_THAT(folder_.read("timing.json"), HasSubstr("\"surface\": "));
     EXPECT_THAT(folder_.read("timing_rank4.json"), HasSubstr("\"barrier\""));
+}
+
+TEST_F(ClusterJobTest, ChangesOfArraysGiveThePicturesOfASingleProcess) {
+    record_changing_arrays(small_cave());
+    const std::string replay = "$isochron replay arrays.jsonl --stamps --eyes each --out ";
+    const ChildResult one = alone(replay + "alone");
+    ASSERT_EQ(one.status, 0) << one.err;
+    const auto expected = files_in("alone");
+    ASSERT_EQ(expected.size(), 8u * 4 * 2);
+    std::set<std::string> front;
+    for (const auto& [name, bytes] : expected)
+        if (name.find("front_left") != name.npos)
+            front.insert(bytes);
+    EXPECT_EQ(front.size(), 8u) << "every step and change shows";
+    const ChildResult result = job(2, replay + "job");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(files_in("job"), expected);
 }
 
 TEST_F(ClusterJobTest, AKilledProcessEndsTheJob) {

@@ -2,6 +2,7 @@
 #include "app/session/replay.h"
 #include "index/error.h"
 #include "interaction/actions.h"
+#include "tests/support/nearness_series.h"
 #include "tests/support/session_fixture.h"
 
 #include <gmock/gmock.h>
@@ -17,34 +18,11 @@ using interaction::Action;
 using interaction::Commands;
 using testing::HasSubstr;
 
-/// Stored as bytes: how near a point is to the middle of the volume.
-class Nearness final : public index::VolumeSeries {
-  public:
-    explicit Nearness(const index::SeriesInfo& volume) : info_(volume) {
-        info_.array = "nearness";
-        info_.value_unit = "%";
-        info_.type = index::ValueType::u8;
-    }
-    const index::SeriesInfo& info() const override { return info_; }
-    void read(std::size_t step, std::span<std::byte> out) override {
-        const auto& n = info_.grid.vertices;
-        for (std::size_t at = 0; at < out.size(); ++at) {
-            const double x = static_cast<double>(at % n[0]) - 15.5;
-            const double y = static_cast<double>(at / n[0] % n[1]) - 15.5;
-            const double z = static_cast<double>(at / n[0] / n[1]) - 10.0 - double(step);
-            out[at] = static_cast<std::byte>(std::max(0.0, 100 - 4 * std::hypot(x, y, z)));
-        }
-    }
-
-  private:
-    index::SeriesInfo info_;
-};
-
 class SessionArrays : public SessionTest {
   protected:
     SessionArrays() {
         MovingSphere sphere(kSteps);
-        Nearness nearness(sphere.info());
+        NearnessSeries nearness(sphere.info());
         build_index(sphere, folder_.path() / "both.isochron",
                     {.further = {{.series = &nearness, .array = "nearness"}}});
         both_ = index::IndexFile::open(folder_.path() / "both.isochron");

@@ -22,6 +22,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::index {
@@ -158,6 +159,23 @@ TEST_F(IndexArrays, ReadEachSeriesOnce) {
         };
     build_index(all.first(), folder_.path() / "a.isochron", all.options);
     EXPECT_THAT(reads, testing::Each(kTimes));
+}
+
+/// So that files that hold all arrays of a step come from their disk once.
+TEST_F(IndexArrays, AreReadStepAfterStep) {
+    Given all = given();
+    all.series.push_back(array_series("colors", rho_));
+    all.options.color = all.series.back().get();
+    std::vector<std::pair<std::size_t, std::size_t>> reads, expected;
+    for (std::size_t number = 0; number < all.series.size(); ++number)
+        static_cast<MemorySeries&>(*all.series[number]).before_read =
+            [&, number](std::size_t step) { reads.emplace_back(step, number); };
+    build_index(all.first(), folder_.path() / "a.isochron", all.options);
+    for (std::size_t step = 0; step < kTimes; ++step)
+        for (const std::size_t number : {0u, 3u, 1u, 2u})
+            expected.emplace_back(step, number);
+    EXPECT_EQ(reads, expected);
+    expect_like_brute_force(IndexFile::open(folder_.path() / "a.isochron"));
 }
 
 TEST_F(IndexArrays, AllGrowWithAnAppend) {

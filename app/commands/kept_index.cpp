@@ -80,8 +80,11 @@ std::string options_text(const BuildArguments& arguments) {
 std::string name_of_kept(const std::vector<fs::path>& files, const BuildArguments& arguments) {
     std::string key = fmt::format("{} {};", kProgram, kReading);
     for (const fs::path& file : files) {
-        const std::string name = fs::weakly_canonical(file).string() +
-                                 (fs::is_directory(file) ? state_of_folder(file) : "");
+        const fs::path whole = fs::weakly_canonical(file);
+        const bool case_of_openfoam = whole.extension() == ".foam";
+        std::string name = whole.string();
+        if (case_of_openfoam || fs::is_directory(whole))
+            name += state_of_folder(case_of_openfoam ? whole.parent_path() : whole);
         key += fmt::format("{}:{};", name.size(), name);
     }
     key += options_text(arguments);

@@ -21,6 +21,10 @@ std::unique_ptr<DecodedFile> decode_vtk(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_vtk_data(const std::filesystem::path& path,
                                              const ReadOptions& options);
 
+/// Meshes of simulations where they are to be resampled: Exodus, CGNS, OpenFOAM, AMReX.
+std::unique_ptr<DecodedFile> decode_mesh(const std::filesystem::path& path,
+                                         const ReadOptions& options);
+
 /// NetCDF, classic and 4.
 std::unique_ptr<DecodedFile> decode_netcdf(const std::filesystem::path& path,
                                            const ReadOptions& options);

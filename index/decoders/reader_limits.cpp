@@ -47,6 +47,32 @@ std::uint64_t free_memory() {
     return found;
 }
 
+/// [bytes] of the folder that a file stands for: of an OpenFOAM case, an AMReX plotfile;
+/// else of the file. Of very many files, the first ones.
+std::uint64_t bytes_behind(const std::filesystem::path& file) {
+    namespace fs = std::filesystem;
+    constexpr int kMost = 100'000;
+    std::error_code error;
+    const std::uint64_t own = fs::file_size(file, error);
+    std::uint64_t bytes = error ? 0 : own;
+    const std::string name = file.filename().string();
+    fs::path folder = fs::absolute(file, error).parent_path();
+    if (name == "controlDict")
+        folder = folder.parent_path();
+    else if (name != "Header" && !name.ends_with(".foam"))
+        return bytes;
+    int seen = 0;
+    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+         at.increment(error)) {
+        std::error_code gone;
+        if (const auto size = at->is_regular_file(gone) ? at->file_size(gone) : 0; !gone)
+            bytes += size;
+        if (++seen == kMost)
+            break;
+    }
+    return bytes;
+}
+
 /// More time than any library needs: a minute, and a second for each megabyte.
 std::uint64_t seconds_for(std::uint64_t bytes) {
     return 60 + bytes / 1'000'000;
@@ -56,9 +82,7 @@ std::uint64_t seconds_for(std::uint64_t bytes) {
 
 ReaderBudget::ReaderBudget(const std::filesystem::path& file, std::uint64_t most)
     : before_(taken_memory()), most_(most > 0 ? most : free_memory()) {
-    std::error_code ignored;
-    const auto bytes = std::filesystem::file_size(file, ignored);
-    file_bytes_ = ignored ? 0 : bytes;
+    file_bytes_ = bytes_behind(file);
     expect(0);
     renew_time();
 }

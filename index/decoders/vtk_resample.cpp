@@ -17,6 +17,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkResampleToImage.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,16 +114,17 @@ double interpolated(vtkImageData& image, vtkDataArray& values, const ChosenScala
     return sum;
 }
 
-} // namespace
-
-vtkSmartPointer<vtkImageData> onto_image(vtkDataObject& data,
-                                         const std::array<std::uint32_t, 3>& vertices,
-                                         const std::string& file) {
-    const auto counts = vertices == kBySmallestCell ? vertices_by_cells(data, file) : vertices;
+/// @param box lowest and highest coordinate along each axis; null: the data's own
+vtkSmartPointer<vtkImageData>
+resampled_by(vtkDataObject& data, const std::array<std::uint32_t, 3>& counts, const double* box) {
     const vtkNew<vtkResampleToImage> filter;
     filter->SetInputDataObject(&data);
     filter->SetSamplingDimensions(static_cast<int>(counts[0]), static_cast<int>(counts[1]),
                                   static_cast<int>(counts[2]));
+    if (box) {
+        filter->UseInputBoundsOff();
+        filter->SetSamplingBounds(box);
+    }
     filter->Update();
     vtkSmartPointer<vtkImageData> image = filter->GetOutput();
     for (const char* mask : {"vtkValidPointMask", "vtkValidCellMask"}) { // flags say the same
@@ -130,6 +132,24 @@ vtkSmartPointer<vtkImageData> onto_image(vtkDataObject& data,
         image->GetCellData()->RemoveArray(mask);
     }
     return image;
+}
+
+} // namespace
+
+vtkSmartPointer<vtkImageData> onto_image(vtkDataObject& data,
+                                         const std::array<std::uint32_t, 3>& vertices,
+                                         const std::string& file) {
+    const auto counts = vertices == kBySmallestCell ? vertices_by_cells(data, file) : vertices;
+    return resampled_by(data, counts, nullptr);
+}
+
+vtkSmartPointer<vtkImageData> onto_image_like(vtkDataObject& data, vtkImageData& like) {
+    const int* counts = like.GetDimensions();
+    return resampled_by(data,
+                        {static_cast<std::uint32_t>(counts[0]),
+                         static_cast<std::uint32_t>(counts[1]),
+                         static_cast<std::uint32_t>(counts[2])},
+                        like.GetBounds());
 }
 
 std::string note_on_resampling(vtkDataObject& data, vtkImageData& image, const ChosenScalar& chosen,
@@ -145,9 +165,13 @@ std::string note_on_resampling(vtkDataObject& data, vtkImageData& image, const C
             own = grid.GetCellData()->GetArray(name);
         if (!own || !values)
             return;
+        // Of cells that finer ones stand for, values are not shown.
+        vtkUnsignedCharArray* ghosts = on_cells ? grid.GetCellGhostArray() : nullptr;
         const vtkIdType count = on_cells ? grid.GetNumberOfCells() : grid.GetNumberOfPoints();
         const vtkIdType stride = count / kMostPlaces + 1;
         for (vtkIdType i = 0; i < std::min(count, own->GetNumberOfTuples()); i += stride) {
+            if (ghosts && ghosts->GetValue(i) != 0)
+                continue;
             std::array<double, 3> at{};
             if (on_cells) {
                 std::array<double, 6> box{};

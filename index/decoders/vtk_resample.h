@@ -22,6 +22,9 @@ vtkSmartPointer<vtkImageData> onto_image(vtkDataObject& data,
                                          const std::array<std::uint32_t, 3>& vertices,
                                          const std::string& file);
 
+/// The same onto the vertices of another image.
+vtkSmartPointer<vtkImageData> onto_image_like(vtkDataObject& data, vtkImageData& like);
+
 /// The resolution, and how far the regular grid is from the data's own values at their points, or
 /// at the centers of their cells.
 /// @param hidden vertices of the regular grid, see `hidden_by_flags`

@@ -214,6 +214,10 @@ std::unique_ptr<VolumeFile> open_vtk_data(const fs::path& path, const ReadOption
     return open_foreign(readers_of_this_process(), ForeignFormat::vtk_data, path, options);
 }
 
+std::unique_ptr<VolumeFile> open_mesh(const fs::path& path, const ReadOptions& options) {
+    return open_foreign(readers_of_this_process(), ForeignFormat::mesh, path, options);
+}
+
 std::unique_ptr<VolumeFile> open_netcdf(const fs::path& path, const ReadOptions& options) {
     return open_foreign(readers_of_this_process(), ForeignFormat::netcdf, path, options);
 }

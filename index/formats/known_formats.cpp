@@ -22,21 +22,32 @@ struct Format {
 
 /// One entry for each extension; the first that matches the end of a name is used.
 constexpr std::array kFormats{
-    Format{".vti", open_vti},       Format{".vtk", open_vtk},       Format{".mhd", open_metaimage},
-    Format{".mha", open_metaimage}, Format{".nrrd", open_nrrd},     Format{".nhdr", open_nrrd},
-    Format{".nii", open_nifti},     Format{".nii.gz", open_nifti},  Format{".hdr", open_nifti},
-    Format{".hdr.gz", open_nifti},  Format{".img", open_nifti},     Format{".img.gz", open_nifti},
-    Format{".nc", open_netcdf},     Format{".nc4", open_netcdf},    Format{".cdf", open_netcdf},
-    Format{".vtr", open_vtk_data},  Format{".pvti", open_vtk_data}, Format{".pvtr", open_vtk_data},
-    Format{".vtu", open_vtk_data},  Format{".vts", open_vtk_data},  Format{".pvtu", open_vtk_data},
-    Format{".pvts", open_vtk_data}, Format{".vtm", open_vtk_data},  Format{".vth", open_vtk_data},
-    Format{".tif", open_tiff},      Format{".tiff", open_tiff},     Format{".btf", open_tiff},
-    Format{".h5", open_hdf5},       Format{".hdf5", open_hdf5},     Format{".he5", open_hdf5},
-    Format{"zarr.json", open_zarr}, Format{".zattrs", open_zarr},   Format{".zarray", open_zarr},
-    Format{".zgroup", open_zarr},   Format{".zip", open_zarr},      Format{".ozx", open_zarr},
-    Format{".hdf", open_hdf5},      Format{".vtkhdf", open_hdf5},   Format{".raw", open_raw},
-    Format{".dcm", open_dicom},     Format{".dicom", open_dicom},   Format{".ima", open_dicom},
-    Format{".bov", open_bov},       Format{".xmf", open_xdmf},      Format{".xdmf", open_xdmf},
+    Format{".vti", open_vti},         Format{".vtk", open_vtk},
+    Format{".mhd", open_metaimage},   Format{".mha", open_metaimage},
+    Format{".nrrd", open_nrrd},       Format{".nhdr", open_nrrd},
+    Format{".nii", open_nifti},       Format{".nii.gz", open_nifti},
+    Format{".hdr", open_nifti},       Format{".hdr.gz", open_nifti},
+    Format{".img", open_nifti},       Format{".img.gz", open_nifti},
+    Format{".nc", open_netcdf},       Format{".nc4", open_netcdf},
+    Format{".cdf", open_netcdf},      Format{".vtr", open_vtk_data},
+    Format{".pvti", open_vtk_data},   Format{".pvtr", open_vtk_data},
+    Format{".vtu", open_vtk_data},    Format{".vts", open_vtk_data},
+    Format{".pvtu", open_vtk_data},   Format{".pvts", open_vtk_data},
+    Format{".vtm", open_vtk_data},    Format{".vth", open_vtk_data},
+    Format{".tif", open_tiff},        Format{".tiff", open_tiff},
+    Format{".btf", open_tiff},        Format{".h5", open_hdf5},
+    Format{".hdf5", open_hdf5},       Format{".he5", open_hdf5},
+    Format{"zarr.json", open_zarr},   Format{".zattrs", open_zarr},
+    Format{".zarray", open_zarr},     Format{".zgroup", open_zarr},
+    Format{".zip", open_zarr},        Format{".ozx", open_zarr},
+    Format{".hdf", open_hdf5},        Format{".vtkhdf", open_hdf5},
+    Format{".raw", open_raw},         Format{".dcm", open_dicom},
+    Format{".dicom", open_dicom},     Format{".ima", open_dicom},
+    Format{".cgns", open_mesh},       Format{".exo", open_mesh},
+    Format{".ex2", open_mesh},        Format{".exii", open_mesh},
+    Format{".e", open_mesh},          Format{".foam", open_mesh},
+    Format{"controldict", open_mesh}, Format{".bov", open_bov},
+    Format{".xmf", open_xdmf},        Format{".xdmf", open_xdmf},
 };
 
 /// NetCDF-4 is HDF5 whose attributes have these names.
@@ -46,6 +57,13 @@ bool holds_netcdf_names(std::string_view bytes) {
         if (bytes.find(name) != bytes.npos)
             return true;
     return false;
+}
+
+/// The first line of a plotfile's Header; older codes gave it their own names.
+bool is_amrex_header(const fs::path& path, std::string_view begin) {
+    return path.filename() == "Header" &&
+           (begin.starts_with("HyperCLaw-V1") || begin.starts_with("NavierStokes-V1") ||
+            begin.starts_with("CartGrid-V2"));
 }
 
 OpenFormat format_of_content(const fs::path& path) {
@@ -65,6 +83,8 @@ OpenFormat format_of_content(const fs::path& path) {
         return open_netcdf;
     if (begin.starts_with("NRRD000"))
         return open_nrrd;
+    if (is_amrex_header(path, begin))
+        return open_mesh;
     return begin.starts_with("# vtk DataFile") ? open_vtk : nullptr;
 }
 
@@ -80,10 +100,13 @@ OpenFormat format_of(const fs::path& path) {
 
 fs::path described_in(const fs::path& path) {
     std::error_code ignored;
-    for (const char* name : {"zarr.json", ".zattrs", ".zarray", ".zgroup"})
-        if (fs::is_directory(path, ignored) && fs::is_regular_file(path / name, ignored))
+    if (!fs::is_directory(path, ignored))
+        return path;
+    for (const char* name : {"zarr.json", ".zattrs", ".zarray", ".zgroup", "system/controlDict"})
+        if (fs::is_regular_file(path / name, ignored))
             return path / name;
-    return path;
+    const fs::path header = path / "Header";
+    return format_of_content(header) == open_mesh ? header : path;
 }
 
 std::string known_extensions() {

@@ -34,6 +34,11 @@ std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path, const Re
 std::unique_ptr<VolumeFile> open_vtk_data(const std::filesystem::path& path,
                                           const ReadOptions& options);
 
+/// Meshes of simulations, which must be resampled: Exodus, CGNS, an OpenFOAM case (its .foam or
+/// controlDict), an AMReX plotfile (its Header).
+std::unique_ptr<VolumeFile> open_mesh(const std::filesystem::path& path,
+                                      const ReadOptions& options);
+
 /// NetCDF, classic and 4 (.nc, .nc4, .cdf), in a reader, where it was built with the library. Space
 /// is that of the coordinate variables, with z up where a file says so.
 std::unique_ptr<VolumeFile> open_netcdf(const std::filesystem::path& path,

@@ -14,7 +14,7 @@ constexpr ValueType kLastValue<ValueType> = ValueType::f64;
 template <>
 constexpr Anatomy kLastValue<Anatomy> = Anatomy::enu;
 template <>
-constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::xdmf;
+constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::mesh;
 
 namespace {
 
@@ -110,7 +110,7 @@ Message message_from(std::span<const std::byte> bytes) {
 
 } // namespace
 
-const std::string kReaderVersion = ISOCHRON_VERSION " 4";
+const std::string kReaderVersion = ISOCHRON_VERSION " 5";
 const std::string kCollectionProgram = "isochron-reader-vtk";
 
 std::string program_of(ForeignFormat format) {
@@ -120,6 +120,7 @@ std::string program_of(ForeignFormat format) {
     case ForeignFormat::hdf5: return "isochron-reader-hdf5";
     case ForeignFormat::tiff: return "isochron-reader-tiff";
     case ForeignFormat::dicom: return "isochron-reader-dicom";
+    case ForeignFormat::mesh: return "isochron-reader-mesh";
     case ForeignFormat::zarr: return "isochron-reader-zarr";
     case ForeignFormat::vti:
     case ForeignFormat::vtk:

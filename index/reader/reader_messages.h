@@ -30,7 +30,8 @@ enum class ForeignFormat : std::uint8_t {
     vtk_data,
     zarr,
     dicom,
-    xdmf
+    xdmf,
+    mesh
 };
 
 /// The reader program that decodes a format: one for each library, so that no format waits until

@@ -1,0 +1,11 @@
+// `isochron-reader-mesh`: the reader for meshes of simulations, whose libraries take long to load.
+#include "index/decoders/decoders.h"
+#include "index/decoders/reader_program.h"
+
+#include <array>
+
+int main() {
+    using namespace isochron::index;
+    constexpr std::array kDecoders{Decoder{ForeignFormat::mesh, decode_mesh}};
+    return run_reader(kDecoders, nullptr);
+}

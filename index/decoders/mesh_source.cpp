@@ -1,0 +1,112 @@
+// Sets up vtkExodusIIReader, vtkCGNSReader, vtkOpenFOAMReader and vtkAMReXGridReader.
+#include "index/decoders/mesh_source.h"
+
+#include "index/error.h"
+#include "index/formats/data_stream.h"
+#include "index/formats/text_header.h"
+
+#include <fmt/format.h>
+
+#include <vtkAMReXGridReader.h>
+#include <vtkCGNSReader.h>
+#include <vtkDataArraySelection.h>
+#include <vtkExodusIIReader.h>
+#include <vtkNew.h>
+#include <vtkOpenFOAMReader.h>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+MeshSource exodus_source(const fs::path& path) {
+    // NetCDF, classic or on HDF5: VTK asks a file of neither kind for its sizes all the same.
+    const std::string head = head_of(path, 8);
+    if (!head.starts_with("CDF") && !head.starts_with("\x89HDF"))
+        throw Error(fmt::format("{}: not Exodus: expected NetCDF", path.string()));
+    const vtkNew<vtkExodusIIReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->ApplyDisplacementsOff();
+    reader->GenerateObjectIdCellArrayOff();
+    reader->GenerateGlobalElementIdArrayOff();
+    reader->GenerateGlobalNodeIdArrayOff();
+    const auto select = [raw = reader.GetPointer()] {
+        raw->SetAllArrayStatus(vtkExodusIIReader::NODAL, 1);
+        raw->SetAllArrayStatus(vtkExodusIIReader::ELEM_BLOCK, 1);
+    };
+    return {reader.GetPointer(),
+            select,
+            "",
+            "",
+            {"nodes are where they are at rest: displacements are arrays like others"}};
+}
+
+MeshSource cgns_source(const fs::path& path) {
+    const vtkNew<vtkCGNSReader> reader;
+    reader->SetFileName(path.c_str());
+    const auto select = [raw = reader.GetPointer()] {
+        raw->EnableAllBases();
+        raw->EnableAllFamilies();
+        raw->EnableAllPointArrays();
+        raw->EnableAllCellArrays();
+    };
+    return {reader.GetPointer(), select, "", "", {}};
+}
+
+/// @param path of a .foam in the case's folder, or of its system/controlDict
+MeshSource openfoam_source(const fs::path& path) {
+    std::error_code ignored;
+    const fs::path within = fs::absolute(path, ignored).parent_path();
+    const fs::path folder = path.extension() == ".foam" ? within : within.parent_path();
+    for (const char* needed : {"system/controlDict", "constant/polyMesh"})
+        if (!fs::exists(folder / needed, ignored))
+            throw Error(fmt::format(
+                "{}: an OpenFOAM case without {}{}", path.string(), needed,
+                fs::exists(folder / "processor0", ignored)
+                    ? ": it is divided among processors, reconstructPar puts it together"
+                    : ""));
+    const vtkNew<vtkOpenFOAMReader> reader;
+    reader->SetFileName((folder / "system" / "controlDict").c_str());
+    reader->CreateCellToPointOn();
+    reader->CacheMeshOn();
+    const auto select = [raw = reader.GetPointer()] {
+        raw->DisableAllPatchArrays();
+        raw->SetPatchArrayStatus("internalMesh", 1);
+        raw->DisableAllLagrangianArrays();
+        raw->EnableAllCellArrays();
+        raw->EnableAllPointArrays();
+    };
+    return {reader.GetPointer(),
+            select,
+            "m",
+            "s",
+            {"values of cells are averaged to points by VTK before they are interpolated"}};
+}
+
+MeshSource amrex_source(const fs::path& path) {
+    constexpr int kEveryLevel = 64;
+    const vtkNew<vtkAMReXGridReader> reader;
+    reader->SetFileName(path.parent_path().c_str());
+    const auto select = [raw = reader.GetPointer()] {
+        raw->SetMaxLevel(kEveryLevel);
+        raw->GetCellDataArraySelection()->EnableAllArrays();
+        raw->GetPointDataArraySelection()->EnableAllArrays();
+    };
+    return {reader.GetPointer(), select, "", "", {}};
+}
+
+} // namespace
+
+MeshSource open_mesh_source(const fs::path& path) {
+    const std::string extension = lower_case(path.extension().string());
+    const std::string name = path.filename().string();
+    if (extension == ".cgns")
+        return cgns_source(path);
+    if (extension == ".foam" || name == "controlDict")
+        return openfoam_source(path);
+    if (name == "Header")
+        return amrex_source(path);
+    return exodus_source(path);
+}
+
+} // namespace isochron::index

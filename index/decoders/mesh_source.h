@@ -1,0 +1,27 @@
+// VTK's reader for a mesh file, set up to give all that it holds.
+#pragma once
+
+#include <vtkAlgorithm.h>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+struct MeshSource {
+    vtkSmartPointer<vtkAlgorithm> reader;
+    /// Selects all arrays; the reader knows them once its information has been updated.
+    std::function<void()> select_all;
+    std::string length_unit, time_unit; ///< that the format sets; empty if none
+    std::vector<std::string> notes;
+};
+
+/// Of an Exodus (.e, .exo, .ex2, .exii) or CGNS file, of an OpenFOAM case (.foam, controlDict) or of an
+/// AMReX plotfile (Header). Reads nothing but what tells them apart.
+/// @throws Error naming the file, when it is none of these
+MeshSource open_mesh_source(const std::filesystem::path& path);
+
+} // namespace isochron::index

@@ -1,6 +1,7 @@
 // Finds dimensions, coordinates and times of a NetCDF variable.
 #include "index/decoders/netcdf_axes.h"
 
+#include "index/decoders/netcdf_dates.h"
 #include "index/decoders/netcdf_roles.h"
 #include "index/error.h"
 #include "index/formats/axis_positions.h"
@@ -255,6 +256,8 @@ void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const Ne
 void place_steps(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,
                  SeriesInfo& info) {
     const NetcdfVariable* time = time_variable(file, variable, layout);
+    if (!time && layout.time)
+        return place_dates(file, variable.dimensions[*layout.time], info);
     if (!time)
         return;
     info.times = file.values(*time);

@@ -133,6 +133,12 @@ const NetcdfVariable* NetcdfFile::coordinate(const NetcdfVariable& of,
     }
 }
 
+bool NetcdfFile::is_text(const NetcdfVariable& variable) const {
+    nc_type type = NC_NAT;
+    expect(nc_inq_vartype(variable.group, variable.id, &type), variable.name);
+    return type == NC_CHAR;
+}
+
 std::string NetcdfFile::text(const NetcdfVariable& variable, const char* attribute) const {
     const auto [type, count] = attribute_shape(variable, attribute);
     std::string found(count, '\0');

@@ -48,6 +48,9 @@ class NetcdfFile {
     const NetcdfVariable* coordinate(const NetcdfVariable& of,
                                      const NetcdfDimension& dimension) const;
 
+    /// Whether a variable is characters.
+    bool is_text(const NetcdfVariable& variable) const;
+
     /// Attributes; empty if there is none of that name and kind.
     std::string text(const NetcdfVariable& variable, const char* attribute) const;
     std::vector<double> numbers(const NetcdfVariable& variable, const char* attribute) const;

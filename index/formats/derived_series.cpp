@@ -49,6 +49,8 @@ std::string per_length(const std::string& value, const std::string& length) {
 /// Of speeds in the unit of length it is a rate: `1/s` of `m/s` and m.
 std::string unit_of_derived(Derived derived, const SeriesInfo& input) {
     const std::string &value = input.value_unit, &length = input.length_unit;
+    if (derived == Derived::magnitude)
+        return value;
     if (derived == Derived::gradient)
         return per_length(value, length);
     const bool rate = !length.empty() && value.starts_with(length + "/");
@@ -65,21 +67,30 @@ std::string unit_of_derived(Derived derived, const SeriesInfo& input) {
 class DerivedSeries final : public VolumeSeries {
   public:
     DerivedSeries(std::vector<std::unique_ptr<VolumeSeries>> inputs, Derived derived,
-                  const std::optional<std::string>& unit)
+                  const std::string& name, const std::optional<std::string>& unit)
         : inputs_(std::move(inputs)), derived_(derived), info_(inputs_.front()->info()) {
-        constexpr std::array kNames{"gradient", "vorticity", "q-criterion"};
-        constexpr std::array kWhat{"length of the gradient", "length of the curl", "Q criterion"};
+        constexpr std::array kNames{"gradient", "vorticity", "q-criterion", "magnitude"};
+        constexpr std::array kWhat{"length of the gradient", "length of the curl", "Q criterion",
+                                   "length of the vector"};
         const auto number = static_cast<std::size_t>(derived);
         if (inputs_.size() > 1 && info_.array.ends_with(".0"))
             info_.array.resize(info_.array.size() - 2);
-        info_.array += fmt::format(".{}", kNames[number]);
+        name_ = name.empty() ? info_.array : name;
+        info_.array = fmt::format("{}.{}", name_, kNames[number]);
         info_.value_unit = unit.value_or(unit_of_derived(derived, inputs_.front()->info()));
-        const ValueType type = info_.type;
-        info_.type =
-            type == ValueType::f64 || type == ValueType::i32 ? ValueType::f64 : ValueType::f32;
+        const bool wide = std::ranges::any_of(inputs_, [](const auto& input) {
+            const ValueType type = input->info().type;
+            return type == ValueType::f64 || type == ValueType::i32;
+        });
+        for (const auto& input : inputs_)
+            for (const std::string& note : input->info().notes)
+                if (std::ranges::find(info_.notes, note) == info_.notes.end())
+                    info_.notes.push_back(note);
+        info_.type = wide ? ValueType::f64 : ValueType::f32;
         info_.scaling = {};
         info_.notes.push_back(
-            fmt::format("values are computed: {}, by differences of neighbors{}", kWhat[number],
+            fmt::format("values are computed: {}{}{}", kWhat[number],
+                        derived == Derived::magnitude ? "" : ", by differences of neighbors",
                         info_.value_unit.empty() ? "" : ", in " + info_.value_unit));
         for (int axis = 0; axis < 3; ++axis)
             weights_[static_cast<std::size_t>(axis)] = derivative_weights(info_.grid, axis);
@@ -96,7 +107,8 @@ class DerivedSeries final : public VolumeSeries {
             if (!others.back())
                 return nullptr;
         }
-        return std::make_unique<DerivedSeries>(std::move(others), derived_, info_.value_unit);
+        return std::make_unique<DerivedSeries>(std::move(others), derived_, name_,
+                                               info_.value_unit);
     }
 
     void read(std::size_t step, std::span<std::byte> out) override {
@@ -169,8 +181,22 @@ class DerivedSeries final : public VolumeSeries {
     }
 
     template <class T>
+    double length_at(const std::vector<std::vector<T>>& values,
+                     const std::array<std::uint32_t, 3>& at) const {
+        const auto& n = info_.grid.vertices;
+        double sum = 0;
+        for (const std::vector<T>& component : values) {
+            const double value = component[at[0] + std::size_t{n[0]} * (at[1] + n[1] * at[2])];
+            sum += value * value;
+        }
+        return std::sqrt(sum);
+    }
+
+    template <class T>
     double derived_at(const std::vector<std::vector<T>>& values,
                       const std::array<std::uint32_t, 3>& at) const {
+        if (derived_ == Derived::magnitude)
+            return length_at(values, at);
         const glm::dvec3 u = gradient_at(values[0], at);
         if (derived_ == Derived::gradient)
             return glm::length(u);
@@ -181,6 +207,7 @@ class DerivedSeries final : public VolumeSeries {
     }
 
     std::vector<std::unique_ptr<VolumeSeries>> inputs_;
+    std::string name_; ///< of what it is computed from
     Derived derived_;
     SeriesInfo info_;
     std::array<std::vector<Weights>, 3> weights_; ///< of every vertex along each axis
@@ -204,8 +231,9 @@ std::vector<std::optional<std::string>> components_for(Derived derived) {
 }
 
 std::unique_ptr<VolumeSeries> derived_series(std::vector<std::unique_ptr<VolumeSeries>> inputs,
-                                             Derived derived, std::optional<std::string> unit) {
-    return std::make_unique<DerivedSeries>(std::move(inputs), derived, std::move(unit));
+                                             Derived derived, const std::string& name,
+                                             std::optional<std::string> unit) {
+    return std::make_unique<DerivedSeries>(std::move(inputs), derived, name, std::move(unit));
 }
 
 } // namespace isochron::index

@@ -12,12 +12,13 @@ namespace isochron::index {
 
 /// What `--component` names beside the components that an array has.
 enum class Derived : std::uint8_t {
-    gradient,   ///< the length of a scalar's gradient
-    vorticity,  ///< the length of the curl of a vector
-    q_criterion ///< of the gradient of a vector, half of (|rotation|^2 - |strain|^2)
+    gradient,    ///< the length of a scalar's gradient
+    vorticity,   ///< the length of the curl of a vector
+    q_criterion, ///< of the gradient of a vector, half of (|rotation|^2 - |strain|^2)
+    magnitude    ///< the length of a vector whose components are arrays
 };
 
-/// By its name: `gradient`, `vorticity`, `q-criterion`.
+/// By its name: `gradient`, `vorticity`, `q-criterion`; of a magnitude none, which readers take.
 std::optional<Derived> derived_from_name(const std::optional<std::string>& component);
 
 /// The components that it is computed from, as values of `--component`; none: of a scalar.
@@ -27,9 +28,11 @@ std::vector<std::optional<std::string>> components_for(Derived derived);
 /// neighbors, weighted by their distances, and at borders to the one neighbor, as numpy.gradient
 /// has them. Components of vectors are along x, y and z of physical space. Values are f32, or f64
 /// where those of the inputs have more than 24 bits; NaN where one of the values around is.
-/// @param inputs one for each of `components_for`, of the same files
+/// @param inputs one for each of `components_for`, of the same files; of a magnitude two or three
+/// @param name of the vector; empty: that of the inputs
 /// @param unit of the result; none: made of those of values and lengths
 std::unique_ptr<VolumeSeries> derived_series(std::vector<std::unique_ptr<VolumeSeries>> inputs,
-                                             Derived derived, std::optional<std::string> unit);
+                                             Derived derived, const std::string& name,
+                                             std::optional<std::string> unit);
 
 } // namespace isochron::index

@@ -13,6 +13,7 @@
 #include "index/formats/resampled_series.h"
 #include "index/formats/slice_files.h"
 #include "index/formats/text_header.h"
+#include "index/formats/vector_arrays.h"
 
 #include <fmt/format.h>
 
@@ -155,10 +156,48 @@ std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given,
     return open_file_series(series_of(found.files, options), options, found.note);
 }
 
+/// Whether files have an array of exactly this name.
+bool holds_array(const fs::path& file, ReadOptions options, const std::string& name) {
+    options.array.reset();
+    options.component.reset();
+    options.any_array = true;
+    try {
+        return std::ranges::any_of(
+            open_series({file}, options)->info().arrays,
+            [&](const std::string& offered) { return offered.starts_with(name + " ("); });
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+/// What is computed of a vector whose components are the arrays of a list.
+std::unique_ptr<VolumeSeries> open_vector(const std::vector<fs::path>& files,
+                                          const ReadOptions& options,
+                                          const std::vector<std::string>& names) {
+    const std::string component = options.component.value_or("magnitude");
+    const auto derived = derived_from_name(component);
+    if (derived ? *derived == Derived::gradient || names.size() != 3 : component != "magnitude")
+        throw Error(fmt::format("--component {} of {}, expected magnitude{}", component,
+                                *options.array,
+                                names.size() == 3 ? ", vorticity or q-criterion" : ""));
+    auto inputs = open_components(names, [&](const std::string& name) {
+        ReadOptions of_input = options;
+        of_input.array = name;
+        of_input.component.reset();
+        of_input.value_unit.reset(); // it is the result's
+        return open_series(files, of_input);
+    });
+    return derived_series(std::move(inputs), derived.value_or(Derived::magnitude), *options.array,
+                          options.value_unit);
+}
+
 } // namespace
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options) {
+    if (const auto names = names_in_list(options.array.value_or(""));
+        !names.empty() && !files.empty() && !holds_array(files.front(), options, *options.array))
+        return open_vector(files, options, names);
     if (const auto derived = derived_from_name(options.component)) {
         std::vector<std::unique_ptr<VolumeSeries>> inputs;
         for (const auto& component : components_for(*derived)) {
@@ -167,7 +206,7 @@ std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
             of_input.value_unit.reset(); // it is the result's
             inputs.push_back(open_series(files, of_input));
         }
-        return derived_series(std::move(inputs), *derived, options.value_unit);
+        return derived_series(std::move(inputs), *derived, "", options.value_unit);
     }
     auto series = open_as_it_is(files, options);
     return options.resample ? resampled(std::move(series), *options.resample) : std::move(series);

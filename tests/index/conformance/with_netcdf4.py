@@ -2,7 +2,7 @@
 import netCDF4
 import numpy as np
 
-from manifest import done, expect, field, path
+from manifest import done, expect, field, path, refuse
 
 moving = field(3, 4, 5, 6)
 where = dict(origin=(10, 20, 5), spacing=(0.5, 2, 3))
@@ -71,4 +71,66 @@ for calendar in ("standard", "noleap", "360_day"):
     dates = netCDF4.num2date([3, 30], second, calendar)
     times = [0, 1, *netCDF4.date2num(dates, first, calendar)]
     expect([f"{calendar}0.nc", f"{calendar}1.nc"], np.concatenate([moving[:2], moving[:2] + np.float32(1)]), times=times, **where)
+
+
+# Vectors whose components are arrays of their own.
+def derived(u, v, w, dz, dy, dx):
+    """Length, length of the curl and Q of one step."""
+    slopes = np.array([[np.gradient(part.astype("f8"), *(dz, dy, dx))[axis] for axis in (2, 1, 0)] for part in (u, v, w)])
+    (_, uy, uz), (vx, _, vz), (wx, wy, _) = slopes
+    rotation, strain = (slopes - slopes.swapaxes(0, 1)) / 2, (slopes + slopes.swapaxes(0, 1)) / 2
+    return (np.sqrt(u.astype("f8") ** 2 + v.astype("f8") ** 2 + w.astype("f8") ** 2),
+            np.sqrt((wy - vz) ** 2 + (uz - wx) ** 2 + (vx - uy) ** 2),
+            ((rotation ** 2).sum((0, 1)) - (strain ** 2).sum((0, 1))) / 2)
+
+
+def expect_derived(name, names, parts, **more):
+    steps = [derived(*step, *more.get("spacing", (1, 1, 1))[::-1]) for step in zip(*parts)]
+    for number, component in enumerate(("magnitude", "vorticity", "q-criterion")):
+        expect(name, np.array([step[number] for step in steps]), array=names, component=component, kind="rounded", **more)
+
+
+parts = [field(3, 4, 5, 6) for _ in range(3)]
+with new("vector.nc") as file:
+    for name, values in zip("uvw", parts):
+        add(file, values, name)
+    add(file, moving, "one,two")
+expect_derived("vector.nc", "u,v,w", parts, times=[0, 1, 2.5], **where)
+expect("vector.nc", np.hypot(parts[0].astype("f8"), parts[2].astype("f8")), array="u,w", kind="rounded", times=[0, 1, 2.5],
+       **where)
+expect("vector.nc", moving, array="one,two", times=[0, 1, 2.5], **where)
+refuse("vector.nc", "--component vorticity of u,w, expected magnitude", array="u,w", component="vorticity")
+refuse("vector.nc", "none", array="u,v,none")
+
+
+# As WRF has it: staggered winds, and dates as text.
+def wrf(name, first_hour, winds, dates=None):
+    with netCDF4.Dataset(path(name), "w", format="NETCDF3_64BIT_OFFSET") as file:
+        for dimension, length in (("Time", None), ("DateStrLen", 19), ("bottom_top", 4), ("south_north", 5), ("west_east", 6),
+                                  ("bottom_top_stag", 5), ("south_north_stag", 6), ("west_east_stag", 7)):
+            file.createDimension(dimension, length)
+        text = file.createVariable("Times", "S1", ("Time", "DateStrLen"))
+        dates = dates or [f"2005-08-28_{first_hour + i:02d}:30:00" for i in range(len(winds[0]))]
+        text[:] = np.array([list(date) for date in dates], "S1")
+        for i, (variable, values) in enumerate(zip("UVW", winds)):
+            space = ["bottom_top", "south_north", "west_east"]
+            space[2 - i] += "_stag"
+            file.createVariable(variable, "f4", ("Time", *space))[:] = values
+
+
+def centered(winds):
+    return [np.float32((w.astype("f8").take(range(1, w.shape[a]), a) + w.astype("f8").take(range(w.shape[a] - 1), a)) / 2)
+            for w, a in zip(winds, (3, 2, 1))]
+
+
+winds = [field(2, 4, 5, 7), field(2, 4, 6, 6), field(2, 5, 5, 6)]
+later = [-wind for wind in winds]
+wrf("wrfout_1", 12, winds)
+wrf("wrfout_2", 14, later)
+files = ["wrfout_1", "wrfout_2"]
+expect(files, np.concatenate([winds[0], later[0]]), array="U", times=[0, 3600, 7200, 10800])
+both = [np.concatenate(pair) for pair in zip(centered(winds), centered(later))]
+expect_derived(files, "U,V,W", both, times=[0, 3600, 7200, 10800], origin=(0.5, 0, 0))
+wrf("odd", 0, [wind[:1] for wind in winds], dates=["2005-13-28_12:30:00"])
+expect("odd", winds[0][:1], array="U")
 done()

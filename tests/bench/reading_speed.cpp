@@ -126,7 +126,7 @@ fs::path make_tiff(const fs::path& file, const std::vector<float>& values) {
 }
 
 void read_tiff(const fs::path& file, std::span<std::byte> out) {
-    TIFF* tiff = TIFFOpen(file.c_str(), "r");
+    TIFF* tiff = TIFFOpen(file.c_str(), "rc"); // strips as they are
     std::size_t at = 0;
     do
         if (const tmsize_t read = TIFFReadEncodedStrip(tiff, 0, out.data() + at, kSlice);

@@ -172,10 +172,10 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
                 return;
         }
         file = open_index_to_show(*options.data, config.cache_bytes());
-        if (job.leads())
+        if (job.leads()) {
             warn_of_colors(config, *file);
-        if (job.leads())
             check_start(options, *file, indexing ? indexing->state().of : file->info().steps());
+        }
         check_outputs(options, job);
     });
     signals.check();

@@ -160,9 +160,7 @@ void warn_of_colors(const Config& config, const index::IndexFile& file) {
     const std::string& wanted = config.coloring.array;
     if (wanted.empty())
         return;
-    std::vector<std::string> there;
-    for (std::size_t number = 0; number < index::ColorSource::count(file); ++number)
-        there.push_back(index::ColorSource(file, number).array().array);
+    const std::vector<std::string> there = index::color_source_names(file);
     if (std::ranges::find(there, wanted) == there.end())
         fmt::print(stderr, "isochron: warning: {}: no array {} to color by, there {}\n",
                    file.name(), wanted,

@@ -19,9 +19,9 @@ struct LoadedColorMap {
 /// Number of colors kept of a loaded map; between them colors are interpolated in L*a*b*.
 inline constexpr std::size_t kLoadedColors = 128;
 
-/// The maps of a file, in its order: `Name`, `RGBPoints` (place, red, green and blue in turn, places
-/// ascending, 0 to 1 or not) and `ColorSpace` (`RGB`, `HSV`, `Lab`, `Diverging`, `Step`; others are
-/// taken as `Lab`), as ParaView's color map editor exports them.
+/// The maps of a file, in its order: `Name`, `RGBPoints` (place, red, green and blue in turn,
+/// places ascending, 0 to 1 or not) and `ColorSpace` (`RGB`, `HSV`, `Lab`, `Diverging`, `Step`;
+/// others are taken as `Lab`), as ParaView's color map editor exports them.
 /// @param name of the file, for messages
 /// @throws ConfigError in one line: what is wrong with which map
 std::vector<LoadedColorMap> parse_color_maps(const std::string& text, const std::string& name);

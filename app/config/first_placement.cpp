@@ -28,7 +28,8 @@ glm::dquat upright(index::Anatomy anatomy) {
 constexpr double kFlat = 0.25;             ///< thickness of a slab over its width, at most
 const double kSeenAt = glm::radians(35.0); ///< between a slab's normal and the way to the viewer
 
-/// Turns a flat slab that is seen from its edge until its broad side is seen, from above if it lies.
+/// Turns a flat slab that is seen from its edge until its broad side is seen, from above if it
+/// lies.
 glm::dquat facing_viewer(const index::Grid& grid, const glm::dquat& rotation) {
     const glm::dvec3 size = physical_size(grid);
     int thin = 0;

@@ -21,7 +21,8 @@ class DetailChoice {
   public:
     /// Moving pictures never have fewer than this because of their budget.
     static constexpr std::uint64_t kFewest = 1 << 14;
-    /// Until a time has been measured: few, as a set that is too dear stays until the next one comes.
+    /// Until a time has been measured: few, as a set that is too dear stays until the next one
+    /// comes.
     static constexpr std::uint64_t kAtFirst = 1 << 15;
     /// Volumes of at most this many cells are always shown as they are.
     static constexpr std::uint64_t kSmallVolume = 1 << 18;

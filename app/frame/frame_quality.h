@@ -30,8 +30,8 @@ enum class Choosing : std::uint8_t { by_measurement, with_slices, by_pace };
 
 /// Changing frames have the frame budget. A picture in which nothing has moved for a while is made
 /// in slices that keep to it. Where slices cannot be, it is drawn once and then only shown: it has
-/// the larger still budget, a pause that is acceptable when a picture comes to rest. Each budget has
-/// its own controller; both learn from all frames.
+/// the larger still budget, a pause that is acceptable when a picture comes to rest. Each budget
+/// has its own controller; both learn from all frames.
 class FrameQuality {
   public:
     /// A picture is still after this time without a change, which is longer than the time between

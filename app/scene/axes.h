@@ -18,8 +18,8 @@ namespace isochron::app {
 /// The scale along one edge: physical coordinates if the edge is parallel to a physical axis, else
 /// the distance from the first vertex.
 struct AxisScale {
-    /// `x [mm]`, or as the file calls the axis, `longitude (degrees)`; an oblique axis has its index
-    /// letter: `i [mm]`.
+    /// `x [mm]`, or as the file calls the axis, `longitude (degrees)`; an oblique axis has its
+    /// index letter: `i [mm]`.
     std::string title;
     double low = 0, high = 0; ///< values at the axis' first and last vertex
 };

@@ -200,8 +200,9 @@ void LiveLoop::run(Session& session) {
             record({input, commands, from_panel, name_of(drawn.footprint), session.latched()});
         session.show_messages(recording_.messages());
         if (keeper_) {
-            keeper_->update(session.state(), emulation_.standing(), input.time,
-                            session.left_arrays());
+            if (keeper_->is_due(input.time))
+                keeper_->update(session.state(), emulation_.standing(), input.time,
+                                session.left_arrays());
             session.show_messages(keeper_->messages());
         }
         make_movies(session);

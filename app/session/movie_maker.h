@@ -71,8 +71,8 @@ class MovieMaker {
     std::vector<std::string> messages_;
 };
 
-/// A recording in which all steps pass once, as fast as playback would show them, seen from one place
-/// in the best quality.
+/// A recording in which all steps pass once, as fast as playback would show them, seen from one
+/// place in the best quality.
 /// @param header of the session
 /// @param view what is seen, see `Session::note`
 /// @param times of the steps, increasing

@@ -17,8 +17,7 @@ void Session::take_arrays() {
         if (number > 0)
             scene_.prepare_for(file_->array(number).info());
     }
-    for (std::size_t number = 0; number < index::ColorSource::count(*file_); ++number)
-        color_names_.push_back(index::ColorSource(*file_, number).array().array);
+    color_names_ = index::color_source_names(*file_);
 }
 
 void Session::expect_array(const std::string& name) const {

@@ -34,7 +34,7 @@ bool SessionKeeper::keep(const ExplorerState& state, const interaction::Standing
 
 void SessionKeeper::update(const ExplorerState& state, const interaction::StandingPlace& head,
                            interaction::Seconds now, const Arrays& arrays) {
-    if (now < next_)
+    if (!is_due(now))
         return;
     next_ = now + kInterval;
     if (!keep(state, head, arrays))

@@ -24,7 +24,9 @@ class SessionKeeper {
 
     using Arrays = std::vector<interaction::Commands>; ///< as in `SavedSession`
 
-    /// Called once a frame.
+    /// Whether `update` would look at the session now.
+    bool is_due(interaction::Seconds now) const { return now >= next_; }
+    /// Saves the session if a save is due and it has changed. Called once a frame.
     void update(const ExplorerState& state, const interaction::StandingPlace& head,
                 interaction::Seconds now, const Arrays& arrays = {});
     /// Saves the session if it has changed since. @throws index::Error when it cannot be written

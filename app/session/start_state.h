@@ -9,8 +9,8 @@
 
 namespace isochron::app {
 
-/// The surfaces at the first look at an array. An isovalue that the configuration does not give is a
-/// quantile of all values.
+/// The surfaces at the first look at an array. An isovalue that the configuration does not give is
+/// a quantile of all values.
 std::vector<interaction::Isosurface> first_surfaces(const Config& config,
                                                     const index::IndexStats& stats);
 

@@ -32,8 +32,9 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
 /// whole epochs: if an epoch has fewer new steps than old ones, its cells wait until it is
 /// complete, and searches use bricks there meanwhile.
 /// @param series all steps; steps that the index holds are read only if cells need their values
-/// @param held the newest state of the file, with as many arrays as are given @param file opened for writing, with `alone` on
-///        rank 0 only @param options tiers, codec, referral and colors as the index has them
+/// @param held the newest state of the file, with as many arrays as are given
+/// @param file opened for writing, with `alone` on rank 0 only
+/// @param options tiers, codec, referral and colors as the index has them
 /// @return false, with the index as it was, if appending is impossible: the type of an array has
 ///         more than 8 bits and the levels of its cells lack values of the new steps
 /// @throws Error as `build_index`; the index stays as it was

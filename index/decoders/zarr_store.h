@@ -48,7 +48,8 @@ class ZarrStore {
     /// A part of a value that is there. @throws Error as `read`, and when it ends before the part
     virtual void part(const std::string& key, std::uint64_t at, std::uint64_t size,
                       ZarrBytes& into) const = 0;
-    /// Names directly below a group, sorted, at most 100,000. @param group without a slash at its end
+    /// Names directly below a group, sorted, at most 100,000. @param group without a slash at its
+    /// end
     virtual std::vector<std::string> names(const std::string& group) const = 0;
 
     /// Where it is, for messages.

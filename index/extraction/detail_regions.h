@@ -63,9 +63,9 @@ class DetailRegions {
 };
 
 /// A cell of mixed levels has twice its center as its position: an odd multiple of 2^level along
-/// each axis, in level 0 cells. So the position alone says where the cell is and how large. The last
-/// cell along an axis reaches to the border of the volume only, though its position is made as if
-/// it were as large as the others.
+/// each axis, in level 0 cells. So the position alone says where the cell is and how large. The
+/// last cell along an axis reaches to the border of the volume only, though its position is made as
+/// if it were as large as the others.
 constexpr std::uint32_t doubled_center(std::uint32_t cell, unsigned level) {
     return (2 * cell + 1) << level;
 }

@@ -109,8 +109,8 @@ bool DetailSearch::color(const Query& query, unsigned level, const CellSet& set,
     return searcher(level).color_cells(query, *source_, set.ids, colors, stop);
 }
 
-/// Finds the whole levels, the coarsest first, until there are too many cells or the next level will
-/// have too many. @return false when stopped
+/// Finds the whole levels, the coarsest first, until there are too many cells or the next level
+/// will have too many. @return false when stopped
 bool DetailSearch::count_down(const SurfacesQuery& query, const std::stop_token& stop) {
     known_.clear();
     const auto most = static_cast<double>(query.detail.most_cells);

@@ -28,15 +28,14 @@ struct DetailCells {
     std::size_t cells() const;        ///< of all surfaces
 };
 
-/// Every region gets the level that the query wishes. While that makes too many cells, all wishes get
-/// coarser by a part of a level, and regions whose wish comes to the next level take it; of the last
-/// ones that would, those nearest to the middle of the volume stay finer as long as there is room.
-/// Levels depend on the query and the data alone. Numbers of cells are counted from the coarsest
-/// level down to the finest that has not too many, and assumed to be four times as many on each level
-/// below that.
-/// What the levels lose (lost_cells.h) is added as cells of level 0: if these are more than
-/// a quarter of `most_cells`, they are joined to cells of the finest level at which they are not.
-/// Not thread-safe: keeps its work space.
+/// Every region gets the level that the query wishes. While that makes too many cells, all wishes
+/// get coarser by a part of a level, and regions whose wish comes to the next level take it; of the
+/// last ones that would, those nearest to the middle of the volume stay finer as long as there is
+/// room. Levels depend on the query and the data alone. Numbers of cells are counted from the
+/// coarsest level down to the finest that has not too many, and assumed to be four times as many on
+/// each level below that. What the levels lose (lost_cells.h) is added as cells of level 0: if
+/// these are more than a quarter of `most_cells`, they are joined to cells of the finest level at
+/// which they are not. Not thread-safe: keeps its work space.
 class DetailSearch {
   public:
     explicit DetailSearch(std::shared_ptr<const IndexFile> file);

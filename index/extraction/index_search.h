@@ -24,8 +24,8 @@ SearchMethod cheapest_method(const IndexFile& file);
 /// Whether the file has the tier that a method needs.
 bool can_search(const IndexFile& file, SearchMethod method);
 
-/// Whether a set gets its points and rows, and a mesh with them where the query has room for one, or
-/// stays a list of ids.
+/// Whether a set gets its points and rows, and a mesh with them where the query has room for one,
+/// or stays a list of ids.
 enum class Shading : std::uint8_t { none, cells };
 
 /// The search over an open index. Copies share their state. Where the file has cells and bricks, a

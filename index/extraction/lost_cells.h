@@ -14,13 +14,13 @@
 
 namespace isochron::index {
 
-/// Of the finest level that an index has, an active cell is lost if it lies in a region of a coarser
-/// level, and the cell of that level in which it lies holds no part of any drawn cell.
+/// Of the finest level that an index has, an active cell is lost if it lies in a region of a
+/// coarser level, and the cell of that level in which it lies holds no part of any drawn cell.
 class LostCells {
   public:
-    /// Chunks that are read at most. If more chunks may hold lost cells, only those are read in which
-    /// nothing at all is drawn; and if these are still too many, each of them counts as one lost
-    /// cell as large as the chunk.
+    /// Chunks that are read at most. If more chunks may hold lost cells, only those are read in
+    /// which nothing at all is drawn; and if these are still too many, each of them counts as one
+    /// lost cell as large as the chunk.
     static constexpr std::size_t kMostChunks = std::size_t{1} << 14;
 
     /// @param finest level that the index has chunks of
@@ -58,8 +58,8 @@ struct JoinedCells {
 
 /// Replaces all cells that are smaller than cells of a level, and lie in the same cell of that
 /// level, by that cell. It gets the direction of the sum of their normals, and no offset; if this
-/// sum is shorter than half their number, they surround something: then it gets no plane, so that it
-/// is drawn as a ball. Its color is that of the middle one of them.
+/// sum is shorter than half their number, they surround something: then it gets no plane, so that
+/// it is drawn as a ball. Its color is that of the middle one of them.
 /// @param points at places of mixed levels
 JoinedCells joined(std::span<const CellPoint> points, std::span<const std::uint16_t> colors,
                    unsigned level);

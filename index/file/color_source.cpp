@@ -50,6 +50,13 @@ LoadedStep ColorSource::load(std::uint32_t step, const std::stop_token& stop) co
     return values_alone_ ? file_->load_color(step, stop) : file_->load(step, stop);
 }
 
+std::vector<std::string> color_source_names(const IndexFile& file) {
+    std::vector<std::string> names;
+    for (std::size_t number = 0; number < ColorSource::count(file); ++number)
+        names.push_back(ColorSource(file, number).array().array);
+    return names;
+}
+
 std::size_t color_source_called(const IndexFile& file, std::string_view name,
                                 std::size_t surfaces) {
     const std::size_t count = ColorSource::count(file), before = values_alone_of(file) ? 1 : 0;

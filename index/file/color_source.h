@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <memory>
 #include <stop_token>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace isochron::index {
 
-/// One array to color by: the array of values alone that an index may carry (`IndexFile::color`), or
-/// one of its arrays with search structures. Valid as long as the index is open.
+/// One array to color by: the array of values alone that an index may carry (`IndexFile::color`),
+/// or one of its arrays with search structures. Valid as long as the index is open.
 class ColorSource {
   public:
     /// Number of them: first the array of values alone if there is one, then the others in their
@@ -33,6 +35,9 @@ class ColorSource {
     bool values_alone_;
     ColorArray array_;
 };
+
+/// The names of the arrays to color by, by their numbers.
+std::vector<std::string> color_source_names(const IndexFile& file);
 
 /// The number of the array to color by with this name. If there is none, or the name is empty, the
 /// array of values alone, else the first that is not the one of the surfaces.

@@ -32,10 +32,11 @@
 
 namespace isochron::index {
 
-/// An open index: immutable except for its cache, thread-safe. One of several arrays of a file is an
-/// index of its own, which shares the file and its cache with the others. Opening reads the header, the
-/// metadata and the offsets of all parts; other parts are read, and checked, when they are needed.
-/// If the file becomes shorter or its disk fails, the function that needs a part throws Error.
+/// An open index: immutable except for its cache, thread-safe. One of several arrays of a file is
+/// an index of its own, which shares the file and its cache with the others. Opening reads the
+/// header, the metadata and the offsets of all parts; other parts are read, and checked, when they
+/// are needed. If the file becomes shorter or its disk fails, the function that needs a part throws
+/// Error.
 class IndexFile {
   public:
     /// @param cache_bytes size of the cache; 0 for a quarter of the memory this process may have

@@ -22,8 +22,8 @@ std::optional<std::string> color_of_index(const std::filesystem::path& path);
 /// @throws Error as `open_index_series`
 std::vector<std::string> arrays_of_index(const std::filesystem::path& path);
 
-/// The first array of an index, or the one that `options.array` names, also its array to color by. Grid, times and
-/// units in `options` override those of the index.
+/// The first array of an index, or the one that `options.array` names, also its array to color by.
+/// Grid, times and units in `options` override those of the index.
 /// @throws Error: damaged, neither version 2 nor this version, refers to its sources, no such array
 std::unique_ptr<VolumeSeries> open_index_series(const std::filesystem::path& path,
                                                 const ReadOptions& options);

@@ -21,8 +21,9 @@ struct BlockPlaces {
 
 /// Blocks may share planes of vertices.
 /// @param names of the blocks, for messages
-/// @throws Error naming a block: not regular, of another spacing or direction than the first, not on
-///         the same vertices, begins where another one does; or that all of them leave vertices without values
+/// @throws Error naming a block: not regular, of another spacing or direction than the first, not
+///         on the same vertices, begins where another one does; or that all of them leave vertices
+///         without values
 BlockPlaces places_of_blocks(std::span<const Grid> blocks, std::span<const std::string> names);
 
 /// Calls `row` with the first vertex of each row of a block, in the whole and in the block.

@@ -6,8 +6,8 @@
 
 namespace isochron::index {
 
-/// By its extension (.dcm, .dicom, .ima), or by the letters that DICOM files have behind their first
-/// 128 bytes.
+/// By its extension (.dcm, .dicom, .ima), or by the letters that DICOM files have behind their
+/// first 128 bytes.
 bool is_dicom(const std::filesystem::path& path);
 
 /// Puts the DICOM files in a folder, and in the folders within it, in its place. Folders without

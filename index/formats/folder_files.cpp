@@ -46,11 +46,6 @@ std::string extension_of(const fs::path& path) {
                               : extension;
 }
 
-bool names_a_series(const fs::path& path) {
-    const std::string extension = extension_of(path);
-    return extension == ".pvd" || extension == ".series";
-}
-
 /// Whether a file is as large as some steps of raw values.
 bool fits_raw(const fs::path& path, const ReadOptions& options) {
     std::error_code error;
@@ -66,7 +61,7 @@ bool holds_values(const fs::path& path, const ReadOptions& options) {
     if (options.dims)
         return fits_raw(path, options);
     // A raw file without dimensions belongs to a header beside it, or cannot be read.
-    return names_a_series(path) ||
+    return lists_files(path) ||
            (extension_of(path) != ".raw" && (format_of(path) || is_dicom(path)));
 }
 
@@ -138,8 +133,8 @@ FolderFiles files_in_folder(const fs::path& folder, const ReadOptions& options) 
         throw Error(fmt::format("{}: a folder without {}", folder.string(),
                                 options.dims ? "a file as large as --dims and --type say"
                                              : "a file of values of a known format"));
-    if (std::ranges::any_of(files, names_a_series))
-        std::erase_if(files, [](const fs::path& file) { return !names_a_series(file); });
+    if (std::ranges::any_of(files, lists_files))
+        std::erase_if(files, [](const fs::path& file) { return !lists_files(file); });
     drop_named(files);
     std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
         return natural_less(a.string(), b.string());
@@ -148,7 +143,7 @@ FolderFiles files_in_folder(const fs::path& folder, const ReadOptions& options) 
     for (const fs::path& file : files)
         series[pattern_of(file.lexically_relative(folder))].push_back(file);
     const auto is_series = [](const auto& each) { return each.second.size() > 1; };
-    const bool list = names_a_series(files.front());
+    const bool list = lists_files(files.front());
     if (list ? files.size() == 1 : series.size() == 1)
         return {files, std::nullopt};
     if (list || std::ranges::count_if(series, is_series) != 1) {

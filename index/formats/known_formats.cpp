@@ -1,13 +1,16 @@
 // The table of formats.
 #include "index/formats/known_formats.h"
 
+#include "index/error.h"
 #include "index/formats/readers.h"
 #include "index/formats/text_header.h"
+#include "index/system/input_file.h"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace isochron::index {
@@ -67,15 +70,14 @@ bool is_amrex_header(const fs::path& path, std::string_view begin) {
 }
 
 OpenFormat format_of_content(const fs::path& path) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored))
-        return nullptr;
     constexpr std::size_t kLooked = 1 << 16;
-    std::string bytes(kLooked, '\0');
-    std::ifstream file(path, std::ios::binary);
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
-    const std::string_view begin = bytes;
+    std::string begin(kLooked, '\0');
+    try {
+        const InputFile file(path);
+        begin.resize(file.read(0, std::as_writable_bytes(std::span(begin))));
+    } catch (const Error&) { // a folder, or nothing that can be read
+        return nullptr;
+    }
     if (begin.starts_with("\x89HDF\r\n\x1a\n"))
         return holds_netcdf_names(begin) ? open_netcdf : open_hdf5;
     if (begin.starts_with("CDF\x01") || begin.starts_with("CDF\x02") ||
@@ -96,6 +98,11 @@ OpenFormat format_of(const fs::path& path) {
         if (name.ends_with(format.extension))
             return format.open;
     return format_of_content(path);
+}
+
+bool lists_files(const fs::path& path) {
+    const std::string extension = lower_case(path.extension().string());
+    return extension == ".pvd" || extension == ".series";
 }
 
 fs::path described_in(const fs::path& path) {

@@ -10,11 +10,14 @@ using OpenFormat = std::unique_ptr<VolumeFile> (*)(const std::filesystem::path&,
                                                    const ReadOptions&);
 
 /// The format that the end of the name says, in any case of letters. If it says none, the first
-/// bytes do, for HDF5, NetCDF, NRRD and VTK's legacy files: simulations write such files under names
-/// without an extension. DICOM is told by `is_dicom`.
+/// bytes do, for HDF5, NetCDF, NRRD and VTK's legacy files: simulations write such files under
+/// names without an extension. DICOM is told by `is_dicom`.
 /// @param path of a file, or of the file that describes a Zarr folder
 /// @return null: unknown, or it cannot be read
 OpenFormat format_of(const std::filesystem::path& path);
+
+/// Whether a file lists the files of a series instead of holding values: `.pvd` and `.series`.
+bool lists_files(const std::filesystem::path& path);
 
 /// Of a Zarr folder the file that describes it; else the path itself.
 std::filesystem::path described_in(const std::filesystem::path& path);

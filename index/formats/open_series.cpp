@@ -92,10 +92,6 @@ bool is_pvd(const fs::path& path) {
     return lower_case(path.extension().string()) == ".pvd";
 }
 
-bool names_its_files(const fs::path& path) {
-    return is_pvd(path) || lower_case(path.extension().string()) == ".series";
-}
-
 /// Of each folder the files in it, but for those that are read as they are.
 FolderFiles out_of_folders(const std::vector<fs::path>& given, const ReadOptions& options) {
     FolderFiles all;
@@ -129,7 +125,7 @@ std::vector<SeriesFile> listed_in(const fs::path& list, const ReadOptions& optio
 std::vector<SeriesFile> series_of(const std::vector<fs::path>& files, const ReadOptions& options) {
     if (files.empty())
         throw Error("no files given");
-    const auto list = std::find_if(files.begin(), files.end(), names_its_files);
+    const auto list = std::find_if(files.begin(), files.end(), lists_files);
     if (list != files.end() && files.size() != 1)
         throw Error(fmt::format("{}: names its files itself, {} more given", list->string(),
                                 files.size() - 1));

@@ -13,7 +13,8 @@ std::unique_ptr<VolumeFile> open_raw(const std::filesystem::path& path, const Re
 std::unique_ptr<VolumeFile> open_metaimage(const std::filesystem::path& path,
                                            const ReadOptions& options);
 
-/// VisIt's brick of values: .bov with its data beside it. Values of cells are taken at their centers.
+/// VisIt's brick of values: .bov with its data beside it. Values of cells are taken at their
+/// centers.
 std::unique_ptr<VolumeFile> open_bov(const std::filesystem::path& path, const ReadOptions& options);
 
 /// NRRD: .nrrd, .nhdr. The kinds of its axes say which are time and components; without kinds, a
@@ -21,7 +22,8 @@ std::unique_ptr<VolumeFile> open_bov(const std::filesystem::path& path, const Re
 std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
                                       const ReadOptions& options);
 
-/// NIfTI-1 and -2, and Analyze 7.5: .nii, .nii.gz, .hdr with .img, either of which names the pair. The fourth axis is time. Space is RAS.
+/// NIfTI-1 and -2, and Analyze 7.5: .nii, .nii.gz, .hdr with .img, either of which names the pair.
+/// The fourth axis is time. Space is RAS.
 std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
                                        const ReadOptions& options);
 
@@ -29,8 +31,8 @@ std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_vti(const std::filesystem::path& path, const ReadOptions& options);
 std::unique_ptr<VolumeFile> open_vtk(const std::filesystem::path& path, const ReadOptions& options);
 
-/// VTK's rectilinear grids (.vtr), files of several pieces (.pvti, .pvtr), and, with `resample`, its
-/// other grids (.vtu, .vts, .pvtu, .pvts, .vtm, .vth), in a reader.
+/// VTK's rectilinear grids (.vtr), files of several pieces (.pvti, .pvtr), and, with `resample`,
+/// its other grids (.vtu, .vts, .pvtu, .pvts, .vtm, .vth), in a reader.
 std::unique_ptr<VolumeFile> open_vtk_data(const std::filesystem::path& path,
                                           const ReadOptions& options);
 

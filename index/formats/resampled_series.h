@@ -13,8 +13,8 @@ namespace isochron::index {
 inline constexpr std::array<std::uint32_t, 3> kBySmallestCell{0, 0, 0};
 
 /// Values between the vertices of `series` are interpolated along each axis; vertices of the new
-/// grid are even, and the first and the last of each axis lie where they did. Values are f32, or f64
-/// where they were f64 or i32. A note tells how far the new grid is from the values at the old
+/// grid are even, and the first and the last of each axis lie where they did. Values are f32, or
+/// f64 where they were f64 or i32. A note tells how far the new grid is from the values at the old
 /// vertices in the first step, which is read for it.
 /// @param vertices along each axis, or `kBySmallestCell`
 /// @return the series itself where its grid is regular and has so many vertices, or by its cells

@@ -1,4 +1,5 @@
-// Converts physical times between units, with or without a reference date, and writes them for people.
+// Converts physical times between units, with or without a reference date, and writes them for
+// people.
 #pragma once
 
 #include <cstddef>

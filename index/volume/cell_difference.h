@@ -88,7 +88,8 @@ class CellDifferences {
           dz_(z, grid_.vertices[2], slice_),
           first_(values.step<T>(step).data() + y * row_ + z * slice_) {}
 
-    /// Four times the mean of the eight vertices' differences along every axis, per even coordinate.
+    /// Four times the mean of the eight vertices' differences along every axis, per even
+    /// coordinate.
     glm::dvec3 operator()(std::uint32_t x) const {
         return regular_ ? sums(x, AxisTaps(x, nx_, 1), dy_, dz_) : uneven_sums(x);
     }

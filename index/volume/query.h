@@ -34,8 +34,8 @@ enum class CellColoring : std::uint8_t {
 };
 constexpr std::array<std::string_view, 3> kCellColoringNames{"none", "value", "first_crossing"};
 
-/// How many cells an extraction may hold, and how fine it needs to be. By default it holds all cells
-/// of the volume itself.
+/// How many cells an extraction may hold, and how fine it needs to be. By default it holds all
+/// cells of the volume itself.
 struct DetailQuery {
     /// More cells than this are replaced by those of coarser levels; 0: never.
     std::uint64_t most_cells = 0;
@@ -54,7 +54,8 @@ struct SurfacesQuery {
     std::uint32_t step = 0;
     std::vector<double> isovalues; ///< a surface is identified by its place in this list
     CellColoring coloring = CellColoring::none;
-    /// Bytes that the meshes of all surfaces together may take: either all have one or none; 0: none.
+    /// Bytes that the meshes of all surfaces together may take: either all have one or none; 0:
+    /// none.
     std::uint64_t mesh_room = 0;
     DetailQuery detail{};
     std::uint32_t array = 0;  ///< of the index, by number

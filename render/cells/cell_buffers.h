@@ -59,16 +59,16 @@ class CellBuffers {
 
     /// Makes the compute programs and runs each once, over no cells: compiling them takes longer
     /// than a frame may. Without this the first upload does it.
-    /// @param held type of the values in the volume bricks of sets; those of others, from other arrays
-    /// of an index, can be made ready first
+    /// @param held type of the values in the volume bricks of sets; those of others, from other
+    ///        arrays of an index, can be made ready first
     void prepare(index::ValueType held);
 
     /// Sends at most `byte_budget` bytes (at least StagingRing::kUnit), fewer if the GPU has not
     /// yet copied what was sent before; never waits. A set whose transfer has begun is completed
     /// before a newer one begins, so that the picture still changes in a stream of new sets; sets
-    /// in between are skipped. A set that is too large for the driver's buffers or memory is refused,
-    /// and the last one stays: see `refused`. If only its volume is too large, its cells are shown without
-    /// it.
+    /// in between are skipped. A set that is too large for the driver's buffers or memory is
+    /// refused, and the last one stays: see `refused`. If only its volume is too large, its cells
+    /// are shown without it.
     /// @param newest null changes nothing
     /// @param volume `never`: cells with normals are shown without their volume. It follows with a
     /// later call that asks for it and has no newer set.

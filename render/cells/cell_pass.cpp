@@ -234,7 +234,8 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
     return {seen.size(), seen_texture_.name(), 0, 1};
 }
 
-/// Whether no voxel is so large in any view that the light within a triangle is seen to be straight.
+/// Whether no voxel is so large in any view that the light within a triangle is seen to be
+/// straight.
 bool CellPass::triangles_are_small(std::span<const View> views, const Placement& placement,
                                    const CellBuffers& cells) const {
     constexpr float kFewPixels = 8.0f; ///< along a voxel

@@ -17,7 +17,8 @@ class MeshBuffers {
   public:
     explicit MeshBuffers(const Gl& gl);
 
-    /// Begins with the meshes of a set that is meshed, which lives until `show`; what was on its way is dropped.
+    /// Begins with the meshes of a set that is meshed, which lives until `show`; what was on its
+    /// way is dropped.
     void begin(const index::Extraction& set);
     /// Sends at most `bytes`. @return bytes sent
     std::size_t send(std::size_t bytes);

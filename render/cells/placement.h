@@ -14,8 +14,8 @@
 namespace isochron::render {
 
 struct Placement {
-    /// Affine, from even coordinates (`index::Grid::physical_from_index`): those of vertices' indices
-    /// where the grid is regular. May mirror.
+    /// Affine, from even coordinates (`index::Grid::physical_from_index`): those of vertices'
+    /// indices where the grid is regular. May mirror.
     glm::mat4 room_from_index{1.0f};
     glm::mat3 room_from_physical{1.0f}; ///< linear part
     glm::vec3 extent{1.0f};             ///< the volume spans [0, extent] in even coordinates

@@ -1,5 +1,5 @@
-// The entrances of libFuzzer: `fuzz_GROUP --target=NAME [libFuzzer's options] FOLDER...`. FUZZ_TARGETS
-// are those of the group.
+// The entrances of libFuzzer: `fuzz_GROUP --target=NAME [libFuzzer's options] FOLDER...`.
+// FUZZ_TARGETS are those of the group.
 #include "tests/fuzz/packed_mutation.h"
 #include "tests/fuzz/targets.h"
 

@@ -105,7 +105,8 @@ class Faults : public CommandLine {
         return -1;
     }
 
-    /// nlohmann's JSON asks for memory when it is destroyed, and ends the program where there is none.
+    /// nlohmann's JSON asks for memory when it is destroyed, and ends the program where there is
+    /// none.
     static bool ended_by_a_library(const ChildResult& result) {
         return result.status == 1000 + SIGABRT && result.err.ends_with("what():  std::bad_alloc\n");
     }

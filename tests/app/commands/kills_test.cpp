@@ -1,5 +1,5 @@
-// Commands that are killed at random moments: what lies on the disk is whole, the old or the new. ISOCHRON_KILLS in the
-// environment says how often each is killed, 20 times otherwise.
+// Commands that are killed at random moments: what lies on the disk is whole, the old or the new.
+// ISOCHRON_KILLS in the environment says how often each is killed, 20 times otherwise.
 #include "tests/app/commands/command_line.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
-// A user who does anything at random in the window, while trackers send anything and files vanish and
-// come back; and a program that is killed under them. ISOCHRON_SOAK_SECONDS in
-// the environment says how long the user plays, a few seconds otherwise; ISOCHRON_KILLS how often it is killed.
+// A user who does anything at random in the window, while trackers send anything and files vanish
+// and come back; and a program that is killed under them. ISOCHRON_SOAK_SECONDS in the environment
+// says how long the user plays, a few seconds otherwise; ISOCHRON_KILLS how often it is killed.
 #include "tests/app/commands/explore_fixture.h"
 
 #include "app/config/shipped_configs.h"
@@ -34,7 +34,8 @@ int setting(const char* name, int otherwise) {
 
 class Soak : public ExploreTest {
   protected:
-    /// One random act of a user. Escape and Enter do not follow each other, which would end the program.
+    /// One random act of a user. Escape and Enter do not follow each other, which would end the
+    /// program.
     void act() {
         static const std::vector<std::string> kKeys{"w",
                                                     "a",
@@ -177,7 +178,8 @@ TEST_F(Soak, ARandomUserIsFollowedAndReplayed) {
     play(seconds / 2); // until all is there that is made when first needed
     const std::size_t threads = entries(process / "task"), files = entries(process / "fd");
     play(seconds / 2);
-    // The workers of pictures, of lists of files and of colors start when they are first needed, which may be now.
+    // The workers of pictures, of lists of files and of colors start when they are first needed,
+    // which may be now.
     EXPECT_LE(entries(process / "task"), threads + 8);
     EXPECT_LE(entries(process / "fd"), files + 8);
     screen_.xdotool({"key", "m"});

@@ -1,6 +1,7 @@
 // A user inside the process who does anything at random, with any devices: nothing crashes, memory
-// stays as it was, and the recording replays to the same commands and pictures. ISOCHRON_SOAK_SECONDS
-// in the environment says how long the user plays, two short sessions otherwise.
+// stays as it was, and the recording replays to the same commands and pictures.
+// ISOCHRON_SOAK_SECONDS in the environment says how long the user plays, two short sessions
+// otherwise.
 #include "tests/support/session_fixture.h"
 #include "tests/support/test_seed.h"
 

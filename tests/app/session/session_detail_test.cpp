@@ -1,4 +1,5 @@
-// Levels of detail in a session: what moves or sways is shown a set that fits, what rests all cells.
+// Levels of detail in a session: what moves or sways is shown a set that fits, what rests all
+// cells.
 #include "tests/support/context_in_between.h"
 #include "tests/support/eventually.h"
 #include "tests/support/memory_series.h"

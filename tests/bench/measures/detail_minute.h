@@ -1,4 +1,5 @@
-// A session that is scripted and run in real time: jumps of time, drags of the isovalue, walking in.
+// A session that is scripted and run in real time: jumps of time, drags of the isovalue, walking
+// in.
 #pragma once
 
 #include "index/file/index_file.h"

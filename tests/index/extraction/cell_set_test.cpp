@@ -106,8 +106,8 @@ TEST(CellSet, NormalsAreTheMeanOfEightCentralDifferencesForEveryTypeAndPlacement
         }
 }
 
-/// How far rounding takes a normal at most: in the middle of the octahedron's faces, at 1/sqrt(3), by
-/// half a step along u and along v, and so by a whole one along the third axis.
+/// How far rounding takes a normal at most: in the middle of the octahedron's faces, at 1/sqrt(3),
+/// by half a step along u and along v, and so by a whole one along the third axis.
 const double kFarthestRounded = 1.001 * (0.5 / 2047) * std::sqrt(6.0) * std::sqrt(3.0);
 
 /// Every packed component is the exact one rounded: off by more than half a unit only as far as

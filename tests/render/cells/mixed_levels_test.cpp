@@ -161,8 +161,8 @@ TEST_P(MixedLevels, AClosedSurfaceKeepsItsOutlineAndHasNoHolesInIt) {
 }
 
 /// A sheet with a steep step just behind the border of two regions: the coarse level's step is much
-/// less steep, so the two sheets are some voxels apart at the border. Seen along the border's normal
-/// there is nothing behind a gap between them.
+/// less steep, so the two sheets are some voxels apart at the border. Seen along the border's
+/// normal there is nothing behind a gap between them.
 TEST_P(MixedLevels, CellsThatReachIntoFinerRegionsCloseTheGapBetweenTheSheets) {
     const index::TestField sheet({97, 98, 95}, 1, index::ValueType::f32,
                                  [](double x, double, double z, double) {

@@ -1,4 +1,5 @@
-// Builds one array of an index: plans the pass over its values, then makes the tiers from those that were kept.
+// Builds one array of an index: plans the pass over its values, then makes the tiers from those
+// that were kept.
 #include "index/build/array_build.h"
 
 #include "index/build/color_pass.h"

@@ -1,4 +1,5 @@
-// Builds .isochron files: one pass over the sources of all arrays, then their tiers, then their sections.
+// Builds .isochron files: one pass over the sources of all arrays, then their tiers, then their
+// sections.
 #include "index/build/index_build.h"
 
 #include "index/build/array_build.h"

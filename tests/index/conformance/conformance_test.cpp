@@ -88,8 +88,8 @@ void expect_values(const std::vector<double>& got, const std::vector<double>& wa
     EXPECT_EQ(wrong, 0u);
 }
 
-/// Values that were computed: of f32 mostly, and, a bit more than VTK puts an image within a mesh, of
-/// meshes.
+/// Values that were computed: of f32 mostly, and, a bit more than VTK puts an image within a mesh,
+/// of meshes.
 double slack_of(const json& kind) {
     return kind == "rounded" ? 1e-6 : kind == "within" ? 1e-4 : 0;
 }

@@ -69,7 +69,7 @@ TEST_P(IndexDamage, WithMatchingChecksumsIsRefusedOrHarmless) {
     const std::string good = read_file(folder.path() / "a");
     const auto sound = IndexFile::open(folder.path() / "a");
     int refused = 0, usable = 0;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < tries(3000); ++i) {
         auto damaged = std::make_unique<DamagedIndex>(good);
         for (int hits = 1 + static_cast<int>(random() % 3); hits > 0; --hits) {
             // Half of the damage goes where little is: into the sections and the steps' ends.

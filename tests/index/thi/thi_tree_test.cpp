@@ -52,13 +52,8 @@ const std::array kOptions{ThiOptions{1, 1},  ThiOptions{2, 1},    ThiOptions{2, 
                           ThiOptions{32, 1}, ThiOptions{32, 2},   ThiOptions{128, 3},
                           ThiOptions{64, 2}, ThiOptions{4096, 1}, ThiOptions{4096, 64}};
 
-/// Isovalues of long series. Sanitizers watch the same code at each, and comparing them is not
-/// their task.
-#ifdef ISOCHRON_SANITIZED
-constexpr int kIsovalues = 12;
-#else
-constexpr int kIsovalues = 64;
-#endif
+/// Isovalues of long series.
+constexpr int kIsovalues = tries(64);
 
 TEST(ThiTree, FindsTheActiveCellsOfTheMovingSphere) {
     for (const ValueType type : {ValueType::f32, ValueType::u8}) {

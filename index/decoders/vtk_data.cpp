@@ -106,9 +106,11 @@ class VtkDataFile final : public DecodedFile {
         vtkSmartPointer<vtkImageData> image = vtkImageData::SafeDownCast(&read);
         auto* rectilinear = vtkRectilinearGrid::SafeDownCast(&read);
         if (!image && !rectilinear && !options.resample)
-            throw Error(fmt::format("{}: holds {}, expected image data or a rectilinear grid; "
-                                    "--resample NX NY NZ makes a regular grid of it",
-                                    path_.string(), read.GetClassName()));
+            throw Error(fmt::format(
+                "{}: holds {}, expected image data or a rectilinear grid; "
+                "--resample NX NY NZ makes a regular grid of it, --resample-by-cell one "
+                "as fine as its smallest cell",
+                path_.string(), read.GetClassName()));
         if (!image && !rectilinear) {
             image = onto_image(read, *options.resample, path_.string());
             resampled_ = true;

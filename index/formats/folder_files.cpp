@@ -132,7 +132,8 @@ FolderFiles files_in_folder(const fs::path& folder, const ReadOptions& options) 
     if (files.empty())
         throw Error(fmt::format("{}: a folder without {}", folder.string(),
                                 options.dims ? "a file as large as --dims and --type say"
-                                             : "a file of values of a known format"));
+                                             : "a file of values of a known format; raw values "
+                                               "need --dims and --type"));
     if (std::ranges::any_of(files, lists_files))
         std::erase_if(files, [](const fs::path& file) { return !lists_files(file); });
     drop_named(files);

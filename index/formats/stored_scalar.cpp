@@ -193,7 +193,9 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
         throw Error(fmt::format("{}: holds no array{}", file,
                                 arrays.empty() ? "" : " of numbers that can be read"));
     if (open && !options.any_array)
-        throw Error(fmt::format("{}: several arrays, choose one with --array: {}", file, list));
+        throw Error(fmt::format(
+            "{}: several arrays, choose one with --array: {}; --all-arrays takes all of one shape",
+            file, list));
     if (!found)
         throw Error(
             fmt::format("{}: no array {}, expected one of: {}", file, *options.array, list));

@@ -1,8 +1,8 @@
 // How fast files are read, beside the plain libraries: `reading_speed FOLDER [MEBIBYTES]`.
 //
-// Makes a volume of f32 in each format in the folder, which must be on a disk that the page cache holds,
-// and reads it in turns with the library alone and with ours: into memory that was never touched, and into
-// memory that was. Prints the best time of each and their ratio.
+// Makes a volume of f32 in each format in the folder, which the page cache must have room for, and
+// reads it in turns with the library alone and with ours: into memory that was never touched, and
+// into memory that was. Prints the best time of each and their ratio.
 #include "index/system/input_file.h"
 #include "index/volume/volume_series.h"
 

@@ -252,6 +252,16 @@ std::size_t Scene::work(std::size_t views, render::Footprint footprint) const {
     return cell_pass_.work(views, drawn(), footprints().best(footprint), appearance_);
 }
 
+std::size_t Scene::prepare_slices(render::Footprint footprint, std::size_t most) {
+    // The corners of so many cells are computed in about the time in which one of them is drawn.
+    constexpr std::size_t kCorners = 8;
+    if (footprints().best(footprint) != render::Footprint::surface)
+        return 0;
+    const std::size_t cells =
+        (draws_resting_ ? *resting_ : cells_).compute_corners(kCorners * most);
+    return (cells + kCorners - 1) / kCorners;
+}
+
 /// Whether the cells write depth, so that they hide things behind them that are drawn later.
 bool Scene::writes_depth(render::Footprint footprint) const {
     return footprint == render::Footprint::quad ||

@@ -123,6 +123,9 @@ class Scene {
               const std::optional<interaction::Pose>& wand, const SceneSlice& slice = {});
     /// Work of drawing the cells into so many views, in the units of `SceneSlice::cells`.
     std::size_t work(std::size_t views, render::Footprint footprint) const;
+    /// Does some of the work that comes before a slice with this footprint.
+    /// @param most of it, in the same units @return how much was done; 0: none is left
+    std::size_t prepare_slices(render::Footprint footprint, std::size_t most);
 
     /// Over a finished picture: a wand's ray, and what a cursor is over.
     void draw_aids(const render::View& view, const interaction::Similarity& room_from_physical,

@@ -56,7 +56,12 @@ void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
     pace.begin_frame();
     StopWatch watch;
     while (const std::size_t work = pace.next()) {
-        std::size_t done = 0;
+        std::size_t done = scene_.prepare_slices(wanted.footprint, work);
+        if (done > 0) {
+            outputs_.gl().Finish(); // so that its time is known
+            pace.took(done, watch.lap());
+            continue;
+        }
         const bool whole = outputs_.draw_slice(
             slices_->place, [&](const ScenePlace& place, std::span<const render::View> views) {
                 return draw_slice(place, views, work, done);

@@ -76,7 +76,7 @@ void CellBuffers::prepare(index::ValueType held) {
     compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, message_, points_);
     compute_->set_styles(none, styles_, points_);
     compute_->fill_planes(none, *bricks_, points_);
-    compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_);
+    compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_, {0, 0});
 }
 
 /// Makes ready for values of this type; drops bricks of another.
@@ -346,14 +346,23 @@ Slots CellBuffers::place_cells() {
     return plan_->take();
 }
 
-void CellBuffers::compute_corners() {
-    if (!shown_ || corners_version_ == version_)
-        return;
-    assert(has_volume());
-    corner_values_.reserve(shown_->cells(), DeviceArray::Contents::dropped);
-    corner_gradients_.reserve(shown_->cells(), DeviceArray::Contents::dropped);
-    compute_->fill_corners(*shown_, *bricks_, points_, corner_values_, corner_gradients_);
-    corners_version_ = version_;
+std::size_t CellBuffers::compute_corners(std::size_t most) {
+    if (!shown_)
+        return 0;
+    const std::size_t cells = shown_->cells();
+    if (corners_version_ != version_) {
+        assert(has_volume());
+        corner_values_.reserve(cells, DeviceArray::Contents::dropped);
+        corner_gradients_.reserve(cells, DeviceArray::Contents::dropped);
+        corners_version_ = version_;
+        corners_done_ = 0;
+    }
+    const std::size_t count = std::min(most, cells - corners_done_);
+    if (count > 0)
+        compute_->fill_corners(*shown_, *bricks_, points_, corner_values_, corner_gradients_,
+                               {corners_done_, count});
+    corners_done_ += count;
+    return count;
 }
 
 } // namespace isochron::render

@@ -18,6 +18,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -116,7 +117,9 @@ class CellBuffers {
     /// Computes the two textures below for the shown set, unless they are up to date. The set's
     /// volume must be on the GPU.
     /// @throws Error when there are more than `corner_limit()` cells
-    void compute_corners();
+    void compute_corners() { compute_corners(std::numeric_limits<std::size_t>::max()); }
+    /// The same in pieces, of at most so many cells. @return how many cells it was; 0: none is left
+    std::size_t compute_corners(std::size_t most);
     /// Most cells that these textures can hold: fewer than can be drawn without them.
     std::size_t corner_limit() const { return corner_gradients_.limit(); }
     /// GL_TEXTURE_BUFFER by slot, two RGBA32F texels each: the values at the cell's vertices minus
@@ -167,6 +170,7 @@ class CellBuffers {
     std::string refusal_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
     std::uint64_t version_ = 0, corners_version_ = 0, volume_version_ = 0, mesh_version_ = 0;
+    std::size_t corners_done_ = 0;        ///< cells of `corners_version_`
     std::uint64_t no_volume_version_ = 0; ///< of the set whose volume found no memory
     UploadCount count_;
     bool sending_mesh_ = false;   ///< of the arriving set

@@ -106,13 +106,13 @@ void CellCompute::bind(GLuint binding, const DeviceArray& array, std::size_t fir
 }
 
 template <class Prepare>
-void CellCompute::run(const Program& program, std::size_t count, Work work,
-                      Prepare&& prepare) const {
+void CellCompute::run(const Program& program, DrawPart items, Work work, Prepare&& prepare) const {
     static_assert(sizeof(Work) == 32 + 4 * index::kMostSurfaces && index::kMostSurfaces % 4 == 0);
     gl_->UseProgram(program.name());
-    std::size_t begin = 0;
+    std::size_t begin = items.first;
+    const std::size_t all = items.first + items.count;
     do { // runs also for no items: drivers compile programs when they first run
-        const std::size_t end = std::min(begin + at_once_, count);
+        const std::size_t end = std::min(begin + at_once_, all);
         work.begin = static_cast<std::uint32_t>(begin);
         work.end = static_cast<std::uint32_t>(end);
         gl_->NamedBufferData(work_.name(), sizeof(work), &work, GL_STREAM_DRAW);
@@ -122,7 +122,7 @@ void CellCompute::run(const Program& program, std::size_t count, Work work,
             std::max((end - begin + kWorkGroup - 1) / kWorkGroup, std::size_t{1});
         gl_->DispatchCompute(static_cast<GLuint>(groups), 1, 1);
         begin = end;
-    } while (begin < count);
+    } while (begin < all);
     gl_->UseProgram(0);
     gl_->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                        GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -163,14 +163,14 @@ void CellCompute::fill_planes(const index::Extraction& set, const BrickPool& bri
 
 void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& bricks,
                                const DeviceArray& points, const DeviceArray& values,
-                               const DeviceArray& gradients) const {
+                               const DeviceArray& gradients, DrawPart cells) const {
     use_volume(set, bricks);
     bind(0, points);
-    run(corners_, set.cells(), {}, [&](std::size_t begin, std::size_t end) {
-        const std::size_t cells =
+    run(corners_, cells, {}, [&](std::size_t begin, std::size_t end) {
+        const std::size_t count =
             std::max(end - begin, std::size_t{1}); // a range must not be empty
-        bind(1, values, begin, cells);
-        bind(2, gradients, begin, cells);
+        bind(1, values, begin, count);
+        bind(2, gradients, begin, count);
     });
 }
 

@@ -4,11 +4,13 @@
 #include "index/extraction/extraction.h"
 #include "render/cells/axis_table.h"
 #include "render/cells/brick_pool.h"
+#include "render/cells/draw_part.h"
 #include "render/cells/slot_plan.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace isochron::render {
 
@@ -38,10 +40,10 @@ class CellCompute {
     void fill_planes(const index::Extraction& set, const BrickPool& bricks,
                      const DeviceArray& points) const;
 
-    /// Writes values and gradients at the vertices of all cells.
+    /// Writes values and gradients at the vertices of some cells, by slot.
     void fill_corners(const index::Extraction& set, const BrickPool& bricks,
                       const DeviceArray& points, const DeviceArray& values,
-                      const DeviceArray& gradients) const;
+                      const DeviceArray& gradients, DrawPart cells) const;
 
   private:
     void use_volume(const index::Extraction& set, const BrickPool& bricks) const;
@@ -55,10 +57,14 @@ class CellCompute {
         std::array<std::uint32_t, 2> padding{};
         std::array<std::uint32_t, index::kMostSurfaces> surface_ends{};
     };
-    /// Runs a program for items 0 to `count` - 1, in ranges that one dispatch can do;
+    /// Runs a program for some items, in ranges that one dispatch can do;
     /// `prepare(begin, end)` binds the data of each range. @param work its range is filled in here
     template <class Prepare>
-    void run(const Program& program, std::size_t count, Work work, Prepare&& prepare) const;
+    void run(const Program& program, DrawPart items, Work work, Prepare&& prepare) const;
+    template <class Prepare>
+    void run(const Program& program, std::size_t count, Work work, Prepare&& prepare) const {
+        run(program, DrawPart{0, count}, work, std::forward<Prepare>(prepare));
+    }
 
     const Gl* gl_;
     index::Grid grid_;

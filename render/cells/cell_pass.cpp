@@ -26,6 +26,13 @@ namespace {
 constexpr GLuint kColorMapUnit = 7;     ///< of appearance.glsl
 constexpr GLuint kSurroundingsUnit = 9; ///< of surroundings.glsl
 
+/// Cells that are put in order in about the time in which one is drawn.
+constexpr std::size_t kOrdered = 8;
+
+std::size_t ordering_work(const CellBuffers& cells) {
+    return (cells.size() + kOrdered - 1) / kOrdered;
+}
+
 } // namespace
 
 CellPass::Programs CellPass::programs(std::string_view fragment_shader,
@@ -54,7 +61,7 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
       quad_programs_(footprint_programs("cell_quad.frag", is_round(Footprint::quad))),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", is_round(Footprint::gaussian))),
       mesh_(gl, two_views_at_once_, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude),
-      quads_(gl), orders_(gl), seen_slots_(gl), seen_texture_(gl, GL_TEXTURE_BUFFER), frame_(gl) {
+      quads_(gl), sequences_(gl), frame_(gl) {
     if (shapes.shape == CellShape::voxel)
         quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
     const float falloff = gaussian_falloff();
@@ -108,12 +115,37 @@ std::size_t CellPass::views_at_once(Footprint footprint, const Layer& layer) con
     return apart || in_order ? 1 : 2;
 }
 
-std::size_t CellPass::work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer) {
+/// Meshes that blend have an order of triangles.
+bool CellPass::is_ordered(Footprint footprint, bool blended) const {
+    return footprint != Footprint::mesh &&
+           (blended || (seen_only_ && footprint == Footprint::quad));
+}
+
+std::size_t CellPass::work_of(const CellBuffers& cells, Footprint footprint,
+                              const Layer& layer) const {
+    if (is_ordered(footprint, layer.blended))
+        return ordering_work(cells) + cells.size();
     if (!has_layers(footprint))
         return 1;
     return footprint == Footprint::mesh && !layer.blended
                ? MeshPass::triangles(cells, layer.surfaces)
                : cells.size();
+}
+
+DrawPart CellPass::put_in_order(std::span<const View> views, const Placement& placement,
+                                const CellBuffers& cells, Footprint footprint, const Layer& layer,
+                                const CellAppearance& appearance, DrawPart part) {
+    if (!is_ordered(footprint, layer.blended))
+        return part;
+    const std::size_t all = ordering_work(cells);
+    const DrawPart ordering = part.among(0, all), drawing = part.among(all, cells.size());
+    const std::size_t done = (ordering.first + ordering.count) * views.size();
+    for (std::size_t i = 0; drawing.count == 0 && i < views.size(); ++i) // one after the other
+        if (done > i * all)
+            sequences_.find(
+                sequence_wanted(views[i], placement, cells, footprint, layer.blended, appearance),
+                std::min(done - i * all, all), all);
+    return drawing;
 }
 
 std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footprint footprint,
@@ -132,20 +164,27 @@ std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footp
 void CellPass::draw_at_once(std::span<const View> views, const Placement& placement,
                             const CellBuffers& cells, Footprint footprint, const Layer& layer,
                             const CellAppearance& appearance, DrawPart part) {
+    part = put_in_order(views, placement, cells, footprint, layer, appearance, part);
+    if (part.count == 0)
+        return;
     const bool blended = layer.blended;
     FrameBlock frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended, placement,
                                 cells.surroundings(), cells.slots().largest > 0);
-    Sequence sequence;
+    CellSequence sequence{.cells = cells.size()};
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame.eyes[i] = eye_block(views[i], placement, appearance);
         set_viewport(*gl_, views[i], static_cast<GLuint>(i));
-        sequence = sequence_of(views[i], placement, cells, footprint, blended, appearance);
+        if (is_ordered(footprint, blended))
+            sequence = sequences_.find(
+                sequence_wanted(views[i], placement, cells, footprint, blended, appearance));
         // The shader needs a texture of this type bound even if it reads no sequence.
         gl_->BindTextureUnit(static_cast<GLuint>(1 + i),
                              sequence.texture != 0 ? sequence.texture : cells.texture());
     }
     if (views.size() == 1)
         gl_->BindTextureUnit(2, cells.texture());
+    if (is_ordered(footprint, blended) && !has_layers(footprint))
+        sequence = sequence.part(part.first, part.first + part.count, cells.size());
     frame.order_begin = sequence.begin;
     frame.order_step = sequence.step;
     // Meshes have a color of their own in each pixel: the target converts these faster to display
@@ -204,14 +243,9 @@ CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& p
     return form;
 }
 
-CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& placement,
+SequenceWanted CellPass::sequence_wanted(const View& view, const Placement& placement,
                                          const CellBuffers& cells, Footprint footprint,
-                                         bool blended, const CellAppearance& appearance) {
-    const auto all = static_cast<int>(cells.size());
-    const bool nearest_first = seen_only_ && footprint == Footprint::quad;
-    if ((!blended && !nearest_first) || footprint == Footprint::mesh)
-        return {.cells = cells.size()};
-    const TraversalKey key = key_of(view, placement);
+                                         bool blended, const CellAppearance& appearance) const {
     // Splats are not culled in linear light: there, even a contribution below a step of the
     // display's values shows in dark places.
     const bool leaves_out =
@@ -219,19 +253,8 @@ CellPass::Sequence CellPass::sequence_of(const View& view, const Placement& plac
         !(placement.rectilinear && cells.slots().largest > 0) && // of mixed levels
         !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&
         (shapes_.shape == CellShape::voxel || cells.slots().planes.size() == cells.size());
-    if (!leaves_out)
-        return blended ? Sequence{cells.size(), orders_.texture(cells, key), 0, 1}
-                       : Sequence{cells.size(), orders_.texture(cells, key), all - 1, -1};
-    const std::span<const std::uint32_t> order = orders_.order(cells, key);
     const SplatShape shape{shapes_.shape, shapes_.radius_of(footprint)};
-    const std::span<const std::uint32_t> seen =
-        blended
-            ? seen_splats_.find(view, placement, shape, gaussian_falloff(), cells.slots(), order)
-            : seen_.find(view, placement, shape, cells.slots(), order);
-    gl_->NamedBufferData(seen_slots_.name(), static_cast<GLsizeiptr>(seen.size_bytes()),
-                         seen.data(), GL_STREAM_DRAW);
-    gl_->TextureBuffer(seen_texture_.name(), GL_R32UI, seen_slots_.name());
-    return {seen.size(), seen_texture_.name(), 0, 1};
+    return {view, placement, cells, shape, gaussian_falloff(), blended, leaves_out};
 }
 
 /// Whether no voxel is so large in any view that the light within a triangle is seen to be
@@ -268,9 +291,10 @@ void CellPass::draw_mesh(std::span<const View> views, const Placement& placement
                               .near = !hides_what_is_behind(opaque, placement),
                               .small = triangles_are_small(views, placement, cells)};
     if (layer.blended)
-        mesh_.draw_blended(
-            cells, look,
-            orders_.order(cells, key_of(views.front(), placement)).subspan(part.first, part.count));
+        mesh_.draw_blended(cells, look,
+                           sequences_.orders()
+                               .order(cells, key_of(views.front(), placement))
+                               .subspan(part.first, part.count));
     else
         mesh_.draw(cells, look, views.size(), part);
 }

@@ -4,14 +4,12 @@
 
 #include "render/cells/cell_appearance.h"
 #include "render/cells/cell_buffers.h"
+#include "render/cells/cell_sequence.h"
 #include "render/cells/draw_part.h"
 #include "render/cells/footprints.h"
 #include "render/cells/frame_block.h"
 #include "render/cells/mesh_pass.h"
-#include "render/cells/order_cache.h"
 #include "render/cells/placement.h"
-#include "render/cells/quad_culling.h"
-#include "render/cells/splat_culling.h"
 #include "render/cells/surface_pass.h"
 #include "render/gl/quad_indices.h"
 #include "render/gl/view.h"
@@ -51,7 +49,8 @@ class CellPass {
     }
 
     /// Work of drawing these cells into so many views, of which `draw` can do a part: cells of the
-    /// exact surface, triangles of a mesh. A drawing of quads or splats is one piece.
+    /// exact surface, triangles of a mesh. Quads and splats are first put in order, which counts as
+    /// a little work for each.
     std::size_t work(std::size_t views, const CellBuffers& cells, Footprint footprint,
                      const CellAppearance& appearance) const;
 
@@ -65,7 +64,7 @@ class CellPass {
     /// For comparisons: draws quads even where points would show the same faster.
     void draw_without_points() { largest_point_ = 0.0f; }
 
-    const OrderCache& orders() const { return orders_; }
+    const OrderCache& orders() const { return sequences_.orders(); }
 
   private:
     /// The same shaders for one view and for two.
@@ -84,14 +83,6 @@ class CellPass {
     bool is_round(Footprint footprint) const;
     /// How footprints are drawn, from the most general to the fastest form.
     enum class Form : std::uint8_t { quads, points, squares };
-    /// Which cells a view draws, and in which order: cell n is in the slot that texel
-    /// `begin + n * step` holds; without a texture, in slot n.
-    struct Sequence {
-        std::size_t cells = 0;
-        GLuint texture = 0;
-        int begin = 0, step = 0;
-    };
-
     /// Surfaces that are drawn together.
     struct Layer {
         std::int32_t surfaces = 0; ///< one bit for each
@@ -104,7 +95,7 @@ class CellPass {
                                         const CellAppearance& appearance);
     /// Views that are drawn in one pass, at most.
     std::size_t views_at_once(Footprint footprint, const Layer& layer) const;
-    static std::size_t work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer);
+    std::size_t work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer) const;
     /// Draws one or two views in one pass; two need `Programs::two`.
     void draw_at_once(std::span<const View> views, const Placement& placement,
                       const CellBuffers& cells, Footprint footprint, const Layer& layer,
@@ -112,9 +103,16 @@ class CellPass {
     /// The fastest form that shows the same picture in all views.
     Form form_of(std::span<const View> views, const Placement& placement, Footprint footprint,
                  const CellBuffers& cells) const;
-    /// The sequence of one view; `Sequence::cells` is the same in all views that are drawn at once.
-    Sequence sequence_of(const View& view, const Placement& placement, const CellBuffers& cells,
-                         Footprint footprint, bool blended, const CellAppearance& appearance);
+    /// Whether its cells are drawn in an order, or any will do.
+    bool is_ordered(Footprint footprint, bool blended) const;
+    SequenceWanted sequence_wanted(const View& view, const Placement& placement,
+                                   const CellBuffers& cells, Footprint footprint, bool blended,
+                                   const CellAppearance& appearance) const;
+    /// Goes on with putting quads and splats in order. @return the part of the work that is left to
+    /// draw
+    DrawPart put_in_order(std::span<const View> views, const Placement& placement,
+                          const CellBuffers& cells, Footprint footprint, const Layer& layer,
+                          const CellAppearance& appearance, DrawPart part);
     bool triangles_are_small(std::span<const View> views, const Placement& placement,
                              const CellBuffers& cells) const;
     void draw_mesh(std::span<const View> views, const Placement& placement,
@@ -136,11 +134,7 @@ class CellPass {
     MeshPass mesh_;
     SurfacePass surface_;
     QuadIndices quads_;
-    OrderCache orders_;
-    SeenCells seen_;
-    SeenSplats seen_splats_;
-    Buffer seen_slots_;
-    Texture seen_texture_;
+    CellSequences sequences_;
     Buffer frame_;
 };
 

@@ -280,10 +280,11 @@ void CellSquares::take_axes(const Placement& placement) {
     axes_ = grid_ ? axis_places(*grid_) : std::array<AxisPlaces, 3>();
 }
 
-void CellSquares::project(const View& view, const Placement& placement, const SplatShape& shape,
-                          const Slots& slots, std::span<const std::uint32_t> back_to_front) {
+void CellSquares::begin(const View& view, const Placement& placement, const SplatShape& shape,
+                        const Slots& slots) {
     const bool on_planes = shape.shape == CellShape::plane;
-    size_ = back_to_front.size();
+    size_ = slots.places.size();
+    done_ = 0;
     const std::size_t whole = (size_ + kBlock - 1) / kBlock * kBlock;
     take_axes(placement);
     words_.resize(2 * whole);
@@ -294,38 +295,50 @@ void CellSquares::project(const View& view, const Placement& placement, const Sp
     for (std::vector<float>* array : {&xx_, &xy_, &yy_})
         array->resize(planes_.size());
     outer_.resize(on_planes ? 0 : whole);
-    for (std::size_t i = 0; i < size_; ++i) {
-        const std::uint32_t slot = back_to_front[size_ - 1 - i];
-        std::memcpy(&words_[2 * i], &slots.places[slot], sizeof(CellPlace));
-        if (on_planes)
-            planes_[i] = slots.planes[slot];
-    }
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
     const glm::mat4 rows =
         glm::transpose(view.clip_from_eye * view.eye_from_room * placement.room_from_index);
-    SquareProjection projection{half_size.x * rows[0],
-                                half_size.y * rows[1],
-                                rows[2],
-                                rows[3],
-                                half_size,
-                                shape.radius,
-                                placement.index_from_normal(),
-                                placement.extent,
-                                {},
-                                {},
-                                {}};
+    projection_ = {half_size.x * rows[0],
+                   half_size.y * rows[1],
+                   rows[2],
+                   rows[3],
+                   half_size,
+                   shape.radius,
+                   placement.index_from_normal(),
+                   placement.extent,
+                   {},
+                   {},
+                   {}};
     for (std::size_t axis = 0; grid_ && axis < axes_.size(); ++axis) {
-        projection.places[axis] = axes_[axis].place.data();
-        projection.sides[axis] = axes_[axis].side.data();
-        projection.last[axis] = static_cast<std::int32_t>(axes_[axis].place.size()) - 1;
+        projection_.places[axis] = axes_[axis].place.data();
+        projection_.sides[axis] = axes_[axis].side.data();
+        projection_.last[axis] = static_cast<std::int32_t>(axes_[axis].place.size()) - 1;
     }
     const bool mixed = slots.largest > 0;
     assert(!(mixed && grid_));
-    const CellKind kind = grid_ ? CellKind::uneven : mixed ? CellKind::mixed : CellKind::even;
+    kind_ = grid_ ? CellKind::uneven : mixed ? CellKind::mixed : CellKind::even;
+}
+
+void CellSquares::project_to(std::size_t to, const Slots& slots,
+                             std::span<const std::uint32_t> back_to_front) {
+    to = std::min((to + kBlock - 1) / kBlock * kBlock, words_.size() / 2);
+    if (to <= done_)
+        return;
+    for (std::size_t i = done_; i < std::min(to, size_); ++i) {
+        const std::uint32_t slot = back_to_front[size_ - 1 - i];
+        std::memcpy(&words_[2 * i], &slots.places[slot], sizeof(CellPlace));
+        if (!planes_.empty())
+            planes_[i] = slots.planes[slot];
+    }
+    const auto from = [&](std::vector<float>& array) {
+        return array.empty() ? nullptr : array.data() + done_;
+    };
     HWY_DYNAMIC_DISPATCH(project)
-    (projection, words_.data(), on_planes ? planes_.data() : nullptr, whole, kind,
-     {x_.data(), y_.data(), z_.data(), inner_.data(), outer_.data(), inner_disc_.data(),
-      outer_disc_.data(), xx_.data(), xy_.data(), yy_.data()});
+    (projection_, &words_[2 * done_], planes_.empty() ? nullptr : &planes_[done_], to - done_,
+     kind_,
+     {from(x_), from(y_), from(z_), from(inner_), from(outer_), from(inner_disc_),
+      from(outer_disc_), from(xx_), from(xy_), from(yy_)});
+    done_ = to;
 }
 
 } // namespace isochron::render

@@ -5,6 +5,7 @@
 #include "render/cells/cell_shape.h"
 #include "render/cells/placement.h"
 #include "render/cells/slot_plan.h"
+#include "render/cells/square_projection.h"
 #include "render/gl/view.h"
 
 #include <array>
@@ -30,7 +31,18 @@ class CellSquares {
     ///        levels of detail
     /// @param back_to_front slots in this order
     void project(const View& view, const Placement& placement, const SplatShape& shape,
-                 const Slots& slots, std::span<const std::uint32_t> back_to_front);
+                 const Slots& slots, std::span<const std::uint32_t> back_to_front) {
+        begin(view, placement, shape, slots);
+        project_to(size_, slots, back_to_front);
+    }
+
+    /// The same in pieces: after this no cell is projected,
+    void begin(const View& view, const Placement& placement, const SplatShape& shape,
+               const Slots& slots);
+    /// and after this the nearest `to` cells, or few more. @param slots the same as before, as is
+    /// `back_to_front`
+    void project_to(std::size_t to, const Slots& slots,
+                    std::span<const std::uint32_t> back_to_front);
 
     std::size_t size() const { return size_; }
     // Nearest first:
@@ -53,7 +65,9 @@ class CellSquares {
   private:
     void take_axes(const Placement& placement);
 
-    std::size_t size_ = 0;
+    std::size_t size_ = 0, done_ = 0;
+    SquareProjection projection_{};
+    CellKind kind_{};
     std::optional<index::Grid> grid_; ///< a rectilinear one, of which the axes are
     std::array<AxisPlaces, 3> axes_;
     std::vector<std::uint32_t> words_; ///< two for each cell: those of its CellPlace

@@ -5,7 +5,9 @@
 #include "render/cells/traversal_order.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +26,11 @@ class OrderCache {
     /// The same order as a GL_TEXTURE_BUFFER, one R32UI texel per cell.
     GLuint texture(const CellBuffers& cells, const TraversalKey& key);
 
+    /// Work of sorting an order ahead of its first use; 0 if it is there.
+    std::size_t work(const CellBuffers& cells, const TraversalKey& key);
+    /// Sorts it on until so much of that work is done. One order at a time is sorted so.
+    void advance(const CellBuffers& cells, const TraversalKey& key, std::size_t to);
+
     /// Number of orders sorted so far.
     std::uint64_t sorts() const { return sorts_; }
 
@@ -38,9 +45,18 @@ class OrderCache {
         bool sent = false; ///< to the texture
         std::uint64_t last_use = 0;
     };
+    /// An order that is sorted ahead.
+    struct Ahead {
+        std::uint64_t version;
+        TraversalKey key;
+        BackToFrontSort sort;
+    };
+    Entry* find(const CellBuffers& cells, const TraversalKey& key);
     Entry& entry(const CellBuffers& cells, const TraversalKey& key);
+    BackToFrontSort& ahead(const CellBuffers& cells, const TraversalKey& key);
 
     const Gl* gl_;
+    std::optional<Ahead> ahead_;
     std::array<Entry, 4> entries_;
     std::uint64_t uses_ = 0, sorts_ = 0;
 };

@@ -243,11 +243,11 @@ HWY_INLINE bool hidden(const TiledEllipse& ellipse, const TiledEllipse::Ranges& 
 } // namespace
 
 /// The same as `find`, for ellipses.
-std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles,
-                          std::uint32_t* seen) {
+std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles, std::size_t first,
+                          std::size_t end, std::uint32_t* seen) {
     TiledEllipse::Ranges ranges;
     std::size_t count = 0;
-    for (std::size_t n = 0; n < ellipses.size(); ++n) {
+    for (std::size_t n = first; n < end; ++n) {
         const TiledEllipse ellipse(ellipses, tiles, n);
         const float z = ellipses.z()[n];
         if (ellipse.rows() < 1)
@@ -270,19 +270,20 @@ std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles,
     return count;
 }
 
-/// Finds the visible cells.
-/// @param seen takes their numbers in the order of the squares; has room for all cells
-/// @return their number
-std::size_t find(const CellSquares& squares, const TileNumbers& tiles, std::uint32_t* seen) {
+/// Finds the visible ones of the cells from number `from`, a multiple of the block, to `end`.
+/// @param seen takes their numbers in the order of the squares; has room for all of them
+/// @return how many these are
+std::size_t find(const CellSquares& squares, const TileNumbers& tiles, std::size_t from,
+                 std::size_t end, std::uint32_t* seen) {
     Tiles across, up, whole_across, whole_up;
     std::size_t count = 0;
-    for (std::size_t first = 0; first < squares.size(); first += CellSquares::kBlock) {
+    for (std::size_t first = from; first < end; first += CellSquares::kBlock) {
         const float *x = squares.x() + first, *y = squares.y() + first, *z = squares.z() + first;
         touched(tiles, x, squares.outer() + first, tiles.columns, across);
         touched(tiles, y, squares.outer() + first, tiles.rows, up);
         covered(tiles, x, squares.inner() + first, tiles.columns, whole_across);
         covered(tiles, y, squares.inner() + first, tiles.rows, whole_up);
-        const std::size_t cells = std::min(squares.size() - first, CellSquares::kBlock);
+        const std::size_t cells = std::min(end - first, CellSquares::kBlock);
         for (std::size_t i = 0; i < cells; ++i) {
             if (hidden(tiles, across, up, i, z[i]))
                 continue;
@@ -302,24 +303,19 @@ namespace isochron::render {
 HWY_EXPORT(find);
 HWY_EXPORT(find_ellipses);
 
-std::span<const std::uint32_t> SeenCells::find(const View& view, const Placement& placement,
-                                               const SplatShape& shape, const Slots& slots,
-                                               std::span<const std::uint32_t> back_to_front) {
-    squares_.project(view, placement, shape, slots, back_to_front);
+void SeenCells::lay_out(const View& view, const CellSquares& squares, PictureTiles& tiles) {
     // With these sizes most quads cover some tiles. Ellipses need larger tiles, as each row takes
     // longer.
-    const bool ellipses = shape.shape == CellShape::plane;
-    const float tiles_across = ellipses ? 1.0f : 1.5f; // half of a quad
+    const float tiles_across = ellipses_ ? 1.0f : 1.5f; // half of a quad
     constexpr int kMostTileBits = 4;
-    tiles_.lay_out(view, {ellipses ? squares_.inner_disc() : squares_.inner(), squares_.size()},
-                   tiles_across, kMostTileBits, std::numeric_limits<float>::max());
-    seen_.resize(squares_.size());
-    seen_.resize(ellipses
-                     ? HWY_DYNAMIC_DISPATCH(find_ellipses)(squares_, tiles_.numbers(), seen_.data())
-                     : HWY_DYNAMIC_DISPATCH(find)(squares_, tiles_.numbers(), seen_.data()));
-    for (std::uint32_t& cell : seen_)
-        cell = back_to_front[squares_.size() - 1 - cell];
-    return seen_;
+    tiles.lay_out(view, {ellipses_ ? squares.inner_disc() : squares.inner(), squares.size()},
+                  tiles_across, kMostTileBits, std::numeric_limits<float>::max());
+}
+
+std::size_t SeenCells::visit(const CellSquares& squares, const TileNumbers& tiles,
+                             std::size_t first, std::size_t end, std::uint32_t* seen) {
+    return ellipses_ ? HWY_DYNAMIC_DISPATCH(find_ellipses)(squares, tiles, first, end, seen)
+                     : HWY_DYNAMIC_DISPATCH(find)(squares, tiles, first, end, seen);
 }
 
 } // namespace isochron::render

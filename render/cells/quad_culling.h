@@ -1,15 +1,13 @@
 // Occlusion culling of quads, for software GL: leaves out cells that others hide.
 #pragma once
 
-#include "render/cells/cell_squares.h"
-#include "render/cells/picture_tiles.h"
 #include "render/cells/placement.h"
+#include "render/cells/seen_slots.h"
 #include "render/cells/slot_plan.h"
 #include "render/gl/view.h"
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace isochron::render {
 
@@ -18,19 +16,32 @@ namespace isochron::render {
 /// (Greene, Kass and Miller 1993, doi:10.1145/166117.166147). A cell is hidden if nearer quads
 /// cover all tiles that its quad may touch. The remaining cells give exactly the same picture. This
 /// takes about 20 ns per cell on the processor; drawing a cell takes 500 to 1000 ns.
-class SeenCells {
+class SeenCells final : public SeenSlots {
   public:
     /// @param slots with planes if the shape is `CellShape::plane`
     /// @param back_to_front slots in this order
     /// @return slots of the visible cells, nearest first; valid until the next call
     std::span<const std::uint32_t> find(const View& view, const Placement& placement,
                                         const SplatShape& shape, const Slots& slots,
-                                        std::span<const std::uint32_t> back_to_front);
+                                        std::span<const std::uint32_t> back_to_front) {
+        begin(view, placement, shape, slots);
+        return advance(work(), slots, back_to_front);
+    }
+
+    void begin(const View& view, const Placement& placement, const SplatShape& shape,
+               const Slots& slots) {
+        ellipses_ = shape.shape == CellShape::plane;
+        SeenSlots::begin(view, placement, shape, slots);
+    }
 
   private:
-    CellSquares squares_;
-    PictureTiles tiles_; ///< depth of the nearest quad that covers all of the tile
-    std::vector<std::uint32_t> seen_;
+    /// A tile has the depth of the nearest quad that covers all of it.
+    void lay_out(const View& view, const CellSquares& squares, PictureTiles& tiles) override;
+    std::size_t visit(const CellSquares& squares, const TileNumbers& tiles, std::size_t first,
+                      std::size_t end, std::uint32_t* seen) override;
+    bool nearest_first() const override { return true; }
+
+    bool ellipses_ = false;
 };
 
 } // namespace isochron::render

@@ -137,16 +137,16 @@ HWY_INLINE void dim(float* light, const float* gaussian, int count, float of_row
 
 } // namespace
 
-/// Finds the visible splats.
+/// Finds the visible ones of the splats from number `first` to `end`.
 /// @param falloff log2 of the opacity on the outline
-/// @param seen takes their numbers in the order of the squares; has room for all splats
-/// @return their number
+/// @param seen takes their numbers in the order of the squares; has room for all of them
+/// @return how many these are
 std::size_t find(const CellSquares& splats, float falloff, const TileNumbers& tiles,
-                 std::uint32_t* seen) {
+                 std::size_t first, std::size_t end, std::uint32_t* seen) {
     Profile across, up;
     Spans spans;
     std::size_t count = 0;
-    for (std::size_t n = 0; n < splats.size(); ++n) {
+    for (std::size_t n = first; n < end; ++n) {
         const float x = splats.x()[n], y = splats.y()[n];
         const float inner = splats.inner_disc()[n], reach = splats.outer_disc()[n];
         const float per_pixel2 = inner > 0.0f ? falloff / (inner * inner) : 0.0f;
@@ -187,21 +187,15 @@ namespace isochron::render {
 
 HWY_EXPORT(find);
 
-std::span<const std::uint32_t> SeenSplats::find(const View& view, const Placement& placement,
-                                                const SplatShape& shape, float falloff,
-                                                const Slots& slots,
-                                                std::span<const std::uint32_t> back_to_front) {
-    squares_.project(view, placement, shape, slots, back_to_front);
+void SeenSplats::lay_out(const View& view, const CellSquares& squares, PictureTiles& tiles) {
     constexpr float kTilesAcross = 8.0f; ///< half of a splat
     constexpr int kMostTileBits = 3;
-    tiles_.lay_out(view, {squares_.inner_disc(), squares_.size()}, kTilesAcross, kMostTileBits,
-                   1.0f);
-    seen_.resize(squares_.size());
-    seen_.resize(HWY_DYNAMIC_DISPATCH(find)(squares_, falloff, tiles_.numbers(), seen_.data()));
-    for (std::uint32_t& splat : seen_)
-        splat = back_to_front[squares_.size() - 1 - splat];
-    std::ranges::reverse(seen_);
-    return seen_;
+    tiles.lay_out(view, {squares.inner_disc(), squares.size()}, kTilesAcross, kMostTileBits, 1.0f);
+}
+
+std::size_t SeenSplats::visit(const CellSquares& squares, const TileNumbers& tiles,
+                              std::size_t first, std::size_t end, std::uint32_t* seen) {
+    return HWY_DYNAMIC_DISPATCH(find)(squares, falloff_, tiles, first, end, seen);
 }
 
 } // namespace isochron::render

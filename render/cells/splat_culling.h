@@ -1,15 +1,13 @@
 // Occlusion culling of splats, for software GL: leaves out splats behind opaque ones.
 #pragma once
 
-#include "render/cells/cell_squares.h"
-#include "render/cells/picture_tiles.h"
 #include "render/cells/placement.h"
+#include "render/cells/seen_slots.h"
 #include "render/cells/slot_plan.h"
 #include "render/gl/view.h"
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace isochron::render {
 
@@ -17,7 +15,7 @@ namespace isochron::render {
 /// upper bound of the light that the nearer splats let through. If this is below half a step of an
 /// 8-bit picture in all tiles that a splat may touch, then the splat and everything behind it do
 /// not show.
-class SeenSplats {
+class SeenSplats final : public SeenSlots {
   public:
     /// @param falloff log2 of the opacity on the footprint's outline, negative; opacity is 1 in the
     /// middle
@@ -26,12 +24,25 @@ class SeenSplats {
     /// @return slots of the visible splats, back to front; valid until the next call
     std::span<const std::uint32_t> find(const View& view, const Placement& placement,
                                         const SplatShape& shape, float falloff, const Slots& slots,
-                                        std::span<const std::uint32_t> back_to_front);
+                                        std::span<const std::uint32_t> back_to_front) {
+        begin(view, placement, shape, falloff, slots);
+        return advance(work(), slots, back_to_front);
+    }
+
+    void begin(const View& view, const Placement& placement, const SplatShape& shape, float falloff,
+               const Slots& slots) {
+        falloff_ = falloff;
+        SeenSlots::begin(view, placement, shape, slots);
+    }
 
   private:
-    CellSquares squares_;
-    PictureTiles tiles_; ///< upper bound of the light that comes through
-    std::vector<std::uint32_t> seen_;
+    /// A tile has an upper bound of the light that comes through.
+    void lay_out(const View& view, const CellSquares& squares, PictureTiles& tiles) override;
+    std::size_t visit(const CellSquares& squares, const TileNumbers& tiles, std::size_t first,
+                      std::size_t end, std::uint32_t* seen) override;
+    bool nearest_first() const override { return false; }
+
+    float falloff_ = 0;
 };
 
 } // namespace isochron::render

@@ -9,9 +9,22 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace isochron::render {
+
+/// A radix sort in pieces: every pass goes over all cells. The first makes the entries, then two
+/// for each digit count and move them, and the last one takes the slots out.
+class SortPasses {
+  public:
+    virtual ~SortPasses() = default;
+    virtual std::size_t count() const = 0;
+    /// Does a part of a pass, for the cells from `begin` to `end`.
+    virtual void run(const Slots& slots, std::size_t pass, std::size_t begin, std::size_t end) = 0;
+
+    std::vector<std::uint32_t> order;
+};
 
 namespace {
 
@@ -126,32 +139,72 @@ std::size_t digit(const Entry& entry, int shift) {
     return entry.nearness() >> shift & ((1u << kDigitBits) - 1);
 }
 
-/// One stable pass of the radix sort, over one digit.
 template <class Entry>
-void sort_by_digit(const std::vector<Entry>& from, std::vector<Entry>& to, int shift) {
-    std::array<std::uint32_t, 1 << kDigitBits> begin{};
-    for (const Entry& entry : from)
-        ++begin[digit(entry, shift)];
-    std::uint32_t sum = 0;
-    for (std::uint32_t& count : begin)
-        sum += std::exchange(count, sum);
-    for (const Entry& entry : from)
-        to[begin[digit(entry, shift)]++] = entry;
-}
+class PassesOf final : public SortPasses {
+  public:
+    PassesOf(std::size_t cells, Distances distances)
+        : distances_(std::move(distances)), from_(std::make_unique_for_overwrite<Entry[]>(cells)),
+          to_(std::make_unique_for_overwrite<Entry[]>(cells)) {
+        order.resize(cells);
+        while (distances_.largest >> (digits_ * kDigitBits) != 0)
+            ++digits_;
+    }
 
-template <class Entry>
-void sort_by_distance(const Slots& slots, const Distances& distance,
-                      std::vector<std::uint32_t>& order) {
-    std::vector<Entry> entries(order.size()), sorted(order.size());
-    for (std::size_t rank = 0; rank < order.size(); ++rank) {
-        const std::uint32_t slot = slots.slot_of_rank[rank];
-        entries[rank] = {distance.largest - distance.of(slots.places[slot]), slot};
+    std::size_t count() const override { return 2 + 2 * digits_; }
+
+    void run(const Slots& slots, std::size_t pass, std::size_t begin, std::size_t end) override {
+        const int shift = (static_cast<int>(pass) - 1) / 2 * kDigitBits;
+        if (pass == 0)
+            make(slots, begin, end);
+        else if (pass == count() - 1)
+            std::ranges::transform(std::span(from_.get(), end).subspan(begin),
+                                   order.begin() + begin, &Entry::slot);
+        else if (pass % 2 == 1)
+            count_digits(shift, begin, end);
+        else
+            move(shift, begin, end);
     }
-    for (int shift = 0; distance.largest >> shift != 0; shift += kDigitBits) {
-        sort_by_digit(entries, sorted, shift);
-        entries.swap(sorted);
+
+  private:
+    void make(const Slots& slots, std::size_t begin, std::size_t end) {
+        for (std::size_t rank = begin; rank < end; ++rank) {
+            const std::uint32_t slot = slots.slot_of_rank[rank];
+            from_[rank] = {distances_.largest - distances_.of(slots.places[slot]), slot};
+        }
     }
-    std::ranges::transform(entries, order.begin(), &Entry::slot);
+
+    void count_digits(int shift, std::size_t begin, std::size_t end) {
+        if (begin == 0)
+            begin_ = {};
+        for (std::size_t i = begin; i < end; ++i)
+            ++begin_[digit(from_[i], shift)];
+    }
+
+    /// Stable, so that cells stay in the order of the lower digits.
+    void move(int shift, std::size_t begin, std::size_t end) {
+        if (begin == 0) {
+            std::uint32_t sum = 0;
+            for (std::uint32_t& count : begin_)
+                sum += std::exchange(count, sum);
+        }
+        for (std::size_t i = begin; i < end; ++i)
+            to_[begin_[digit(from_[i], shift)]++] = from_[i];
+        if (end == order.size())
+            from_.swap(to_);
+    }
+
+    const Distances distances_;
+    std::size_t digits_ = 0;
+    std::unique_ptr<Entry[]> from_, to_;
+    std::array<std::uint32_t, 1 << kDigitBits> begin_{}; ///< counts, then places, by digit
+};
+
+std::unique_ptr<SortPasses> sort_passes(const Slots& slots, const TraversalKey& key) {
+    Distances distance = distances(slots, key);
+    const std::size_t cells = slots.places.size();
+    if (distance.largest >> 32 == 0)
+        return std::make_unique<PassesOf<Narrow>>(cells, std::move(distance));
+    return std::make_unique<PassesOf<Wide>>(cells, std::move(distance));
 }
 
 } // namespace
@@ -190,16 +243,36 @@ TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells,
     return key;
 }
 
+BackToFrontSort::BackToFrontSort(const Slots& slots, const TraversalKey& key)
+    : passes_(slots.places.empty() ? nullptr : sort_passes(slots, key)),
+      cells_(slots.places.size()) {}
+
+BackToFrontSort::BackToFrontSort(BackToFrontSort&&) noexcept = default;
+BackToFrontSort& BackToFrontSort::operator=(BackToFrontSort&&) noexcept = default;
+BackToFrontSort::~BackToFrontSort() = default;
+
+std::size_t BackToFrontSort::work() const {
+    return passes_ ? passes_->count() * cells_ : 0;
+}
+
+void BackToFrontSort::advance(const Slots& slots, std::size_t to) {
+    for (to = std::min(to, work()); done_ < to;) {
+        const std::size_t pass = done_ / cells_, first = done_ - pass * cells_;
+        const std::size_t end = std::min(to - pass * cells_, cells_);
+        passes_->run(slots, pass, first, end);
+        done_ += end - first;
+    }
+}
+
+std::vector<std::uint32_t> BackToFrontSort::take() {
+    return passes_ ? std::move(passes_->order) : std::vector<std::uint32_t>();
+}
+
 void order_back_to_front(const Slots& slots, const TraversalKey& key,
                          std::vector<std::uint32_t>& order) {
-    order.resize(slots.places.size());
-    if (order.empty())
-        return;
-    const Distances distance = distances(slots, key);
-    if (distance.largest >> 32 == 0)
-        sort_by_distance<Narrow>(slots, distance, order);
-    else
-        sort_by_distance<Wide>(slots, distance, order);
+    BackToFrontSort sort(slots, key);
+    sort.advance(slots, sort.work());
+    order = sort.take();
 }
 
 } // namespace isochron::render

@@ -14,7 +14,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -46,5 +48,27 @@ TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells, const 
 /// in order of rank, so that the result does not depend on the assignment of slots.
 void order_back_to_front(const Slots& slots, const TraversalKey& key,
                          std::vector<std::uint32_t>& order);
+
+class SortPasses; ///< of a radix sort
+
+/// The same sort in pieces, as all of it may take longer than a frame.
+class BackToFrontSort {
+  public:
+    BackToFrontSort(const Slots& slots, const TraversalKey& key);
+    BackToFrontSort(BackToFrontSort&&) noexcept;
+    BackToFrontSort& operator=(BackToFrontSort&&) noexcept;
+    ~BackToFrontSort();
+
+    /// All of it: passes times cells.
+    std::size_t work() const;
+    /// Sorts on until so much of the work is done. @param slots the same as before
+    void advance(const Slots& slots, std::size_t to);
+    /// The order, once all the work is done.
+    std::vector<std::uint32_t> take();
+
+  private:
+    std::unique_ptr<SortPasses> passes_; ///< null without cells
+    std::size_t cells_ = 0, done_ = 0;
+};
 
 } // namespace isochron::render

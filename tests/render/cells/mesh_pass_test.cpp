@@ -59,8 +59,9 @@ class MeshPassTest : public GlTest {
         while (cells.shown() != set)
             cells.upload(set, std::numeric_limits<std::size_t>::max());
         EXPECT_TRUE(cells.has_mesh());
-        cells.compute_corners();
-        RenderTarget target(gl_, kSize);
+        while (cells.compute_corners(part_.value_or(set->cells())) > 0) {
+        }
+        RenderTarget target(gl_, kSize), other(gl_, kSize);
         target.bind();
         target.clear({0, 0, 0, 1});
         const View view{.clip_from_eye = glm::perspective(0.6f, 1.0f, 5.0f, 200.0f),
@@ -69,9 +70,17 @@ class MeshPassTest : public GlTest {
         const Placement placement = Placement::of(field_.view().grid, glm::mat4(1.0f));
         const std::size_t work = pass_.work(1, cells, footprint, look);
         parts_ = 0;
-        for (std::size_t first = 0; first < work; first += part_.value_or(work), ++parts_)
+        for (std::size_t first = 0; first < work; first += part_.value_or(work), ++parts_) {
             pass_.draw(std::span(&view, 1), placement, cells, footprint, look,
                        {first, part_.value_or(work)});
+            if (parts_ % 3 == 2) { // another picture comes between, of the other side
+                View behind = view;
+                behind.eye_from_room = glm::lookAt(-eye, glm::vec3(15), glm::vec3(0, 1, 0));
+                other.bind();
+                pass_.draw(behind, placement, cells, footprint, look);
+                target.bind();
+            }
+        }
         return target.read();
     }
 
@@ -149,8 +158,10 @@ TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
     gl_.TextureSubImage1D(map.name(), 0, 0, 2, GL_RGBA, GL_UNSIGNED_BYTE, kTexels.data());
     for (const bool colored : {false, true})
         for (const float opacity : {1.0f, 0.4f})
-            for (const Footprint footprint : {Footprint::mesh, Footprint::surface}) {
+            for (const Footprint footprint :
+                 {Footprint::quad, Footprint::gaussian, Footprint::mesh, Footprint::surface}) {
                 CellAppearance look;
+                look.linear_light = opacity < 1.0f;
                 look.surfaces[0].opacity = opacity;
                 if (colored)
                     look.values = {.map = map.name()};

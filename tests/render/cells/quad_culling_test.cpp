@@ -136,5 +136,24 @@ TEST(SeenCells, OfNoneAreNone) {
         EXPECT_TRUE(seen.find(shell.volume.view, shell.volume.placement, shape, {}, {}).empty());
 }
 
+TEST(SeenCells, InPiecesAreThoseOfTheWhole) {
+    const Shell shell;
+    std::mt19937 random(test_seed());
+    for (const SplatShape& splat : kShapes) {
+        SeenCells seen;
+        const auto found =
+            seen.find(shell.volume.view, shell.volume.placement, splat, shell.slots, shell.order);
+        const std::vector<std::uint32_t> whole(found.begin(), found.end());
+        seen.begin(shell.volume.view, shell.volume.placement, splat, shell.slots);
+        for (std::size_t to = 0; to < seen.work();) {
+            to += 1 + random() % 2000;
+            const auto cells = seen.advance(to, shell.slots, shell.order);
+            if (to >= seen.work()) {
+                EXPECT_TRUE(std::ranges::equal(cells, whole));
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace isochron::render

@@ -201,5 +201,21 @@ TEST_F(TraversalOrder, DoesNotDependOnWhoHasWhichSlot) {
         EXPECT_EQ(some.places[a[i]], others.places[b[i]]);
 }
 
+TEST_F(TraversalOrder, InPiecesIsThatOfTheWhole) {
+    const glm::ivec3 size(60, 50, 40);
+    for (const int cells : {1, 700, 3000}) {
+        const Slots slots = random_cells(random_, size, cells);
+        for (const glm::vec4 eye : {glm::vec4(20.5f, 30.5f, 90.0f, 1), glm::vec4(0, 1, 2, 0)}) {
+            const TraversalKey key = traversal_key(eye, size, glm::vec3(1, 70, 1));
+            std::vector<std::uint32_t> whole;
+            order_back_to_front(slots, key, whole);
+            BackToFrontSort sort(slots, key);
+            for (std::size_t to = 0; to < sort.work(); sort.advance(slots, to))
+                to += 1 + random_() % 900;
+            EXPECT_EQ(sort.take(), whole);
+        }
+    }
+}
+
 } // namespace
 } // namespace isochron::render

@@ -113,8 +113,9 @@ class AgreementView {
         target_.bind();
         target_.clear({0, 0, 0, 0});
         gl_.Finish();
+        const std::vector<render::View>& views = swaying_.next();
         const Stopwatch processors(Stopwatch::Of::all_threads);
-        pass.draw(camera_.views, camera_.placement, cells, footprint, look_);
+        pass.draw(views, camera_.placement, cells, footprint, look_);
         gl_.Finish();
         return 1e3 * processors.seconds();
     }
@@ -122,6 +123,7 @@ class AgreementView {
   private:
     const render::Gl& gl_;
     BenchCamera camera_;
+    SwayingViews swaying_{camera_.views};
     render::RenderTarget target_;
     render::CellAppearance look_;
 };

@@ -115,8 +115,7 @@ Minute measure_minute(const std::shared_ptr<const index::IndexFile>& file,
     double time = 0;    ///< of the session
     double written = 0; ///< of the script, which stands still in the control
     while (written < options.seconds) {
-        const double before = std::exchange(
-            time, std::chrono::duration<double>(Clock::now() - started).count() + 1e-6);
+        time = std::chrono::duration<double>(Clock::now() - started).count() + 1e-6;
         const double at = std::fmod(time, kRound + kControl);
         const bool in_control = at >= kRound;
         const double read =

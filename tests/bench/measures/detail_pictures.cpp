@@ -59,7 +59,7 @@ class DetailView {
             target_.clear({0, 0, 0, 0});
             gl_.Finish();
             times.push_back(ms_of([&] {
-                pass_.draw(camera_.views, camera_.placement, buffers, render::Footprint::quad,
+                pass_.draw(swaying_.next(), camera_.placement, buffers, render::Footprint::quad,
                            look_);
                 gl_.Finish();
             }));
@@ -78,6 +78,7 @@ class DetailView {
     render::CellAppearance look_;
     index::SurfacesQuery query_;
     BenchCamera camera_;
+    SwayingViews swaying_{camera_.views};
     render::RenderTarget target_;
     index::Extract extract_;
 };

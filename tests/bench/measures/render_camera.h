@@ -29,4 +29,16 @@ struct BenchCamera {
 /// middle
 BenchCamera bench_camera(const index::SeriesInfo& info, int size, int eyes);
 
+/// Views that differ from each other by much less than a pixel from draw to draw: what is found for
+/// a view is found anew, as under a tracked head, and the picture stays the same.
+class SwayingViews {
+  public:
+    explicit SwayingViews(std::vector<render::View> views) : views_(std::move(views)) {}
+    const std::vector<render::View>& next();
+
+  private:
+    std::vector<render::View> views_;
+    bool to_the_right_ = false;
+};
+
 } // namespace isochron::bench

@@ -158,7 +158,7 @@ class Bench {
         target_.clear(kBackground);
         if (footprint == Footprint::surface)
             cells_.compute_corners();
-        pass.draw(camera_.views, camera_.placement, cells_, footprint, look_);
+        pass.draw(swaying_.next(), camera_.placement, cells_, footprint, look_);
         gl_.Finish();
     }
 
@@ -282,6 +282,7 @@ class Bench {
     render::FootprintShapes shapes_;
     render::CellAppearance look_;
     BenchCamera camera_;
+    SwayingViews swaying_{camera_.views};
     render::RenderTarget target_;
     render::CellPass pass_, as_quads_;
     render::CellBuffers cells_;

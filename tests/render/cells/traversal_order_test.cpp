@@ -154,7 +154,8 @@ TEST_F(TraversalOrder, TheFartherTheEyeTheMoreItMovesBeforeItSortsAgain) {
 
 TEST_F(TraversalOrder, ThePhysicallyFartherCellComesFirst) {
     // Along the first axis cells are three times as long: two of them are farther than five.
-    const Slots points{.slot_of_rank = {0, 1}, .places = {{0, 5, 0, 0}, {2, 0, 0, 0}}};
+    const Slots points{
+        .slot_of_rank = {0, 1}, .places = {{0, 5, 0, 0}, {2, 0, 0, 0}}, .planes = {}};
     std::vector<std::uint32_t> order;
     order_back_to_front(points, traversal_key({0.5, 0.5, 0.5, 1}, {9, 9, 9}, {1, 1, 1}), order);
     EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 1}));

@@ -46,8 +46,7 @@ struct Measured {
 
 /// Every repetition starts a new search: otherwise it would find its own last result.
 /// @param method if none is asked for, the first look is by what reads least, the others are by
-///        what
-///        is fastest
+///        what is fastest
 Measured measure(const std::shared_ptr<const index::IndexFile>& file, const index::Query& query,
                  std::optional<index::SearchMethod> method, std::uint32_t level,
                  std::uint32_t repeats) {

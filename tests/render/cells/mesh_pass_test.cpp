@@ -3,6 +3,7 @@
 
 #include "index/extraction/mesh_parts.h"
 #include "index/scan/scan.h"
+#include "render/gl/driver.h"
 #include "render/gl/render_target.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/test_field.h"
@@ -168,7 +169,9 @@ TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
                 const Image whole = draw(set, footprint, look);
                 part_ = 700;
                 EXPECT_EQ(draw(set, footprint, look).rgba, whole.rgba);
-                EXPECT_GT(parts_, 2);
+                // Without an order, as on a GPU, quads are drawn in one piece.
+                if (footprint != Footprint::quad || takes_processor_ways(gl_))
+                    EXPECT_GT(parts_, 2);
                 part_.reset();
             }
 }

@@ -202,7 +202,7 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
         if (earlier)
             opened->recall_arrays(earlier->arrays);
         else
-            opened->set_state(with_first_array(*opened, options, *file));
+            opened->set_state(first_look(*opened, options, config, file));
         opened->set_state(start_from(opened->state(), options, steps));
         opened->outputs().set_screenshots(options.screenshots);
         opened->set_data_name(std::filesystem::path(options.data_name).filename().string());

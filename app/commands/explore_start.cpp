@@ -9,6 +9,7 @@
 #include "app/config/tracker_setup.h"
 #include "app/output/room_view.h"
 #include "app/session/recording_file.h"
+#include "app/session/start_state.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/file/color_source.h"
@@ -30,6 +31,11 @@ std::size_t first_array(const ExploreOptions& options, const index::IndexFile& f
     const auto& arrays = options.sources.arrays;
     const bool made_before = options.data_name == *options.data;
     return made_before && !arrays.empty() ? array_number(file, arrays.front()) : 0;
+}
+
+/// The step that the options ask for.
+std::uint32_t first_step(const ExploreOptions& options, std::size_t steps) {
+    return options.step.value_or(options.follow ? static_cast<std::uint32_t>(steps) - 1 : 0);
 }
 
 /// Refuses to overwrite an existing recording, which only --force allows.
@@ -86,11 +92,15 @@ void check_start(const ExploreOptions& options, const index::IndexFile& file, st
         warn_beyond(*options.isovalue, file.array(first_array(options, file)));
 }
 
-ExplorerState with_first_array(const Session& session, const ExploreOptions& options,
-                               const index::IndexFile& file) {
+ExplorerState first_look(const Session& session, const ExploreOptions& options,
+                         const Config& config,
+                         const std::shared_ptr<const index::IndexFile>& file) {
     ExplorerState state = session.state();
-    if (const std::size_t number = first_array(options, file); number > 0)
-        state.apply(session.way_to_array(number), file.info().steps());
+    const std::size_t steps = file->info().steps(), number = first_array(options, *file);
+    if (number > 0)
+        state.apply(session.way_to_array(number), steps);
+    if (const std::uint32_t step = first_step(options, steps); step > state.step)
+        state.isosurfaces = first_surfaces(config, array_of(file, number), step);
     return state;
 }
 
@@ -98,7 +108,7 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     state.set_isovalue(options.isovalue.value_or(state.isovalue()));
     state.steps = static_cast<std::uint32_t>(steps);
     state.follow = state.follow || options.follow;
-    state.step = options.step.value_or(options.follow ? state.steps - 1 : state.step);
+    state.step = options.step || options.follow ? first_step(options, steps) : state.step;
     state.panel = state.panel && !options.no_panel;
     if (options.stereo)
         state.stereo = *stereo::stereo_mode_from_name(*options.stereo);

@@ -28,10 +28,11 @@ void check_start(const ExploreOptions& options, const index::IndexFile& file, st
 /// the session ends.
 void check_outputs(const ExploreOptions& options, const ClusterJob& job);
 
-/// The session's state with the array that the options name instead of the first.
-/// @throws index::Error when the index lacks it
-ExplorerState with_first_array(const Session& session, const ExploreOptions& options,
-                               const index::IndexFile& file);
+/// The session's state with the array that the options name instead of the first, and surfaces for
+/// the step that they name.
+/// @throws index::Error when the index lacks the array
+ExplorerState first_look(const Session& session, const ExploreOptions& options,
+                         const Config& config, const std::shared_ptr<const index::IndexFile>& file);
 
 /// The state to begin with. @param steps that the data have now
 ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps);

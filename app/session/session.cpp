@@ -22,7 +22,7 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
     : config_(std::move(config)), file_(std::move(file)),
       newest_(std::make_shared<index::NewestIndex>(file_)), times_(file_->info().times),
       outputs_(config_, std::move(windows), std::move(headset)),
-      state_(start_state(config_, *file_)), home_(state_), gate_(config_.stillness),
+      state_(start_state(config_, file_)), home_(state_), gate_(config_.stillness),
       comfort_(config_.comfort),
       extractor_(extract ? std::move(extract)
                          : index::extract_from_newest(

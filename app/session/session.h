@@ -245,6 +245,8 @@ class Session {
     ExplorerState home_;
     interaction::Commands start_; ///< commands that lead back to home_
     std::vector<std::string> array_names_, color_names_;
+    /// At the first look at each array but the first.
+    std::vector<std::vector<interaction::Isosurface>> first_surfaces_;
     /// How arrays that were shown before were left, by number.
     std::map<std::size_t, interaction::Commands> left_;
     std::optional<interaction::Commands> next_array_;

@@ -14,8 +14,10 @@ namespace isochron::app {
 void Session::take_arrays() {
     for (std::size_t number = 0; number < file_->arrays(); ++number) {
         array_names_.push_back(file_->array(number).info().array);
-        if (number > 0)
-            scene_.prepare_for(file_->array(number).info());
+        if (number == 0)
+            continue;
+        scene_.prepare_for(file_->array(number).info());
+        first_surfaces_.push_back(first_surfaces(config_, array_of(file_, number), home_.step));
     }
     color_names_ = index::color_source_names(*file_);
 }
@@ -66,7 +68,7 @@ interaction::Commands Session::way_to_array(std::size_t number) const {
         way = known->second;
     } else {
         way.array = array_names_[number];
-        way.isosurfaces = first_surfaces(config_, file_->array(number).stats());
+        way.isosurfaces = number == 0 ? home_.isosurfaces : first_surfaces_[number - 1];
         way.picked = 0;
         way.coloring = state_.coloring;
         if (way.coloring->by == interaction::ColorBy::value && way.coloring->array.empty())

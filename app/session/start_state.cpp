@@ -1,31 +1,85 @@
 // The start state of a session.
 #include "app/session/start_state.h"
 
+#include "index/error.h"
+#include "index/extraction/index_search.h"
+
+#include <optional>
 #include <vector>
 
 namespace isochron::app {
+namespace {
+
+using index::IndexFile;
+
+/// Range and histogram of a step at a level of detail. There are no other numbers in it.
+index::IndexStats stats_of(const IndexFile& array, std::uint32_t step, std::size_t level) {
+    const index::SeriesInfo& info = array.info();
+    const index::LoadedStep loaded = level > 0 ? array.chunks(level).whole(step) : array.load(step);
+    index::IndexStats stats;
+    stats.counts.add(info.type, info.scaling, loaded.values.step_bytes(step));
+    stats.low = stats.counts.scaled_low(info.scaling);
+    stats.high = stats.counts.scaled_high(info.scaling);
+    stats.histogram = stats.counts.histogram(info.type, info.scaling);
+    return stats;
+}
+
+/// The same at the coarsest level of detail at which the step is not constant; nothing if there is
+/// none that is small enough.
+std::optional<index::IndexStats> stats_of(const IndexFile& array, std::uint32_t step) {
+    constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 24;
+    for (std::size_t level = array.detail_levels(); level-- > 0;) {
+        if (array.chunks(level).info().grid.vertex_count() > kMostVertices)
+            break;
+        if (index::IndexStats stats = stats_of(array, step, level); stats.low < stats.high)
+            return stats;
+    }
+    return std::nullopt;
+}
+
+double first_isovalue(const std::shared_ptr<const IndexFile>& array, std::uint32_t step,
+                      double share) {
+    const double of_all = quantile(array->stats(), share);
+    if (array->info().steps() == 1)
+        return of_all;
+    try {
+        const std::optional<index::IndexStats> here = stats_of(*array, step);
+        // Values of coarser levels are means, so the step itself has such values, too.
+        if (!here || (here->low < of_all && of_all <= here->high))
+            return of_all;
+        const auto found = search_in(array, std::nullopt, index::Shading::none)({step, of_all}, {});
+        return found && found->ids.size() > 0 ? of_all : quantile(*here, share);
+    } catch (const index::Error&) { // the search for the first picture will tell
+        return of_all;
+    }
+}
+
+} // namespace
 
 std::vector<interaction::Isosurface> first_surfaces(const Config& config,
-                                                    const index::IndexStats& stats) {
+                                                    const std::shared_ptr<const IndexFile>& array,
+                                                    std::uint32_t step) {
     std::vector<interaction::Isosurface> surfaces;
     for (const ConfiguredSurface& surface : config.surfaces)
-        surfaces.push_back({surface.isovalue.value_or(quantile(stats, surface.quantile)),
-                            surface.color, surface.opacity});
+        surfaces.push_back(
+            {surface.isovalue ? *surface.isovalue : first_isovalue(array, step, surface.quantile),
+             surface.color, surface.opacity});
     if (surfaces.empty())
-        surfaces.push_back({quantile(stats, kFirstQuantile), config.surface_color, 1.0f});
+        surfaces.push_back(
+            {first_isovalue(array, step, kFirstQuantile), config.surface_color, 1.0f});
     return surfaces;
 }
 
-ExplorerState start_state(const Config& config, const index::IndexFile& file) {
+ExplorerState start_state(const Config& config, const std::shared_ptr<const IndexFile>& file) {
     ExplorerState state;
-    if (file.arrays() > 1)
-        state.array = file.info().array;
-    state.room_from_physical = place(file.info(), config.placement);
+    if (file->arrays() > 1)
+        state.array = file->info().array;
+    state.room_from_physical = place(file->info(), config.placement);
     state.quality = config.quality;
     state.grid = config.grid;
-    state.steps = static_cast<std::uint32_t>(file.info().steps());
+    state.steps = static_cast<std::uint32_t>(file->info().steps());
     state.eye_separation = config.installation.viewers.front().eye_separation;
-    state.isosurfaces = first_surfaces(config, file.stats());
+    state.isosurfaces = first_surfaces(config, file, state.step);
     state.coloring = config.coloring;
     state.look = config.look;
     state.bounding_box = config.bounding_box;

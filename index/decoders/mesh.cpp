@@ -1,6 +1,7 @@
 // Grids of simulations that VTK has readers for, resampled: Exodus, CGNS, OpenFOAM, AMReX.
 #include "index/decoders/decoders.h"
 #include "index/decoders/mesh_source.h"
+#include "index/decoders/shared_decode.h"
 #include "index/decoders/vtk_ghosts.h"
 #include "index/decoders/vtk_resample.h"
 #include "index/decoders/vtk_session.h"
@@ -39,14 +40,11 @@ std::vector<double> times_of(vtkAlgorithm& reader, const std::string& file) {
     return times;
 }
 
-class MeshFile final : public DecodedFile {
+/// An open mesh: all arrays of one step, on the regular grid.
+class Mesh {
   public:
-    MeshFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
+    Mesh(fs::path path, const std::array<std::uint32_t, 3>& vertices) : path_(std::move(path)) {
         const std::string name = path_.string();
-        if (!options.resample)
-            throw Error(fmt::format("{}: a mesh, expected a regular grid; --resample NX NY NZ or "
-                                    "--resample-by-cell makes one of it",
-                                    name));
         with_vtk(path_, [&] {
             source_ = open_mesh_source(path_);
             source_.reader->UpdateInformation();
@@ -55,70 +53,100 @@ class MeshFile final : public DecodedFile {
             source_.select_all();
             times_ = times_of(*source_.reader, name);
         });
+        with_vtk(path_, [&] { image_ = onto_image(load(0), vertices, name); });
+    }
+
+    const MeshSource& source() const { return source_; }
+    const std::vector<double>& times() const { return times_; } ///< empty if it gives none
+
+    /// Call both within `with_vtk`. The image of a step is there until another is asked for.
+    vtkImageData& image(std::size_t step) {
+        if (step != held_) {
+            image_ = onto_image_like(load(step), *image_);
+            held_ = step;
+        }
+        return *image_;
+    }
+    /// What the image is made of.
+    vtkDataObject& data() { return *source_.reader->GetOutputDataObject(0); }
+
+  private:
+    vtkDataObject& load(std::size_t step) {
+        if (times_.empty())
+            source_.reader->Update();
+        else
+            source_.reader->UpdateTimeStep(times_[step]);
+        if (!source_.reader->GetOutputDataObject(0))
+            throw Error(fmt::format("{}: holds no mesh that VTK knows", path_.string()));
+        return data();
+    }
+
+    fs::path path_;
+    MeshSource source_;
+    std::vector<double> times_;
+    vtkSmartPointer<vtkImageData> image_; ///< of the step `held_`
+    std::size_t held_ = 0;
+};
+
+class MeshFile final : public DecodedFile {
+  public:
+    MeshFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
+        if (!options.resample)
+            throw Error(fmt::format("{}: a mesh, expected a regular grid; --resample NX NY NZ or "
+                                    "--resample-by-cell makes one of it",
+                                    path_.string()));
+        static SharedDecode<Mesh> open;
+        mesh_ = open.of(path_, options,
+                        [&] { return std::make_shared<Mesh>(path_, *options.resample); });
         with_vtk(path_, [&] { describe(options); });
     }
 
     const SeriesInfo& info() const override { return info_; }
-    std::size_t steps() const override { return std::max<std::size_t>(times_.size(), 1); }
+    std::size_t steps() const override { return std::max<std::size_t>(mesh_->times().size(), 1); }
     std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
     std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
 
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
         with_vtk(path_, [&] {
-            if (step != held_) {
-                vtkDataObject& data = load(step);
-                image_ = onto_image_like(data, *image_);
-                hidden_ = hidden_by_flags(*image_, chosen_, info_.grid);
-                held_ = step;
+            vtkImageData& image = mesh_->image(step);
+            if (step != hidden_at_) {
+                hidden_ = hidden_by_flags(image, chosen_, info_.grid);
+                hidden_at_ = step;
             }
-            values_of_vtk(*image_, chosen_, info_.grid, slices, hidden_, out, path_.string());
+            values_of_vtk(image, chosen_, info_.grid, slices, hidden_, out, path_.string());
         });
     }
 
   private:
     void describe(const ReadOptions& options) {
         const std::string name = path_.string();
-        vtkDataObject& data = load(0);
-        image_ = onto_image(data, *options.resample, name);
-        info_.grid =
-            grid_of_vtk(*reinterpret_cast<int(*)[6]>(image_->GetExtent()), image_->GetOrigin(),
-                        image_->GetSpacing(), image_->GetDirectionMatrix()->GetData(), name);
-        chosen_ = choose_scalar(without_flags(arrays_of_vtk(*image_)), options, name);
-        hidden_ = hidden_by_flags(*image_, chosen_, info_.grid);
+        vtkImageData& image = mesh_->image(0);
+        const MeshSource& source = mesh_->source();
+        info_.grid = grid_of_vtk(*reinterpret_cast<int(*)[6]>(image.GetExtent()), image.GetOrigin(),
+                                 image.GetSpacing(), image.GetDirectionMatrix()->GetData(), name);
+        chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, name);
+        hidden_ = hidden_by_flags(image, chosen_, info_.grid);
         info_.arrays = chosen_.offered;
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
-        info_.times = times_;
-        info_.length_unit = source_.length_unit;
-        info_.time_unit = times_.empty() ? "" : source_.time_unit;
-        info_.notes = source_.notes;
-        info_.notes.push_back(note_on_resampling(data, *image_, chosen_, hidden_));
+        info_.times = mesh_->times();
+        info_.length_unit = source.length_unit;
+        info_.time_unit = info_.times.empty() ? "" : source.time_unit;
+        info_.notes = source.notes;
+        info_.notes.push_back(note_on_resampling(mesh_->data(), image, chosen_, hidden_));
         std::ranges::copy(chosen_.notes(), std::back_inserter(info_.notes));
         std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
                           std::back_inserter(info_.notes));
-        if (times_.empty())
-            take_time_of_vtk(data.GetFieldData(), info_);
-    }
-
-    vtkDataObject& load(std::size_t step) {
-        if (times_.empty())
-            source_.reader->Update();
-        else
-            source_.reader->UpdateTimeStep(times_[step]);
-        vtkDataObject* data = source_.reader->GetOutputDataObject(0);
-        if (!data)
-            throw Error(fmt::format("{}: holds no mesh that VTK knows", path_.string()));
-        return *data;
+        if (info_.times.empty())
+            take_time_of_vtk(mesh_->data().GetFieldData(), info_);
     }
 
     fs::path path_;
-    MeshSource source_;
-    std::vector<double> times_;
+    std::shared_ptr<Mesh> mesh_; ///< shared with the file's other arrays
     SeriesInfo info_;
     ChosenScalar chosen_;
-    std::vector<std::uint8_t> hidden_;
-    vtkSmartPointer<vtkImageData> image_; ///< of the step `held_`
-    std::size_t held_ = 0;
+    std::vector<std::uint8_t> hidden_; ///< vertices, of the step `hidden_at_`
+    std::size_t hidden_at_ = 0;
 };
 
 } // namespace

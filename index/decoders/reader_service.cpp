@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <new>
 #include <optional>
 
@@ -28,16 +29,18 @@ class Service {
 
   private:
     std::optional<ReaderReply> answer_to(const OpenFile& open) {
-        file_.reset();
+        files_.erase(open.number);
         path_ = open.path;
         limits_.emplace(open.path, open.most_memory);
         const auto decoder = std::ranges::find(decoders_, open.format, &Decoder::format);
         if (decoder == decoders_.end())
             throw Error("asked for a format of another reader");
         return attempt([&]() -> ReaderReply {
-            file_ = decoder->open(open.path, open.options);
-            limits_->expect(file_->decoded_bytes());
-            return Described{file_->info(), file_->steps(), file_->slices_at_once()};
+            auto file = decoder->open(open.path, open.options);
+            limits_->expect(file->decoded_bytes());
+            Described described{file->info(), file->steps(), file->slices_at_once()};
+            files_[open.number] = std::move(file);
+            return described;
         });
     }
 
@@ -48,26 +51,28 @@ class Service {
     }
 
     std::optional<ReaderReply> answer_to(const ReadSlab& slab) {
-        if (!file_)
+        const auto open = files_.find(slab.file);
+        if (open == files_.end())
             throw Error("asked for a slab of no file");
-        const SeriesInfo& info = file_->info();
+        DecodedFile& file = *open->second;
+        const SeriesInfo& info = file.info();
         const Grid& grid = info.grid;
         const std::uint64_t slice = info.step_bytes() / grid.vertices[2];
         const std::uint64_t bytes = slab.slices.count * slice;
         const auto shared = memory_ ? memory_->bytes() : std::span<std::byte>{};
-        if (slab.step >= file_->steps() ||
+        if (slab.step >= file.steps() ||
             std::uint64_t{slab.slices.first} + slab.slices.count > grid.vertices[2] ||
             slab.offset > shared.size() || bytes > shared.size() - slab.offset)
             throw Error("asked for a slab that there is not, or to where there is no memory");
         limits_->renew_time();
         return attempt([&]() -> ReaderReply {
-            file_->read(slab.step, slab.slices, shared.subspan(slab.offset, bytes));
+            file.read(slab.step, slab.slices, shared.subspan(slab.offset, bytes));
             return SlabRead{};
         });
     }
 
     std::optional<ReaderReply> answer_to(const ReadCollection& collection) {
-        file_.reset();
+        files_.clear();
         path_ = collection.path;
         limits_.emplace(collection.path, 0);
         if (!collection_)
@@ -75,8 +80,8 @@ class Service {
         return attempt([&]() -> ReaderReply { return Collected{collection_(collection.path)}; });
     }
 
-    std::optional<ReaderReply> answer_to(const CloseFile&) {
-        file_.reset();
+    std::optional<ReaderReply> answer_to(const CloseFile& close) {
+        files_.erase(close.file);
         return Closed{};
     }
 
@@ -98,8 +103,8 @@ class Service {
     std::span<const Decoder> decoders_;
     ReadCollectionFile collection_;
     std::filesystem::path path_; ///< of the last file that was requested
-    std::unique_ptr<DecodedFile> file_;
-    std::optional<ReaderBudget> limits_; ///< of that file
+    std::map<std::uint64_t, std::unique_ptr<DecodedFile>> files_; ///< by number
+    std::optional<ReaderBudget> limits_;                          ///< of that file
     std::unique_ptr<SharedMemory> memory_;
     Descriptor attached_;
 };

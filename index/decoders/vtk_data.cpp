@@ -1,6 +1,7 @@
 // What else VTK reads: rectilinear grids, files of several pieces, and grids of any kind that are
 // resampled (vtkXMLGenericDataObjectReader, vtkDataSetReader).
 #include "index/decoders/decoders.h"
+#include "index/decoders/shared_decode.h"
 #include "index/decoders/vtk_ghosts.h"
 #include "index/decoders/vtk_resample.h"
 #include "index/decoders/vtk_session.h"
@@ -67,39 +68,25 @@ std::vector<double> coordinates_of(vtkDataArray* array) {
     return at;
 }
 
-class VtkDataFile final : public DecodedFile {
+/// All that a file holds, and its place.
+class VtkData {
   public:
-    VtkDataFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
+    VtkData(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
         file_bytes(path_);
         with_vtk(path_, [&] {
             const bool legacy = head_of(path_, 16).starts_with("# vtk DataFile");
-            auto read = legacy ? read_legacy(path_) : read_xml(path_);
-            if (!read)
+            read_ = legacy ? read_legacy(path_) : read_xml(path_);
+            if (!read_)
                 throw Error(fmt::format("{}: holds no data that VTK knows", path_.string()));
-            place(*read, options);
-            chosen_ = choose_scalar(without_flags(arrays_of_vtk(*data_)), options, path_.string());
-            hidden_ = hidden_by_flags(*data_, chosen_, info_.grid);
-            info_.arrays = chosen_.offered;
-            info_.array = chosen_.label();
-            info_.type = chosen_.value_type();
-            if (resampled_)
-                info_.notes.push_back(note_on_resampling(*read, *vtkImageData::SafeDownCast(data_),
-                                                         chosen_, hidden_));
-            std::ranges::copy(chosen_.notes(), std::back_inserter(info_.notes));
-            std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
-                              std::back_inserter(info_.notes));
-            take_time_of_vtk(read->GetFieldData(), info_);
+            place(*read_, options);
         });
     }
 
-    const SeriesInfo& info() const override { return info_; }
-    std::size_t steps() const override { return 1; }
-    std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
-    std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
-
-    void read(std::size_t, Slices slices, std::span<std::byte> out) override {
-        values_of_vtk(*data_, chosen_, info_.grid, slices, hidden_, out, path_.string());
-    }
+    vtkDataObject& read() const { return *read_; } ///< as it was read
+    vtkDataSet& data() const { return *data_; }    ///< on the grid
+    bool resampled() const { return resampled_; }
+    const Grid& grid() const { return info_.grid; }
+    const std::vector<std::string>& notes() const { return info_.notes; } ///< on the grid
 
   private:
     void place(vtkDataObject& read, const ReadOptions& options) {
@@ -161,11 +148,51 @@ class VtkDataFile final : public DecodedFile {
     }
 
     fs::path path_;
+    SeriesInfo info_; ///< grid and notes
+    vtkSmartPointer<vtkDataObject> read_;
+    vtkSmartPointer<vtkDataSet> data_;
+    bool resampled_ = false;
+};
+
+class VtkDataFile final : public DecodedFile {
+  public:
+    VtkDataFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
+        static SharedDecode<VtkData> open;
+        all_ = open.of(path_, options, [&] { return std::make_shared<VtkData>(path_, options); });
+        with_vtk(path_, [&] {
+            vtkDataSet& data = all_->data();
+            info_.grid = all_->grid();
+            info_.notes = all_->notes();
+            chosen_ = choose_scalar(without_flags(arrays_of_vtk(data)), options, path_.string());
+            hidden_ = hidden_by_flags(data, chosen_, info_.grid);
+            info_.arrays = chosen_.offered;
+            info_.array = chosen_.label();
+            info_.type = chosen_.value_type();
+            if (all_->resampled())
+                info_.notes.push_back(note_on_resampling(
+                    all_->read(), *vtkImageData::SafeDownCast(&data), chosen_, hidden_));
+            std::ranges::copy(chosen_.notes(), std::back_inserter(info_.notes));
+            std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
+                              std::back_inserter(info_.notes));
+            take_time_of_vtk(all_->read().GetFieldData(), info_);
+        });
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    std::size_t steps() const override { return 1; }
+    std::uint32_t slices_at_once() const override { return slices_of_vtk(chosen_, info_); }
+    std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
+
+    void read(std::size_t, Slices slices, std::span<std::byte> out) override {
+        values_of_vtk(all_->data(), chosen_, info_.grid, slices, hidden_, out, path_.string());
+    }
+
+  private:
+    fs::path path_;
+    std::shared_ptr<VtkData> all_; ///< shared with the file's other arrays
     SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
-    vtkSmartPointer<vtkDataSet> data_;
-    bool resampled_ = false;
 };
 
 } // namespace

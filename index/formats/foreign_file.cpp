@@ -2,12 +2,12 @@
 #include "index/formats/foreign_file.h"
 
 #include "index/error.h"
+#include "index/formats/reader_lease.h"
 #include "index/formats/readers.h"
 #include "index/formats/stored_file.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -17,83 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Takes a reader from the pool for one file. Any failure of the reader becomes an Error that names
-/// the file.
-class ReaderLease {
-  public:
-    ReaderLease(ReaderPool& pool, std::string program, fs::path path)
-        : pool_(pool), program_(std::move(program)), path_(std::move(path)) {}
-    ~ReaderLease() {
-        if (!reader_)
-            return;
-        try {
-            reader_->ask(CloseFile{});
-            reader_->reply();
-            pool_.give_back(std::move(reader_));
-        } catch (const Error&) { // it has gone
-        }
-    }
-    ReaderLease(const ReaderLease&) = delete;
-    ReaderLease& operator=(const ReaderLease&) = delete;
-
-    ReaderProcess& reader() { return *reader_; }
-
-    /// Does work with a reader; `prepare` prepares a new one. An earlier file may have damaged a
-    /// reader, so its end is blamed on this file only if the reader has had no other.
-    template <class Prepare, class Work>
-    void work(const Prepare& prepare, const Work& work) {
-        bool again = false;
-        while (true) {
-            try {
-                if (!reader_) {
-                    start(again);
-                    prepare();
-                }
-                return work();
-            } catch (const ReaderEnded& ended) {
-                const bool only_this = !reader_ || reader_->files() <= 1;
-                reader_.reset();
-                if (again || only_this || ended.how() == ReaderEnded::How::by_our_hand)
-                    fail(ended.what());
-                again = true;
-            }
-        }
-    }
-
-    /// The next reply, which must be of this kind. @throws Error with the reader's message if not
-    template <class Kind>
-    Kind expect() {
-        ReaderReply reply = reader_->reply();
-        if (auto* kind = std::get_if<Kind>(&reply))
-            return std::move(*kind);
-        const auto* refused = std::get_if<Refused>(&reply);
-        if (!refused)
-            throw ReaderEnded("its reader sent another reply than was asked for",
-                              ReaderEnded::How::by_our_hand);
-        std::string line = refused->message;
-        std::ranges::replace_if(
-            line, [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-        throw Error(line);
-    }
-
-  private:
-    [[noreturn]] void fail(const std::string& why) const {
-        throw Error(fmt::format("{}: cannot be read: {}", path_.string(), why));
-    }
-
-    void start(bool again) {
-        try {
-            reader_ = again ? pool_.take_new(program_) : pool_.take(program_);
-        } catch (const Error& error) {
-            fail(error.what());
-        }
-    }
-
-    ReaderPool& pool_;
-    std::string program_;
-    fs::path path_;
-    std::unique_ptr<ReaderProcess> reader_;
-};
+/// Whether the library decodes all arrays of a file together.
+bool decodes_all_arrays(ForeignFormat format) {
+    return format == ForeignFormat::mesh || format == ForeignFormat::vtk_data;
+}
 
 /// Checks what a reader says of a file, as a hostile file may control the reader.
 void check(const Described& described, const std::string& name) {
@@ -119,7 +46,7 @@ class ForeignFile final : public VolumeFile {
                                       .path = path,
                                       .options = options,
                                       .most_memory = readers.limits().memory},
-          lease_(readers, program_of(format), path) {
+          lease_(readers, program_of(format), path, decodes_all_arrays(format)) {
         lease_.work([] {}, [this] { described_ = open(); });
         check(described_, name_);
     }
@@ -143,6 +70,7 @@ class ForeignFile final : public VolumeFile {
 
   private:
     Described open() {
+        open_.number = lease_.number();
         lease_.reader().ask(open_);
         return lease_.expect<Described>();
     }
@@ -170,7 +98,8 @@ class ForeignFile final : public VolumeFile {
         std::size_t asked = taken;
         while (taken < slabs) {
             for (; asked < std::min(slabs, taken + places); ++asked)
-                lease_.reader().ask(ReadSlab{step, slices_of(asked), asked % places * slab_bytes});
+                lease_.reader().ask(
+                    ReadSlab{step, slices_of(asked), asked % places * slab_bytes, lease_.number()});
             std::size_t replied = taken;
             try {
                 ++replied;
@@ -243,7 +172,7 @@ std::unique_ptr<VolumeFile> open_dicom(const fs::path& path, const ReadOptions& 
 }
 
 std::vector<std::pair<fs::path, double>> read_pvd(const fs::path& path) {
-    ReaderLease lease(readers_of_this_process(), kCollectionProgram, path);
+    ReaderLease lease(readers_of_this_process(), kCollectionProgram, path, false);
     std::vector<std::pair<fs::path, double>> files;
     lease.work([] {},
                [&] {

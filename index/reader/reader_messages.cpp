@@ -48,19 +48,21 @@ void each_field(auto& bytes, Of<ReadOptions> auto& options) {
 }
 
 void each_field(auto& bytes, Of<OpenFile> auto& open) {
-    bytes(open.format, open.path, open.most_memory);
+    bytes(open.format, open.path, open.most_memory, open.number);
     each_field(bytes, open.options);
 }
 void each_field(auto& bytes, Of<UseMemory> auto& use) {
     bytes(use.bytes);
 }
 void each_field(auto& bytes, Of<ReadSlab> auto& slab) {
-    bytes(slab.step, slab.slices.first, slab.slices.count, slab.offset);
+    bytes(slab.step, slab.slices.first, slab.slices.count, slab.offset, slab.file);
 }
 void each_field(auto& bytes, Of<ReadCollection> auto& collection) {
     bytes(collection.path);
 }
-void each_field(auto&, Of<CloseFile> auto&) {}
+void each_field(auto& bytes, Of<CloseFile> auto& close) {
+    bytes(close.file);
+}
 
 void each_field(auto& bytes, Of<Ready> auto& ready) {
     bytes(ready.version);
@@ -110,7 +112,7 @@ Message message_from(std::span<const std::byte> bytes) {
 
 } // namespace
 
-const std::string kReaderVersion = ISOCHRON_VERSION " 5";
+const std::string kReaderVersion = ISOCHRON_VERSION " 6";
 const std::string kCollectionProgram = "isochron-reader-vtk";
 
 std::string program_of(ForeignFormat format) {

@@ -47,12 +47,14 @@ struct Slices {
 };
 
 /// Opens a file and asks for its description. Answered by `Described`; the file stays open until
-/// the next `OpenFile` or `CloseFile`.
+/// it is closed, or another gets its number. Several open files of one reader are arrays of the
+/// same file.
 struct OpenFile {
     ForeignFormat format = ForeignFormat::vti;
     std::filesystem::path path;
     ReadOptions options;
     std::uint64_t most_memory = 0; ///< [bytes] that decoding may take; 0: what is free
+    std::uint64_t number = 0;      ///< by which later requests name it
 };
 /// Sets the shared memory into which values go from now on; its descriptor is attached. Not
 /// answered.
@@ -65,14 +67,16 @@ struct ReadSlab {
     std::uint64_t step = 0;
     Slices slices;
     std::uint64_t offset = 0;
+    std::uint64_t file = 0; ///< its number
 };
 /// Asks for the files and times in a .pvd. Answered by `Collected`.
 struct ReadCollection {
     std::filesystem::path path;
 };
-/// Closes the file. Answered by `Closed`; libraries lock files, so others can write to it only
-/// then.
-struct CloseFile {};
+/// Closes a file. Answered by `Closed`; libraries lock files, so others can write to it only then.
+struct CloseFile {
+    std::uint64_t file = 0; ///< its number
+};
 
 using ReaderRequest = std::variant<OpenFile, UseMemory, ReadSlab, ReadCollection, CloseFile>;
 

@@ -1,0 +1,46 @@
+// What a library has decoded of a file, shared by the arrays of it that are open.
+#pragma once
+
+#include "index/system/input_file.h"
+#include "index/volume/volume_series.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace isochron::index {
+
+/// Remembers the newest thing that was decoded as long as somebody holds it. Not thread-safe.
+template <class Decoded>
+class SharedDecode {
+  public:
+    /// The decoded thing, which `make` makes anew if the file, or what is made of it, is another.
+    template <class Make>
+    std::shared_ptr<Decoded> of(const std::filesystem::path& path, const ReadOptions& options,
+                                const Make& make) {
+        const Made wanted{path, state_of(path), options.resample, options.spacing.has_value()};
+        auto known = made_ == wanted ? decoded_.lock() : nullptr;
+        if (!known) {
+            known = make();
+            decoded_ = known;
+            made_ = wanted;
+        }
+        return known;
+    }
+
+  private:
+    /// What the options say of the array does not count.
+    struct Made {
+        std::filesystem::path path;
+        FileState state;
+        std::optional<std::array<std::uint32_t, 3>> resample;
+        bool spacing = false; ///< is given, so that the file need not say it
+        bool operator==(const Made&) const = default;
+    };
+    Made made_;
+    std::weak_ptr<Decoded> decoded_;
+};
+
+} // namespace isochron::index

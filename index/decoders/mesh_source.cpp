@@ -10,9 +10,15 @@
 #include <vtkAMReXGridReader.h>
 #include <vtkCGNSReader.h>
 #include <vtkDataArraySelection.h>
+#include <vtkDummyController.h>
 #include <vtkExodusIIReader.h>
 #include <vtkNew.h>
-#include <vtkOpenFOAMReader.h>
+#include <vtkPOpenFOAMReader.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <string_view>
 
 namespace isochron::index {
 namespace {
@@ -53,19 +59,55 @@ MeshSource cgns_source(const fs::path& path) {
     return {reader.GetPointer(), select, "", "", {}};
 }
 
+/// The last of the times that are folders of a case; below all numbers if there are none.
+double last_time_in(const fs::path& folder) {
+    double last = -std::numeric_limits<double>::infinity();
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        const char* const end = name.data() + name.size();
+        double time = 0;
+        if (const auto read = std::from_chars(name.data(), end, time);
+            read.ec == std::errc() && read.ptr == end)
+            last = std::max(last, time);
+    }
+    return last;
+}
+
+/// Whether the results lie in a folder for each processor.
+bool is_divided(const fs::path& folder) {
+    std::error_code ignored;
+    return fs::exists(folder / "processor0/constant/polyMesh", ignored) &&
+           (!fs::exists(folder / "constant/polyMesh", ignored) ||
+            last_time_in(folder / "processor0") > last_time_in(folder));
+}
+
+/// Whether they lie in one folder for all processors, which VTK's reader does not know.
+bool is_collated(const fs::path& folder) {
+    std::error_code ignored;
+    return std::ranges::any_of(fs::directory_iterator(folder, ignored), [](const auto& entry) {
+        return entry.path().filename().string().starts_with("processors");
+    });
+}
+
 /// @param path of a .foam in the case's folder, or of its system/controlDict
 MeshSource openfoam_source(const fs::path& path) {
     std::error_code ignored;
     const fs::path within = fs::absolute(path, ignored).parent_path();
     const fs::path folder = path.extension() == ".foam" ? within : within.parent_path();
+    const bool divided = is_divided(folder);
     for (const char* needed : {"system/controlDict", "constant/polyMesh"})
-        if (!fs::exists(folder / needed, ignored))
-            throw Error(fmt::format(
-                "{}: an OpenFOAM case without {}{}", path.string(), needed,
-                fs::exists(folder / "processor0", ignored)
-                    ? ": it is divided among processors, reconstructPar puts it together"
-                    : ""));
-    const vtkNew<vtkOpenFOAMReader> reader;
+        if (!fs::exists(folder / needed, ignored) &&
+            !(divided && needed == std::string_view("constant/polyMesh")))
+            throw Error(
+                fmt::format("{}: an OpenFOAM case without {}{}", path.string(), needed,
+                            is_collated(folder)
+                                ? ": its processors share a folder, reconstructPar puts it together"
+                                : ""));
+    const vtkNew<vtkPOpenFOAMReader> reader;
+    reader->SetController(vtkNew<vtkDummyController>()); // without one it crashes on parts
+    reader->SetCaseType(divided ? vtkPOpenFOAMReader::DECOMPOSED_CASE
+                                : vtkPOpenFOAMReader::RECONSTRUCTED_CASE);
     reader->SetFileName((folder / "system" / "controlDict").c_str());
     reader->CreateCellToPointOn();
     reader->CacheMeshOn();
@@ -76,11 +118,16 @@ MeshSource openfoam_source(const fs::path& path) {
         raw->EnableAllCellArrays();
         raw->EnableAllPointArrays();
     };
-    return {reader.GetPointer(),
-            select,
-            "m",
-            "s",
-            {"values of cells are averaged to points by VTK before they are interpolated"}};
+    MeshSource source{
+        reader.GetPointer(),
+        select,
+        "m",
+        "s",
+        {"values of cells are averaged to points by VTK before they are interpolated"}};
+    if (divided)
+        source.notes.push_back("the case is divided among processors: where their parts meet, "
+                               "points have the mean of the cells of one part");
+    return source;
 }
 
 MeshSource amrex_source(const fs::path& path) {

@@ -90,12 +90,21 @@ OpenFormat format_of_content(const fs::path& path) {
     return begin.starts_with("# vtk DataFile") ? open_vtk : nullptr;
 }
 
+/// Notes and logs end like this, too, so that content decides.
+constexpr std::string_view kExodusOrText = ".e";
+
+bool holds_netcdf(const fs::path& path) {
+    const OpenFormat format = format_of_content(path);
+    return format == open_netcdf || format == open_hdf5;
+}
+
 } // namespace
 
 OpenFormat format_of(const fs::path& path) {
     const std::string name = lower_case(path.filename().string());
     for (const Format& format : kFormats)
-        if (name.ends_with(format.extension))
+        if (name.ends_with(format.extension) &&
+            (format.extension != kExodusOrText || holds_netcdf(path)))
             return format.open;
     return format_of_content(path);
 }

@@ -1,6 +1,7 @@
 """Meshes of simulations, resampled: Exodus by VTK's writer, OpenFOAM, AMReX and CGNS as their descriptions say. Values
 are linear along each axis where they are to stay exact."""
 import os
+import shutil
 import struct
 
 import h5py
@@ -78,8 +79,10 @@ def foam(kind, name, text):
     return f"FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n{text}"
 
 
-def foam_case(case, size):
+def foam_case(case, size, origin=(0, 0, 0), control=None):
+    """`control`: the folder of the whole case, of which this is the part of one processor."""
     nx, ny, nz = size
+    ox, oy, oz = origin
 
     def point(i, j, k):
         return i + (nx + 1) * (j + (ny + 1) * k)
@@ -87,7 +90,7 @@ def foam_case(case, size):
     def cell(i, j, k):
         return i + nx * (j + ny * k)
 
-    points = [f"({i} {j} {k})" for k in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)]
+    points = [f"({i + ox} {j + oy} {k + oz})" for k in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)]
     inner, outer = [], []  # corners, owner, neighbor
     for k in range(nz + 1):
         for j in range(ny + 1):
@@ -119,16 +122,16 @@ def foam_case(case, size):
     write(mesh + "neighbour", foam("labelList", "neighbour", listed([str(f[2]) for f in inner])))
     write(mesh + "boundary", foam("polyBoundaryMesh", "boundary",
                                   f"1\n(\nwalls {{ type wall; nFaces {len(outer)}; startFace {len(inner)}; }}\n)\n"))
-    write(case + "/system/controlDict", foam("dictionary", "controlDict",
+    write((control or case) + "/system/controlDict", foam("dictionary", "controlDict",
                                              "startTime 0; endTime 1; deltaT 0.5; writeControl timeStep; writeInterval "
                                              "1; timeFormat general; timePrecision 6;\n"))
     for time in (0.5, 1):
-        values = [str(linear(i + 0.5, j + 0.5, k + 0.5, time)) for k in range(nz) for j in range(ny)
-                  for i in range(nx)]
+        values = [str(linear(i + ox + 0.5, j + oy + 0.5, k + oz + 0.5, time)) for k in range(nz)
+                  for j in range(ny) for i in range(nx)]
         write(f"{case}/{time}/p", foam("volScalarField", "p",
                                        "dimensions [0 2 -2 0 0 0 0];\ninternalField nonuniform List<scalar> "
                                        + listed(values) + ";\nboundaryField { walls { type zeroGradient; } }\n"))
-    write(case + "/run.foam", "")
+    write((control or case) + "/run.foam", "")
 
 
 foam_case("cavity", (4, 3, 3))
@@ -136,8 +139,8 @@ foam_case("cavity", (4, 3, 3))
 inner = grid_values((4, 3, 3), (1, 1, 1), (0, 0, 0))
 
 
-def averaged(size, time):
-    cells = np.array([[[linear(i + 0.5, j + 0.5, k + 0.5, time) for i in range(size[0])] for j in range(size[1])]
+def averaged(size, time, first=0):
+    cells = np.array([[[linear(first + i + 0.5, j + 0.5, k + 0.5, time) for i in range(size[0])] for j in range(size[1])]
                       for k in range(size[2])])
     padded = np.pad(cells, 1, constant_values=np.nan)
     around = [padded[k:k + size[2] + 1, j:j + size[1] + 1, i:i + size[0] + 1] for k in (0, 1) for j in (0, 1)
@@ -148,9 +151,33 @@ def averaged(size, time):
 steps = np.array([averaged((4, 3, 3), time) for time in (0.5, 1)])
 for name in ["cavity", "cavity/run.foam", "cavity/system/controlDict"]:
     expect(name, steps, times=[0.5, 1], kind="within", array="p", resample=[5, 4, 4])
+
+
+# The same case, divided between two processors at x = 2, where no vertex lies. A mesh of the whole may be there, too.
+def divided(time):
+    """Along x from each part's own points."""
+    parts = [averaged((2, 3, 3), time, first) for first in (0, 2)]
+    at = np.linspace(0, 4, 6)
+    return np.stack([parts[0][..., 0] * (1 - x) + parts[0][..., 1] * x if x < 1 else
+                     parts[0][..., 1] * (2 - x) + parts[0][..., 2] * (x - 1) if x < 2 else
+                     parts[1][..., 0] * (3 - x) + parts[1][..., 1] * (x - 2) if x < 3 else
+                     parts[1][..., 1] * (4 - x) + parts[1][..., 2] * (x - 3) for x in at], axis=-1)
+
+
+for case in ["divided", "mesh_too", "all_too"]:
+    for processor in (0, 1):
+        foam_case(f"{case}/processor{processor}", (2, 3, 3), (2 * processor, 0, 0), case)
+foam_case("mesh_too", (4, 3, 3))
+for time in ("0.5", "1"):
+    shutil.rmtree(path(f"mesh_too/{time}"))
+for case in ["divided", "mesh_too"]:
+    expect(case, np.array([divided(time) for time in (0.5, 1)]), times=[0.5, 1], spacing=(0.8, 1, 1), kind="within",
+           array="p", resample=[6, 4, 4])
+foam_case("all_too", (4, 3, 3))
+expect("all_too", steps, times=[0.5, 1], kind="within", array="p", resample=[5, 4, 4])
 write("empty/system/controlDict", foam("dictionary", "controlDict", "startTime 0; endTime 1; deltaT 1;\n"))
 refuse("empty", "without constant/polyMesh", resample=[4, 4, 4])
-os.makedirs(path("empty/processor0"))
+os.makedirs(path("empty/processors4"))
 refuse("empty", "reconstructPar", resample=[4, 4, 4])
 
 

@@ -89,6 +89,17 @@ TEST_F(UsersFolder, CountsNoFilesThatOthersName) {
     EXPECT_THAT(error_of([&] { open_series({folder_.path()}); }), HasSubstr("several series"));
 }
 
+TEST_F(UsersFolder, HasExodusOnlyWhereTheContentIsThat) {
+    nrrd("a1.nrrd", 'a');
+    write("run.e", "errors: none");
+    EXPECT_THAT(sources(folder_.path()), ElementsAre("a1.nrrd"));
+    EXPECT_THAT(error_of([&] { open_series({folder_.path() / "run.e"}); }),
+                HasSubstr("unknown format"));
+    write("mesh.e", "CDF\x01 and then nothing");
+    EXPECT_THAT(error_of([&] { open_series({folder_.path() / "mesh.e"}); }),
+                HasSubstr("a mesh, expected a regular grid"));
+}
+
 TEST_F(UsersFolder, OfRawValuesTakesWhatIsAsLargeAsSaid) {
     write("d1.bin", std::string(8, 'a'));
     write("d2.bin", std::string(8, 'b'));

@@ -5,6 +5,7 @@
 // field meanings after the comments of nifti1.h, https://nifti.nimh.nih.gov/nifti-1.
 #include "index/error.h"
 #include "index/formats/readers.h"
+#include "index/formats/reordered_file.h"
 #include "index/formats/stored_file.h"
 
 #include <fmt/format.h>
@@ -264,11 +265,13 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     const NiftiHeader h = read_header(path);
     const std::int64_t dimensions = h.dim[0];
     if (dimensions < 3 || dimensions > 7)
-        throw Error(fmt::format("{}: {} dimensions, expected 3, or 4 with time", name, dimensions));
-    for (std::int64_t i = 5; i <= dimensions; ++i)
+        throw Error(
+            fmt::format("{}: {} dimensions, expected 3, or 4 with time, or 5 with components", name,
+                        dimensions));
+    for (std::int64_t i = 6; i <= dimensions; ++i)
         if (h.dim[i] > 1)
             throw Error(fmt::format("{}: {} dimensions, the {}th with {} values; expected 3, or 4 "
-                                    "with time",
+                                    "with time, or 5 with components",
                                     name, dimensions, i, h.dim[i]));
 
     SeriesInfo info;
@@ -297,7 +300,19 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     layout.first_time = h.toffset;
     layout.time_step = h.pixdim[4];
     info.time_unit = time_unit(h.xyzt_units);
-    return open_stored(path, std::move(info), layout, options);
+    if (dimensions < 5 || h.dim[5] <= 1)
+        return open_stored(path, std::move(info), layout, options);
+    constexpr std::int64_t kMostComponents = 4096;
+    if (h.dim[5] > kMostComponents)
+        throw Error(
+            fmt::format("{}: {} components, expected at most {}", name, h.dim[5], kMostComponents));
+    if (options.extra_axis_is_time && layout.steps == 1) {
+        layout.steps = static_cast<std::size_t>(h.dim[5]);
+        layout.time_step = h.pixdim[5];
+        return open_stored(path, std::move(info), layout, options);
+    }
+    layout.array.components = static_cast<std::uint32_t>(h.dim[5]);
+    return open_stacked_components(path, std::move(info), layout, options);
 }
 
 } // namespace isochron::index

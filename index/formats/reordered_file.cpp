@@ -65,30 +65,36 @@ class StackedComponents final : public VolumeFile {
   public:
     StackedComponents(const std::filesystem::path& header, SeriesInfo info, StoredLayout layout,
                       const ReadOptions& options)
-        : chosen_(choose_scalar(std::span(&layout.array, 1), options, header.string())) {
-        layout.steps = std::exchange(layout.array.components, 1);
-        layout.time_step = 0;
+        : chosen_(choose_scalar(std::span(&layout.array, 1), options, header.string())),
+          steps_(layout.steps) {
+        expect_few_steps(steps_, header.string());
+        const std::string time_unit = info.time_unit;
+        const StoredLayout timed = layout;
+        layout.steps = steps_ * std::exchange(layout.array.components, 1);
         ReadOptions plain = options;
         plain.array.reset();
         plain.component.reset();
         file_ = open_stored(header, std::move(info), layout, plain);
         info_ = file_->info();
         info_.array = chosen_.label();
+        info_.arrays = chosen_.offered;
         info_.type = chosen_.value_type();
+        info_.time_unit = time_unit;
+        give_times(info_, timed, steps_);
     }
 
     const SeriesInfo& info() const override { return info_; }
-    std::size_t steps() const override { return 1; }
+    std::size_t steps() const override { return steps_; }
     std::vector<std::filesystem::path> beside() const override { return file_->beside(); }
 
-    void read(std::size_t, std::span<std::byte> out) override {
+    void read(std::size_t step, std::span<std::byte> out) override {
         if (chosen_.component != ChosenScalar::kMagnitude)
-            return file_->read(chosen_.component, out);
+            return file_->read(place(chosen_.component, step), out);
         const std::size_t count = info_.grid.vertex_count();
         std::vector<double> squares(count);
         std::vector<std::byte> part(file_->info().step_bytes());
-        for (std::size_t component = 0; component < file_->steps(); ++component) {
-            file_->read(component, part);
+        for (std::size_t at = step; at < file_->steps(); at += steps_) {
+            file_->read(at, part);
             visit_value_type(file_->info().type, [&]<class T>(std::type_identity<T>) {
                 const T* values = reinterpret_cast<const T*>(part.data());
                 for (std::size_t i = 0; i < count; ++i)
@@ -102,17 +108,23 @@ class StackedComponents final : public VolumeFile {
         });
     }
 
-    void stream(std::size_t, const TakePiece& take) override {
+    void stream(std::size_t step, const TakePiece& take) override {
         if (chosen_.component != ChosenScalar::kMagnitude)
-            return file_->stream(chosen_.component, take);
+            return file_->stream(place(chosen_.component, step), take);
         std::vector<std::byte> whole(info_.step_bytes());
-        read(0, whole);
+        read(step, whole);
         take(whole);
     }
 
   private:
+    /// The plain file's step.
+    std::size_t place(std::size_t component, std::size_t step) const {
+        return component * steps_ + step;
+    }
+
     ChosenScalar chosen_;
-    std::unique_ptr<VolumeFile> file_; ///< each component as a step
+    std::size_t steps_;                ///< of each component
+    std::unique_ptr<VolumeFile> file_; ///< all steps of each component, one after the other
     SeriesInfo info_;
 };
 

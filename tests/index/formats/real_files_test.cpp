@@ -73,9 +73,9 @@ TEST(RealNifti, ReadsBigEndianFiles) {
     EXPECT_EQ(sums_of(*series, 0), (Sums{284166082, 142507416602}));
 }
 
-TEST(RealNifti, RefusesFiveDimensions) {
+TEST(RealNifti, OfOneVertexAlongAnAxisIsRefused) {
     EXPECT_THAT(error_of([] { open_series({kFormats / "5D_small.nii"}); }),
-                HasSubstr("5D_small.nii: 5 dimensions"));
+                HasSubstr("5D_small.nii: 1x2x3"));
 }
 
 TEST(RealMetaImage, ReadsCompressedLocalData) {

@@ -214,6 +214,7 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
         if (number < 1 || number > 4096)
             throw Error(fmt::format("{}: {} components, expected 1 to 4096", file, number));
         layout.array.components = static_cast<std::uint32_t>(number);
+        layout.array.maybe_steps = !axes.time;
     }
     find_data(header, path,
               info.grid.vertex_count() * layout.array.components * layout.steps *

@@ -59,9 +59,11 @@ std::uint32_t component_of(const StoredArray& array, const ReadOptions& options,
             return 0;
         if (options.any_array)
             return ChosenScalar::kMagnitude;
-        throw Error(fmt::format("{}: array {} has {} components, choose one with --component 0 to "
-                                "{} or --component magnitude",
-                                file, array.name, array.components, array.components - 1));
+        throw Error(
+            fmt::format("{}: array {} has {} components, choose one with --component 0 to "
+                        "{} or --component magnitude{}",
+                        file, array.name, array.components, array.components - 1,
+                        array.maybe_steps ? "; --extra-axis-is-time reads them as steps" : ""));
     }
     const std::string& text = *options.component;
     if (text == "magnitude")

@@ -45,9 +45,10 @@ struct StoredArray {
     std::string name;
     std::optional<StoredType> type; ///< none: a type that no volume can have (strings, bits, ...)
     std::uint32_t components = 1;
-    bool on_cells = false;  ///< one tuple per cell rather than per vertex
-    bool gaps = false;      ///< values may be missing, for which there is only NaN
-    std::string shape = {}; ///< where a list of arrays has it: `64 x 64 x 32`
+    bool on_cells = false;    ///< one tuple per cell rather than per vertex
+    bool gaps = false;        ///< values may be missing, for which there is only NaN
+    std::string shape = {};   ///< where a list of arrays has it: `64 x 64 x 32`
+    bool maybe_steps = false; ///< the axis of components can be read as time instead
 };
 
 /// An array, or one component of it, or its magnitude.

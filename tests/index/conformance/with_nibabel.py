@@ -41,7 +41,8 @@ for name, shape in [("vectors.nii", (4, 5, 6, 1, 3)), ("tensors.nii.gz", (4, 5, 
     nibabel.save(image, path(name))
     values = zyx(nibabel.load(path(name)))  # component, time, z, y, x
     times = np.arange(shape[3]) * 2.5 if shape[3] > 1 else None
-    refuse(name, f"{shape[4]} components, choose one with --component 0 to {shape[4] - 1}")
+    refuse(name, f"{shape[4]} components, choose one with --component 0 to {shape[4] - 1} or --component "
+           "magnitude" + ("; --extra-axis-is-time reads them as steps" if shape[3] == 1 else ""))
     for component in (0, shape[4] - 1):
         expect(name, values[component], times=times, component=str(component), **where)
 values = zyx(nibabel.load(path("vectors.nii")))[:, 0]

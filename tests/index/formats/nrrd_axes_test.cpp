@@ -42,7 +42,9 @@ TEST_F(NrrdAxesTest, AListIsComponentsWhereverItLies) {
         ReadOptions options;
         const std::string first = std::string("kinds: ") + kind + " domain domain domain\n",
                           last = std::string("kinds: domain domain domain ") + kind + "\n";
-        EXPECT_THAT(complaint("3 4 2 2", first), HasSubstr("has 3 components, choose one"));
+        EXPECT_THAT(complaint("3 4 2 2", first),
+                    AllOf(HasSubstr("has 3 components, choose one"),
+                          HasSubstr("--extra-axis-is-time reads them as steps")));
         EXPECT_THAT(complaint("4 2 2 3", last), HasSubstr("has 3 components, choose one"));
         options.component = "1";
         auto series = open_series({file("3 4 2 2", first)}, options);
@@ -95,7 +97,8 @@ TEST_F(NrrdAxesTest, AListThatTheUserCallsTimeIsASeries) {
     EXPECT_EQ(series->info().grid.spacing, glm::dvec3(2, 2, 3));
     ASSERT_EQ(series->info().steps(), 3u);
     for (const std::size_t step : {2, 0, 1})
-        EXPECT_EQ(values_of<std::uint8_t>(*series, step), every(3, static_cast<std::uint8_t>(step)));
+        EXPECT_EQ(values_of<std::uint8_t>(*series, step),
+                  every(3, static_cast<std::uint8_t>(step)));
 }
 
 TEST_F(NrrdAxesTest, TimeIsWhereAKindOrAUnitSaysSo) {

@@ -176,6 +176,21 @@ const NetcdfVariable* time_variable(const NetcdfFile& file, const NetcdfVariable
     return nullptr;
 }
 
+/// The sizes of cells that a model of the weather writes for the whole file (WRF: DX, DY). They say
+/// nothing of heights, so that they are not taken without the user.
+void offer_cell_sizes(const NetcdfFile& file, const NetcdfVariable& variable,
+                      const NetcdfLayout& layout, SeriesInfo& info) {
+    const std::vector<double> dx = of_the_grid(file, variable, "DX"),
+                              dy = of_the_grid(file, variable, "DY");
+    for (const std::size_t space : layout.space)
+        if (file.coordinate(variable, variable.dimensions[space]))
+            return;
+    if (dx.size() == 1 && dy.size() == 1)
+        info.notes.push_back(fmt::format("attributes say DX {:g} and DY {:g}: --spacing {:g} {:g} "
+                                         "DZ, with DZ as the distance between levels, takes them",
+                                         dx.front(), dy.front(), dx.front(), dy.front()));
+}
+
 } // namespace
 
 std::optional<NetcdfLayout> layout_of(const NetcdfFile& file, const NetcdfVariable& variable) {
@@ -251,6 +266,8 @@ void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const Ne
     }
     if (layout.upright)
         info.anatomy = Anatomy::enu;
+    if (!options.spacing)
+        offer_cell_sizes(file, variable, layout, info);
 }
 
 void place_steps(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,

@@ -311,6 +311,26 @@ TEST(RealNetcdf, OfTheMetOfficeHasItsTemperatures) {
     EXPECT_NEAR(values_of<float>(*series, 5)[1234], 286.476593, 1e-4);
 }
 
+TEST(NetcdfGrid, SizesOfCellsAreOfferedAndNotTaken) {
+    TestFolder folder;
+    NetcdfWriter out(folder.path() / "wrfout.nc", NC_CLASSIC_MODEL);
+    out.dimension("bottom_top", 3);
+    out.dimension("south_north", 4);
+    out.dimension("west_east", 5);
+    out.variable("T", NC_FLOAT, {"bottom_top", "south_north", "west_east"});
+    out.number<float>(nullptr, "DX", {3000});
+    out.number<float>(nullptr, "DY", {2500});
+    out.put("T", std::vector<float>(60, 1));
+    const std::filesystem::path file = out.done();
+    const auto series = open_series({file});
+    EXPECT_EQ(series->info().grid.spacing, glm::dvec3(1));
+    EXPECT_THAT(series->info().notes, testing::Contains(HasSubstr("--spacing 3000 2500 DZ")));
+    ReadOptions options;
+    options.spacing = glm::dvec3(3000, 2500, 500);
+    EXPECT_THAT(open_series({file}, options)->info().notes,
+                testing::Not(testing::Contains(HasSubstr("DX"))));
+}
+
 TEST(RealNetcdf, OfTheOceanIsMissingOnLand) {
     const auto series = open_series(
         {std::filesystem::path(test_support::test_data()) / "formats" / "foam.ocean.nc"});

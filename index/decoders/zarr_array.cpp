@@ -278,18 +278,19 @@ void ZarrArray::load(const std::vector<std::uint64_t>& at, ZarrBytes& values) {
 }
 
 /// Some values of a chunk that is stored as it is.
-void ZarrArray::load_part(const std::vector<std::uint64_t>& at, std::size_t first,
-                          std::size_t count, ZarrBytes& values) const {
+/// @param first of the values in the chunk @return false where there is no such chunk
+bool ZarrArray::load_part(const std::vector<std::uint64_t>& at, std::size_t first,
+                          std::span<std::byte> values) const {
     const std::string key = key_of(at);
     const std::size_t size = size_of(*type_), bytes = values_in_chunk() * size;
     const auto stored = store_->size_of_value(key);
     if (!stored)
-        return values.clear();
-    if (*stored == bytes)
-        store_->part(key, first * size, count * size, values);
-    if (*stored != bytes || values.size() != count * size)
+        return false;
+    if (*stored != bytes)
         throw Error(
             fmt::format("{}: {}: {} bytes, expected {}", store_->name(), key, *stored, bytes));
+    store_->part(key, first * size, values);
+    return true;
 }
 
 const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {
@@ -303,7 +304,7 @@ const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {
 
 void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
                      std::span<std::byte> out) {
-    const std::size_t rank = shape_.size(), size = size_of(*type_);
+    const std::size_t rank = shape_.size();
     std::vector<std::uint64_t> first(rank), last(rank), at;
     for (std::size_t i = 0; i < rank; ++i) {
         first[i] = start[i] / chunk()[i];
@@ -311,52 +312,72 @@ void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::
     }
     at = first;
     while (true) {
-        // The part of the box in this chunk, row by row along the last dimension.
-        std::vector<std::uint64_t> low(rank), high(rank);
-        bool all = true;
-        for (std::size_t i = 0; i < rank; ++i) {
-            low[i] = std::max(start[i], at[i] * chunk()[i]);
-            high[i] = std::min(start[i] + count[i], (at[i] + 1) * chunk()[i]);
-            all = all &&
-                  high[i] - low[i] ==
-                      std::min(chunk()[i], shape_[i] - std::min(shape_[i], at[i] * chunk()[i]));
-        }
-        const auto place_in_chunk = [&](std::span<const std::uint64_t> p, std::uint64_t off) {
-            std::size_t place = 0;
-            for (std::size_t i = 0; i < rank; ++i)
-                place = place * chunk()[i] + (p[i] - off - at[i] * chunk()[i]);
-            return place;
-        };
-        // Of a chunk that is wanted as a whole nothing is left to keep it for; of one that is
-        // stored as it is, only what is wanted is read.
-        const std::size_t begin = all || !plain() ? 0 : place_in_chunk(low, 0);
-        if (all)
-            load(at, chunk_values_);
-        else if (plain())
-            load_part(at, begin, place_in_chunk(high, 1) + 1 - begin, chunk_values_);
-        const ZarrBytes& values = all || plain() ? chunk_values_ : chunk_at(at);
-        const std::size_t row = high[rank - 1] - low[rank - 1];
-        for (std::vector<std::uint64_t> p = low;;) {
-            std::size_t to = 0;
-            for (std::size_t i = 0; i < rank; ++i)
-                to = to * count[i] + (p[i] - start[i]);
-            const std::size_t from = place_in_chunk(p, 0) - begin;
-            if (!values.empty())
-                std::memcpy(&out[to * size], &values[from * size], row * size);
-            else
-                for (std::size_t i = 0; i < row; ++i)
-                    std::memcpy(&out[(to + i) * size], fill_.data(), size);
-            std::size_t i = rank - 1;
-            while (i > 0 && ++p[i - 1] >= high[i - 1]) {
-                p[i - 1] = low[i - 1];
-                --i;
-            }
-            if (i == 0)
-                break;
-        }
+        read_from_chunk(at, start, count, out);
         std::size_t i = rank;
         while (i > 0 && ++at[i - 1] > last[i - 1]) {
             at[i - 1] = first[i - 1];
+            --i;
+        }
+        if (i == 0)
+            return;
+    }
+}
+
+/// The part of the box that lies in this chunk.
+void ZarrArray::read_from_chunk(const std::vector<std::uint64_t>& at,
+                                std::span<const std::uint64_t> start,
+                                std::span<const std::uint64_t> count, std::span<std::byte> out) {
+    const std::size_t rank = shape_.size(), size = size_of(*type_);
+    std::vector<std::uint64_t> low(rank), high(rank);
+    std::size_t wanted = 1;
+    bool all = true;
+    for (std::size_t i = 0; i < rank; ++i) {
+        low[i] = std::max(start[i], at[i] * chunk()[i]);
+        high[i] = std::min(start[i] + count[i], (at[i] + 1) * chunk()[i]);
+        wanted *= high[i] - low[i];
+        all = all && high[i] - low[i] ==
+                         std::min(chunk()[i], shape_[i] - std::min(shape_[i], at[i] * chunk()[i]));
+    }
+    const auto place_in_chunk = [&](std::span<const std::uint64_t> p, std::uint64_t off) {
+        std::size_t place = 0;
+        for (std::size_t i = 0; i < rank; ++i)
+            place = place * chunk()[i] + (p[i] - off - at[i] * chunk()[i]);
+        return place;
+    };
+    const auto place_in_box = [&](std::span<const std::uint64_t> p, std::uint64_t off) {
+        std::size_t place = 0;
+        for (std::size_t i = 0; i < rank; ++i)
+            place = place * count[i] + (p[i] - off - start[i]);
+        return place;
+    };
+    // What lies in one piece both in the box and in a chunk that is plain goes straight there.
+    const std::size_t from_low = place_in_chunk(low, 0), to_low = place_in_box(low, 0);
+    const std::size_t stretch = place_in_chunk(high, 1) + 1 - from_low;
+    if (plain() && stretch == wanted && place_in_box(high, 1) + 1 - to_low == wanted &&
+        load_part(at, from_low, out.subspan(to_low * size, wanted * size)))
+        return;
+    // Of a chunk that is wanted as a whole nothing is left to keep it for; of one that is
+    // stored as it is, only what is wanted is read.
+    const std::size_t begin = all || !plain() ? 0 : from_low;
+    if (all) {
+        load(at, chunk_values_);
+    } else if (plain()) {
+        chunk_values_.resize(stretch * size);
+        if (!load_part(at, begin, chunk_values_))
+            chunk_values_.clear();
+    }
+    const ZarrBytes& values = all || plain() ? chunk_values_ : chunk_at(at);
+    const std::size_t row = high[rank - 1] - low[rank - 1];
+    for (std::vector<std::uint64_t> p = low;;) { // row by row along the last dimension
+        const std::size_t to = place_in_box(p, 0), from = place_in_chunk(p, 0) - begin;
+        if (!values.empty())
+            std::memcpy(&out[to * size], &values[from * size], row * size);
+        else
+            for (std::size_t i = 0; i < row; ++i)
+                std::memcpy(&out[(to + i) * size], fill_.data(), size);
+        std::size_t i = rank - 1;
+        while (i > 0 && ++p[i - 1] >= high[i - 1]) {
+            p[i - 1] = low[i - 1];
             --i;
         }
         if (i == 0)

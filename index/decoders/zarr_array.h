@@ -69,8 +69,10 @@ class ZarrArray {
     /// The values of a chunk; empty: only the fill value.
     const ZarrBytes& chunk_at(const std::vector<std::uint64_t>& at);
     void load(const std::vector<std::uint64_t>& at, ZarrBytes& values);
-    void load_part(const std::vector<std::uint64_t>& at, std::size_t first, std::size_t count,
-                   ZarrBytes& values) const;
+    bool load_part(const std::vector<std::uint64_t>& at, std::size_t first,
+                   std::span<std::byte> values) const;
+    void read_from_chunk(const std::vector<std::uint64_t>& at, std::span<const std::uint64_t> start,
+                         std::span<const std::uint64_t> count, std::span<std::byte> out);
     void load_from_shard(const std::vector<std::uint64_t>& at, ZarrBytes& values);
     const ShardIndex& index_of_shard(const std::vector<std::uint64_t>& shard,
                                      const std::string& key, const std::string& name);

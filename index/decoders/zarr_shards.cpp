@@ -29,7 +29,8 @@ void ZarrArray::load_from_shard(const std::vector<std::uint64_t>& at, ZarrBytes&
     if (entry[0] > index.bytes || entry[1] > index.bytes - entry[0])
         throw Error(fmt::format("{}: truncated: chunk {} of {} bytes at {} of {}", name, number,
                                 entry[1], entry[0], index.bytes));
-    store_->part(key, entry[0], entry[1], values);
+    values.resize(entry[1]);
+    store_->part(key, entry[0], values);
     decode_chunk(name, values);
 }
 
@@ -54,7 +55,8 @@ const ZarrArray::ShardIndex& ZarrArray::index_of_shard(const std::vector<std::ui
     if (*bytes < size)
         throw Error(fmt::format("{}: {} bytes, expected an index of {}", name, *bytes, size));
     index.bytes = *bytes;
-    store_->part(key, index_at_end_ ? *bytes - size : 0, size, index.entries);
+    index.entries.resize(size);
+    store_->part(key, index_at_end_ ? *bytes - size : 0, index.entries);
     for (const ZarrCodec& codec : index_.codecs)
         decode(codec, size, name, index.entries, spare_);
     if (index.entries.size() != 16 * count)

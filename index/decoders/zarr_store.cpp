@@ -51,15 +51,12 @@ class FolderStore final : public ZarrStore {
         return InputFile(file).size();
     }
 
-    void part(const std::string& key, std::uint64_t at, std::uint64_t size,
-              ZarrBytes& into) const override {
+    void part(const std::string& key, std::uint64_t at, std::span<std::byte> into) const override {
         const fs::path file = path_ / key;
         const InputFile in(file);
-        if (at > in.size() || size > in.size() - at)
+        if (in.read(at, into) != into.size())
             throw Error(fmt::format("{}: truncated: {} bytes, expected {} at {}", file.string(),
-                                    in.size(), size, at));
-        into.resize(size);
-        into.resize(in.read(at, into));
+                                    in.size(), into.size(), at));
     }
 
     std::vector<std::string> names(const std::string& group) const override {
@@ -94,9 +91,7 @@ class ZipStore final : public ZarrStore {
         if (found == entries_.end())
             return false;
         const ZipEntry& entry = found->second;
-        if (entry.bytes > kMostBytes || entry.packed > file_.size() ||
-            (entry.method == 0 && entry.packed != entry.bytes))
-            fail(key);
+        check_size(entry, key);
         // The names and extra fields before the data may be others than in the directory.
         const std::string head = text_at(entry.at, 30);
         if (!head.starts_with("PK\3\4"))
@@ -113,22 +108,23 @@ class ZipStore final : public ZarrStore {
 
     std::optional<std::uint64_t> size_of_value(const std::string& key) const override {
         const auto found = entries_.find(key);
-        return found == entries_.end() ? std::nullopt : std::optional(found->second.bytes);
+        if (found == entries_.end())
+            return std::nullopt;
+        check_size(found->second, key);
+        return found->second.bytes;
     }
 
     /// Its check is that of the whole value, which is therefore read once and kept.
-    void part(const std::string& key, std::uint64_t at, std::uint64_t size,
-              ZarrBytes& into) const override {
+    void part(const std::string& key, std::uint64_t at, std::span<std::byte> into) const override {
         if (kept_key_ != key) {
             kept_key_.clear();
             if (!read(key, kept_))
                 kept_.clear();
             kept_key_ = key;
         }
-        if (at > kept_.size() || size > kept_.size() - at)
+        if (at > kept_.size() || into.size() > kept_.size() - at)
             fail(key);
-        const auto first = kept_.begin() + static_cast<std::ptrdiff_t>(at);
-        into.assign(first, first + static_cast<std::ptrdiff_t>(size));
+        std::copy_n(kept_.begin() + static_cast<std::ptrdiff_t>(at), into.size(), into.begin());
     }
 
     std::vector<std::string> names(const std::string& group) const override {
@@ -147,6 +143,14 @@ class ZipStore final : public ZarrStore {
   private:
     [[noreturn]] void fail(const std::string& what) const {
         throw Error(fmt::format("{}: damaged or truncated zip file: {}", name(), what));
+    }
+
+    /// So that no memory is taken for what cannot be there.
+    void check_size(const ZipEntry& entry, const std::string& key) const {
+        constexpr std::uint64_t kBest = 1032; // of deflate
+        if (entry.bytes > kMostBytes || entry.packed > file_.size() ||
+            (entry.method == 0 ? entry.packed != entry.bytes : entry.bytes / kBest > entry.packed))
+            fail(key);
     }
 
     std::string text_at(std::uint64_t at, std::uint64_t size) const {
@@ -220,9 +224,6 @@ class ZipStore final : public ZarrStore {
 
     ZarrBytes inflated(const ZarrBytes& packed, const ZipEntry& entry,
                        const std::string& key) const {
-        constexpr std::uint64_t kBest = 1032; // of deflate
-        if (entry.bytes / kBest > entry.packed)
-            fail(key);
         ZarrBytes bytes(entry.bytes);
         z_stream stream{};
         if (::inflateInit2(&stream, -MAX_WBITS) != Z_OK)

@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,9 +46,10 @@ class ZarrStore {
     }
     /// [bytes] of a value; none where there is none. @throws Error as `read`
     virtual std::optional<std::uint64_t> size_of_value(const std::string& key) const = 0;
-    /// A part of a value that is there. @throws Error as `read`, and when it ends before the part
-    virtual void part(const std::string& key, std::uint64_t at, std::uint64_t size,
-                      ZarrBytes& into) const = 0;
+    /// Fills `into` from the byte `at` of a value that is there. @throws Error as `read`, and when
+    /// it ends before that
+    virtual void part(const std::string& key, std::uint64_t at,
+                      std::span<std::byte> into) const = 0;
     /// Names directly below a group, sorted, at most 100,000. @param group without a slash at its
     /// end
     virtual std::vector<std::string> names(const std::string& group) const = 0;

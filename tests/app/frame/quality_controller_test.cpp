@@ -1,6 +1,7 @@
 // The choice of the footprint with simulated costs: it fits the budget, is stable, and never stays
 // too low.
 #include "tests/app/frame/quality_fixture.h"
+#include "tests/support/test_seed.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace isochron::app {
 namespace {
 
 TEST_F(QualityControllerTest, SettledEndsAtTheBestThatFitsAndSaysSo) {
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < tries(400); ++trial) {
         const Costs costs = random_costs();
         SimulatedDisplay display(kBudget, constant(costs));
         display.latency = trial % 5;
@@ -292,7 +293,7 @@ void stir(SimulatedDisplay& display, std::mt19937& random, int frames) {
 }
 
 TEST_F(QualityControllerTest, FromAnyStateItReturnsToTheBestThatFits) {
-    for (int trial = 0; trial < 300; ++trial) {
+    for (int trial = 0; trial < tries(300); ++trial) {
         SCOPED_TRACE(testing::Message() << "trial " << trial);
         const Costs costs = random_costs();
         SimulatedDisplay display(kBudget, constant(costs));

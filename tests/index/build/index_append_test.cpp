@@ -194,7 +194,7 @@ TEST_F(IndexAppendTest, GivesTheAnswersOfBuildingAnewAcrossEpochs) {
 TEST_F(IndexAppendTest, WritesLittleMoreThanTheShareOfTheNewSteps) {
     std::mt19937 random(test_seed());
     for (const ValueType type : {ValueType::u8, ValueType::f32}) {
-        const TestField field({64, 64, 64}, 32, type, scaled(turbulence(random), 60, 128));
+        const TestField field({64, 64, 32}, 32, type, scaled(turbulence(random), 60, 128));
         const std::string before = built(first_steps(field.view(), 31));
         const std::string after = appended(before, field.view());
         const double share = double(built(field.view()).size()) / 32;

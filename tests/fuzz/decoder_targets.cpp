@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,20 +76,19 @@ class TextStore final : public index::ZarrStore {
         const auto found = values_.find(key);
         if (found == values_.end())
             return false;
-        part(key, 0, found->second.size(), into);
+        into.resize(found->second.size());
+        part(key, 0, into);
         return true;
     }
     std::optional<std::uint64_t> size_of_value(const std::string& key) const override {
         const auto found = values_.find(key);
         return found == values_.end() ? std::nullopt : std::optional(found->second.size());
     }
-    void part(const std::string& key, std::uint64_t at, std::uint64_t size,
-              index::ZarrBytes& into) const override {
+    void part(const std::string& key, std::uint64_t at, std::span<std::byte> into) const override {
         const std::string& value = values_.at(key);
-        if (at > value.size() || size > value.size() - at)
+        if (at > value.size() || into.size() > value.size() - at)
             throw index::Error("store: truncated");
-        const auto* bytes = reinterpret_cast<const std::byte*>(value.data()) + at;
-        into.assign(bytes, bytes + size);
+        std::memcpy(into.data(), value.data() + at, into.size());
     }
     std::vector<std::string> names(const std::string& group) const override {
         const std::string prefix = group.empty() ? "" : group + "/";

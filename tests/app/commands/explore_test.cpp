@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <thread>
 
@@ -77,6 +78,15 @@ TEST_F(ExploreTest, KeysLeadToCommandsThatTheRecordingHoldsAndReplays) {
         ++pictures;
     }
     EXPECT_EQ(pictures, 1);
+
+    // In a window it takes the time that it took.
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_EQ(Program({"replay", file("walk.jsonl"), "--live", "--report", file("live.json")})
+                  .exit_status(),
+              0);
+    EXPECT_GE(std::chrono::steady_clock::now() - start,
+              recording.frames.back().input.time - recording.frames.front().input.time);
+    EXPECT_NE(folder_.read("live.json").find("\"frames\""), std::string::npos);
 }
 
 TEST_F(ExploreTest, EndedByASignalItLeavesAWholeRecordingUnderItsName) {

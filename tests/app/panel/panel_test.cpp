@@ -2,8 +2,10 @@
 #include "app/config/config.h"
 #include "app/panel/panel.h"
 #include "app/panel/panel_colors.h"
+#include "app/panel/panel_statistics.h"
 #include "app/panel/panel_tools.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
@@ -11,6 +13,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <string>
 
 namespace isochron::app {
 namespace {
@@ -92,6 +95,47 @@ TEST_F(PanelTest, TakesValuesUpToTheGreatestOfADouble) {
         EXPECT_TRUE(!commands.isovalue ||
                     (low <= *commands.isovalue && *commands.isovalue <= high));
     }
+}
+
+TEST_F(PanelTest, MeasurementsAreSaidInWords) {
+    info_.grid.vertices = {11, 21, 6};
+    info_.length_unit = "mm";
+    frame_.cells = 4321;
+    frame_.candidates = 9000;
+    frame_.reused = 17;
+    frame_.tracking = {{.name = "head", .tracking = interaction::Tracking::lost}};
+    PanelModel model{.info = info_,
+                     .stats = stats_,
+                     .asked = asked_,
+                     .frame = frame_,
+                     .frame_times = {},
+                     .frames_per_second = 59.6,
+                     .reading = {.bytes = 1 << 21, .held = 1 << 20, .budget = 1 << 30},
+                     .failure = "the disk is gone",
+                     .message = "written to a.png",
+                     .controls = controls_,
+                     .at_hand = {}};
+    const auto said = [&] {
+        ImGui::NewFrame();
+        ImGui::SetNextWindowSize({600, 400});
+        ImGui::Begin("panel");
+        ImGui::LogToClipboard();
+        measurements(model);
+        newest_note(model);
+        complaints(model);
+        ImGui::LogFinish();
+        ImGui::End();
+        ImGui::Render();
+        return std::string(ImGui::GetClipboardText());
+    };
+    said(); // a window is there once laid out
+    const std::string text = said();
+    for (const char* words :
+         {"4321 cells", "of 9000 candidates, 17 reused", "volume 10 x 20 x 5 mm", "60 frames/s",
+          "cache 1.00 MiB of 1.00 GiB", "head", "the disk is gone", "written to a.png"})
+        EXPECT_THAT(text, testing::HasSubstr(words));
+    model.searching = true;
+    EXPECT_THAT(said(), testing::HasSubstr("searching ..."));
 }
 
 /// The part on movies alone, of which every place is clicked.

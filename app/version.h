@@ -1,6 +1,8 @@
 // The program's name and version as it reports them.
 #pragma once
 
+#include "version_number.h"
+
 #include <string_view>
 
 namespace isochron::app {

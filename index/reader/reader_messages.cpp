@@ -2,6 +2,7 @@
 #include "index/reader/reader_messages.h"
 
 #include "index/reader/message_bytes.h"
+#include "version_number.h"
 
 #include <fmt/format.h>
 

@@ -138,7 +138,13 @@ void VirtualDisplay::xdotool(std::vector<std::string> arguments) const {
         pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     pid_t child = -1;
-    if (posix_spawnp(&child, "xdotool", nullptr, nullptr, pointers.data(), environ) != 0)
+    // The numbers of the windows that it finds would fill a long run's output.
+    posix_spawn_file_actions_t quiet;
+    posix_spawn_file_actions_init(&quiet);
+    posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const int refused = posix_spawnp(&child, "xdotool", &quiet, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&quiet);
+    if (refused != 0)
         throw std::runtime_error("xdotool does not start");
     // `search --sync` would wait forever for a window of a program that has died.
     constexpr int kPatience = 6000; // of 10 ms

@@ -205,7 +205,8 @@ TEST_F(Soak, ARandomUserIsFollowedAndReplayed) {
 TEST_F(Soak, AKilledExplorerLeavesWholeFiles) {
     for (int i = 0; i < setting("ISOCHRON_KILLS", 2); ++i) {
         const auto program = explore({"--record", file("walk.jsonl"), "--force", "--session",
-                                      file("s.isochron-session"), "--config", tracked_config()});
+                                      file("s.isochron-session"), "--screenshots", file("shots"),
+                                      "--config", tracked_config()});
         const auto end = Clock::now() + std::chrono::milliseconds(random_() % 1000);
         while (Clock::now() < end)
             act();

@@ -48,7 +48,7 @@ double first_isovalue(const std::shared_ptr<const IndexFile>& array, std::uint32
         if (!here || (here->low < of_all && of_all <= here->high))
             return of_all;
         const auto found = search_in(array, std::nullopt, index::Shading::none)({step, of_all}, {});
-        return found && found->ids.size() > 0 ? of_all : quantile(*here, share);
+        return found && !found->ids.empty() ? of_all : quantile(*here, share);
     } catch (const index::Error&) { // the search for the first picture will tell
         return of_all;
     }

@@ -232,8 +232,8 @@ std::vector<std::optional<std::string>> components_for(Derived derived) {
 
 std::unique_ptr<VolumeSeries> derived_series(std::vector<std::unique_ptr<VolumeSeries>> inputs,
                                              Derived derived, const std::string& name,
-                                             std::optional<std::string> unit) {
-    return std::make_unique<DerivedSeries>(std::move(inputs), derived, name, std::move(unit));
+                                             const std::optional<std::string>& unit) {
+    return std::make_unique<DerivedSeries>(std::move(inputs), derived, name, unit);
 }
 
 } // namespace isochron::index

@@ -33,6 +33,6 @@ std::vector<std::optional<std::string>> components_for(Derived derived);
 /// @param unit of the result; none: made of those of values and lengths
 std::unique_ptr<VolumeSeries> derived_series(std::vector<std::unique_ptr<VolumeSeries>> inputs,
                                              Derived derived, const std::string& name,
-                                             std::optional<std::string> unit);
+                                             const std::optional<std::string>& unit);
 
 } // namespace isochron::index

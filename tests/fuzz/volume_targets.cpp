@@ -47,13 +47,13 @@ void read_file(const std::string& path, index::OpenVolumeFile open,
     }
 }
 
-void read_all(Bytes input, index::OpenVolumeFile open, const index::ReadOptions& options) {
+void read_all(Bytes input, const index::OpenVolumeFile& open, const index::ReadOptions& options) {
     const MemoryFile file(input);
     read_file(file.path(), open, options);
 }
 
 /// The input is a header beside files of values: `a`, `b`, `c` of 4,096 bytes, and `v01` to `v04`.
-void read_header(Bytes input, const char* name, index::OpenVolumeFile open) {
+void read_header(Bytes input, const char* name, const index::OpenVolumeFile& open) {
     static const ValueFiles kFiles;
     read_file(kFiles.with_header(name, input), open, options_for(input));
 }

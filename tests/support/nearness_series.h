@@ -24,7 +24,8 @@ class NearnessSeries final : public index::VolumeSeries {
         for (std::size_t at = 0; at < out.size(); ++at) {
             const double x = static_cast<double>(at % n[0]) - 15.5;
             const double y = static_cast<double>(at / n[0] % n[1]) - 15.5;
-            const double z = static_cast<double>(at / n[0] / n[1]) - 10.0 - double(step);
+            const std::size_t slice = at / n[0] / n[1];
+            const double z = static_cast<double>(slice) - 10.0 - double(step);
             out[at] = static_cast<std::byte>(std::max(0.0, 100 - 4 * std::hypot(x, y, z)));
         }
     }

@@ -147,7 +147,6 @@ TEST_P(SessionArrays, FramesGoOnWhileTheCellsOfTheNewArrayAreSearched) {
     Session session(small_config(), both_, *context_);
     session.frame(head_at_rest(0), {}, Waiting::for_cells);
     Commands there = session.way_to_array(1);
-    std::size_t before = 0;
     for (int frame = 1;; ++frame) { // the last good picture stays until the new one is there
         const FrameReport& report =
             session.frame(head_at_rest(frame / 60.0), there, Waiting::never);
@@ -157,7 +156,6 @@ TEST_P(SessionArrays, FramesGoOnWhileTheCellsOfTheNewArrayAreSearched) {
         EXPECT_EQ(report.asked.array, 1u);
         if (report.shown->array == 1)
             break;
-        ++before;
         EXPECT_NE(report.shown->isovalues, report.asked.isovalues);
     }
     EXPECT_EQ(session.failure(), "");

@@ -64,7 +64,7 @@ class IndexArrays : public testing::Test {
     }
     std::filesystem::path built(const std::string& name, std::size_t steps = kTimes,
                                 const BuildOptions& options = {}) const {
-        const auto path = folder_.path() / name;
+        auto path = folder_.path() / name;
         Given all = given(steps, options);
         build_index(all.first(), path, all.options);
         return path;

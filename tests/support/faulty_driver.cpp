@@ -47,6 +47,7 @@ ISOCHRON_TARGET_NAMES(PFNGLCREATEQUERIESPROC, CreateQueries)
 #undef ISOCHRON_TARGET_NAMES
 // clang-format on
 
+// NOLINTBEGIN(readability-identifier-naming): named as the entry points of GL are
 GLuint APIENTRY CreateProgram() {
     return fails("glCreateProgram") ? 0 : actual<PFNGLCREATEPROGRAMPROC>("glCreateProgram")();
 }
@@ -121,6 +122,7 @@ GLenum APIENTRY GetError() {
     }
     return actual<PFNGLGETERRORPROC>("glGetError")();
 }
+// NOLINTEND(readability-identifier-naming)
 
 } // namespace
 

@@ -185,7 +185,7 @@ std::function<void*(std::string_view, void*)> with_limits(std::map<GLenum, GLint
     return [](std::string_view name, void* found) {
 #define STAND_BEFORE(entry, place)                                                                 \
     if (name == "gl" #entry)                                                                       \
-        return stereo::before(found, driver.place, &place);
+        return stereo::before(found, driver.place, &(place));
         STAND_BEFORE(GetString, string)
         STAND_BEFORE(GetIntegerv, integer)
         STAND_BEFORE(GetInteger64v, integer64)

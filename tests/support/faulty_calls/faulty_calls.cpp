@@ -164,6 +164,7 @@ ssize_t transfer(const char* kind, int file, std::size_t bytes, Call call) {
 
 extern "C" {
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming): the C library's
 int __libc_start_main(int (*begin)(int, char**, char**), int argc, char** argv, void (*init)(),
                       void (*fini)(), void (*rtld_fini)(), void* stack_end) {
     static const auto call = real<int(int (*)(int, char**, char**), int, char**, void (*)(),

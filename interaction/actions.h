@@ -146,7 +146,7 @@ constexpr std::uint64_t bit(Button button) {
 /// Whether Ctrl and Shift are held.
 enum class Chord : std::uint8_t { any, control, control_shift };
 
-/// A key's bindings for exactly the modifiers that are held win over its bindings for `any`.
+/// Bindings for exactly the modifiers that are held take precedence over bindings for `any`.
 struct KeyBinding {
     Key key;
     Action action;
@@ -159,8 +159,8 @@ struct KeyLine {
     std::string_view effect; ///< what they do
     std::vector<KeyBinding> bindings;
 };
-/// Every key that is an action; keys that the window itself obeys are in `control_lines`. Other
-/// lines explain what Shift and Ctrl do there, so the line for Shift and Ctrl comes last.
+/// All keys with actions; `control_lines` has the keys that the window itself handles. The line
+/// for Shift and Ctrl themselves comes last, since other lines say what they do with other keys.
 std::span<const KeyLine> key_lines();
 
 /// The devices that controls are grouped by in the help.
@@ -168,7 +168,7 @@ enum class DeviceKind : std::uint8_t { mouse, keyboard, hands, gamepad };
 /// For people: `Keyboard`, `Tracked hands (wands) and a headset's controllers`, ...
 std::string_view words_of(DeviceKind device);
 
-/// A control of mouse, wand or gamepad, or a key that the window itself obeys.
+/// A control of mouse, wand or gamepad, or a key that the window itself handles.
 struct ControlLine {
     DeviceKind device;
     std::string_view control, effect;

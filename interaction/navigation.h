@@ -29,7 +29,7 @@ Similarity moved(const Similarity& from, const glm::dvec3& offset);
 Similarity scaled(const Similarity& from, const glm::dvec3& center, double factor, double low,
                   double high);
 
-inline constexpr double kScaleRange = 1e3; ///< largest factor between the scale and home's
+inline constexpr double kScaleRange = 1e3; ///< largest factor between the scale and `home`'s
 
 inline constexpr double kLeastExaggeration = 0.01, kMostExaggeration = 1000;
 

@@ -14,7 +14,7 @@ namespace isochron::interaction {
 std::optional<glm::dvec3> teleport_target(const InputState& input);
 
 /// The viewer stays where the tracker says: to fly, turn or teleport, the volume moves the opposite
-/// way. Results are valid similarities; scaling keeps the scale within `kScaleRange` of home's.
+/// way. Results are valid similarities; scaling stays within a factor `kScaleRange` of the start.
 class Navigator {
   public:
     /// @param seconds since the last frame, for rates

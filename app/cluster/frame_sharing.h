@@ -52,7 +52,7 @@ class FrameSharing {
     virtual void staged() = 0;
     /// Why a process has no cells; empty when all is well.
     virtual std::string failure(const index::Extractor& extractor) const = 0;
-    /// Whether the newest query will not be answered.
+    /// Whether the newest query has failed, so that no answer will come.
     virtual bool has_no_answer(const index::Extractor& extractor) const = 0;
 
     /// Passes on the draw times of this process.

@@ -32,8 +32,8 @@ struct BuildArguments {
 
 /// Turns `run.h5:/fields/rho` into run.h5 with `--array /fields/rho`, and makes the first array the
 /// one that is read.
-/// @throws UsageError when `--array` is given as well, or options are of one array and there are
-///         several
+/// @throws UsageError when `--array` is given as well, or when there are several arrays and an
+///         option is for one only
 BuildArguments with_path_within(BuildArguments arguments);
 
 index::ReadOptions read_options(const BuildArguments& arguments);

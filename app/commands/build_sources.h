@@ -26,17 +26,17 @@ struct BuildSources {
     std::vector<std::string> notes; ///< on arrays that were left out
 };
 
-/// Files of values, or one index, also of an older file version.
+/// Opens files of values, or one index, which may have an older file version.
 /// @throws index::Error, UsageError
 BuildSources open_sources(const std::vector<std::filesystem::path>& files,
                           const BuildArguments& arguments);
 
-/// The same series for `build --append`, from the steps that an index has on.
-/// @throws index::Error when it has other arrays, or as `index::append_to`
+/// For `build --append`: leaves of each series only the steps that the index does not have yet.
+/// @throws index::Error when the index has other arrays, or as `index::append_to`
 void append_sources(BuildSources& sources, const std::shared_ptr<const index::IndexFile>& held,
                     const std::string& name);
 
-/// What was asked for, with the colors and further arrays of the sources, which outlive it.
+/// The options of the arguments, with the colors and further arrays of `sources`, which outlive it.
 index::BuildOptions build_options(const BuildArguments& arguments, const BuildSources& sources);
 
 } // namespace isochron::app

@@ -17,19 +17,19 @@ Config configure(const ExploreOptions& options);
 /// Warns of what is wrong with a configuration, or missing for it.
 void warn(const Config& config);
 
-/// Says so if the data lack the array that the configuration colors by.
+/// Warns if the data lack the array that the configuration colors by.
 void warn_of_colors(const Config& config, const index::IndexFile& file);
 
 /// @param steps of the whole series, of which the file may have the first only
 /// @throws UsageError when the session cannot start as it was asked to
 void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps);
 
-/// Reports now the errors in output paths that would otherwise show, or destroy a file, only when
-/// the session ends.
+/// Checks the paths of outputs, so that a wrong one does not show, or destroy a file, only at the
+/// end of the session.
 void check_outputs(const ExploreOptions& options, const ClusterJob& job);
 
-/// The session's state with the array that the options name instead of the first, and surfaces for
-/// the step that they name.
+/// The session's state as the options ask for it: showing the array that they name, if any, with
+/// first surfaces that suit the step that they name.
 /// @throws index::Error when the index lacks the array
 ExplorerState first_look(const Session& session, const ExploreOptions& options,
                          const Config& config, const std::shared_ptr<const index::IndexFile>& file);

@@ -13,16 +13,16 @@
 
 namespace isochron::app {
 
-/// Whether these are the name of one index, which is shown as it is. What is no index may still be
-/// a damaged one.
+/// Whether these name one index, to be shown as it is. A file called `.isochron` counts as one, as
+/// it may be a damaged index.
 bool is_index_name(const std::vector<std::string>& files);
 
-/// With the index to show, if one was given.
+/// The options, with `data` set if an index was given.
 /// @throws index::Error, UsageError
 ExploreOptions with_index(ExploreOptions options);
 
-/// Where files of values were given: makes their index, or goes on with one, in the user's cache
-/// folder; else null.
+/// If files of values were given: starts to make or complete their index in the user's cache
+/// folder; else returns null.
 /// @throws index::Error, UsageError when that cannot be, or the files cannot be opened
 std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const ClusterJob& job);
 
@@ -31,8 +31,8 @@ std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const Cl
 std::optional<std::string> wait_for_index(const Indexing& indexing, const stereo::Windows& windows,
                                           const ExploreOptions& options, const Config& config);
 
-/// What the user can be offered later to open these data; nothing: it takes options to read them,
-/// or they have no one name.
+/// The name to offer later among recent data; empty if it would not do: reading the data takes
+/// options, or several names.
 std::optional<std::string> name_to_remember(const ExploreOptions& options);
 
 /// The options for other data, without those that were meant for the first data only.

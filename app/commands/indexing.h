@@ -38,7 +38,7 @@ class Indexing {
     Indexing& operator=(const Indexing&) = delete;
 
     State state() const;
-    /// Waits until the files are open, or cannot be opened, but not for longer than this.
+    /// Waits until the files are open or opening has failed, at most this long.
     void wait_for_opening(std::chrono::milliseconds most) const;
     /// @throws what ended it, when it has failed
     void check() const;

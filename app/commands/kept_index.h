@@ -1,4 +1,4 @@
-// Indexes of data that were only to be looked at, in the user's folder for such things.
+// Indexes of data that the user only wants to look at; they are kept in the user's cache folder.
 #pragma once
 
 #include "app/commands/build_arguments.h"
@@ -10,10 +10,10 @@
 
 namespace isochron::app {
 
-/// Of all kept indexes together; the one in use stays however large it is.
+/// Most bytes of all kept indexes together; the one in use stays however large it is.
 constexpr std::uint64_t kMostKeptBytes = std::uint64_t{20} << 30;
 
-/// Who is told how the making of an index goes; all on the thread that makes it.
+/// Callbacks that report the progress of an index, called on the thread that makes it.
 struct KeptIndexReports {
     /// The files could be opened: a series of so many steps.
     std::function<void(std::size_t steps)> opened = {};
@@ -25,11 +25,11 @@ struct KeptIndexReports {
     index::Progress progress = {};
 };
 
-/// The index of these files, read with these options: one that is kept, as long as no file has been
-/// written to since it was made, or a new one. A small series is indexed as `isochron build` does
-/// it; of a large one only bricks are made, a few steps at a time, so that the first can be shown
-/// at once. One that was not finished is gone on with. Those that were not used for the longest
-/// time go where all take more than `most_bytes`.
+/// The index of these files, read with these options. A kept one is used if no file has been
+/// written to since it was made, and completed if it was not finished; else a new one is made. A
+/// small series is indexed as by `isochron build`; a large one gets bricks only, a few steps at a
+/// time, so that the first can be shown at once. If all kept indexes then take more than
+/// `most_bytes`, those that have not been used for the longest time are deleted.
 /// @param arguments their `out` is not used
 /// @param folder made where it is missing
 /// @throws index::Error as opening and building do

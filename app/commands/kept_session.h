@@ -12,7 +12,7 @@ namespace isochron::app {
 
 /// The content hash by which recordings and sessions name data: 16 hexadecimal digits.
 std::string data_hash_of(const index::IndexFile& file);
-/// `hash` itself if the data have it, or had it when they had fewer steps; else their hash now.
+/// `hash` if the data have it, or had it when they had fewer steps; else the data's hash now.
 std::string held_hash(const index::IndexFile& file, const std::string& hash);
 
 /// `path` if it exists; else the newest session file in its folder that was saved when these data

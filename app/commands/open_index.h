@@ -28,7 +28,7 @@ std::shared_ptr<const index::IndexFile>
 array_called(const std::shared_ptr<const index::IndexFile>& file,
              const std::optional<std::string>& name);
 
-/// Its number. @throws index::Error as `array_called`
+/// The number of an array. @throws index::Error as `array_called`
 std::size_t array_number(const index::IndexFile& file, const std::string& name);
 
 /// The names of its arrays.

@@ -41,7 +41,7 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
 /// The file name of these data, without its folder.
 std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header);
 
-/// The recording's data hash if these data do not have it and never had; else empty.
+/// The recording's data hash if these data neither have it now nor had it earlier; else empty.
 std::string other_data(const interaction::RecordingHeader& header, const index::IndexFile& file);
 
 /// @throws render::Error

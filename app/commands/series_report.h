@@ -1,4 +1,4 @@
-// What a series is, as text and as JSON: of an index, and of files that none was made of.
+// Describes a series as text and as JSON: the series of an index, or of files without an index.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -13,7 +13,7 @@ namespace isochron::app {
 std::string text_of(const index::SeriesInfo& info);
 nlohmann::ordered_json json_of(const index::SeriesInfo& info);
 
-/// All that files of values say, and the range of their first step, which is read for it.
+/// What the files say about their series, and the value range of its first step, which is read.
 /// @param name as the user gave it
 std::string source_text(const std::string& name, index::VolumeSeries& series);
 std::string source_json(const std::string& name, index::VolumeSeries& series);

@@ -60,7 +60,7 @@ struct Config {
     /// The part of a cell that a quad or splat stands for.
     render::CellShape cell_shape = render::CellShape::plane;
     double frame_budget_ms = 0; ///< [ms] for drawing a frame; 0: one period of the display
-    /// [ms] for drawing a picture that has come to rest, at once or in slices; 0: as any other.
+    /// [ms] for drawing a picture at rest, at once or in slices; 0: the same as for other frames.
     double still_budget_ms = 500;
     PlacementOptions placement;
     int upload_kilobytes_per_frame = 4096;        ///< most data of cells sent to the GPU per frame
@@ -72,11 +72,11 @@ struct Config {
     interaction::Look look;
     render::CellAppearance appearance; ///< light and material
     Blending blending = Blending::automatic;
-    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< whose ways cells are drawn in
+    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< a GPU's or a processor's ways
     int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
-    int picture_samples = 0; ///< likewise of pictures that are written; 0: 4, or more on displays
-    int cache_megabytes = 0; ///< what is kept of the index; 0: a quarter of what there may be
-    int mesh_megabytes = 96; ///< that the triangles of a set may take; 0: none are made
+    int picture_samples = 0;    ///< in written pictures; 0: 4, and no fewer than on the displays
+    int cache_megabytes = 0;    ///< most kept of the index; 0: a quarter of the usable memory
+    int mesh_megabytes = 96;    ///< most for the triangles of a set; 0: no triangles are made
     int most_cells = 8'000'000; ///< of a set; where there are more, coarser levels take their place
     bool level_of_detail = true; ///< coarser levels while too many cells move
     bool bounding_box = true;    ///< with ticks and numbers
@@ -88,7 +88,7 @@ struct Config {
 
     /// As IndexFile::open takes it.
     std::uint64_t cache_bytes() const { return std::uint64_t(cache_megabytes) << 20; }
-    /// Likewise SurfacesQuery.
+    /// As SurfacesQuery takes it.
     std::uint64_t mesh_room() const { return std::uint64_t(mesh_megabytes) << 20; }
 };
 

@@ -15,8 +15,8 @@ struct PlacementOptions {
 
 /// Plain data keep their axes (x right, y up, z towards the viewer). Anatomical data stand with the
 /// head up and face the viewer, so the patient's left is on the viewer's right. Data of the
-/// Earth have the sky above and are seen from the south. A flat slab is turned from there until its
-/// broad side is seen, from above if it lies. Never mirrors.
+/// Earth have the sky above and are seen from the south. If only the edge of a flat slab would be
+/// seen, it is then turned until its broad side is: a lying one is seen from above. Never mirrors.
 interaction::Similarity place(const index::SeriesInfo& info, const PlacementOptions& options = {});
 
 /// Distance between the first and the last vertex along each index axis, in physical units.

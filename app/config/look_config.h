@@ -10,12 +10,12 @@
 
 namespace isochron::app {
 
-/// Table `coloring`, with the color maps of the file that it names: beside the configuration, where
-/// its path is relative.
+/// Reads the table `coloring`, and the file of color maps that it names. The file's path may be
+/// relative to the folder of the configuration.
 /// @param name of the configuration's file
 void read_coloring(TomlReader& reader, const std::string& name, interaction::Coloring& coloring,
                    std::vector<LoadedColorMap>& color_maps);
-/// Table `look`.
+/// Reads the table `look`.
 void read_look(TomlReader& reader, interaction::Look& look);
 
 } // namespace isochron::app

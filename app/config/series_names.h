@@ -11,7 +11,7 @@ namespace isochron::app {
 
 /// Files whose names differ in one number.
 struct NamedSeries {
-    std::string pattern; ///< that only they match in their folder: `t[0-9]*.vti`
+    std::string pattern; ///< matches these and no other file of the folder: `t[0-9]*.vti`
     std::string first, last;
     std::size_t files = 0; ///< at least 2
 };
@@ -19,15 +19,15 @@ struct NamedSeries {
 /// The series among the names of a folder, in the order of their first names.
 std::vector<NamedSeries> series_among(std::span<const std::string> names);
 
-/// Said of files for which `one_name_of` has none.
+/// The message about files for which `one_name_of` finds no name.
 inline constexpr const char* kNoCommonName =
     "these files have no name in common that only they have: open one, or all of a folder";
 
-/// One name that stands for the files: that of a single one, or the pattern that, in their folder,
-/// only they match; nothing if there is none.
+/// One name that stands for all the files: the name of a single file, or a pattern that matches
+/// these and no other file of their folder; empty if there is none.
 std::optional<std::filesystem::path> one_name_of(std::span<const std::filesystem::path> files);
 
-/// A pattern of names as one that stands for the files of this folder.
+/// A pattern of file names, with the folder in front. Letters like `*` in the folder match as such.
 std::filesystem::path pattern_in(const std::filesystem::path& folder, const std::string& pattern);
 
 /// Whether a name is a pattern that may stand for several files.

@@ -69,7 +69,7 @@ class TomlReader {
     /// @return false when absent
     bool table(std::string_view key, const std::function<void(TomlReader&)>& read);
     bool tables(std::string_view key, const std::function<void(TomlReader&)>& read);
-    /// Either of them.
+    /// Reads a sub-table, or each table of an array.
     bool table_or_tables(std::string_view key, const std::function<void(TomlReader&)>& read);
 
     void finish() const;

@@ -15,14 +15,14 @@
 
 namespace isochron::app {
 
-/// One choice for all eyes and windows. Numbers of cells are chosen from few steps, and steps are
-/// left late, so that a set of cells is not asked for again for a little more or less.
+/// One choice for all eyes and windows. The number of cells is one of a few fixed ones, and small
+/// changes of the budget do not change it, so that new sets are not asked for all the time.
 class DetailChoice {
   public:
-    /// Moving pictures never have fewer than this because of their budget.
+    /// However small the budget, moving pictures may have at least this many cells.
     static constexpr std::uint64_t kFewest = 1 << 14;
-    /// Until a time has been measured: few, as a set that is too dear stays until the next one
-    /// comes.
+    /// Number before any time has been measured: small, as a set that takes too long to draw is
+    /// drawn until the next one comes.
     static constexpr std::uint64_t kAtFirst = 1 << 15;
     /// Volumes of at most this many cells are always shown as they are.
     static constexpr std::uint64_t kSmallVolume = 1 << 18;
@@ -33,15 +33,15 @@ class DetailChoice {
     /// Whether the volume is so small that nothing has to be chosen.
     bool small() const { return small_; }
     std::uint64_t most() const { return most_; }
-    /// Never more than this from now on: more could not be drawn.
+    /// From now on sets have at most this many cells: more could not be drawn.
     void limit(std::uint64_t most) {
         most_ = std::clamp(most, std::min(kFewest, most_), most_);
         small_ = false;
     }
 
-    /// The finest useful level of each region: the coarsest of which a voxel is at most a pixel, or
-    /// below 0 by how much larger voxels are. Regions that no view shows count as four times as far
-    /// away. 0 for all regions without views.
+    /// Finds the useful level of each region: log2 of the number of its voxels along a pixel, so
+    /// that a voxel of that level is a pixel; below 0 where voxels are larger. Regions that no view
+    /// shows count as four times as far away. Without views, every level will be 0.
     void look(std::span<const render::View> views, const render::Placement& placement);
 
     /// For a picture that changes. The number of cells grows by one step at a time, once the last

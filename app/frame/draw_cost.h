@@ -16,7 +16,7 @@ struct DrawLoad {
 
 /// `time = a * pixels + b * cells` with a, b >= 0, fitted to the measurements by weighted least
 /// squares in which older ones weigh less. If the measurements cannot tell the two parts apart
-/// (all have one load), each part gets half.
+/// (all have the same load), each part gets half of the time.
 class DrawCost {
   public:
     void add(const DrawLoad& load, Milliseconds time);

@@ -44,8 +44,8 @@ struct ExplorerState {
     /// @return false when a value was refused
     bool apply(const interaction::Commands& commands, std::size_t held);
 
-    /// As `apply`, for what a recording, a session or a picture kept of a whole state. What earlier
-    /// versions kept has no look, and is drawn as they drew it: without occlusion.
+    /// As `apply`, for a whole state from a recording, a session or a picture. Earlier versions did
+    /// not store the look: their states are drawn without occlusion, as those versions drew them.
     bool resume(const interaction::Commands& kept, std::size_t held);
 
     /// Number of steps that the user can choose from. @param held number of steps of the index
@@ -64,7 +64,7 @@ struct ExplorerState {
     bool operator==(const ExplorerState&) const = default;
 };
 
-/// The quantile: `share` of all values are at most this one, up to a bin of the histogram.
+/// The quantile of all values, to within a bin of the histogram: `share` of them are at most this.
 /// @param share 0 to 1
 double quantile(const index::IndexStats& stats, double share);
 

@@ -44,8 +44,8 @@ class FrameLog {
         std::uint64_t frames = 0, as_surface = 0; ///< as mesh or exact surface
     };
     Moving moving() const;
-    /// How often the picture came to rest, and how long after the last frame that moved the exact
-    /// surface was shown, where it was.
+    /// How often the picture came to rest, and for the rests with an exact surface the time from
+    /// the last moving frame until it was shown.
     struct Rests {
         std::uint64_t count = 0;
         std::vector<double> exact_after; ///< [ms]

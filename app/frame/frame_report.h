@@ -30,11 +30,11 @@ struct FrameReport {
     std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
     std::optional<Milliseconds> gpu;      ///< of this frame; known some frames later
     unsigned missed = 0;                  ///< refreshes of the display missed before this frame
-    std::optional<render::Footprint> in_slices; ///< the picture at rest that is made of slices
+    std::optional<render::Footprint> in_slices; ///< of the picture at rest in slices, if any
     bool redrawn = true;                        ///< false: nothing that the eyes see had changed
     std::uint64_t cells = 0;                    ///< drawn
     unsigned finest = 0, coarsest = 0;          ///< levels of detail that they are of
-    std::optional<std::uint64_t> volume_cells;  ///< active ones of level 0; empty: not counted
+    std::optional<std::uint64_t> volume_cells;  ///< active cells of level 0, if counted
     std::uint64_t candidates = 0; ///< cells that the search returned before the exact test
     std::uint64_t reused = 0;     ///< candidates that incremental search took from the last set
     std::string refused;          ///< why the newest cells are not shown; empty: they are

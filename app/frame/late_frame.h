@@ -7,7 +7,7 @@
 
 namespace isochron::app {
 
-/// Frames count as late from more than so many budgets on.
+/// A frame is late if it takes more than this many budgets.
 inline constexpr double kLate = 2;
 
 /// Whether a frame took more than `kLate` budgets. Frames without a budget never are late.

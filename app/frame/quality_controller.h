@@ -77,9 +77,9 @@ struct QualityChoice {
 ///   16 frames once the footprint has lasted 256 frames.
 /// A footprint is not tried if it may take longer than `kDearestTrial` (while moving: than the
 /// budget; beside slices: see `kDearestBesideSlices`), judged by its earlier times at other loads,
-/// or by a multiple of the time of quads. Its earlier times fall with those of quads, so that they
-/// do not outlast the load of other programs; and one that failed by less than three budgets counts
-/// half after each 2048 frames, so that it is tried again.
+/// or by a multiple of the time of quads. If quads get faster, so do its earlier times, as other
+/// programs may have slowed both down. If it failed by less than three budgets, its times are
+/// halved every 2048 frames, so that it is tried again.
 /// So one load causes few frames over the budget, at least 16 frames lie between a step down and a
 /// step up, and a footprint that fits is back after at most 2048 settled frames.
 class QualityController {

@@ -1,4 +1,4 @@
-// How much of a picture that is drawn over several frames is drawn in each of them.
+// How much to draw in each frame of a picture that is drawn in slices, over several frames.
 #pragma once
 
 #include "app/frame/milliseconds.h"
@@ -7,12 +7,12 @@
 
 namespace isochron::app {
 
-/// Each frame has several pieces of work, each of which is as large as the time of the last one
-/// allows, and at least one. So a frame takes longer than its time only if work becomes much
-/// dearer from one piece to the next: no piece has more than twice the work of the one before.
+/// Each frame draws one or more pieces. A piece is meant to take a quarter of a frame's time,
+/// judged by the last piece, and has at most twice its work. So a frame takes longer than it may
+/// only if the same work suddenly takes much longer than in the piece before.
 class SlicePace {
   public:
-    static constexpr std::size_t kFirst = 1024, kLeast = 256; ///< work
+    static constexpr std::size_t kFirst = 1024, kLeast = 256; ///< units of work
 
     /// @param each time that a frame may take
     explicit SlicePace(Milliseconds each) : each_(each) {}
@@ -20,7 +20,7 @@ class SlicePace {
     void begin_frame();
     /// Work of the next piece in this frame; 0: the frame has had its time.
     std::size_t next() const;
-    /// Adds a piece. @param work 0: it was something else
+    /// Adds the time of a piece. @param work 0: the time was spent on something else
     void took(std::size_t work, Milliseconds time);
 
     /// Time of all pieces.

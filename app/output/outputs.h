@@ -29,7 +29,7 @@
 
 namespace isochron::app {
 
-/// The viewers of one frame, how they look, and their things that stand in the room.
+/// The viewers of one frame, how they are shown the scene, and what of theirs is in the room.
 struct Audience {
     std::vector<stereo::ViewerPose> viewers; ///< by number
     std::vector<stereo::HeadsetEye> eyes;    ///< of a headset that wants a picture
@@ -107,8 +107,8 @@ class Outputs {
     /// Keeps the left side of the first window free for the panel over it, if all of its screens
     /// adapt to the shape of the rest. @param pixels width in each eye's part
     void leave_free(int pixels);
-    /// Shows what is at the left of the first window's screens, in the same case.
-    /// @param share of the width of each eye's part
+    /// Widens the views of the first window to the left, for a panel there, in the same case.
+    /// @param share of each eye's width that shows what lies to the left of the screen
     void show_aside(float share);
 
     /// Draws each eye's picture.
@@ -122,15 +122,15 @@ class Outputs {
         std::size_t window = 0, viewport = 0;
         bool begins = true; ///< nothing has been drawn for this viewport
     };
-    /// Draws a part of what is missing in a viewport. @return whether that is whole now
+    /// Draws a part of what a viewport still lacks. @return whether it is complete now
     using SliceScene = std::function<bool(const ScenePlace&, std::span<const render::View>)>;
-    /// Draws some more of a picture beside the one that is shown, for the audience of the last
-    /// frame. There must be no headset, and windows as large as in the last frame.
-    /// @param place advances
-    /// @return whether the pictures of all windows are whole
+    /// Draws the next slice of a new picture, while the old one stays on show, for the audience of
+    /// the last frame. There must be no headset, and windows as large as in the last frame.
+    /// @param place where this slice belongs; becomes the place of the next one
+    /// @return whether the pictures of all windows are complete
     /// @throws render::OutOfMemory as `draw`
     bool draw_slice(SlicePlace& place, const SliceScene& scene);
-    /// Shows that picture.
+    /// Shows the picture that was drawn in slices.
     void show_slices(const Overlay& overlay);
     /// Keeps each eye's last picture, and draws a new overlay.
     void draw_again(const Audience& audience, const Overlay& overlay);

@@ -19,7 +19,7 @@ class FileWindow {
     bool is_open() const { return shown_; }
 
     /// Lays the window out in the current Dear ImGui frame, in the middle of the picture.
-    /// @return the data that the user has chosen, the pattern of a series among them; then the
+    /// @return the data that the user has chosen, which may be the pattern of a series; then the
     /// window closes
     std::optional<std::filesystem::path> draw();
 

@@ -26,7 +26,7 @@ enum class PanelPlace : std::uint8_t {
     in_room ///< in the room; it shows only what is the same on every wall and in every replay
 };
 
-/// What the panel can have a movie made of, and what becomes of the one that is being made.
+/// What the user wants: a movie of something, or to give up the one that is being made.
 enum class MovieWish : std::uint8_t {
     recording, ///< of this session, so far
     series,    ///< all steps, as they are seen now
@@ -47,7 +47,7 @@ struct PanelModel {
     std::span<const std::string> arrays = {};       ///< names, of those with surfaces
     std::size_t array = 0;                          ///< the one that is asked for
     std::span<const std::string> color_arrays = {}; ///< names, of those to color by
-    std::size_t color_array = 0;                    ///< the one that colors stand for, or would
+    std::size_t color_array = 0;                    ///< whose values are the colors, or would be
     std::function<interaction::Commands(std::size_t)> way_to_array; ///< shows an array, by number
     std::array<double, 2> scale_range{};                            ///< of the color scale
     std::span<const LoadedColorMap> color_maps = {};                ///< of the configuration

@@ -7,7 +7,7 @@
 
 namespace isochron::app {
 
-/// How many cells there are, and how many are drawn where these are of other levels of detail.
+/// The number of active cells, and of those drawn instead if these are of coarser levels.
 std::string words_for_cells(const FrameReport& frame);
 /// Figures of the shown cells, of reading and of the last frames.
 void measurements(const PanelModel& model);

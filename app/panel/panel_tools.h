@@ -24,7 +24,7 @@ std::optional<MovieWish> movie_section(const PanelModel& model);
 /// @param age of the message
 void message_window(const std::string& standing, const std::string& message,
                     interaction::Seconds age);
-/// How far something is that is waited for, in the middle of the picture.
+/// The progress of something that the user waits for, in the middle of the picture.
 /// @param fraction 0 to 1
 void progress_window(const std::string& name, const std::string& line, float fraction);
 /// The question whether to leave the program, in the middle of the picture.

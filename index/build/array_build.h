@@ -14,7 +14,7 @@
 
 namespace isochron::index {
 
-/// How long the build of an array takes, in bytes that are read.
+/// The work of building an array, in bytes to read.
 struct ArrayWork {
     double reading = 0, indexing = 0;
 };
@@ -33,7 +33,7 @@ class ArrayBuild {
     ArrayWork work() const;
     /// What the pass over the sources has to do with this array. Valid as long as this.
     ArrayPass pass();
-    /// @return false if appending would give cells whose levels lack values
+    /// @return false if it cannot be appended to: its cells' levels lack values of the new steps
     bool take(VolumeFindings found);
     /// @return the end of the file with these tiers, a multiple of 64
     std::uint64_t write_tiers(std::uint64_t end, const Progress& progress);

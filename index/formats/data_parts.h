@@ -1,4 +1,4 @@
-// Values that several files hold, each the same share: lists and patterns of MetaImage and NRRD.
+// Values spread evenly over several files: the lists and patterns of MetaImage and NRRD.
 #pragma once
 
 #include "index/formats/data_stream.h"
@@ -21,8 +21,8 @@ struct DataPart {
 std::unique_ptr<DataStream> open_parts(std::vector<DataPart> parts, std::uint64_t bytes_each,
                                        Compression compression);
 
-/// The files of a pattern: `slice%03d.raw 1 64 1`, name, first and last number, and step, where it
-/// is not 1. @param file that has it, for messages @throws Error: no such pattern, too many files
+/// The files of a pattern such as `slice%03d.raw 1 64 1`: name, first and last number, and step (1
+/// if absent). @param file with the pattern, for messages @throws Error: not one, too many files
 std::vector<std::string> numbered_names(const std::string& pattern, const std::string& file);
 
 /// Whether a text is a pattern for `numbered_names`.

@@ -9,9 +9,9 @@ namespace isochron::index {
 using OpenFormat = std::unique_ptr<VolumeFile> (*)(const std::filesystem::path&,
                                                    const ReadOptions&);
 
-/// The format that the end of the name says, in any case of letters. If it says none, the first
-/// bytes do, for HDF5, NetCDF, NRRD and VTK's legacy files: simulations write such files under
-/// names without an extension. DICOM is told by `is_dicom`.
+/// The format by the name's extension, in upper or lower case. If that is not known, HDF5, NetCDF,
+/// NRRD and VTK's legacy files are recognized by their first bytes, as simulations write them under
+/// names without an extension. `is_dicom` recognizes DICOM.
 /// @param path of a file, or of the file that describes a Zarr folder
 /// @return null: unknown, or it cannot be read
 OpenFormat format_of(const std::filesystem::path& path);

@@ -13,8 +13,8 @@ namespace isochron::index {
 /// Collects differences at places of the source.
 class Misfit {
   public:
-    /// A value that is not finite does not count; one that is, without a finite counterpart, only
-    /// widens the range.
+    /// Does nothing if the value is not finite. If only the interpolated one is not, the value
+    /// counts for the range alone.
     void add(double value, double interpolated) {
         if (!std::isfinite(value))
             return;
@@ -28,8 +28,8 @@ class Misfit {
         ++count_;
     }
 
-    /// `0.5 % of the values' range off at most, 0.1 % on the whole`: the latter is the root of the
-    /// mean square.
+    /// `0.5 % of the values' range off at most, 0.1 % on the whole`: the largest difference, and
+    /// the root mean square.
     std::string text() const {
         const double range = std::max(high_ - low_, 1e-300);
         const double mean = count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0;

@@ -1,4 +1,4 @@
-// Names with numbers, by which users put files in order.
+// Names with numbers that give files an order.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ NumberedName taken_apart(const std::string& name);
 /// Which numbers differ among names with the same texts; empty if texts differ.
 std::vector<std::size_t> varying_numbers(std::span<const NumberedName> names);
 
-/// What a user should know of a series whose files give no times, if the one number that differs in
-/// their names leaves some out: `t_1.vti t_2.vti t_4.vti`. It is a sentence, or nothing.
+/// A note for the user, one sentence, if files without times differ in one number of their names
+/// and some numbers are missing: `t_1.vti t_2.vti t_4.vti`. Else empty.
 /// @param files in the order of their steps, one each
 std::optional<std::string> note_on_missing(std::span<const std::filesystem::path> files);
 

@@ -21,7 +21,7 @@ std::string_view take_line(std::string_view text, std::size_t& at);
 struct HeaderField {
     std::string key, value;
 };
-/// None without the separator.
+/// Empty if the line has no separator.
 std::optional<HeaderField> field_of(std::string_view line, char separator);
 
 /// A text as quoted in a message; of a long text only the beginning.

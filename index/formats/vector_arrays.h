@@ -10,12 +10,12 @@
 
 namespace isochron::index {
 
-/// The two or three names in `u,v,w`; empty where it is none such.
+/// The two or three names in `u,v,w`; empty for any other text.
 std::vector<std::string> names_in_list(const std::string& array);
 
-/// Opens the arrays that are a vector's components along x, y and z. Those of a staggered grid, one
-/// vertex longer along an axis than the others, become the means of neighbors along it: they lie
-/// between the vertices then, where the others are.
+/// Opens the arrays that are a vector's components along x, y and z. On a staggered grid a
+/// component has one vertex more along an axis than the others. Neighbors along it are averaged,
+/// which gives values where the other components lie.
 /// @param open an array by its name @throws Error when their shapes or times differ otherwise
 std::vector<std::unique_ptr<VolumeSeries>>
 open_components(const std::vector<std::string>& names,

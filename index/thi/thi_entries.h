@@ -25,10 +25,10 @@ struct ThiOptions {
 /// over time as the paper does can share them.
 class ThiEntries {
   public:
-    /// Every cell becomes an entry, with its temporal extremes, of the highest time nodes over
-    /// whose span its points occupy at most `max_variation` elements; steps at which it has a NaN
-    /// vertex give no point. It is left out of nodes at which it cannot be active, since its
-    /// extremes are equal at every step of the span. An entry takes 12 bytes.
+    /// Every cell becomes an entry, with its temporal extremes, of the highest time nodes in whose
+    /// span its points lie in at most `max_variation` lattice elements; steps with a NaN vertex
+    /// give no point. Nodes whose span has only steps at which the cell's two extremes are equal do
+    /// not get it, since it cannot be active there. An entry takes 12 bytes.
     /// @param progress called from the calling thread only
     /// @throws Error when an option is out of its range, or there is no step
     ThiEntries(const StepValues& values, const ThiOptions& options, const Progress& progress,

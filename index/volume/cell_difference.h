@@ -88,8 +88,8 @@ class CellDifferences {
           dz_(z, grid_.vertices[2], slice_),
           first_(values.step<T>(step).data() + y * row_ + z * slice_) {}
 
-    /// Four times the mean of the eight vertices' differences along every axis, per even
-    /// coordinate.
+    /// Four times the mean, over the eight vertices, of the difference along each axis, per unit of
+    /// even coordinates.
     glm::dvec3 operator()(std::uint32_t x) const {
         return regular_ ? sums(x, AxisTaps(x, nx_, 1), dy_, dz_) : uneven_sums(x);
     }
@@ -139,7 +139,7 @@ inline glm::dmat3 normal_from_difference(const StepValues& values) {
 }
 
 /// The matrix divided by its largest entry, so that its results keep their direction.
-/// @param smallest_column gets the least, over the columns, of a column's largest entry after that
+/// @param smallest_column set to the least, over the result's columns, of their largest entries
 inline glm::dmat3 scaled_to_one(glm::dmat3 matrix, double& smallest_column) {
     double largest = 0;
     smallest_column = std::numeric_limits<double>::infinity();

@@ -32,7 +32,7 @@ struct PoseFilterLimits {
     bool operator==(const PoseFilterLimits&) const = default;
 };
 
-/// How many samples have met which fate so far.
+/// How many samples have been refused or believed so far, and why.
 struct PoseFilterCounts {
     std::uint64_t accepted = 0;
     std::uint64_t not_a_pose = 0; ///< see `is_pose`

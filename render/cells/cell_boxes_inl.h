@@ -46,18 +46,18 @@ HWY_INLINE V3 scaled(const V3& v, const V3& by) {
     return {hn::Mul(v.x, by.x), hn::Mul(v.y, by.y), hn::Mul(v.z, by.z)};
 }
 
-/// Of the boxes of a regular grid: the same along each axis.
+/// Sides of the boxes of a regular grid: one size for all axes.
 struct EvenSides {
     V size;
     HWY_INLINE V largest() const { return size; }
     /// From voxels to even coordinates.
     HWY_INLINE V3 stretched(const V3& v) const { return scaled(v, {size, size, size}); }
-    /// The half axes of a shape of this radius, and what a vector is for them in its form.
+    /// Half axes of a shape of this radius, and a vector in the units that these are in.
     HWY_INLINE V half_axes(float radius) const { return hn::Mul(hn::Set(Floats(), radius), size); }
     HWY_INLINE V3 in_form(const V3& v) const { return v; }
 };
 
-/// Of the boxes of a rectilinear grid: half axes are in voxels.
+/// Sides of the boxes of a rectilinear grid: half axes are in voxels.
 struct UnevenSides {
     V3 size;
     HWY_INLINE V largest() const { return hn::Max(size.x, hn::Max(size.y, size.z)); }
@@ -66,7 +66,7 @@ struct UnevenSides {
     HWY_INLINE V3 in_form(const V3& v) const { return scaled(v, size); }
 };
 
-/// As in cell_box.glsl.
+/// Boxes of cells, as in cell_box.glsl.
 template <class Sides>
 struct Boxes {
     V3 center;

@@ -30,7 +30,7 @@ class CellCompute {
     void place_cells(const SlotPlan& plan, const index::Extraction& set, const DeviceArray& message,
                      const DeviceArray& points) const;
 
-    /// Gives every point of the set its style.
+    /// Gives every point of the set its style, see index::CellPoint.
     /// @param styles by slot, two per word. If the set has no colors, `styles` is not read and all
     /// color coordinates become 0.
     void set_styles(const index::Extraction& set, const DeviceArray& styles,

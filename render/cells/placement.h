@@ -14,12 +14,12 @@
 namespace isochron::render {
 
 struct Placement {
-    /// Affine, from even coordinates (`index::Grid::physical_from_index`): those of vertices'
-    /// indices where the grid is regular. May mirror.
+    /// Affine, from even coordinates (see `index::Grid::physical_from_index`), which on a regular
+    /// grid are vertex indices. May mirror.
     glm::mat4 room_from_index{1.0f};
     glm::mat3 room_from_physical{1.0f}; ///< linear part
     glm::vec3 extent{1.0f};             ///< the volume spans [0, extent] in even coordinates
-    std::optional<index::Grid> rectilinear = {}; ///< the grid if it is
+    std::optional<index::Grid> rectilinear = {}; ///< the grid, if rectilinear
 
     /// Mean size of the voxels in the room [m].
     glm::vec3 spacing() const {

@@ -37,7 +37,7 @@ inline constexpr std::size_t kColorMapSize = 256;
 /// still show their shape before a dark background.
 std::vector<glm::vec3> color_map(ColorMap map);
 
-/// Colors at equal distances from low to high as the map's own kColorMapSize, straight in L*a*b*.
+/// A map of kColorMapSize colors, interpolated in L*a*b* between these, which are evenly spaced.
 /// @param colors linear light, at least one
 std::vector<glm::vec3> color_map_between(const std::vector<glm::vec3>& colors);
 

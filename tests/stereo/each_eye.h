@@ -8,8 +8,8 @@
 
 namespace isochron::stereo {
 
-/// Draws a frame in which `scene(view, eye)` draws one eye after the other, each led to its
-/// viewport.
+/// Draws a frame: calls `scene(view, eye)` for one eye after the other, with the GL viewport set to
+/// that eye's.
 template <class Scene>
 void draw_each_eye(const render::Gl& gl, Display& display, const interaction::Pose& head,
                    float eye_separation, StereoMode mode, Scene scene,

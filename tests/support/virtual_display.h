@@ -28,7 +28,7 @@ class VirtualDisplay {
     void drop_file(const std::string& title, const std::string& path) const;
     /// The server is killed, and the connections of all programs to it are cut.
     void die();
-    /// What programs that start from now on are told of its resolution (Xft.dpi).
+    /// Sets the resolution that programs which start from now on are told (Xft.dpi).
     void set_dots_per_inch(int dots) const;
     /// Red, green and blue of a pixel on the display, (0, 0) at the top left.
     std::array<int, 3> pixel(int x, int y) const;

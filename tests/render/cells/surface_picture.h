@@ -14,7 +14,7 @@
 
 namespace isochron::render {
 
-/// A volume about the room's origin that a sphere of radius 1 just holds.
+/// Places the volume around the room's origin so that it just fits into a sphere of radius 1.
 Placement placed_at_origin(const index::Grid& grid,
                            const glm::dmat4& room_from_physical = glm::dmat4(1.0));
 

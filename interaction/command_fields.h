@@ -27,10 +27,10 @@ struct Field {
     const char* key;
     double low = -kAnyNumber, high = kAnyNumber; ///< range of a number, or of each number of a list
     std::size_t least = 0, most = kLongestText;  ///< items of a list, or bytes of a text
-    const char* old_key = nullptr;               ///< what recordings of older versions say
-    bool undone = true;                          ///< changes of a setting can be taken back
-    bool may_lack = false; ///< recordings of older versions do without: then it is as by default
-    bool dragged = false;  ///< changes that follow one another closely are one, of a setting
+    const char* old_key = nullptr;               ///< the key in recordings of older versions
+    bool undone = true;                          ///< changes of the setting can be undone
+    bool may_lack = false; ///< older recordings may lack it: then it has its default
+    bool dragged = false;  ///< changes in quick succession are undone as one
 };
 
 template <class T, class Record>

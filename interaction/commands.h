@@ -68,7 +68,7 @@ inline constexpr std::size_t kMostMapColors = 256;
 struct Coloring {
     ColorBy by = ColorBy::surface;
     std::string map = "viridis"; ///< a color map's name
-    /// Values at the ends of the map, ascending; all that occur in the series when there is none.
+    /// Values at the ends of the map, ascending; empty: the range of the series, or `percentiles`.
     std::optional<std::array<double, 2>> range = {};
     bool reversed = false;
     std::uint32_t bands =
@@ -77,8 +77,8 @@ struct Coloring {
     /// Of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none: the
     /// program knows the map by its name.
     std::vector<std::uint32_t> colors = {};
-    /// Where there is no `range`: it goes from one of these percentiles of the values on the shown
-    /// surfaces to the other, 0 to 100, ascending; nothing: see `range`.
+    /// If `range` is empty: the map goes from one of these percentiles of the values on the shown
+    /// surfaces to the other, 0 to 100, ascending. Empty: the range of the series.
     std::optional<std::array<double, 2>> percentiles = {};
     /// Name of the array of `value`; empty: the one that the index carries for colors, or else its
     /// first that is not the surfaces'.

@@ -1,4 +1,4 @@
-// What a look comes to: light, materials and what is behind the data.
+// Applies the user's look to a picture: materials, background and labels that suit it.
 #pragma once
 
 #include "app/scene/axes.h"
@@ -10,14 +10,14 @@
 
 namespace isochron::app {
 
-/// Sets how surfaces shine and what is dark on them. @param configured as the configuration lights
+/// Sets shine and ambient occlusion of surfaces. @param configured appearance as configured
 void set_look(render::CellAppearance& appearance, const render::CellAppearance& configured,
               const interaction::Look& look);
 
-/// Nothing where the picture's own color, that of the configuration, is behind the data.
+/// Empty if the background is the one color of the configuration.
 std::optional<render::BackgroundColors> background_of(const interaction::Look& look);
 
-/// As they are read on a light background.
+/// Makes ticks, numbers and titles dark, as a light background needs.
 void darken(Axes& axes);
 
 } // namespace isochron::app

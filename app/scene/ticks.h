@@ -16,9 +16,9 @@ struct Ticks {
 /// graph labels", Graphics Gems, 1990; none for an empty or infinite range.
 Ticks nice_ticks(double low, double high, int most);
 
-/// Powers of ten in [low, high], both above 0, and where there are few of them their double and
-/// fivefold, or else every second, third ... of them, so that there are at most `most`; `step` is
-/// that of the smallest.
+/// Logarithmic ticks in [low, high], both above 0; at most `most`. 1, 2 and 5 times each power of
+/// ten if these are few enough, else the powers of ten alone, or every second or third of them.
+/// `step` is the smallest tick.
 Ticks logarithmic_ticks(double low, double high, int most);
 
 /// The number with the digits that its neighbors need: `0.2`, `1500`, `2.5e-07`; never `-0`.

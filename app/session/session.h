@@ -60,7 +60,7 @@ class Session {
     /// Commands that show an array as it was left, or as at a first look.
     /// @param number as `index::IndexFile::array` takes it
     interaction::Commands way_to_array(std::size_t number) const;
-    /// How arrays that are not shown were left, and the same again, as `SavedSession` has it.
+    /// For `SavedSession`: how arrays that are not shown were left; `recall_arrays` sets it again.
     std::vector<interaction::Commands> left_arrays() const;
     void recall_arrays(const std::vector<interaction::Commands>& left);
     /// @param name of an array of the surfaces; empty: the first
@@ -108,15 +108,15 @@ class Session {
     /// Sets the time between two pictures of a headset that paces the frames; empty: none does.
     void set_headset_period(std::optional<interaction::Seconds> period);
 
-    /// Shows the last of these on the panel until there is a newer one.
+    /// Shows the last of these messages on the panel until there is a newer one.
     void show_messages(std::vector<std::string> messages);
     /// Shows this on the picture as long as it is not empty.
     void set_standing(std::string note) { standing_ = std::move(note); }
     void say_refused(const index::ExtractionPtr& set, FrameReport& report);
     void set_recording(bool recording) { recording_ = recording; }
-    /// What the panel says of movies from now on.
+    /// Sets what the panel shows about movies from now on.
     void set_movies(const MovieState& movies) { movies_ = movies; }
-    /// Of the steps that are known.
+    /// Times of the known steps.
     std::span<const double> times() const { return times_; }
 
     /// Sets the file name of the data, for the notes in pictures.
@@ -140,7 +140,7 @@ class Session {
     index::ReadUse reading() const { return file_->reading(); }
 
   private:
-    /// Of a window's width, that the panel in the room has where the head is emulated.
+    /// Share of a window's width for the panel in the room, if the head is emulated.
     static constexpr float kPanelShare = 0.4f;
 
     /// Everything that the eyes' pictures depend on.
@@ -161,21 +161,21 @@ class Session {
         bool bounding_box = true;
         std::vector<glm::ivec2> windows;
         int free = 0;    ///< pixels at the left of the first one
-        float aside = 0; ///< of its width, see Outputs::show_aside
+        float aside = 0; ///< share of width, see Outputs::show_aside
         bool operator==(const Picture&) const = default;
     };
 
-    /// A picture that is drawn over several frames, as far as it is.
+    /// A picture that is drawn over several frames, and how far it has come.
     struct Slices {
         Slices(const Picture& wanted, Milliseconds each_frame)
             : picture(wanted), pace(each_frame) {}
         Picture picture;
         SlicePace pace;
         Outputs::SlicePlace place;
-        std::size_t done = 0; ///< work, of the place's cells
+        std::size_t done = 0; ///< units of work done at `place`
     };
 
-    /// What shows where somebody points.
+    /// Things that show where somebody points.
     struct Aids {
         std::optional<interaction::Pose> wand;
         std::optional<interaction::Pointed> pointed;
@@ -245,7 +245,7 @@ class Session {
     ExplorerState home_;
     interaction::Commands start_; ///< commands that lead back to home_
     std::vector<std::string> array_names_, color_names_;
-    /// At the first look at each array but the first.
+    /// The surfaces at the first look at an array, for each array but the first.
     std::vector<std::vector<interaction::Isosurface>> first_surfaces_;
     /// How arrays that were shown before were left, by number.
     std::map<std::size_t, interaction::Commands> left_;
@@ -259,7 +259,7 @@ class Session {
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     std::optional<Picture> drawn_;        ///< last picture
     std::optional<Slices> slices_;        ///< the next one, if it is made in slices
-    Aids over_;                           ///< drawn over it, where that is done
+    Aids over_;                           ///< drawn over the last picture, if they are
     OperatorPanel panel_;
     PanelInRoom room_panel_;
     Picker picker_;
@@ -278,7 +278,7 @@ class Session {
     std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
     index::DetailQuery detail_;                      ///< of the sets that are asked for
     interaction::Seconds constant_since_{0};         ///< when the eyes last saw something change
-    bool comes_in_slices_ = false;                   ///< nothing but slices is drawn of the newest
+    bool comes_in_slices_ = false;                   ///< the newest picture is drawn in slices only
     bool rests_ = false;                             ///< the set for pictures at rest may be drawn
     bool mesh_wanted_ = false;                       ///< by the last frame's choice of quality
     bool recording_ = false;

@@ -8,7 +8,7 @@
 
 namespace isochron::index {
 
-/// For an index that is shown while the steps behind them are still to be read.
+/// For an index that is shown while the later steps are still to be read.
 class FirstSteps final : public VolumeSeries {
   public:
     /// @param whole outlives this @param steps of it, at least 1 and no more than it has

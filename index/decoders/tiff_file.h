@@ -35,16 +35,16 @@ class TiffFile {
     TiffFile& operator=(TiffFile&&) = delete;
 
     const std::string& name() const { return name_; }
-    /// Of the first page.
+    /// Shape of the first page.
     const TiffShape& shape() const { return shape_; }
     const std::string& description() const { return description_; }
-    /// Pixels along x and y for each unit of length, 0: not said; and whether that is an inch or a
-    /// centimeter, none: whatever the description says.
+    /// Pixels for each unit of length along x (axis 0) or y (axis 1); 0 if the file does not give
+    /// it. The description may say what the unit is.
     double resolution(int axis) const { return resolution_[axis]; }
-    /// Pages in their order, without thumbnails and masks. ImageJ describes one and appends the
-    /// values of all others.
+    /// Number of pages, without thumbnails and masks. Of a large stack ImageJ describes only the
+    /// first page, and appends the values of the others: see `take_appended`.
     std::size_t pages() const { return offsets_.size(); }
-    /// ImageJ's way: the first page's values go on for so many pages. @throws Error: too short
+    /// Takes the values after the first page as further pages. @throws Error: the file is too short
     void take_appended(std::size_t pages);
 
     /// The values of one page as they are stored, in the machine's byte order.

@@ -21,9 +21,9 @@ inline constexpr std::array<const char*, 2> kGhostFlags{"vtkGhostType", "vtkGhos
 /// which values may be missing.
 std::vector<StoredArray> without_flags(std::vector<StoredArray> arrays);
 
-/// One number for each tuple of the chosen array, not 0 where a flag hides it; empty where an image
-/// has no flags. Values at vertices are hidden where a point is, where all cells around it are, and
-/// at every corner of a cell that would not be hidden by that.
+/// One number for each tuple of the chosen array, not 0 if a flag hides it; empty if the image has
+/// no flags. A vertex is hidden if its own point is flagged, or all cells around it are. If a
+/// flagged cell would then still have no hidden vertex, all its vertices are hidden.
 /// @param image with its arrays of flags read
 std::vector<std::uint8_t> hidden_by_flags(vtkDataSet& image, const ChosenScalar& chosen,
                                           const Grid& grid);

@@ -17,20 +17,20 @@ namespace isochron::index {
 /// https://zarr-specs.readthedocs.io/en/latest/v3/core/, sharding codec included.
 class ZarrArray {
   public:
-    /// @param path in the store, empty for its root; none where no array is there
-    /// @throws Error naming store and array: damaged, or with what is not known here
+    /// @param path in the store; empty for its root @return empty if there is no array
+    /// @throws Error naming store and array: damaged, or it uses a feature that is not supported
     static std::optional<ZarrArray> open(const ZarrStore& store, const std::string& path);
 
     const std::string& path() const { return path_; }
-    /// none: of a type that no volume can have
+    /// The type of the values; empty if no volume can have it.
     std::optional<StoredType> type() const { return type_; }
     const std::vector<std::uint64_t>& shape() const { return shape_; }
-    /// Values along each dimension of what is decoded at a time.
+    /// Number of values along each dimension of a chunk, or, if chunks are shards, of its parts.
     const std::vector<std::uint64_t>& chunk() const { return inner_.empty() ? chunk_ : inner_; }
-    /// Of the dimensions, where it says them; else empty.
+    /// Names of the dimensions; empty if the array does not give them.
     const std::vector<std::string>& names() const { return names_; }
     const nlohmann::json& attributes() const { return attributes_; }
-    /// Whether files hold the chunks as they are, so that parts of one are read alone.
+    /// Whether files hold the chunks as they are in memory, so that a part can be read alone.
     bool plain() const {
         return inner_.empty() && pipeline_.codecs.empty() && pipeline_.order.empty() &&
                !pipeline_.big_endian;
@@ -42,7 +42,7 @@ class ZarrArray {
               std::span<std::byte> out);
 
   private:
-    /// What makes values of the bytes of a chunk.
+    /// How the bytes of a chunk are turned into values.
     struct Pipeline {
         std::vector<ZarrCodec> codecs; ///< in the order of decoding
         bool big_endian = false;
@@ -50,12 +50,12 @@ class ZarrArray {
     };
     /// Where the chunks of a shard lie.
     struct ShardIndex {
-        ZarrBytes entries = {};  ///< for each chunk, where it begins and its bytes; empty: no shard
+        ZarrBytes entries = {};  ///< offset and size of each chunk; empty: there is no shard
         std::uint64_t bytes = 0; ///< of the whole shard
     };
     ZarrArray(const ZarrStore& store, std::string path) : store_(&store), path_(std::move(path)) {}
 
-    /// @throws Error where one is not whole, or negative
+    /// @throws Error when a number is not whole, or negative
     std::vector<std::size_t> lengths_in(const nlohmann::json& list) const;
     void describe_v2(const nlohmann::json& j);
     void describe_v3(const nlohmann::json& j);

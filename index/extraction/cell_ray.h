@@ -28,8 +28,8 @@ struct RayHit {
 /// each active cell. Walks along the ray from cell to cell (J. Amanatides and A. Woo, "A Fast Voxel
 /// Traversal Algorithm for Ray Tracing", Eurographics 1987), through at most nx + ny + nz cells.
 /// That takes microseconds, so the render thread may call it. It reads the extraction only, no
-/// file. Of a set of mixed levels it is the nearest plane of a cell instead, as it is drawn: each
-/// is looked at, some nanoseconds for a cell.
+/// file. In a set of mixed levels it finds the nearest plane of a cell instead, as planes are what
+/// is drawn; it tests all cells, in some nanoseconds each.
 /// @param grid of the extraction's series
 /// @param surfaces bit i: surface i counts
 /// @return nothing if the ray hits none, is not finite or has length 0

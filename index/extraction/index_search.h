@@ -24,15 +24,15 @@ SearchMethod cheapest_method(const IndexFile& file);
 /// Whether the file has the tier that a method needs.
 bool can_search(const IndexFile& file, SearchMethod method);
 
-/// Whether a set gets its points and rows, and a mesh with them where the query has room for one,
-/// or stays a list of ids.
+/// `cells`: a set gets points and rows, and a mesh if the query has room for one. `none`: it stays
+/// a list of ids.
 enum class Shading : std::uint8_t { none, cells };
 
-/// The search over an open index. Copies share their state. Where the file has cells and bricks, a
-/// step is searched by what has fewer bytes left to read when it is asked for the first time, and
-/// by cells, which are fastest, when it is asked for again.
-/// @param method instead of these; the file must have that tier
-/// @param shading what completes the sets: `shade_cells`, and `make_mesh` within the query's room
+/// The search over an open index. Copies share their state. If the file has cells and bricks, the
+/// first search of a step uses the tier with fewer bytes left to read, and later ones use cells,
+/// which are fastest.
+/// @param method used instead of `cheapest_method`; the file must have that tier
+/// @param shading `cells` completes the sets by `shade_cells`, and by `make_mesh` if there is room
 Search search_in(std::shared_ptr<const IndexFile> file,
                  std::optional<SearchMethod> method = std::nullopt,
                  Shading shading = Shading::cells);

@@ -30,15 +30,15 @@ struct StepsAhead {
     }
 };
 
-/// Keeps the newest few extractions, and of those for the same surfaces as the newest one as many
-/// as fit the budget.
+/// Keeps the newest few extractions, and as many other steps of the newest one's surfaces as fit
+/// the budget.
 class RecentExtractions {
   public:
     explicit RecentExtractions(std::uint64_t budget) : budget_(budget) {}
 
     ExtractionPtr find(const SurfacesQuery& query) const;
     /// The first step ahead that is not kept and for which there is room.
-    /// @param query its surfaces count, its step does not
+    /// @param query whose surfaces are wanted; its step is ignored
     std::optional<std::uint32_t> missing(const SurfacesQuery& query, const StepsAhead& ahead) const;
     /// The kept steps for these surfaces, ascending.
     std::vector<std::uint32_t> steps(const SurfacesQuery& query) const;

@@ -13,12 +13,12 @@
 
 namespace isochron::index {
 
-/// One array to color by: the array of values alone that an index may carry (`IndexFile::color`),
-/// or one of its arrays with search structures. Valid as long as the index is open.
+/// One array to color by: the array without search structures that an index may carry for colors
+/// only (`IndexFile::color`), or one of its other arrays. Valid as long as the index is open.
 class ColorSource {
   public:
-    /// Number of them: first the array of values alone if there is one, then the others in their
-    /// order. An index with one array and no colors has none: it has one value on a surface.
+    /// Number of arrays to color by: first the one for colors only, if any, then the others in
+    /// order. 0 if the index has only one array: on a surface all its values are the same.
     static std::size_t count(const IndexFile& file);
     /// @param number from 0, below `count`
     ColorSource(const IndexFile& file, std::size_t number);
@@ -39,8 +39,8 @@ class ColorSource {
 /// The names of the arrays to color by, by their numbers.
 std::vector<std::string> color_source_names(const IndexFile& file);
 
-/// The number of the array to color by with this name. If there is none, or the name is empty, the
-/// array of values alone, else the first that is not the one of the surfaces.
+/// The number of the array to color by with this name. If there is none, or the name is empty: the
+/// array for colors only, or else the first array that is not the one of the surfaces.
 /// @param surfaces number of their array, as `IndexFile::array` takes it
 std::size_t color_source_called(const IndexFile& file, std::string_view name, std::size_t surfaces);
 

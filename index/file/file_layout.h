@@ -95,7 +95,7 @@ constexpr std::uint64_t slot_of(const FileHeader& header) {
 /// @throws Error: foreign, other byte order, other version, damaged header, truncated
 FileHeader checked_header(const ByteSource& file);
 
-/// @throws Error when a section lies outside the file @param called what names them
+/// @throws Error when a section lies outside the file @param called the header's name, for this
 void check_sections(const ByteSource& file, const FileHeader& header, const char* called);
 
 /// The other slot than that of the header that counts.

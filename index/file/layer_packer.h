@@ -25,7 +25,7 @@ class LayerPacker {
         std::span<const std::byte> stored;    ///< [z][y][x]; empty when the file refers to sources
         std::span<const std::uint8_t> bricks; ///< layer after layer, each as from `build_bricks`
         std::uint32_t brick_layers = 0;
-        bool with_bricks = true; ///< false in an index without
+        bool with_bricks = true; ///< the index has bricks
     };
 
     /// Packs the next layer of the step.

@@ -19,7 +19,7 @@ struct BlockPlaces {
     std::vector<BlockSize> begins; ///< the first vertex of each block in the whole
 };
 
-/// Blocks may share planes of vertices.
+/// Finds the blocks' places. Neighboring blocks may share a plane of vertices.
 /// @param names of the blocks, for messages
 /// @throws Error naming a block: not regular, of another spacing or direction than the first, not
 ///         on the same vertices, begins where another one does; or that all of them leave vertices

@@ -7,9 +7,9 @@
 
 namespace isochron::index {
 
-/// A file as it is, if it has the type already. To f32 and f64 values are converted after scaling,
-/// and rounded where they have more digits: a note says so. To an integer type stored values are
-/// converted, which must be exact.
+/// Returns a file that already has the type unchanged. For f32 and f64, scaled values are converted
+/// and, if they have more digits, rounded, which a note says. For integer types, stored values are
+/// converted; each must be exact.
 /// @throws Error from `read` and `stream`, naming the file: a value that the integer type does not
 ///         have
 std::unique_ptr<VolumeFile> converted(std::unique_ptr<VolumeFile> file, ValueType type,

@@ -6,12 +6,12 @@
 
 namespace isochron::index {
 
-/// By its extension (.dcm, .dicom, .ima), or by the letters that DICOM files have behind their
-/// first 128 bytes.
+/// Whether a file is DICOM: by its extension (.dcm, .dicom, .ima), or by the letters `DICM` after
+/// its first 128 bytes.
 bool is_dicom(const std::filesystem::path& path);
 
-/// Puts the DICOM files in a folder, and in the folders within it, in its place. Folders without
-/// any stay. @throws Error naming a folder with more than a million files
+/// Replaces each folder by the DICOM files in it and in its subfolders. Folders without DICOM files
+/// stay in the list. @throws Error naming a folder with more than a million files
 std::vector<std::filesystem::path>
 with_dicom_folders(const std::vector<std::filesystem::path>& files);
 

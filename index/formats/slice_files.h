@@ -13,8 +13,8 @@ bool is_flat_tiff(const std::filesystem::path& path);
 
 /// Numbers in the names say what a file is: behind `z` or `slice` the slice, behind `t`, `time` or
 /// `frame` the step, behind `c`, `ch` or `channel` the channel, which `--array "channel 1"` picks.
-/// One number alone is that of the slice where files have one page, else of the step. Names of
-/// folders count, too: `t00/z001.tif`, `003/0001.tif`.
+/// If only one number differs, it is the slice if files have one page each, else the step. Numbers
+/// in the names of folders count, too: `t00/z001.tif`, `003/0001.tif`.
 /// @throws Error naming files: names that are not alike, numbers that are missing, no channel
 ///         chosen
 std::vector<SeriesFile> tiff_series(const std::vector<std::filesystem::path>& files,

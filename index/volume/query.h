@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 4> kSearchMethodNames{"cells", "bricks", 
 struct Query {
     std::uint32_t step = 0;
     double isovalue = 0.0;
-    /// Bytes that a mesh of the surface may take; 0: none is made, nor where it would take more.
+    /// Most bytes for a mesh of the surface: none is made if it would take more.
     std::uint64_t mesh_room = 0;
     bool operator==(const Query&) const = default;
 };
@@ -40,7 +40,7 @@ struct DetailQuery {
     /// More cells than this are replaced by those of coarser levels; 0: never.
     std::uint64_t most_cells = 0;
     bool at_rest = false; ///< for a picture at rest: a renderer holds it beside one for motion
-    /// Wishes are in these parts of a level, so that of regions of one level some give way first.
+    /// Parts of a level in which wishes are given: they order the regions that share one level.
     static constexpr int kPartsOfLevel = 4;
     /// Finest useful level of each region (index/extraction/detail_regions.h), in parts of a level,
     /// which are rounded down. Below 0 it is still level 0 that is used, but the region gives way
@@ -54,8 +54,8 @@ struct SurfacesQuery {
     std::uint32_t step = 0;
     std::vector<double> isovalues; ///< a surface is identified by its place in this list
     CellColoring coloring = CellColoring::none;
-    /// Bytes that the meshes of all surfaces together may take: either all have one or none; 0:
-    /// none.
+    /// Most bytes for the meshes of all surfaces together. Either all surfaces have a mesh or none
+    /// has; 0: none.
     std::uint64_t mesh_room = 0;
     DetailQuery detail{};
     std::uint32_t array = 0;  ///< of the index, by number

@@ -1,5 +1,5 @@
-// What the projection of cells' quads is given, and where its results go, as plain data for SIMD
-// code.
+// Input and output of the projection of cells to the squares around their quads, as plain data for
+// SIMD code.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -30,7 +30,7 @@ struct SquareProjection {
     std::int32_t last[3]; ///< vertex along each axis
 };
 
-/// Where the results go.
+/// The arrays for the results.
 struct SquareArrays {
     float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc, *xx, *xy, *yy;
 };

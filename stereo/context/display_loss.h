@@ -5,9 +5,9 @@
 
 namespace isochron::stereo {
 
-/// While one lives, it is called once when the connection to the X server ends, to save what there
-/// is; then the program ends with status 1. Without one it just ends, with a line. Nothing that
-/// draws may be called any more. One at a time.
+/// While one lives, its function is called once when the connection to the X server ends, to save
+/// what there is; then the program ends with status 1. The function must not draw. Without one, the
+/// program just ends, with a line. One at a time.
 class DisplayLoss {
   public:
     explicit DisplayLoss(std::function<void()> save);

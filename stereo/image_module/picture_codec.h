@@ -9,7 +9,7 @@
 
 namespace isochron::stereo::image_module {
 
-/// Pictures with more pixels are refused: a wrong header asks for so much memory, no display does.
+/// Pictures with more pixels are refused: no display has as many, so the header must be wrong.
 constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 
 /// The name of the note among a file's attributes.

@@ -1,4 +1,4 @@
-// An index of a step of any size, that is nowhere as a whole.
+// An index of a step of any size, whose bytes are computed when they are read.
 #pragma once
 
 #include "index/file/chunk_grid.h"
@@ -79,7 +79,7 @@ class HugeIndex final : public ByteSource {
         return records_[kind(x, y, layer)][(offset - kDataBegin) % kRecord];
     }
 
-    /// Bit 0: its own value is the high one; bit 1: its cells reach both values, or may.
+    /// Bit 0: the chunk has the high value; bit 1: its cells may have vertices of both values.
     std::size_t kind(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
         bool reaches = false;
         for (unsigned d = 0; d < 8; ++d)
@@ -93,7 +93,7 @@ class HugeIndex final : public ByteSource {
         std::fill_n(bricks.begin() + kBricksOfChunk, kBricksOfChunk, reaches ? 200 : value);
         Record bytes{};
         std::memcpy(bytes.data() + sizeof(RecordChecksum), bricks.data(), bricks.size());
-        bytes.back() = static_cast<std::byte>(value); // and before it the form of one value for all
+        bytes.back() = static_cast<std::byte>(value); // after the byte for `one value for all`
         const RecordChecksum checksum =
             record_checksum(std::span(bytes).subspan(sizeof(RecordChecksum)));
         std::memcpy(bytes.data(), &checksum, sizeof checksum);
@@ -136,7 +136,7 @@ class HugeIndex final : public ByteSource {
         const std::uint64_t records = chunks_.count() * kRecord;
         std::vector<StepEntry> steps{{kDataBegin, records + tail_.size(), records}};
         const std::vector<Grid> grids = detail_grids(grid_);
-        for (std::size_t level = 1; level < grids.size(); ++level) { // nobody looks at them
+        for (std::size_t level = 1; level < grids.size(); ++level) { // no test reads these
             const ChunkGrid coarse(grids[level]);
             steps.push_back(
                 {kDataBegin, layer_table_bytes(coarse.chunks_of_layer()) * coarse.layers(), 0});

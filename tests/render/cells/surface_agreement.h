@@ -17,7 +17,7 @@ struct Agreement {
     std::vector<double> angles;       ///< between normals where the depths agree [rad]
 
     void add(const Agreement& other);
-    /// @param share 0 to 1. @return 0 of none
+    /// @param share 0 to 1. @return 0 if there are no values
     static double percentile(std::vector<double> values, double share);
 };
 

@@ -67,8 +67,8 @@ struct ControlContext {
     bool bounding_box = true;
     std::uint32_t isosurfaces = 1, picked = 0; ///< their number, and the one the isovalue moves
     Coloring coloring;
-    /// Names of the arrays to color by, and the one that colors stand for, or would; may be null or
-    /// empty.
+    /// Names of the arrays to color by, which may be null or empty; and the number of the one whose
+    /// values are the colors, or would be if surfaces were colored by an array.
     std::vector<std::string> const* color_arrays = nullptr;
     std::size_t color_array = 0;
     const Commands* next_array =

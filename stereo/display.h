@@ -72,13 +72,13 @@ class Display {
         draw(std::span(&viewer, 1), mode, scene, overlay);
     }
 
-    /// Draws some more of the next picture of a viewport, beside the one that is shown, with the
-    /// window's size and the stereo mode of the last frame.
-    /// @param begins nothing of it has been drawn
-    /// @return whether it is whole, as `scene` said
+    /// Draws a slice of a viewport's next picture while the last one stays on show, with the size
+    /// of the window and the stereo mode of the last frame.
+    /// @param begins this is its first slice
+    /// @return whether it is complete, as `scene` said
     bool draw_slice(std::span<const ViewerPose> viewers, std::size_t viewport, bool begins,
                     const DrawSlice& scene);
-    /// Shows the next picture of every viewport, which are whole.
+    /// Shows the next pictures of all viewports, which must be complete.
     void show_slices(const Overlay& overlay);
 
     /// Composes the last pictures of the eyes again, with a new overlay: for frames in which
@@ -102,8 +102,8 @@ class Display {
     /// Leaves `left` pixels free at the left of each eye's part, for a panel, from the next drawn
     /// frame on.
     void leave_free(int left) { left_ = left; }
-    /// Shows what is at the left of the screen, too, in so much of the width of each eye's part:
-    /// for a panel that stands there. Takes hold with the next frame that is drawn.
+    /// From the next drawn frame on, the left `share` of each eye's part shows what is to the left
+    /// of the screen: for a panel that stands there.
     void show_aside(float share) {
         for (Viewport& viewport : window_.viewports)
             viewport.screen.aside = share;

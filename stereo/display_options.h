@@ -20,8 +20,8 @@ struct DisplayOptions {
 /// that one pass can draw both. The target is bound and cleared to the background; viewport and
 /// scissor number i are those of view i.
 using DrawViews = std::function<void(std::span<const render::View>)>;
-/// The same, but draws a part of what is missing, over what has been drawn before.
-/// @return whether the picture is whole now
+/// The same, but draws a further part of the picture, over what has been drawn before.
+/// @return whether the picture is complete now
 using DrawSlice = std::function<bool(std::span<const render::View>)>;
 
 } // namespace isochron::stereo

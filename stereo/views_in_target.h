@@ -18,7 +18,7 @@ void draw_views(const render::Gl& gl, std::optional<render::RenderTarget>& targe
 
 /// The same in several calls, each of which draws something more.
 /// @param begins this is the first one: the target is cleared
-/// @param scene returns whether the picture is whole now
+/// @param scene returns whether the picture is complete now
 /// @return what `scene` returned; if true, the target is resolved
 bool draw_views_on(const render::Gl& gl, std::optional<render::RenderTarget>& target,
                    glm::ivec2 size, const DisplayOptions& options,

@@ -12,26 +12,26 @@
 
 namespace isochron::app {
 
-/// What keeps data from being shown at all, in one line; empty: nothing does. Files of values can
-/// be shown if they can be opened with no option.
+/// Why data cannot be shown at all, in one line; empty: they can. Files of values can be shown if
+/// they can be opened without options.
 std::string why_not_open(const std::filesystem::path& data);
-/// What keeps this session from showing other data; empty: nothing does.
+/// Why this session cannot show other data; empty: it can.
 std::string why_not_open(const ExploreOptions& options, const std::filesystem::path& data);
 
-/// How long it goes on.
+/// The options of the live loop: when it ends, and whether it emulates an installation.
 LiveOptions live_options(const ExploreOptions& options);
 
-/// Of a recording that begins now. @param path of the data
+/// The header of a recording that begins now. @param path of the data
 interaction::RecordingHeader header_of(const Session& session, const Config& config,
                                        const index::IndexFile& file, const std::string& path);
 
-/// The panel's movies, as this session draws.
+/// Options for movies that the panel asks for: they are drawn as this session draws.
 MovieOrders movie_orders(const ExploreOptions& options, interaction::RecordingHeader header);
 
-/// Data, as the user knows them, are remembered; the first lines stand in the picture once.
-/// @param data nothing: of what is only kept for a while
+/// Remembers the data as recently opened, and shows the introduction if the user is new.
+/// @param data their name; empty: they are not remembered
 /// @param memory outlives the session's frames
-/// @param writing remembers while the session begins
+/// @param writing writes to `memory` in the background
 void greet(Session& session, UserMemory& memory, BackgroundWork& writing,
            const std::optional<std::string>& data);
 

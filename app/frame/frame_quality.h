@@ -28,9 +28,9 @@ namespace isochron::app {
 /// ends at that footprint, too: it is drawn over several frames.
 enum class Choosing : std::uint8_t { by_measurement, with_slices, by_pace };
 
-/// Changing frames have the frame budget. A picture in which nothing has moved for a while is made
-/// in slices that keep to it. Where slices cannot be, it is drawn once and then only shown: it has
-/// the larger still budget, a pause that is acceptable when a picture comes to rest. Each budget
+/// Frames that change have the frame budget. A picture in which nothing has moved for a while is
+/// drawn in slices, each within that budget. Where slices are not possible, it is drawn at once,
+/// within the larger still budget: a pause that is acceptable at rest. Each budget
 /// has its own controller; both learn from all frames.
 class FrameQuality {
   public:
@@ -58,12 +58,12 @@ class FrameQuality {
 
     /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
     /// and with its cells.
-    /// @param changed what the eyes see is not what they saw last, beside the footprint
+    /// @param changed what the eyes see has changed since the last frame, apart from the footprint
     /// With slices, `FrameReport::in_slices` says which footprint to make once nothing needs to be
     /// measured any more; from then on the choice stays until something changes.
     /// @return true: draw even if nothing has changed, so that the cost gets known
     /// @param available that the cells can be drawn with
-    /// @param possible likewise, if they came with a mesh where they can
+    /// @param possible the same if the cells were asked for with a mesh
     bool choose(const ExplorerState& state, bool changed, Choosing how,
                 render::FootprintSet available, render::FootprintSet possible, FrameReport& report);
 

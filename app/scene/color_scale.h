@@ -17,7 +17,7 @@ namespace isochron::app {
 struct ColorScale {
     std::string title;                 ///< `temperature [K]`
     std::array<double, 2> range{};     ///< values at the ends of the map
-    std::array<double, 2> whole{};     ///< all that occur: what cells' color coordinates span
+    std::array<double, 2> whole{};     ///< the range that cells' color coordinates span
     std::string map = "viridis";       ///< by its name, unless it has colors of its own:
     std::vector<std::uint32_t> colors; ///< as interaction::Coloring
     render::ColorMapUse use;
@@ -31,14 +31,14 @@ std::vector<glm::vec3> colors_of(const ColorScale& scale);
 /// Where a value lies between the ends of the range, 0 to 1 within it.
 double share_on(const ColorScale& scale, double value);
 
-/// Values that these shares of the shown cells' do not exceed, as a range for a map.
+/// The quantiles of the shown cells' values at two shares, as a range for a map.
 /// @param shares 0 to 1, ascending
-/// @return nothing where the cells have no values, or the same one at both
+/// @return empty if the cells have no values, or both quantiles are equal
 std::optional<std::array<double, 2>> range_of_shares(const index::Extraction& shown,
                                                      const std::array<double, 2>& whole,
                                                      const std::array<double, 2>& shares);
 
-/// The range of the last set that it was asked for, which is only sorted when something changes.
+/// Caches `range_of_shares` of the last set: values are sorted only when something changes.
 class PercentileRange {
   public:
     /// @param shown null: no range @param percentiles 0 to 100, ascending
@@ -52,10 +52,10 @@ class PercentileRange {
     std::optional<std::array<double, 2>> range_;
 };
 
-/// Number of the array that colors by value stand for, as ColorSource has it. @param file any array
+/// Number, for ColorSource, of the array whose values are the colors. @param file any of its arrays
 std::size_t color_array(const ExplorerState& state, const index::IndexFile& file);
 
-/// Nothing when colors tell surfaces apart, or when there is no array to color by.
+/// Empty when colors tell surfaces apart, or when there is no array to color by.
 /// @param shown cells whose percentiles are the range, if the state says so
 std::optional<ColorScale> color_scale(const ExplorerState& state, const index::IndexFile& file,
                                       const index::ExtractionPtr& shown, PercentileRange& cached);

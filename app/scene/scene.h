@@ -74,7 +74,7 @@ class Scene {
     /// The footprints that the shown cells can be drawn with: a very large set has no room for its
     /// surface, and on a GPU cells have no mesh.
     render::FootprintSet footprints() const;
-    /// That they could be drawn with if a mesh came with them, which they may be asked for with.
+    /// The same, and `mesh` if the cells could be drawn so after asking for them with a mesh.
     render::FootprintSet possible_footprints() const;
     std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
     /// Makes ready for a set for pictures at rest: that takes longer than a frame may.
@@ -172,9 +172,9 @@ class Scene {
     const render::CellAppearance configured_;
     render::CellAppearance appearance_;
     std::optional<render::BackgroundColors> background_; ///< none: the picture's own color
-    bool on_light_ = false;                              ///< what is drawn on it is dark
-    render::CellBuffers cells_;                          ///< always
-    std::optional<render::CellBuffers> resting_;         ///< at rest
+    bool on_light_ = false;                              ///< the background is light
+    render::CellBuffers cells_;                          ///< for Use::always
+    std::optional<render::CellBuffers> resting_;         ///< for Use::at_rest
     bool draws_resting_ = false, sends_whole_ = false;
     std::vector<render::View> views_;
     render::CellPass cell_pass_;

@@ -1,5 +1,5 @@
-// The window of an explorer that has no data to show: it lets the user choose some, or shows how
-// far the data are that are being indexed.
+// The window of an explorer that has no data to show yet: it lets the user choose some, or shows
+// the progress of indexing.
 #pragma once
 
 #include "app/session/page_window.h"
@@ -14,24 +14,24 @@ namespace isochron::app {
 
 struct DataChoice {
     std::vector<std::filesystem::path> recent; ///< the newest first
-    /// What keeps data from being opened, in one line; empty: nothing does.
+    /// Why data cannot be opened, in one line; empty: they can.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
     PageWindowOptions window = {};
 };
 
-/// Until the user has chosen, or dropped files onto the window.
-/// @return a file, a folder or the pattern of a series; nothing: they leave
+/// Shows the window until the user has chosen data, or dropped files onto it.
+/// @return a file, a folder or the pattern of a series; empty: the user leaves
 std::optional<std::filesystem::path> choose_data(const stereo::Windows& windows,
                                                  const DataChoice& choice);
 
-/// How far the data are that are waited for.
+/// The progress of data that the user waits for.
 struct DataProgress {
     bool ready = false; ///< they can be shown, or never will be
     std::string line;   ///< what is going on
     float fraction = 0;
 };
 
-/// Shows it in the first window until the data are ready.
+/// Shows the progress in the first window until the data are ready.
 /// @param name of the data
 /// @return false: the user leaves
 bool wait_for_data(const stereo::Windows& windows, const std::string& name,

@@ -43,7 +43,7 @@ struct LiveOptions {
     /// and the loop ends. A null function: the user cannot open other data.
     /// Called on a thread of its own.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
-    /// Returns what stands in the picture as long as it is true; called in each frame. May be null.
+    /// Returns a note that the picture shows as long as it is returned. Each frame; may be null.
     std::function<std::string()> standing = {};
 };
 
@@ -110,7 +110,7 @@ class LiveLoop {
     std::optional<SessionKeeper> keeper_;
     std::optional<index::IndexWatch> watch_;
     std::optional<std::filesystem::path> next_data_;
-    /// Data of which it is being found out whether they can be opened.
+    /// Data that the user has chosen, while a thread finds out whether they can be opened.
     struct Opening {
         std::filesystem::path data;
         std::future<std::string> why_not;

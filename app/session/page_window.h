@@ -19,14 +19,14 @@
 namespace isochron::app {
 
 struct PageWindowOptions {
-    /// Asked in each frame: whether nobody looks any more.
+    /// Called in each frame: true ends the page.
     std::function<bool()> ended = [] { return false; };
     glm::vec3 background{0.0f};   ///< sRGB
     double frame_rate_limit = 60; ///< [Hz]
     float font_scale = 1;         ///< times what the desktop asks for
 };
 
-/// In the first of the windows, whose context is current from then on.
+/// Draws in the first of the windows, whose context is current from then on.
 class PageWindow {
   public:
     /// @param windows outlive this
@@ -38,7 +38,7 @@ class PageWindow {
     /// @return the other events: those that the page does not use
     std::vector<interaction::WindowEvent>
     frame(const std::function<void(glm::ivec2 size, interaction::Seconds time)>& lay_out);
-    /// Whether somebody looks.
+    /// False once the user closes the window, or `ended` says so.
     bool goes_on() const { return !windows_.should_close() && !options_.ended(); }
     std::vector<std::filesystem::path> take_dropped() { return window_.take_dropped(); }
 

@@ -1,4 +1,4 @@
-// Replays a recording: obeys its commands, and can report where its devices would lead to others.
+// Replays a recording: obeys its commands; can report where its devices would now give others.
 #pragma once
 
 #include "app/session/pattern_show.h"
@@ -20,8 +20,8 @@ struct ReplayOptions {
 /// Called after each frame, with its number from 0.
 using FrameDone = std::function<void(std::size_t number, const interaction::RecordedFrame& frame)>;
 
-/// @throws index::Error when the cells of the last frame could not be found: its picture is not of
-/// what it says
+/// @throws index::Error when the cells of the last frame could not be found, so that its picture
+/// would be wrong
 void expect_cells(const Session& session);
 
 /// Replays with fixed steps: each recorded frame once, at its recorded time; each waits for its

@@ -52,8 +52,8 @@ class LayerCutter {
 using TakeLayer = std::function<void(std::size_t array, std::size_t step, const LayerView& layer)>;
 
 /// Calls `take` for all layers of the steps `begin` to `end` - 1, step after step, while the next
-/// layer is read. The arrays of a step come one right after the other, so that a file that holds
-/// several comes from its disk once.
+/// layer is read. The arrays of a step come one right after the other, so that a file with several
+/// arrays is read from disk once.
 /// @param arrays of the same grid and as many steps
 /// @param threads at most this many small steps are read in parallel
 /// @param progress may throw; gets the fraction that is done

@@ -22,7 +22,7 @@ using StepBytes = std::vector<std::byte>;
 /// them in order. Memory holds one step more than there are threads.
 class ParallelSteps {
   public:
-    /// Number of threads that pay for these steps; 0 if the series can be read by one thread only,
+    /// Number of threads worth using for these steps; 0 if only one thread can read the series,
     /// there is only one step, or the steps would take too much memory.
     static unsigned readers_for(std::span<VolumeSeries* const> arrays, std::size_t steps,
                                 unsigned threads);

@@ -17,13 +17,13 @@ struct ArraySections {
     std::vector<StepEntry> steps;
     std::vector<UnitEntry> directory;
     std::vector<std::uint64_t> checksums;
-    Metadata metadata; ///< without the further arrays, which are filled in
+    Metadata metadata; ///< its list of further arrays is filled in here
 };
 
 /// Writes the sections one after the other, and sets content hash, offsets and checksums in the
 /// header. They go after the end of the file, or, in an index that grows, over the sections of the
-/// state before the present one if these leave enough room. After the end of an index that grows,
-/// half as much room again is left free, so that two places, used in turn, last for long.
+/// state before the present one if these leave enough room. Sections at the end of an index that
+/// grows get half as much room again, so that later states mostly use two places in turn.
 /// @param arrays at least one @param held the index that grows; null for a new one
 /// @param end of the file, a multiple of 64
 /// @return the new end of the file

@@ -30,7 +30,7 @@ struct WriterMeans {
     unsigned threads = 1;
     std::uint64_t waiting_bytes = 64 << 20; ///< most bytes of a level's planes that wait in memory
     std::filesystem::path beside;           ///< for temporary files without a name: see ScratchFile
-    /// Gives the memory of waiting planes back after each step, which another array's needs then.
+    /// After each step, free the memory of waiting planes, which the next array needs.
     bool lends = false;
 };
 

@@ -14,8 +14,8 @@ namespace isochron::index {
 /// @throws Error when they cannot
 void check_tiers(const Grid& grid, const TierSet& asked);
 
-/// Whether steps are small enough for cells to pay. In larger steps bricks read less, however
-/// slowly the data change.
+/// Whether steps are small enough for cells to be worth their bytes. In larger steps bricks read
+/// less, however slowly the data change.
 bool cells_may_pay(const SeriesInfo& info);
 
 /// Chooses bricks always. Chooses cells if levels are lossless, so that an entry never needs the

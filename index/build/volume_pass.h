@@ -55,8 +55,8 @@ struct VolumeFindings {
 };
 
 /// Reads each member's share of the steps, a layer of chunks ahead of the work: of every step from
-/// `fresh` on all arrays, one right after the other, so that a file that holds several comes from
-/// its disk once; their parts lie in the file in the same order. Keeps the values of all steps from
+/// `fresh` on all arrays, one right after the other, so that a file with several arrays is read
+/// from disk once. Their parts lie in the index in the same order. Keeps the values of steps from
 /// an array's first on, step after step, each padded to `step_stride`; analyzes and packs only
 /// those from `fresh` on.
 std::vector<VolumeFindings> read_volumes(std::span<const ArrayPass> arrays, std::size_t fresh,

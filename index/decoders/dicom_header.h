@@ -40,7 +40,7 @@ struct DicomImage {
     std::optional<glm::dvec2> spacing; ///< [mm] between pixels of a row, between rows
     Scaling scaling;
     std::array<std::optional<double>, kDicomClocks> clocks{};
-    /// What volumes differ in, words and values: images of one volume have the same.
+    /// Names and values that tell volumes apart: images of one volume have the same.
     std::vector<std::pair<std::string, std::string>> kind = {};
 };
 

@@ -19,8 +19,8 @@ struct MeshSource {
     std::vector<std::string> notes;
 };
 
-/// Of an Exodus (.e, .exo, .ex2, .exii) or CGNS file, of an OpenFOAM case (.foam, controlDict) or
-/// of an AMReX plotfile (Header). Reads nothing but what tells them apart.
+/// The reader for an Exodus (.e, .exo, .ex2, .exii) or CGNS file, an OpenFOAM case (.foam,
+/// controlDict) or an AMReX plotfile (Header). Reads only what is needed to tell them apart.
 /// @throws Error naming the file, when it is none of these
 MeshSource open_mesh_source(const std::filesystem::path& path);
 

@@ -16,7 +16,7 @@ namespace isochron::index {
 template <class Decoded>
 class SharedDecode {
   public:
-    /// The decoded thing, which `make` makes anew if the file, or what is made of it, is another.
+    /// The decoded thing. `make` is called if the last one was dropped, or was made differently.
     template <class Make>
     std::shared_ptr<Decoded> of(const std::filesystem::path& path, const ReadOptions& options,
                                 const Make& make) {
@@ -31,12 +31,12 @@ class SharedDecode {
     }
 
   private:
-    /// What the options say of the array does not count.
+    /// What it was made of and how; which array the options choose does not matter.
     struct Made {
         std::filesystem::path path;
         FileState state;
         std::optional<std::array<std::uint32_t, 3>> resample;
-        bool spacing = false; ///< is given, so that the file need not say it
+        bool spacing = false; ///< given by the options, so not needed from the file
         bool operator==(const Made&) const = default;
     };
     Made made_;

@@ -33,15 +33,15 @@ struct TiffStack {
 
 /// OME-XML. http://www.openmicroscopy.org/Schemas/Documentation/Generated/OME-2016-06/ome.html
 /// @param samples of a pixel, which OME counts among the channels
-/// @throws Error naming the file: damaged, without pixels, of other sizes than can be
+/// @throws Error naming the file: damaged, without pixels, impossible sizes
 TiffStack ome_stack(const std::string& description, std::uint32_t samples, const std::string& file);
 
 /// ImageJ's lines of `key=value`. @param pages that have directories
-/// @throws Error naming the file: counts that are none
+/// @throws Error naming the file: counts that are no numbers
 TiffStack imagej_stack(const std::string& description, std::size_t pages, double x_resolution,
                        double y_resolution, const std::string& file);
 
-/// By what the description begins with; else all pages are slices, or as tifffile's `shape` says.
+/// OME-XML or ImageJ's, by how the description begins; else slices, or tifffile's `shape`.
 /// @throws Error naming the file, as above
 TiffStack stack_of(const std::string& description, std::size_t pages, std::uint32_t samples,
                    double x_resolution, double y_resolution, const std::string& file);

@@ -9,7 +9,7 @@
 
 namespace isochron::index {
 
-/// Values by the place of their chunk; all go when they take more than `most` bytes.
+/// Values by the place of their chunk; all are dropped when they take more than `most` bytes.
 template <class Value>
 class ZarrCache {
   public:

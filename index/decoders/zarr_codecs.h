@@ -1,4 +1,4 @@
-// What Zarr's chunks went through: compressors and filters of versions 2 and 3.
+// The compressors and filters of Zarr's chunks, versions 2 and 3.
 #pragma once
 
 #include "index/decoders/zarr_store.h"
@@ -23,8 +23,8 @@ ZarrCodec codec_of(const std::string& name, std::size_t element, const std::stri
 
 /// Takes one step from stored bytes towards values.
 /// @param most [bytes] that may come out
-/// @param bytes what is decoded, and what comes out
-/// @param spare its memory is used
+/// @param bytes input, replaced by the output
+/// @param spare a buffer that may be used
 /// @throws Error naming the chunk: damaged, or more comes out
 void decode(const ZarrCodec& codec, std::size_t most, const std::string& chunk, ZarrBytes& bytes,
             ZarrBytes& spare);

@@ -29,11 +29,11 @@ struct DetailCells {
 };
 
 /// Every region gets the level that the query wishes. While that makes too many cells, all wishes
-/// get coarser by a part of a level, and regions whose wish comes to the next level take it; of the
-/// last ones that would, those nearest to the middle of the volume stay finer as long as there is
-/// room. Levels depend on the query and the data alone. Numbers of cells are counted from the
-/// coarsest level down to the finest that has not too many, and assumed to be four times as many on
-/// each level below that. What the levels lose (lost_cells.h) is added as cells of level 0: if
+/// become coarser by a part of a level; a region whose wish reaches the next level takes it. Of the
+/// last regions that would change, those nearest to the middle of the volume stay finer as long as
+/// there is room. Levels depend on the query and the data alone. Cells are counted on the coarsest
+/// level, then on finer ones until there are too many; each level below is assumed to have four
+/// times as many. What the levels lose (lost_cells.h) is added as cells of level 0: if
 /// these are more than a quarter of `most_cells`, they are joined to cells of the finest level at
 /// which they are not. Not thread-safe: keeps its work space.
 class DetailSearch {
@@ -94,7 +94,7 @@ class DetailSearch {
     std::map<unsigned, LevelCells> known_;                ///< whole levels, of the query
     unsigned counted_ = 0;               ///< the finest level of which all is known
     std::vector<std::size_t> in_region_; ///< cells of that level
-    double level_zero_ = 1; ///< times as many cells are expected of level 0 as from in_region_
+    double level_zero_ = 1; ///< expected cells of level 0, divided by those in in_region_
     std::vector<std::vector<std::uint16_t>> colors_; ///< of the result, by surface
     CellColoring coloring_ = CellColoring::none;     ///< of the query
     std::optional<ColorSource> source_;              ///< of the colors, where they are values

@@ -8,14 +8,14 @@
 
 namespace isochron::index {
 
-/// Bytes that are not in memory yet; estimated from a few chunks of cells, exact for bricks but for
-/// the chunks next to the candidates.
+/// Bytes that are not in memory yet. For cells an estimate from a few chunks of cells; for bricks
+/// exact, but without the chunks next to the candidates.
 struct MissingBytes {
     std::uint64_t cells = 0, bricks = 0;
 };
 
-/// @param shaded whether the values around the cells are needed, too, as they are for normals: a
-///        search by bricks has read them
+/// @param shaded the values around the cells are needed, too, for normals: that counts for cells
+///        only, since a search by bricks reads them anyway
 /// The index must have both tiers. @throws Error as ChunkStore does
 MissingBytes missing_bytes(const IndexFile& file, const Query& query, bool shaded);
 

@@ -14,8 +14,8 @@
 
 namespace isochron::index {
 
-/// Of the finest level that an index has, an active cell is lost if it lies in a region of a
-/// coarser level, and the cell of that level in which it lies holds no part of any drawn cell.
+/// An active cell of the finest level that an index has is lost if its region has a coarser level,
+/// and the cell of that coarser level around it holds no part of any drawn cell.
 class LostCells {
   public:
     /// Chunks that are read at most. If more chunks may hold lost cells, only those are read in
@@ -50,16 +50,16 @@ class LostCells {
     std::size_t most_chunks_;
 };
 
-/// Cells with their colors, of which those below a level have been joined.
+/// The result of `joined`: cells and their colors.
 struct JoinedCells {
     std::vector<CellPoint> points;
     std::vector<std::uint16_t> colors;
 };
 
-/// Replaces all cells that are smaller than cells of a level, and lie in the same cell of that
-/// level, by that cell. It gets the direction of the sum of their normals, and no offset; if this
-/// sum is shorter than half their number, they surround something: then it gets no plane, so that
-/// it is drawn as a ball. Its color is that of the middle one of them.
+/// Joins the cells that are smaller than those of a level: all that lie in the same cell of the
+/// level are replaced by that cell. Its plane has the direction of the sum of their normals, and no
+/// offset. If this sum is shorter than half their number, they surround something: then the cell
+/// gets no plane and is drawn as a ball. Its color is that of the middle one of them.
 /// @param points at places of mixed levels
 JoinedCells joined(std::span<const CellPoint> points, std::span<const std::uint16_t> colors,
                    unsigned level);

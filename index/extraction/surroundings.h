@@ -1,5 +1,5 @@
-// How much of a surface's surroundings lies behind it, for shading that shows how deep a place
-// lies.
+// The share of the volume around a place that lies inside a surface, for ambient occlusion: it
+// darkens crevices.
 #pragma once
 
 #include "index/volume/query.h"
@@ -12,12 +12,12 @@
 
 namespace isochron::index {
 
-/// Shares of the volume around places at equal distances, for each of some surfaces. A renderer
-/// asks for the share a little before the surface: it is small before a plane or a bump, and grows
-/// as deep as the surface's place lies among other parts of it. Ambient occlusion in the sense of
-/// local volumes: the share of a ball around the point (P. Shirley's obscurance, as S. Zhukov,
-/// A. Iones and G. Kronin introduced it, Rendering Techniques 1998,
-/// doi:10.1007/978-3-7091-6453-2_5, taken in the volume and not along rays). The same for every
+/// For each surface, a coarse grid of places, and at each the share of the volume around it that is
+/// at the isovalue or above. A renderer looks it up a little in front of the surface: the share is
+/// small in front of a plane or a bump, and larger the deeper the point lies in a crevice. This is
+/// ambient occlusion by local volumes: the share of a ball around the point (as the obscurances of
+/// S. Zhukov, A. Iones and G. Kronin, Rendering Techniques 1998,
+/// doi:10.1007/978-3-7091-6453-2_5, but in the volume and not along rays). The same for every
 /// view.
 struct SurroundingField {
     std::array<std::uint32_t, 3> size{}; ///< places along x, y and z

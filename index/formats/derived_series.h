@@ -18,10 +18,10 @@ enum class Derived : std::uint8_t {
     magnitude    ///< the length of a vector whose components are arrays
 };
 
-/// By its name: `gradient`, `vorticity`, `q-criterion`; of a magnitude none, which readers take.
+/// By its name: `gradient`, `vorticity`, `q-criterion`; none for `magnitude`, which readers handle.
 std::optional<Derived> derived_from_name(const std::optional<std::string>& component);
 
-/// The components that it is computed from, as values of `--component`; none: of a scalar.
+/// The inputs' components as values of `--component`; an empty one: the input is a scalar.
 std::vector<std::optional<std::string>> components_for(Derived derived);
 
 /// Derivatives are differences along each axis, in physical space and units of length: between both

@@ -31,7 +31,7 @@ class LentReader {
 
     std::unique_ptr<ReaderProcess> reader; ///< null: it must be started
     std::set<std::uint64_t> open;          ///< numbers of the leases whose files it has open
-    std::atomic<bool> in_use = false;      ///< only who has set it may touch the rest
+    std::atomic<bool> in_use = false;      ///< whoever sets it may use the other members
 
   private:
     ReaderPool& pool_;
@@ -48,12 +48,12 @@ class ReaderLease {
     ReaderLease& operator=(const ReaderLease&) = delete;
 
     ReaderProcess& reader() { return *lent_->reader; }
-    /// By which the reader knows the file.
+    /// The number by which the reader knows the file.
     std::uint64_t number() const { return number_; }
 
-    /// Does work with the reader; `prepare` prepares one that has not this file open. An earlier
-    /// file may have damaged a reader, so its end is blamed on this file only if the reader has had
-    /// no other. Work within the work of another lease gets a reader of its own.
+    /// Does work with the reader; `prepare` opens the file in a reader that does not have it open.
+    /// If a reader that has had other files ends, one of those may be the cause: then a new reader
+    /// tries again. If another lease is using the reader, this one gets its own.
     template <class Prepare, class Work>
     void work(const Prepare& prepare, const Work& work) {
         bool again = false;

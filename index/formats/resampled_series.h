@@ -9,7 +9,7 @@
 
 namespace isochron::index {
 
-/// `ReadOptions::resample`: as many vertices along each axis as the smallest cell asks for.
+/// A `ReadOptions::resample`: the cells of the new grid are as small as the smallest one was.
 inline constexpr std::array<std::uint32_t, 3> kBySmallestCell{0, 0, 0};
 
 /// Values between the vertices of `series` are interpolated along each axis; vertices of the new
@@ -17,7 +17,7 @@ inline constexpr std::array<std::uint32_t, 3> kBySmallestCell{0, 0, 0};
 /// f64 where they were f64 or i32. A note tells how far the new grid is from the values at the old
 /// vertices in the first step, which is read for it.
 /// @param vertices along each axis, or `kBySmallestCell`
-/// @return the series itself where its grid is regular and has so many vertices, or by its cells
+/// @return the series itself if its grid is regular and its vertices are as many as asked for
 /// @throws Error: too many vertices by the smallest cell
 std::unique_ptr<VolumeSeries> resampled(std::unique_ptr<VolumeSeries> series,
                                         const std::array<std::uint32_t, 3>& vertices);

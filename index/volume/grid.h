@@ -91,9 +91,9 @@ struct Grid {
     /// From the first vertex to a place in index coordinates along an axis; between vertices, and
     /// beyond them, in proportion.
     double distance(int axis, double index) const;
-    /// The other way round.
+    /// The inverse of `distance`: index coordinate at a distance from the first vertex.
     double index_at(int axis, double distance) const;
-    /// Exact everywhere.
+    /// The place of index coordinates in physical space, exact on every grid.
     glm::dvec3 physical(const glm::dvec3& index) const;
     glm::dvec3 index_of(const glm::dvec3& physical) const;
 

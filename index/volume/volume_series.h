@@ -58,7 +58,7 @@ struct ReadOptions {
     bool times_from_names = false; ///< --times-from-names: the last number in each file's name
     /// --resample NX NY NZ: grids that are not regular become one of so many vertices.
     std::optional<std::array<std::uint32_t, 3>> resample;
-    /// Of one step, a file for each slice, in their order; set by `open_series` alone.
+    /// If each slice of a step has its own file: these files, in order. Only `open_series` sets it.
     std::vector<std::filesystem::path> slices;
     // Headerless raw files only:
     std::optional<std::array<std::uint32_t, 3>> dims; ///< --dims NX NY NZ, vertices

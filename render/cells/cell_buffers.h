@@ -60,8 +60,8 @@ class CellBuffers {
 
     /// Makes the compute programs and runs each once, over no cells: compiling them takes longer
     /// than a frame may. Without this the first upload does it.
-    /// @param held type of the values in volume bricks. If arrays of an index have several types,
-    ///        call this for each, last for the first one that is shown.
+    /// @param held type of the values in volume bricks. If the arrays of an index have several
+    ///        types, call this for each of them.
     void prepare(index::ValueType held);
 
     /// Sends at most `byte_budget` bytes (at least StagingRing::kUnit), fewer if the GPU has not

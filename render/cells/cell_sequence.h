@@ -21,7 +21,7 @@ struct CellSequence {
     GLuint texture = 0;
     int begin = 0, step = 0;
 
-    /// Those of its cells that the parts from `first` to `end` of `of` equal ones draw.
+    /// If the cells are divided into `of` equal parts: the cells of parts `first` to `end` - 1.
     CellSequence part(std::size_t first, std::size_t end, std::size_t of) const;
 };
 
@@ -33,7 +33,7 @@ struct SequenceWanted {
     SplatShape shape;
     float falloff;   ///< of splats, see SeenSplats
     bool blended;    ///< splats, back to front; else quads, nearest first
-    bool leaves_out; ///< those that cannot be seen
+    bool leaves_out; ///< cells that cannot be seen are culled
 };
 
 /// Finds sequences, at once or in pieces, as finding one may take longer than a frame.

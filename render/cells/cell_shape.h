@@ -22,8 +22,8 @@ struct SplatShape {
     static constexpr float kThickness = 0.125f; ///< along the normal, as a share of the radius
     static constexpr float kLeastWidth = 0.15f; ///< in the plane, likewise
     static constexpr float kLengthwise = 1.3f;  ///< lengthwise over the part in the cell
-    /// Of the way from the cell's farthest corner to the plane, which is kept in steps as large: a
-    /// plane on a cell's face is in no other cell.
+    /// Least distance from the plane to the cell's farthest corner on its side, about one step of a
+    /// stored offset, so that a plane at the cell's very end still has an extent [voxels].
     static constexpr float kLeastRest = 0.007f;
 };
 

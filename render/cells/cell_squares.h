@@ -26,9 +26,9 @@ class CellSquares {
   public:
     static constexpr std::size_t kBlock = 16; ///< the arrays are padded to whole blocks
 
-    /// @param slots with planes if the shape is `CellShape::plane`; on a rectilinear grid not of
-    ///        mixed
-    ///        levels of detail
+    /// Projects all cells.
+    /// @param slots with planes if the shape is `CellShape::plane`; on a rectilinear grid, cells
+    ///        must not be of mixed levels of detail
     /// @param back_to_front slots in this order
     void project(const View& view, const Placement& placement, const SplatShape& shape,
                  const Slots& slots, std::span<const std::uint32_t> back_to_front) {
@@ -36,11 +36,11 @@ class CellSquares {
         project_to(size_, slots, back_to_front);
     }
 
-    /// The same in pieces: after this no cell is projected,
+    /// The same in pieces: begins, with no cell projected yet.
     void begin(const View& view, const Placement& placement, const SplatShape& shape,
                const Slots& slots);
-    /// and after this the nearest `to` cells, or few more. @param slots the same as before, as is
-    /// `back_to_front`
+    /// Goes on until the nearest `to` cells, or a few more, are projected. @param slots the same
+    /// each time, as is `back_to_front`
     void project_to(std::size_t to, const Slots& slots,
                     std::span<const std::uint32_t> back_to_front);
 

@@ -6,14 +6,14 @@
 namespace isochron::render {
 
 struct UploadCount {
-    std::uint64_t sets = 0;              ///< shown
-    std::uint64_t ids = 0;               ///< sent for them
-    std::uint64_t whole_ids = 0;         ///< that they have: to send them whole
+    std::uint64_t sets = 0;              ///< number of sets shown
+    std::uint64_t ids = 0;               ///< ids sent for these sets
+    std::uint64_t whole_ids = 0;         ///< ids in these sets: sent if each were sent whole
     std::uint64_t id_bytes = 0;          ///< ids, with their slots where differences are sent
     std::uint64_t brick_bytes = 0;       ///< bricks of the volume with their pages
     std::uint64_t color_bytes = 0;       ///< color coordinates
     std::uint64_t mesh_bytes = 0;        ///< vertices and triangles
-    std::uint64_t surrounding_bytes = 0; ///< what darkens surrounded places
+    std::uint64_t surrounding_bytes = 0; ///< SurroundingFields, for ambient occlusion
 
     UploadCount& operator+=(const UploadCount& other) {
         sets += other.sets;

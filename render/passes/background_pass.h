@@ -1,4 +1,4 @@
-// What is behind the data, where it is more than the color that a picture begins with.
+// Draws a background that is not just one color.
 #pragma once
 
 #include "render/gl/gl_objects.h"
@@ -14,7 +14,7 @@ struct BackgroundColors {
     bool operator==(const BackgroundColors&) const = default;
 };
 
-/// Goes by the direction of every pixel's ray in the room, so that all eyes and walls see one sky.
+/// Colors each pixel by the direction of its ray in the room, so that all eyes see the same sky.
 class BackgroundPass {
   public:
     /// @throws Error when a shader does not compile

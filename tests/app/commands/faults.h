@@ -37,7 +37,7 @@ class Faults : public CommandLine {
                              "ISOCHRON_FAULT_MARK=" + mark()}});
     }
     static bool tries_all() { return std::getenv("ISOCHRON_EVERY_FAULT") != nullptr; }
-    /// How much farther on the next n is, as a share of n, unless all are tried.
+    /// Sets the step from one n to the next, as a share of n, unless all n are tried.
     void set_growth(double growth) { growth_ = growth; }
     bool was_met() const { return std::filesystem::exists(mark()); }
     std::string mark() const { return marks_.path() / "met"; }

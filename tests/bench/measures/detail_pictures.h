@@ -22,14 +22,14 @@ struct MovingDetail {
     unsigned finest = 0, coarsest = 0;      ///< levels of detail
     double draw_ms = 0;                     ///< both eyes, median
     double extract_ms = 0;                  ///< on the worker
-    /// Area, of that lit by all cells in a picture with finer pixels.
+    /// Pixels lit wrongly, relative to those that all cells light in a picture with finer pixels.
     double extra_percent = 0, missed_percent = 0;
 };
 MovingDetail measure_moving_detail(const render::Gl& gl,
                                    const std::shared_ptr<const index::IndexFile>& file,
                                    const DetailOptions& options);
 
-/// Part of the pixels of a picture at rest that are off by more than 8 of 255 from the picture of
+/// Share of the pixels of a picture at rest that differ by more than 8 of 255 from the picture of
 /// all cells [percent].
 double measure_settled_detail(const render::Gl& gl,
                               const std::shared_ptr<const index::IndexFile>& file,

@@ -27,7 +27,7 @@ inline constexpr const char* kNoCommonName =
 /// these and no other file of their folder; empty if there is none.
 std::optional<std::filesystem::path> one_name_of(std::span<const std::filesystem::path> files);
 
-/// A pattern of file names, with the folder in front. Letters like `*` in the folder match as such.
+/// A pattern of file names with the folder in front, in which `*` and the like are escaped.
 std::filesystem::path pattern_in(const std::filesystem::path& folder, const std::string& pattern);
 
 /// Whether a name is a pattern that may stand for several files.

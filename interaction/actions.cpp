@@ -29,7 +29,7 @@ std::span<const KeyLine> key_lines() {
          "isovalue by 1 % of the range (Shift: 0.1 %)",
          {{Key::up, isovalue_up}, {Key::down, isovalue_down}}},
         {"Page Up, Page Down",
-         "likewise",
+         "the same",
          {{Key::page_up, isovalue_rise}, {Key::page_down, isovalue_fall}}},
         {"Right Left, or . ,",
          "one step forward, back (pauses)",

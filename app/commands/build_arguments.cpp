@@ -36,7 +36,7 @@ BuildArguments with_path_within(BuildArguments arguments) {
     if (arguments.all_arrays && !arguments.arrays.empty())
         throw UsageError("--all-arrays and --array: expected one of them");
     if (several && arguments.read.component)
-        throw UsageError("--component: for several arrays it stands behind a name: --array "
+        throw UsageError("--component: with several arrays add it to a name: --array "
                          "velocity.magnitude");
     if (several && arguments.read.value_unit)
         throw UsageError("--value-unit: expected for one array only");

@@ -168,8 +168,8 @@ void add_build(Command& program) {
         .option(
             "files", arguments->files,
             "A .pvd, or the files of the steps in any order, also as quoted patterns ('t*.vti'); "
-            "or an index, also of the file version before this. A path of HDF5 may stand behind "
-            "the file (run.h5:/fields/rho). Known are " +
+            "or an index, also one of the previous file version. The path of an HDF5 dataset "
+            "may follow the file (run.h5:/fields/rho). Known are " +
                 index::known_extensions())
         .required()
         .type_name("FILES");

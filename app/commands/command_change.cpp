@@ -67,7 +67,7 @@ void run_change(const ChangeArguments& arguments) {
         if (!out.empty())
             refuse_input_as_output({arguments.file}, out);
     if (!arguments.to_step && !arguments.to_isovalue)
-        throw UsageError("change from what to what: --to-step or --to-isovalue is missing");
+        throw UsageError("--to-step or --to-isovalue is missing");
     const auto file = array_called(open_index_to_show(arguments.file), arguments.array);
     const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
     const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),

@@ -39,7 +39,7 @@ void run_info(const InfoArguments& given) {
                          (std::filesystem::path(first).extension() != ".isochron" &&
                           !(std::filesystem::exists(first, ignored) && index::is_index(first)));
     if (is_data && given.tree)
-        throw UsageError(fmt::format("--tree: {} is no index, and has none", first));
+        throw UsageError(fmt::format("--tree: {} is not an index", first));
     if (is_data)
         return describe_sources(arguments, given.json);
     const auto file = array_called(open_index(first), arguments.read.array);

@@ -228,9 +228,10 @@ void add_movie(Command& program) {
         .one_of({"window", "each"})
         .shows_default();
     command.flag("--force", options->force, "Replace an existing movie");
-    command.flag("--background", options->background,
-                 "Make way for other programs, end with the one that started this, and say how far "
-                 "it is in lines: as the panel's movies are made");
+    command.flag(
+        "--background", options->background,
+        "As the panel makes movies: at low priority, ended with the program that started it, "
+        "with its progress in lines");
     command.footer("Frames are drawn at the movie's rate; `replay --every` writes single "
                    "pictures.\nExit status: 0 done, 1 bad input, 2 bad "
                    "usage.");

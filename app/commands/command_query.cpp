@@ -229,8 +229,8 @@ void add_query(Command& program) {
         .shows_default();
     command
         .option("--method", arguments->method,
-                "Search structure to use (default: at first what has fewer bytes left to read, "
-                "then the fastest)")
+                "Search structure to use (default: first the one with fewer bytes left to "
+                "read, then the fastest)")
         .one_of(std::vector<std::string>(index::kSearchMethodNames.begin(),
                                          index::kSearchMethodNames.end()));
     command.flag("--json", arguments->json, "Print one JSON object");

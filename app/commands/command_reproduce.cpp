@@ -32,10 +32,10 @@ struct ReproduceOptions {
 PictureNote note_in(const fs::path& picture) {
     const std::string text = note_text_in(picture);
     if (text.empty())
-        throw interaction::Error(fmt::format(
-            "{}: it does not say what it shows: no picture that isochron has written, or one that "
-            "another program has written again",
-            picture.string()));
+        throw interaction::Error(fmt::format("{}: it has no note of what it shows: isochron has "
+                                             "not written it, or another program has "
+                                             "saved it again",
+                                             picture.string()));
     try {
         return note_from(text);
     } catch (const interaction::Error& error) {
@@ -134,8 +134,9 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
                   }
               });
     if (made.image.rgba.empty())
-        throw interaction::Error(fmt::format("{}: it shows a {} that its configuration has not",
-                                             options.picture, note.part.shows));
+        throw interaction::Error(
+            fmt::format("{}: it shows a {} that its configuration does not have", options.picture,
+                        note.part.shows));
     return made;
 }
 

@@ -52,7 +52,7 @@ void read_coloring(TomlReader& reader, const std::string& name, interaction::Col
     reader.vector("percentiles", ends);
     if (reader.has("percentiles")) {
         if (reader.has("range"))
-            reader.fail("percentiles", "there is a range, too: one of them may be given");
+            reader.fail("percentiles", "expected range or percentiles, got both");
         if (!(0 <= ends.x && ends.x < ends.y && ends.y <= 100))
             reader.fail("percentiles",
                         fmt::format("expected two ascending numbers from 0 to 100, got {} and {}",

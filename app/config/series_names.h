@@ -21,7 +21,7 @@ std::vector<NamedSeries> series_among(std::span<const std::string> names);
 
 /// The message about files for which `one_name_of` finds no name.
 inline constexpr const char* kNoCommonName =
-    "these files have no name in common that only they have: open one, or all of a folder";
+    "no pattern matches these files and no others: open one, or all of a folder";
 
 /// One name that stands for all the files: the name of a single file, or a pattern that matches
 /// these and no other file of their folder; empty if there is none.

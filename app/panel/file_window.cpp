@@ -113,7 +113,7 @@ std::optional<fs::path> FileWindow::draw() {
                      ImGuiWindowFlags_NoSavedSettings);
     std::optional<fs::path> chosen;
     if (!recent_.empty())
-        note("lately", kDim);
+        note("recent", kDim);
     for (const fs::path& path : recent_)
         if (ImGui::Selectable(path.string().c_str()))
             chosen = path;

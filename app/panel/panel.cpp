@@ -272,9 +272,9 @@ void mark_section(const PanelModel& model, Commands& commands) {
         commands.isovalue = point->value;
     tip("set the isovalue to that of the picked point");
     ImGui::SameLine();
-    if (ImGui::SmallButton("forget it"))
+    if (ImGui::SmallButton("remove mark"))
         commands.mark = interaction::Mark{};
-    tip("remove the mark");
+    tip("remove the mark of the picked point");
     ImGui::Separator();
 }
 
@@ -299,7 +299,7 @@ std::string quality_line(const FrameReport& frame) {
     if (frame.expected)
         line += fmt::format(", {:.1f} of {:.1f} ms", frame.expected->count(), frame.budget.count());
     if (frame.reason == QualityReason::over_budget && frame.better)
-        line += fmt::format(" (better takes {:.1f})", frame.better->count());
+        line += fmt::format(" (the next better one takes {:.1f} ms)", frame.better->count());
     // The line already tells that the picture moves or fits.
     else if (!fast && frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
         line += fmt::format(" ({})", name_of(frame.reason));

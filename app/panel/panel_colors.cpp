@@ -197,9 +197,10 @@ void look_section(const PanelModel& model, Commands& commands) {
     };
     choice("material", look.material, "how surfaces shine");
     ImGui::SameLine();
-    choice("behind", look.background, "what is behind the data");
+    choice("background", look.background, "what is behind the data");
     ImGui::SetNextItemWidth(-60.0f);
-    ImGui::SliderFloat("depth", &look.occlusion, 0.0f, 1.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("occlusion", &look.occlusion, 0.0f, 1.0f, "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
     tip("ambient occlusion: how dark crevices are");
     if (look != model.asked.look)
         commands.look = look;

@@ -163,7 +163,7 @@ void progress_window(const std::string& name, const std::string& line, float fra
     text(name);
     ImGui::ProgressBar(fraction, {-1.0f, 0.0f});
     text(line);
-    note("Escape leaves", kDim);
+    note("Escape: leave", kDim);
     ImGui::End();
 }
 

@@ -203,7 +203,7 @@ void MovieMaker::end(int status) {
     if (status == 0)
         messages_.push_back(last_);
     else if (given_up_)
-        messages_.push_back(fmt::format("given up: {}", movie_.string()));
+        messages_.push_back(fmt::format("canceled: {}", movie_.string()));
     else
         messages_.push_back(
             last_.empty() ? fmt::format("{}: its process ended without a message", movie_.string())

@@ -154,12 +154,14 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
                         cost.entries, cost.cell_bytes);
         const bool merges = step_bytes <= kSmallStep || cost.entries <= kPayingCoherence;
         if (!merges || cost.cell_bytes > kPayingBytes) {
-            leave_out("cells",
-                      fmt::format("{}; at most {} pay: bricks and the values around them are fewer "
-                                  "bytes to read; --tiers bricks,cells makes them all the same",
-                                  figures,
-                                  merges ? fmt::format("{} bytes", kPayingBytes)
-                                         : fmt::format("{} entries", kPayingCoherence)));
+            leave_out(
+                "cells",
+                fmt::format(
+                    "{}; more than {} do not pay: bricks and the values around them are fewer "
+                    "bytes to read; --tiers bricks,cells makes them all the same",
+                    figures,
+                    merges ? fmt::format("{} bytes", kPayingBytes)
+                           : fmt::format("{} entries", kPayingCoherence)));
             return plan;
         }
         plan.reasons.push_back(fmt::format("cells pay: {}", figures));

@@ -132,7 +132,8 @@ Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable
             throw;
     }
     if (positions.downwards)
-        notes.push_back(fmt::format("{} counts downwards: up is its negative", positions.label));
+        notes.push_back(fmt::format("{} counts downwards and is shown with its sign reversed",
+                                    positions.label));
     return positions;
 }
 

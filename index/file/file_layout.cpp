@@ -44,7 +44,7 @@ void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t the
     if (header.version == kFileVersion - 1)
         throw Error(
             fmt::format("{}: file version {}, this program reads version {}; isochron build "
-                        "{} -o NEW.isochron makes one of it",
+                        "{} -o NEW.isochron converts it",
                         name, header.version, kFileVersion, name));
     if (header.version != kFileVersion)
         throw Error(fmt::format("{}: file version {}, this program reads version {}", name,

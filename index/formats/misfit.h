@@ -28,12 +28,12 @@ class Misfit {
         ++count_;
     }
 
-    /// `0.5 % of the values' range off at most, 0.1 % on the whole`: the largest difference, and
+    /// `at most 0.5 % of the values' range off, 0.1 % root mean square`: the largest difference, and
     /// the root mean square.
     std::string text() const {
         const double range = std::max(high_ - low_, 1e-300);
         const double mean = count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : 0;
-        return fmt::format("{:.2g} % of the values' range off at most, {:.2g} % on the whole",
+        return fmt::format("at most {:.2g} % of the values' range off, {:.2g} % root mean square",
                            100 * most_ / range, 100 * mean / range);
     }
 

@@ -60,8 +60,8 @@ std::optional<std::string> note_on_missing(std::span<const std::filesystem::path
         least = std::min(least, number(i) - number(i - 1)); // equal ones differ in zeros alone
     for (std::size_t i = 1; i < files.size(); ++i)
         if (number(i) - number(i - 1) != least)
-            return fmt::format("the files' numbers are not evenly spaced ({} follows {}), their "
-                               "steps are shown so; --times-from-names takes them as times",
+            return fmt::format("the files' numbers are not evenly spaced ({} follows {}); the "
+                               "steps are; --times-from-names takes the numbers as times",
                                number(i), number(i - 1));
     return std::nullopt;
 }

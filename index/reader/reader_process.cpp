@@ -75,7 +75,8 @@ std::string text_of_end(int status) {
         return fmt::format("its reader was killed ({}), as systems do when memory runs out", text);
     if (signal == SIGXCPU)
         return fmt::format("its reader took longer than any such file does ({})", text);
-    return fmt::format("its reader crashed on it ({}): it is damaged, or made to do so", text);
+    return fmt::format("its reader crashed on it ({}): the file is damaged, or was made to do this",
+                       text);
 }
 
 } // namespace
@@ -147,7 +148,7 @@ void ReaderProcess::watch() {
     signs_ = now;
     silence_ = alive ? std::chrono::milliseconds{0} : silence_ + MessageSocket::kAwait;
     if (silence_ >= limits_.patience)
-        fail(fmt::format("its reader got nowhere for {} s and was ended",
+        fail(fmt::format("its reader made no progress for {} s and was stopped",
                          static_cast<double>(limits_.patience.count()) / 1000));
 }
 

@@ -161,7 +161,7 @@ TEST_F(ArraysCommand, OptionsOfOneArrayAreRefusedForSeveral) {
         more.insert(more.begin(), {"--array", "rho", "--array", "heat"});
         return isochron(build(more));
     };
-    expect_failure(with({"--component", "0"}), 2, "it stands behind a name");
+    expect_failure(with({"--component", "0"}), 2, "with several arrays add it to a name");
     expect_failure(with({"--value-unit", "K"}), 2, "expected for one array only");
     expect_failure(with({"--all-arrays"}), 2, "expected one of them");
     expect_failure(isochron(build({"--array", "rho", "--array", "rho"})), 1,

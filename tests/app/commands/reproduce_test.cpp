@@ -188,7 +188,7 @@ TEST_F(ReproduceTest, WhatIsNoPictureOfOursIsOneLine) {
                         "<isochron-picture>{</isochron-picture>");
     folder_.write("text.png", "no picture");
     for (const auto& [name, what] :
-         {std::pair{"plain.png", "it does not say what it shows"},
+         {std::pair{"plain.png", "it has no note of what it shows"},
           std::pair{"cut.png", "not JSON at byte "}, std::pair{"text.png", "text.png: "},
           std::pair{"none.png", "none.png: "}}) {
         const ChildResult result = isochron({"reproduce", name});

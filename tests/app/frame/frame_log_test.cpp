@@ -174,7 +174,8 @@ TEST(QualityLine, SaysPaceFootprintCostAndWhy) {
     EXPECT_EQ(quality_line(frame), "settled: gaussian, 7.2 of 11.1 ms (trial)");
     frame.reason = QualityReason::over_budget;
     frame.better = Milliseconds(14.2);
-    EXPECT_EQ(quality_line(frame), "settled: gaussian, 7.2 of 11.1 ms (better takes 14.2)");
+    EXPECT_EQ(quality_line(frame),
+              "settled: gaussian, 7.2 of 11.1 ms (the next better one takes 14.2 ms)");
     EXPECT_EQ(quality_line(frame_with(Footprint::quad, QualityReason::moving)), "moving: quad");
 }
 

@@ -109,17 +109,17 @@ TEST_F(MovieMakerTest, GivenUpAtAnyTimeItLeavesNothing) {
     MovieMaker movies(orders(waits));
     movies.make(write, writing_);
     movies.give_up(); // before it has begun
-    EXPECT_THAT(outcome(movies), StartsWith("given up: "));
+    EXPECT_THAT(outcome(movies), StartsWith("canceled: "));
     movies.make(write, writing_);
     EXPECT_TRUE(test_support::eventually([&] {
         movies.update();
         return movies.progress() == 0.01f;
     }));
     movies.give_up();
-    EXPECT_THAT(outcome(movies), StartsWith("given up: "));
+    EXPECT_THAT(outcome(movies), StartsWith("canceled: "));
     movies.make(write, writing_);
     movies.finish(); // as at the end of a session
-    EXPECT_THAT(movies.messages(), ElementsAre(StartsWith("given up: ")));
+    EXPECT_THAT(movies.messages(), ElementsAre(StartsWith("canceled: ")));
     EXPECT_THAT(shots(), ElementsAre());
 }
 

@@ -155,8 +155,9 @@ TEST(NetcdfAxes, ThatCountDownwardsAreTurned) {
         out.put("v", values);
         const auto file = out.done();
         EXPECT_EQ(brightest(file), glm::dvec3(16, 23, -38));
-        EXPECT_THAT(open_series({file})->info().notes,
-                    testing::Contains("z (depth) counts downwards: up is its negative"));
+        EXPECT_THAT(
+            open_series({file})->info().notes,
+            testing::Contains("z (depth) counts downwards and is shown with its sign reversed"));
     }
 }
 

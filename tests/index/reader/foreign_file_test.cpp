@@ -129,8 +129,8 @@ TEST(ForeignFile, WhoseReaderHangsIsOneLine) {
     const auto file = open_in(pool, kFolder / "ascii.vti");
     ::kill(running_readers().at(0), SIGSTOP);
     EXPECT_THAT(error_of([&] { values_in(*file); }),
-                EndsWith("ascii.vti: cannot be read: its reader got nowhere for 0.3 s and was "
-                         "ended"));
+                EndsWith("ascii.vti: cannot be read: its reader made no progress for 0.3 s and was "
+                         "stopped"));
     EXPECT_TRUE(running_readers().empty());
     expect_good(*open_in(pool, kFolder / "ascii.vti"));
 }

@@ -73,7 +73,7 @@ TEST(Resampled, RectilinearGridsToo) {
     const SeriesInfo info = info_of(file, kBySmallestCell);
     EXPECT_EQ(info.grid.vertices, (std::array<std::uint32_t, 3>{5, 2, 2}));
     EXPECT_EQ(info.grid.spacing, glm::dvec3(1, 2, 5));
-    EXPECT_THAT(info.notes, Contains(HasSubstr("0 % of the values' range off at most")));
+    EXPECT_THAT(info.notes, Contains(HasSubstr("at most 0 % of the values' range off")));
 }
 
 } // namespace

@@ -1,11 +1,12 @@
 // The script that plays a headset in a separate program.
 //
 // ISOCHRON_PLAYED_HEADSET names a JSON file. `log` is the file for violations, pulses and frames, a
-// line of JSON each; `paced` and `connected` are as in played_headset.h. `frames` is a list of
-// changes. Each has `at`, the frame from which it holds (counted by xrWaitFrame), and any of
-// `head`, `left` and `right` (7 numbers: x y z, then the quaternion x y z w), `inputs`
-// (`right/squeeze/value`: 1), `happens` (`exit`, `lose_session`, ...) and `picture` (a file for the
-// left eye's picture of the previous frame, as PPM).
+// line of JSON each; `paced` and `connected` are as in played_headset.h, `eye_size` is the recommended
+// size of an eye's picture (2 numbers). `frames` is a list of changes. Each has `at`, the frame from
+// which it holds (counted by xrWaitFrame), and any of `head`, `left` and `right` (7 numbers: x y z,
+// then the quaternion x y z w), `inputs` (`right/squeeze/value`: 1), `happens` (`exit`,
+// `lose_session`, ...), `picture` (a file for the left eye's picture of the previous frame, as PPM)
+// and `right_picture` (likewise).
 #include "tests/support/played_headset/world.h"
 
 #include <nlohmann/json.hpp>
@@ -46,11 +47,11 @@ void place(Hand& hand, const json& numbers) {
     hand.grip = hand.aim = pose_of(numbers);
 }
 
-void write_picture(const std::filesystem::path& path) {
+void write_picture(const std::filesystem::path& path, std::size_t eye) {
     const auto& frames = world().headset.frames;
-    if (frames.empty() || frames.back().views.empty())
+    if (frames.empty() || frames.back().views.size() <= eye)
         return;
-    const render::Image& picture = frames.back().views.front().picture;
+    const render::Image& picture = frames.back().views[eye].picture;
     std::ofstream file(path, std::ios::binary);
     file << "P6\n" << picture.width << " " << picture.height << "\n255\n";
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
@@ -84,6 +85,9 @@ void read_script() {
     world().log = script().at("log").get<std::string>();
     world().headset.paced = script().value("paced", true);
     world().headset.connected = script().value("connected", true);
+    const auto size = script().value("eye_size", std::array<int, 2>{96, 96});
+    for (Eye& eye : world().headset.eyes)
+        eye.size = {size[0], size[1]};
 }
 
 void play_script(std::size_t frame) {
@@ -94,7 +98,9 @@ void play_script(std::size_t frame) {
         if (each.at("at").get<std::size_t>() != frame)
             continue;
         if (each.contains("picture"))
-            write_picture(each["picture"].get<std::string>());
+            write_picture(each["picture"].get<std::string>(), 0);
+        if (each.contains("right_picture"))
+            write_picture(each["right_picture"].get<std::string>(), 1);
         if (each.contains("head"))
             headset.head = pose_of(each["head"]);
         if (each.contains("left"))

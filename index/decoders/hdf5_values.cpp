@@ -52,6 +52,11 @@ Hdf5Values::Hdf5Values(const Hdf5File& file, const Hdf5Dataset& dataset,
     }
     expect_filters(properties.id());
     expect_room_for(properties.id(), file.name());
+    constexpr double kCache = 1 << 20;
+    double chunk_bytes = static_cast<double>(size_of(*dataset.type));
+    for (const std::uint64_t length : chunk_)
+        chunk_bytes *= static_cast<double>(length);
+    in_parts_ = chunk_bytes > kCache && H5Pget_nfilters(properties.id()) == 0;
     if (chunk_.empty() || !shared || chunk_[*shared] == 1)
         return;
     double bytes = static_cast<double>(size_of(*dataset.type)), chunks = 1; // of one step
@@ -66,6 +71,7 @@ Hdf5Values::Hdf5Values(const Hdf5File& file, const Hdf5Dataset& dataset,
         return;
     const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     constexpr std::size_t kSlotsPerChunk = 10; // as HDF5 advises
+    in_parts_ = false;
     H5Pset_chunk_cache(access.id(), static_cast<std::size_t>(chunks) * kSlotsPerChunk + 1,
                        static_cast<std::size_t>(bytes * chunks), 1.0);
     open(access.id());

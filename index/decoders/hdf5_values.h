@@ -21,6 +21,9 @@ class Hdf5Values {
 
     /// Number of values of a chunk along each dimension; empty if there are no chunks.
     const std::vector<std::uint64_t>& chunk() const { return chunk_; }
+    /// Whether HDF5 reads a part of a chunk without the rest: one without filters that is larger
+    /// than its cache.
+    bool in_parts() const { return in_parts_; }
 
     /// Reads the box of values at `start` with `count` values along each dimension, in the
     /// dataset's type and the machine's byte order. @throws Error naming file and dataset
@@ -35,6 +38,7 @@ class Hdf5Values {
     Hdf5Dataset dataset_;
     Hdf5Handle open_, space_;
     std::vector<std::uint64_t> chunk_;
+    bool in_parts_ = false;
 };
 
 } // namespace isochron::index

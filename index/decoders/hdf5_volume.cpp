@@ -81,12 +81,17 @@ class Hdf5Decoder final : public DecodedFile {
         return volume_.layout.time ? first().dimensions[*volume_.layout.time] : 1;
     }
 
-    /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it.
+    /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it; but of
+    /// chunks of whole planes that need no decompressing as many planes as fit the processor's cache.
     std::uint32_t slices_at_once() const override {
         const std::uint32_t all = info().grid.vertices[2], worth = slices_worth_asking(info());
         if (volume_.on_cells)
             return all;
-        if (values_->chunk().empty())
+        const auto whole_along = [&](std::size_t a) {
+            const std::size_t dimension = volume_.layout.space[a];
+            return values_->chunk()[dimension] >= first().dimensions[dimension];
+        };
+        if (values_->chunk().empty() || (values_->in_parts() && whole_along(0) && whole_along(1)))
             return worth;
         const auto along =
             std::clamp<std::uint64_t>(values_->chunk()[volume_.layout.space[2]], 1, all);

@@ -5,11 +5,13 @@
 #include "index/formats/reader_lease.h"
 #include "index/formats/readers.h"
 #include "index/formats/stored_file.h"
+#include "index/system/huge_pages.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <utility>
 
 namespace isochron::index {
@@ -57,15 +59,21 @@ class ForeignFile final : public VolumeFile {
     std::vector<fs::path> beside() const override { return open_.options.slices; }
 
     void read(std::size_t step, std::span<std::byte> out) override {
-        stream(step, [to = out.data()](std::span<const std::byte> piece) mutable {
-            std::memcpy(to, piece.data(), piece.size());
-            to += piece.size();
-        });
+        std::span<std::byte> rest = out;
+        take_step(
+            step,
+            [&](std::span<const std::byte> piece) {
+                std::memcpy(rest.data(), piece.data(), piece.size());
+                rest = rest.subspan(piece.size());
+            },
+            [&](std::size_t bytes) {
+                if (!last_page_is_there(rest.first(bytes)))
+                    fetch_pages(rest.first(bytes));
+            });
     }
 
     void stream(std::size_t step, const TakePiece& take) override {
-        std::size_t taken = 0; // a new reader goes on from there
-        lease_.work([this] { open_again(); }, [&] { take_slabs(step, taken, take); });
+        take_step(step, take, [](std::size_t /*bytes*/) {});
     }
 
   private:
@@ -83,8 +91,17 @@ class ForeignFile final : public VolumeFile {
             throw Error(fmt::format("{}: has changed since it was opened", name_));
     }
 
+    /// What to do before the next piece is there, of which the size is known.
+    using Meanwhile = std::function<void(std::size_t bytes)>;
+
+    void take_step(std::size_t step, const TakePiece& take, const Meanwhile& meanwhile) {
+        std::size_t taken = 0; // a new reader goes on from there
+        lease_.work([this] { open_again(); }, [&] { take_slabs(step, taken, take, meanwhile); });
+    }
+
     // The reader makes the next slab while this process takes one. The first `taken` are skipped.
-    void take_slabs(std::size_t step, std::size_t& taken, const TakePiece& take) {
+    void take_slabs(std::size_t step, std::size_t& taken, const TakePiece& take,
+                    const Meanwhile& meanwhile) {
         const std::uint32_t all = described_.info.grid.vertices[2],
                             at_once = described_.slices_at_once;
         const std::size_t slice = described_.info.step_bytes() / all, slab_bytes = slice * at_once;
@@ -102,10 +119,11 @@ class ForeignFile final : public VolumeFile {
                     ReadSlab{step, slices_of(asked), asked % places * slab_bytes, lease_.number()});
             std::size_t replied = taken;
             try {
-                ++replied;
-                lease_.expect<SlabRead>();
                 const auto slab =
                     memory.subspan(taken % places * slab_bytes, slices_of(taken).count * slice);
+                meanwhile(slab.size());
+                ++replied;
+                lease_.expect<SlabRead>();
                 ++taken;
                 take(slab);
             } catch (const ReaderEnded&) {

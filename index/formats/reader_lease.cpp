@@ -37,13 +37,19 @@ LentReader::~LentReader() {
 void LentReader::close(std::uint64_t file) {
     if (open.erase(file) == 0)
         return;
+    if (!reader->is_ours())
+        return let_go();
     try {
         reader->ask(CloseFile{file});
         reader->reply();
     } catch (const Error&) { // it has gone
-        reader.reset();
-        open.clear();
+        let_go();
     }
+}
+
+void LentReader::let_go() {
+    reader.reset();
+    open.clear();
 }
 
 ReaderLease::ReaderLease(ReaderPool& pool, std::string program, std::filesystem::path path,

@@ -28,6 +28,8 @@ class LentReader {
 
     /// Closes the file of a lease, if it is open.
     void close(std::uint64_t file);
+    /// Forgets the reader.
+    void let_go();
 
     std::unique_ptr<ReaderProcess> reader; ///< null: it must be started
     std::set<std::uint64_t> open;          ///< numbers of the leases whose files it has open
@@ -60,6 +62,8 @@ class ReaderLease {
         while (true) {
             const InUse use(*this);
             try {
+                if (lent_->reader && !lent_->reader->is_ours())
+                    lent_->let_go();
                 if (!lent_->reader)
                     start(again);
                 if (!lent_->open.contains(number_)) {
@@ -69,8 +73,7 @@ class ReaderLease {
                 return work();
             } catch (const ReaderEnded& ended) {
                 const bool only_this = !lent_->reader || lent_->reader->files() <= 1;
-                lent_->reader.reset();
-                lent_->open.clear();
+                lent_->let_go();
                 if (again || only_this || ended.how() == ReaderEnded::How::by_our_hand)
                     fail(ended.what());
                 again = true;

@@ -15,6 +15,7 @@ constexpr std::size_t kMostIdle = 4; ///< each takes some megabytes for its libr
 std::unique_ptr<ReaderProcess> ReaderPool::take(const std::string& program) {
     {
         const std::lock_guard lock(mutex_);
+        std::erase_if(idle_, [](const auto& reader) { return !reader->is_ours(); });
         const auto found = std::find_if(idle_.rbegin(), idle_.rend(), [&](const auto& reader) {
             return reader->program() == program;
         });

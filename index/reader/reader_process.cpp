@@ -10,6 +10,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -82,7 +83,7 @@ std::string text_of_end(int status) {
 } // namespace
 
 ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits)
-    : program_(std::move(program)), limits_(limits) {
+    : program_(std::move(program)), limits_(limits), parent_(::getpid()) {
     const std::string file = file_of_program(program_).string();
     auto [ours, theirs] = MessageSocket::pair();
     const SpawnSetup setup(theirs.number());
@@ -95,11 +96,15 @@ ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits)
 }
 
 ReaderProcess::~ReaderProcess() {
-    if (process_ < 0)
+    if (process_ < 0 || !is_ours())
         return;
     ::kill(process_, SIGKILL);
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
+}
+
+bool ReaderProcess::is_ours() const {
+    return parent_ == ::getpid();
 }
 
 void ReaderProcess::ask(const ReaderRequest& request) {

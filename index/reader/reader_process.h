@@ -48,6 +48,9 @@ class ReaderProcess {
     ReaderProcess& operator=(const ReaderProcess&) = delete;
 
     const std::string& program() const { return program_; }
+    /// Whether this process has started it. A fork of that process must not use it, nor end it: it
+    /// shares the socket.
+    bool is_ours() const;
     /// Number of files that it has been asked to open or to list.
     unsigned files() const { return files_; }
 
@@ -71,7 +74,7 @@ class ReaderProcess {
 
     std::string program_;
     ReaderLimits limits_;
-    pid_t process_ = -1;
+    pid_t process_ = -1, parent_;
     std::optional<MessageSocket> socket_;
     bool ready_ = false;
     unsigned files_ = 0;

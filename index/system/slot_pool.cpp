@@ -1,6 +1,8 @@
 // Blocks of slots, each with a list of its free slots.
 #include "index/system/slot_pool.h"
 
+#include "index/system/huge_pages.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
@@ -8,24 +10,12 @@
 #include <new>
 
 #include <sanitizer/asan_interface.h>
-#include <sys/mman.h>
 
 namespace isochron::index {
 namespace {
 
 constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64, kSmallPage = 4096;
 constexpr std::size_t kTogether = 64 << 10; ///< [bytes] of pages allocated at a time
-
-/// Allocates pages together, since allocating each at its first touch takes longer. A huge page
-/// would take half of that time on a physical machine. But a virtual machine may have returned its
-/// free huge pages to the host, and would wait for them.
-void fetch_pages(std::byte* begin, std::byte* end) {
-#ifdef MADV_POPULATE_WRITE
-    ::madvise(begin, static_cast<std::size_t>(end - begin), MADV_POPULATE_WRITE);
-#else
-    static_cast<void>(begin), static_cast<void>(end);
-#endif
-}
 
 } // namespace
 
@@ -98,7 +88,7 @@ std::byte* SlotPool::take() {
         }
     }
     if (begin)
-        fetch_pages(begin, end);
+        fetch_pages({begin, end});
     return slot;
 }
 

@@ -207,12 +207,15 @@ TEST(Readers, EndWithTheProgramHoweverItEnds) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        ReaderPool pool;
-        const auto file = open_in(pool, kFolder / "ascii.vti");
-        const pid_t reader = running_readers().at(0);
-        const bool good = ::write(told[1], &reader, sizeof reader) == ssize_t{sizeof reader};
-        ::kill(good ? ::getpid() : 0, SIGKILL);
+        [&]() noexcept { // an Error would go on with the next tests
+            ReaderPool pool;
+            const auto file = open_in(pool, kFolder / "ascii.vti");
+            const pid_t reader = running_readers().at(0);
+            const bool good = ::write(told[1], &reader, sizeof reader) == ssize_t{sizeof reader};
+            ::kill(good ? ::getpid() : 0, SIGKILL);
+        }();
     }
+    ::close(told[1]); // else the wait has no end where the child tells nothing
     pid_t reader = 0;
     ASSERT_EQ(::read(told[0], &reader, sizeof reader), ssize_t{sizeof reader});
     ::waitpid(child, nullptr, 0);
@@ -220,8 +223,32 @@ TEST(Readers, EndWithTheProgramHoweverItEnds) {
         const std::string stat = read_file(fmt::format("/proc/{}/stat", reader));
         return stat.empty() || stat.find(") Z") != stat.npos;
     }));
-    for (const int end : told)
-        ::close(end);
+    ::close(told[0]);
+}
+
+TEST(Readers, AreNotSharedWithAForkOfTheirProcess) {
+    auto pool = std::make_unique<ReaderPool>();
+    auto file = open_in(*pool, kFolder / "ascii.vti");
+    expect_good(*open_in(*pool, kFolder / "raw_zlib64.vti")); // whose reader is idle then
+    const std::vector<pid_t> readers = running_readers();
+    ASSERT_EQ(readers.size(), 2u);
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        ::alarm(20); // rather than wait for ever
+        [&]() noexcept {
+            expect_good(*file);
+            expect_good(*open_in(*pool, kFolder / "raw_zlib64.vti"));
+            file.reset();
+            pool.reset();
+        }();
+        ::_exit(testing::Test::HasFailure() ? 1 : 0);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(running_readers(), readers);
+    expect_good(*file);
 }
 
 TEST(ProcessSigns, GrowWithWhatAProcessReadsAndTouches) {

@@ -37,8 +37,8 @@ class Blur {
   public:
     explicit Blur(const Size& size)
         : size_(size), plane_(std::size_t{size[0]} * size[1]), along_z_(kWidth * plane_),
-          bytes_(2 * plane_), words_(plane_), row_(size[0] + 2 * kHalf),
-          row_again_(size[0] + 2 * kHalf) {}
+          bytes_(2 * plane_), row_(size[0] + 2 * kHalf), words_(row_ * size[1]),
+          words_again_(row_ * size[1]) {}
 
     /// @param field 1 where a place is behind the surface, else 0; then 255 times the shares
     void apply(std::span<std::uint8_t> field) {
@@ -51,9 +51,7 @@ class Blur {
                 planes[k] = along_z_.data() + neighbor(z, k, size_[2]) % kWidth * plane_;
             sum_of(planes, plane_, bytes_.data());
             along_y();
-            for (std::uint32_t y = 0; y < size_[1]; ++y)
-                along_x(words_.data() + std::size_t{y} * size_[0],
-                        field.data() + z * plane_ + std::size_t{y} * size_[0]);
+            along_x(field.data() + z * plane_);
         }
     }
 
@@ -77,36 +75,43 @@ class Blur {
             sum_of(near(bytes_.data(), size_[0], y, size_[1]), size_[0],
                    once + std::size_t{y} * size_[0]);
         for (std::uint32_t y = 0; y < size_[1]; ++y)
-            sum_of(near(once, size_[0], y, size_[1]), size_[0],
-                   words_.data() + std::size_t{y} * size_[0]);
+            sum_of(near(once, size_[0], y, size_[1]), size_[0], words_.data() + y * row_ + kHalf);
     }
 
-    void along_x(const std::uint16_t* from, std::uint8_t* to) {
-        const std::size_t lanes = size_[0];
-        std::copy_n(from, lanes, row_.data() + kHalf);
-        sum_padded(row_, row_again_.data() + kHalf);
-        sum_padded(row_again_, row_.data());
-        // Of at most 5^6: 255 / 5^6 of it, rounded.
+    /// The whole plane at a time: what was written is not read again at once, which would stall.
+    void along_x(std::uint8_t* to) {
+        sum_of_neighbors(words_, words_again_);
+        sum_of_neighbors(words_again_, words_);
+        for (std::uint32_t y = 0; y < size_[1]; ++y)
+            scale(words_.data() + y * row_ + kHalf, size_[0], to + std::size_t{y} * size_[0]);
+    }
+    void sum_of_neighbors(std::vector<std::uint16_t>& from, std::vector<std::uint16_t>& to) const {
+        for (std::size_t end = row_; end <= from.size(); end += row_) {
+            std::uint16_t* const row = from.data() + end - row_;
+            std::fill_n(row, kHalf, row[kHalf]);
+            std::fill_n(row + row_ - kHalf, kHalf, row[row_ - kHalf - 1]);
+        }
+        const std::uint16_t* const first = from.data();
+        sum_of<std::uint16_t>({first, first + 1, first + 2, first + 3, first + 4},
+                              from.size() - 2 * kHalf, to.data() + kHalf);
+    }
+    /// Of at most 5^6: 255 / 5^6 of it, rounded.
+    static void scale(const std::uint16_t* sums, std::size_t lanes, std::uint8_t* __restrict to) {
         constexpr std::uint32_t kFactor = (255u << 23) / 62500u + 1;
         for (std::size_t i = 0; i < lanes; ++i) {
-            const auto sum = static_cast<std::uint16_t>(row_[i] * 4u);
+            const auto sum = static_cast<std::uint16_t>(sums[i] * 4u);
             const auto high = static_cast<std::uint16_t>(std::uint32_t{sum} * kFactor >> 16);
             to[i] = static_cast<std::uint8_t>((high + 64u) >> 7);
         }
-    }
-    void sum_padded(std::vector<std::uint16_t>& row, std::uint16_t* to) const {
-        std::fill_n(row.begin(), kHalf, row[kHalf]);
-        std::fill_n(row.end() - kHalf, kHalf, row[row.size() - kHalf - 1]);
-        const std::uint16_t* const first = row.data();
-        sum_of<std::uint16_t>({first, first + 1, first + 2, first + 3, first + 4}, size_[0], to);
     }
 
     Size size_;
     std::size_t plane_;
     std::vector<std::uint8_t> along_z_; ///< five planes, each summed once along z
     std::vector<std::uint8_t> bytes_;   ///< a plane summed twice along z, and once along y
-    std::vector<std::uint16_t> words_;  ///< and twice along y
-    std::vector<std::uint16_t> row_, row_again_;
+    std::size_t row_;                   ///< places of a row, with those beyond its ends
+    std::vector<std::uint16_t> words_;  ///< a plane summed twice along y, too, in such rows
+    std::vector<std::uint16_t> words_again_;
 };
 
 void blur(std::span<std::uint8_t> field, const Size& size) {

@@ -1,65 +1,153 @@
 // Which places of a step lie behind a surface, blurred.
 #include "index/extraction/surroundings.h"
 
+#include "index/volume/ordinal.h"
+#include "index/volume/stored_cut.h"
+
 #include <algorithm>
 
-namespace isochron::index {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "index/extraction/surroundings.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace isochron::index::HWY_NAMESPACE {
 namespace {
 
 using Size = std::array<std::uint32_t, 3>;
 
-/// A mean is that of a place and its two neighbors on either side along an axis.
+/// A sum is that of a place and its two neighbors on either side along an axis.
 constexpr std::uint32_t kHalf = kSurroundingsReach / 2;
 constexpr std::uint32_t kWidth = 2 * kHalf + 1;
 
-/// Rounded means of five rows, place by place, in whole numbers of 16 bits: a fifth of one is its
-/// product with 2^18 / 5, rounded up, without the last 18 bits.
-void mean_of(const std::array<const std::uint8_t*, kWidth>& rows, std::size_t lanes,
-             std::uint8_t* to) {
+/// Sums of five rows, place by place. The sums of all six passes are whole numbers that fit their
+/// types, so that nothing is rounded before the end.
+template <class From, class To>
+void sum_of(const std::array<const From*, kWidth>& rows, std::size_t lanes, To* __restrict to) {
     const auto [a, b, c, d, e] = rows;
-    for (std::size_t i = 0; i < lanes; ++i) {
-        const auto sum = static_cast<std::uint16_t>(a[i] + b[i] + c[i] + d[i] + e[i] + kHalf);
-        const auto high = static_cast<std::uint16_t>(std::uint32_t{sum} * 52429u >> 16);
-        to[i] = static_cast<std::uint8_t>(high >> 2);
-    }
+    for (std::size_t i = 0; i < lanes; ++i)
+        to[i] = static_cast<To>(a[i] + b[i] + c[i] + d[i] + e[i]);
 }
 
-/// Means along an axis that is not the first, twice; places beyond the ends are like the last ones.
-/// @param lanes places of a row: they lie next to each other, and the rows one after the other
-void blur_rows(std::span<std::uint8_t> field, std::size_t lanes, std::uint32_t rows,
-               std::vector<std::uint8_t>& before) {
-    for (int pass = 0; pass < 2; ++pass) {
-        before.assign(field.begin(), field.end());
-        for (std::uint32_t i = 0; i < rows; ++i) {
-            std::array<const std::uint8_t*, kWidth> near{};
+/// Blurs which places are behind a surface, plane after plane of places, so that all that is worked
+/// on stays in the nearest cache.
+class Blur {
+  public:
+    explicit Blur(const Size& size)
+        : size_(size), plane_(std::size_t{size[0]} * size[1]), along_z_(kWidth * plane_),
+          bytes_(2 * plane_), row_(size[0] + 2 * kHalf), words_(row_ * size[1]),
+          words_again_(row_ * size[1]) {}
+
+    /// @param field 1 where a place is behind the surface, else 0; then 255 times the shares
+    void apply(std::span<std::uint8_t> field) {
+        for (std::uint32_t z = 0, ready = 0; z < size_[2]; ++z) {
+            for (; ready < std::min(z + kHalf + 1, size_[2]); ++ready)
+                sum_of(near(field.data(), plane_, ready, size_[2]), plane_,
+                       along_z_.data() + ready % kWidth * plane_);
+            std::array<const std::uint8_t*, kWidth> planes{};
             for (std::uint32_t k = 0; k < kWidth; ++k)
-                near[k] =
-                    before.data() + lanes * std::min(std::max(i + k, kHalf) - kHalf, rows - 1);
-            mean_of(near, lanes, field.data() + i * lanes);
+                planes[k] = along_z_.data() + neighbor(z, k, size_[2]) % kWidth * plane_;
+            sum_of(planes, plane_, bytes_.data());
+            along_y();
+            along_x(field.data() + z * plane_);
         }
     }
-}
 
-/// The same along the first axis, for one row.
-void blur_along(std::span<std::uint8_t> row, std::vector<std::uint8_t>& before) {
-    before.resize(row.size() + 2 * kHalf);
-    for (int pass = 0; pass < 2; ++pass) {
-        std::fill_n(before.begin(), kHalf, row.front());
-        std::ranges::copy(row, before.begin() + kHalf);
-        std::fill_n(before.end() - kHalf, kHalf, row.back());
-        const std::uint8_t* const first = before.data();
-        mean_of({first, first + 1, first + 2, first + 3, first + 4}, row.size(), row.data());
+  private:
+    /// The k-th of the five about the i-th of `count`; those beyond the ends are like the last ones.
+    static std::uint32_t neighbor(std::uint32_t i, std::uint32_t k, std::uint32_t count) {
+        return std::min(std::max(i + k, kHalf) - kHalf, count - 1);
     }
-}
+    template <class T>
+    static std::array<const T*, kWidth> near(const T* first, std::size_t apart, std::uint32_t i,
+                                             std::uint32_t count) {
+        std::array<const T*, kWidth> rows{};
+        for (std::uint32_t k = 0; k < kWidth; ++k)
+            rows[k] = first + neighbor(i, k, count) * apart;
+        return rows;
+    }
+
+    void along_y() {
+        std::uint8_t* const once = bytes_.data() + plane_;
+        for (std::uint32_t y = 0; y < size_[1]; ++y)
+            sum_of(near(bytes_.data(), size_[0], y, size_[1]), size_[0],
+                   once + std::size_t{y} * size_[0]);
+        for (std::uint32_t y = 0; y < size_[1]; ++y)
+            sum_of(near(once, size_[0], y, size_[1]), size_[0], words_.data() + y * row_ + kHalf);
+    }
+
+    /// The whole plane at a time: what was written is not read again at once, which would stall.
+    void along_x(std::uint8_t* to) {
+        sum_of_neighbors(words_, words_again_);
+        sum_of_neighbors(words_again_, words_);
+        for (std::uint32_t y = 0; y < size_[1]; ++y)
+            scale(words_.data() + y * row_ + kHalf, size_[0], to + std::size_t{y} * size_[0]);
+    }
+    void sum_of_neighbors(std::vector<std::uint16_t>& from, std::vector<std::uint16_t>& to) const {
+        for (std::size_t end = row_; end <= from.size(); end += row_) {
+            std::uint16_t* const row = from.data() + end - row_;
+            std::fill_n(row, kHalf, row[kHalf]);
+            std::fill_n(row + row_ - kHalf, kHalf, row[row_ - kHalf - 1]);
+        }
+        const std::uint16_t* const first = from.data();
+        sum_of<std::uint16_t>({first, first + 1, first + 2, first + 3, first + 4},
+                              from.size() - 2 * kHalf, to.data() + kHalf);
+    }
+    /// Of at most 5^6: 255 / 5^6 of it, rounded.
+    static void scale(const std::uint16_t* sums, std::size_t lanes, std::uint8_t* __restrict to) {
+        constexpr std::uint32_t kFactor = (255u << 23) / 62500u + 1;
+        for (std::size_t i = 0; i < lanes; ++i) {
+            const auto sum = static_cast<std::uint16_t>(sums[i] * 4u);
+            const auto high = static_cast<std::uint16_t>(std::uint32_t{sum} * kFactor >> 16);
+            to[i] = static_cast<std::uint8_t>((high + 64u) >> 7);
+        }
+    }
+
+    Size size_;
+    std::size_t plane_;
+    std::vector<std::uint8_t> along_z_; ///< five planes, each summed once along z
+    std::vector<std::uint8_t> bytes_;   ///< a plane summed twice along z, and once along y
+    std::size_t row_;                   ///< places of a row, with those beyond its ends
+    std::vector<std::uint16_t> words_;  ///< a plane summed twice along y, too, in such rows
+    std::vector<std::uint16_t> words_again_;
+};
 
 void blur(std::span<std::uint8_t> field, const Size& size) {
-    std::vector<std::uint8_t> before;
-    const std::size_t plane = std::size_t{size[0]} * size[1];
-    blur_rows(field, plane, size[2], before);
-    for (std::size_t z = 0; z < size[2]; ++z)
-        blur_rows(field.subspan(z * plane, plane), size[0], size[1], before);
-    for (std::size_t begin = 0; begin < field.size(); begin += size[0])
-        blur_along(field.subspan(begin, size[0]), before);
+    Blur(size).apply(field);
+}
+
+} // namespace
+} // namespace isochron::index::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace isochron::index {
+
+HWY_EXPORT(blur);
+
+namespace {
+
+using Size = std::array<std::uint32_t, 3>;
+
+/// Sets 1 where a place is behind the surface; a NaN never is.
+template <class T, class IsBehind>
+void find_behind(std::span<const T> stored, const Size& vertices, std::uint32_t every,
+                 const Size& size, const IsBehind& is_behind, std::uint8_t* to) {
+    if (every == 1) {
+        for (const T value : stored)
+            *to++ = is_behind(value);
+        return;
+    }
+    for (std::uint32_t z = 0; z < size[2]; ++z)
+        for (std::uint32_t y = 0; y < size[1]; ++y) {
+            const T* const row =
+                stored.data() +
+                (std::size_t{z} * every * vertices[1] + std::size_t{y} * every) * vertices[0];
+            for (std::size_t x = 0; x < size[0]; ++x)
+                *to++ = is_behind(row[x * every]);
+        }
 }
 
 } // namespace
@@ -79,23 +167,26 @@ SurroundingField surroundings_of(const StepValues& values, std::uint32_t step, u
         const std::span<std::uint8_t> shares =
             std::span(field.shares).subspan(surface * places, places);
         const double isovalue = isovalues[surface];
+        const auto cut = stored_cut(values.type, values.scaling, isovalue);
         visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
-            const std::span<const T> stored = values.step<T>(step);
-            auto to = shares.begin();
-            for (std::uint32_t z = 0; z < field.size[2]; ++z)
-                for (std::uint32_t y = 0; y < field.size[1]; ++y) {
-                    const std::size_t row =
-                        (std::size_t{z} * every * vertices[1] + y * every) * vertices[0];
-                    for (std::uint32_t x = 0; x < field.size[0]; ++x) // a NaN is not behind
-                        *to++ =
-                            values.scaling(static_cast<double>(stored[row + x * every])) >= isovalue
-                                ? 255
-                                : 0;
-                }
+            const auto find = [&](const auto& is_behind) {
+                find_behind(values.step<T>(step), vertices, every, field.size, is_behind,
+                            shares.data());
+            };
+            if (!cut) { // all places are on one side
+                find([&](T v) { return values.scaling(static_cast<double>(v)) >= isovalue; });
+                return;
+            }
+            const T least = from_ordinal<T>(static_cast<Ordinal<T>>(*cut));
+            if (values.scaling.slope > 0)
+                find([least](T v) { return v >= least; });
+            else
+                find([least](T v) { return v < least; });
         });
-        blur(shares, field.size);
+        HWY_DYNAMIC_DISPATCH(blur)(shares, field.size);
     }
     return field;
 }
 
 } // namespace isochron::index
+#endif

@@ -60,8 +60,8 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
       largest_point_(Limits(gl).largest_point),
       quad_programs_(footprint_programs("cell_quad.frag", is_round(Footprint::quad))),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", is_round(Footprint::gaussian))),
-      mesh_(gl, two_views_at_once_, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude),
-      quads_(gl), sequences_(gl), frame_(gl) {
+      mesh_(gl, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude), quads_(gl),
+      sequences_(gl), frame_(gl) {
     if (shapes.shape == CellShape::voxel)
         quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
     const float falloff = gaussian_falloff();
@@ -90,7 +90,7 @@ void CellPass::draw(std::span<const View> views, const Placement& placement,
     assert(footprint != Footprint::mesh || cells.has_mesh());
     std::size_t before = 0;
     for (const Layer& layer : layers_of(cells, footprint, appearance)) {
-        const std::size_t at_once = views_at_once(footprint, layer);
+        const std::size_t at_once = views_at_once(footprint);
         const std::size_t work = work_of(cells, footprint, layer);
         for (std::size_t first = 0; first < views.size(); first += at_once, before += work)
             if (const DrawPart cut = part.among(before, work); cut.count > 0)
@@ -103,22 +103,20 @@ std::size_t CellPass::work(std::size_t views, const CellBuffers& cells, Footprin
                            const CellAppearance& appearance) const {
     std::size_t work = 0;
     for (const Layer& layer : layers_of(cells, footprint, appearance)) {
-        const std::size_t at_once = views_at_once(footprint, layer);
+        const std::size_t at_once = views_at_once(footprint);
         work += (views + at_once - 1) / at_once * work_of(cells, footprint, layer);
     }
     return cells.size() == 0 ? 0 : work;
 }
 
-std::size_t CellPass::views_at_once(Footprint footprint, const Layer& layer) const {
-    const bool apart = !two_views_at_once_ || (!has_layers(footprint) && seen_only_);
-    const bool in_order = footprint == Footprint::mesh && layer.blended; // sorted for each view
-    return apart || in_order ? 1 : 2;
+std::size_t CellPass::views_at_once(Footprint footprint) const {
+    const bool apart = !two_views_at_once_ || footprint == Footprint::mesh ||
+                       (!has_layers(footprint) && seen_only_);
+    return apart ? 1 : 2;
 }
 
-/// Meshes that blend have an order of triangles.
 bool CellPass::is_ordered(Footprint footprint, bool blended) const {
-    return footprint != Footprint::mesh &&
-           (blended || (seen_only_ && footprint == Footprint::quad));
+    return blended || (seen_only_ && footprint == Footprint::quad);
 }
 
 std::size_t CellPass::work_of(const CellBuffers& cells, Footprint footprint,
@@ -140,11 +138,20 @@ DrawPart CellPass::put_in_order(std::span<const View> views, const Placement& pl
     const std::size_t all = ordering_work(cells);
     const DrawPart ordering = part.among(0, all), drawing = part.among(all, cells.size());
     const std::size_t done = (ordering.first + ordering.count) * views.size();
-    for (std::size_t i = 0; drawing.count == 0 && i < views.size(); ++i) // one after the other
-        if (done > i * all)
+    for (std::size_t i = 0; drawing.count == 0 && i < views.size(); ++i) { // one after the other
+        if (done <= i * all)
+            break;
+        const std::size_t to = std::min(done - i * all, all);
+        if (footprint == Footprint::mesh) { // wants no texture with the order
+            const TraversalKey key = key_of(views[i], placement);
+            OrderCache& orders = sequences_.orders();
+            orders.advance(cells, key, orders.work(cells, key) * to / all);
+        } else {
             sequences_.find(
                 sequence_wanted(views[i], placement, cells, footprint, layer.blended, appearance),
-                std::min(done - i * all, all), all);
+                to, all);
+        }
+    }
     return drawing;
 }
 
@@ -174,7 +181,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame.eyes[i] = eye_block(views[i], placement, appearance);
         set_viewport(*gl_, views[i], static_cast<GLuint>(i));
-        if (is_ordered(footprint, blended))
+        if (is_ordered(footprint, blended) && footprint != Footprint::mesh) // which sorts triangles
             sequence = sequences_.find(
                 sequence_wanted(views[i], placement, cells, footprint, blended, appearance));
         // The shader needs a texture of this type bound even if it reads no sequence.
@@ -214,7 +221,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     if (footprint == Footprint::surface)
         surface_.draw(quads_, cells, blended, views.size(), part);
     else if (footprint == Footprint::mesh)
-        draw_mesh(views, placement, cells, layer, appearance, frame, part);
+        draw_mesh(views.front(), placement, cells, layer, appearance, frame, part);
     else
         draw_footprints(sequence.cells, static_cast<int>(views.size()), footprint,
                         form_of(views, placement, footprint, cells));
@@ -257,46 +264,53 @@ SequenceWanted CellPass::sequence_wanted(const View& view, const Placement& plac
     return {view, placement, cells, shape, gaussian_falloff(), blended, leaves_out};
 }
 
-/// Whether no voxel is so large in any view that the light within a triangle is seen to be
-/// straight.
-bool CellPass::triangles_are_small(std::span<const View> views, const Placement& placement,
-                                   const CellBuffers& cells) const {
-    constexpr float kFewPixels = 8.0f; ///< along a voxel
+/// The largest voxel that can be in a view.
+CellPass::VoxelInView CellPass::largest_voxel(const View& view, const Placement& placement,
+                                              const CellBuffers& cells) {
     const glm::vec3 spacing = placement.spacing() * cells.axes().largest();
     const float voxel = std::max({spacing.x, spacing.y, spacing.z});
-    return std::ranges::all_of(views, [&](const View& view) {
-        const glm::vec2 scale = 0.5f * glm::vec2(view.size) *
-                                glm::vec2(glm::length(glm::vec3(view.clip_from_eye[0])),
-                                          glm::length(glm::vec3(view.clip_from_eye[1])));
-        const float at_one_meter = voxel * std::max(scale.x, scale.y);
-        if (view.is_parallel())
-            return at_one_meter <= kFewPixels;
-        const glm::vec3 eye(glm::inverse(placement.room_from_index) *
-                            glm::vec4(view.eye_in_room(), 1.0f));
-        const glm::vec3 beside = eye - glm::clamp(eye, glm::vec3(0.0f), placement.extent);
-        const float distance = glm::length(glm::mat3(placement.room_from_index) * beside);
-        return at_one_meter <= kFewPixels * distance;
-    });
+    const glm::vec2 scale = 0.5f * glm::vec2(view.size) *
+                            glm::vec2(glm::length(glm::vec3(view.clip_from_eye[0])),
+                                      glm::length(glm::vec3(view.clip_from_eye[1])));
+    const float at_one_meter = voxel * std::max(scale.x, scale.y);
+    if (view.is_parallel())
+        return {at_one_meter, 0.0f};
+    const glm::vec3 eye(glm::inverse(placement.room_from_index) *
+                        glm::vec4(view.eye_in_room(), 1.0f));
+    const glm::vec3 beside = eye - glm::clamp(eye, glm::vec3(0.0f), placement.extent);
+    const float distance = glm::length(glm::mat3(placement.room_from_index) * beside);
+    return {at_one_meter / distance, voxel / distance}; // infinite from within
 }
 
-void CellPass::draw_mesh(std::span<const View> views, const Placement& placement,
-                         const CellBuffers& cells, const Layer& layer,
-                         const CellAppearance& appearance, const FrameBlock& frame, DrawPart part) {
+void CellPass::draw_mesh(const View& view, const Placement& placement, const CellBuffers& cells,
+                         const Layer& layer, const CellAppearance& appearance,
+                         const FrameBlock& frame, DrawPart part) {
     CellAppearance opaque = appearance;
     for (SurfaceAppearance& surface : opaque.surfaces)
         surface.opacity = 1.0f;
+    const VoxelInView largest = largest_voxel(view, placement, cells);
+    constexpr float kFewPixels = 8.0f; // so that light within a triangle is seen to be straight
+    // Highlights are off by at most 2 % if the ways from a triangle to the eye are those in between
+    // the ways from its vertices.
+    constexpr float kEven = 0.05f, kLeastShininess = 4.0f; // see mesh.frag
+    const bool even = largest.angle * largest.angle * appearance.shininess <= kEven &&
+                      appearance.shininess >= kLeastShininess;
+    const bool small = largest.pixels <= kFewPixels;
     const MeshPass::Look look{.surfaces = layer.surfaces,
                               .colors = frame.surfaces,
                               .colored = appearance.values.has_value(),
-                              .near = !hides_what_is_behind(opaque, placement),
-                              .small = triangles_are_small(views, placement, cells)};
+                              .near = !hides_what_is_behind(opaque, placement) || (!small && !even),
+                              .small = small};
     if (layer.blended)
         mesh_.draw_blended(cells, look,
                            sequences_.orders()
-                               .order(cells, key_of(views.front(), placement))
+                               .order(cells, key_of(view, placement))
                                .subspan(part.first, part.count));
     else
-        mesh_.draw(cells, look, views.size(), part);
+        mesh_.draw(
+            cells, look,
+            near_planes_first(frame.eyes[0].eye_in_index, placement.extent, placement.spacing()),
+            part);
 }
 
 void CellPass::draw_footprints(std::size_t cells, int views, Footprint footprint, Form form) {

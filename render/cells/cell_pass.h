@@ -94,7 +94,7 @@ class CellPass {
     static std::vector<Layer> layers_of(const CellBuffers& cells, Footprint footprint,
                                         const CellAppearance& appearance);
     /// Views that are drawn in one pass, at most.
-    std::size_t views_at_once(Footprint footprint, const Layer& layer) const;
+    std::size_t views_at_once(Footprint footprint) const;
     std::size_t work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer) const;
     /// Draws one or two views in one pass; two need `Programs::two`.
     void draw_at_once(std::span<const View> views, const Placement& placement,
@@ -113,11 +113,15 @@ class CellPass {
     DrawPart put_in_order(std::span<const View> views, const Placement& placement,
                           const CellBuffers& cells, Footprint footprint, const Layer& layer,
                           const CellAppearance& appearance, DrawPart part);
-    bool triangles_are_small(std::span<const View> views, const Placement& placement,
-                             const CellBuffers& cells) const;
-    void draw_mesh(std::span<const View> views, const Placement& placement,
-                   const CellBuffers& cells, const Layer& layer, const CellAppearance& appearance,
-                   const FrameBlock& frame, DrawPart part);
+    struct VoxelInView {
+        float pixels; ///< along it
+        float angle;  ///< its length as a part of its distance
+    };
+    static VoxelInView largest_voxel(const View& view, const Placement& placement,
+                                     const CellBuffers& cells);
+    void draw_mesh(const View& view, const Placement& placement, const CellBuffers& cells,
+                   const Layer& layer, const CellAppearance& appearance, const FrameBlock& frame,
+                   DrawPart part);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
     float gaussian_falloff() const;
 

@@ -4,6 +4,7 @@
 #include "index/extraction/mesh_cases.h"
 #include "render/gl/shader.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -13,42 +14,37 @@ constexpr GLuint kStylesUnit = 8; ///< of mesh.frag
 
 constexpr GLint kFirstVertices = 1; ///< of mesh.vert
 
-MeshPass::MeshPass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude)
-    : gl_(&gl), vertex_array_(gl), styles_(gl), order_(gl), styles_texture_(gl, GL_TEXTURE_BUFFER) {
+/// Cells whose triangles are put in order in some milliseconds. More are drawn as they come.
+constexpr std::size_t kMostSorted = 1 << 18;
+
+MeshPass::MeshPass(const Gl& gl, const std::string& grid_prelude)
+    : gl_(&gl), vertex_array_(gl), styles_(gl), near_first_(gl), order_(gl),
+      styles_texture_(gl, GL_TEXTURE_BUFFER) {
     for (const Kind kind : {Kind::plain, Kind::styled, Kind::blended})
         for (const Way way : {Way::plain, Way::near, Way::small})
-            programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
-                make_programs(kind, way, two_views_at_once && kind != Kind::blended, grid_prelude);
+            if (kind != Kind::blended || way == Way::near) // what blends is asked how near it is
+                programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
+                    make_program(kind, way, grid_prelude);
     gl.EnableVertexArrayAttrib(vertex_array_.name(), 0);
     gl.VertexArrayAttribIFormat(vertex_array_.name(), 0, 4, GL_UNSIGNED_INT, 0);
     gl.VertexArrayAttribBinding(vertex_array_.name(), 0, 0);
 }
 
-MeshPass::Programs MeshPass::make_programs(Kind kind, Way way, bool two_views_at_once,
-                                           const std::string& grid_prelude) const {
-    // What blends is always asked how near it is.
-    if (kind == Kind::blended && way != Way::plain)
-        return {};
+Program MeshPass::make_program(Kind kind, Way way, const std::string& grid_prelude) const {
     const std::string prelude = grid_prelude + (kind == Kind::plain ? "" : "#define STYLES\n") +
                                 (kind == Kind::blended ? "#define BLENDED\n" : "") +
                                 (way == Way::near    ? "#define NEAR\n"
                                  : way == Way::small ? "#define LIT_AT_VERTICES\n"
-                                                     : "");
+                                                     : "#define SHARP_HIGHLIGHTS\n");
     const std::vector sources{shader_file("mesh.vert"), shader_file("mesh.frag")};
-    Programs programs;
-    programs[0] = link_program(*gl_, sources, prelude);
-    if (two_views_at_once)
-        programs[1] = link_program(*gl_, sources, std::string(kTwoEyes) + prelude);
-    return programs;
+    return link_program(*gl_, sources, prelude);
 }
 
-GLuint MeshPass::program(Kind kind, const Look& look, std::size_t views) const {
-    const Way way = kind == Kind::blended ? Way::plain
-                    : look.near           ? Way::near
-                    : look.small          ? Way::small
-                                          : Way::plain;
-    return programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)][views - 1]
-        ->name();
+GLuint MeshPass::program(Kind kind, const Look& look) const {
+    const Way way = kind == Kind::blended || look.near ? Way::near
+                    : look.small                       ? Way::small
+                                                       : Way::plain;
+    return programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)]->name();
 }
 
 /// Finds the style of each triangle of the shown set, and the first triangle of each cell.
@@ -79,15 +75,14 @@ void MeshPass::tell_surfaces(GLuint program, const CellBuffers& cells) const {
 }
 
 void MeshPass::draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
-                              std::size_t count, std::size_t base, std::size_t views) const {
+                              std::size_t count, std::size_t base) const {
     gl_->VertexArrayVertexBuffer(vertex_array_.name(), 0, cells.mesh().vertices(), 0,
                                  sizeof(index::MeshVertex));
     gl_->VertexArrayElementBuffer(vertex_array_.name(), indices);
     gl_->BindVertexArray(vertex_array_.name());
-    gl_->DrawElementsInstancedBaseVertex(
-        GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(first * sizeof(std::uint32_t)), static_cast<GLsizei>(views),
-        static_cast<GLint>(base));
+    gl_->DrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                                reinterpret_cast<const void*>(first * sizeof(std::uint32_t)),
+                                static_cast<GLint>(base));
     gl_->BindVertexArray(0);
 }
 
@@ -100,21 +95,57 @@ std::size_t MeshPass::triangles(const CellBuffers& cells, std::int32_t surfaces)
     return count;
 }
 
-void MeshPass::draw(const CellBuffers& cells, const Look& look, std::size_t views, DrawPart part) {
+/// Puts the triangles of all surfaces in this order.
+void MeshPass::put_near_first(const CellBuffers& cells, PlaneOrder order) {
+    if (sorted_version_ == cells.version() && sorted_ == order)
+        return;
+    sorted_version_ = cells.version();
+    sorted_ = order;
+    styles_version_ = 0; // of another order
+    near_triangles_.corners.clear();
+    near_triangles_.numbers.clear();
+    const std::span<const CellPlace> places = cells.slots().places;
+    std::size_t before = 0;
+    for (const index::CellSet& surface : cells.shown()->surfaces) {
+        if (surface.mesh)
+            append_in_order(places.subspan(before, surface.ids.size()), *surface.mesh, order,
+                            near_triangles_);
+        before += surface.ids.size();
+    }
+    const std::span<const std::uint32_t> corners = near_triangles_.corners;
+    gl_->NamedBufferData(near_first_.name(), static_cast<GLsizeiptr>(corners.size_bytes()),
+                         corners.data(), GL_STREAM_DRAW);
+}
+
+/// The styles of triangles in the order in which they are drawn.
+void MeshPass::send_styles(const CellBuffers& cells, bool sorted) {
+    find_styles(cells);
+    if (styles_version_ == cells.version() && styles_sorted_ == sorted)
+        return;
+    styles_version_ = cells.version();
+    styles_sorted_ = sorted;
+    std::vector<std::uint16_t> styles;
+    if (sorted)
+        for (const std::uint32_t triangle : near_triangles_.numbers)
+            styles.push_back(style_of_triangle_[triangle]);
+    const std::span<const std::uint16_t> sent = sorted ? styles : style_of_triangle_;
+    gl_->NamedBufferData(styles_.name(), static_cast<GLsizeiptr>(sent.size_bytes()), sent.data(),
+                         GL_STREAM_DRAW);
+    gl_->TextureBuffer(styles_texture_.name(), GL_R16UI, styles_.name());
+}
+
+void MeshPass::draw(const CellBuffers& cells, const Look& look, PlaneOrder order, DrawPart part) {
+    const bool sorted = !order.of_mesh() && cells.size() <= kMostSorted;
+    if (sorted)
+        put_near_first(cells, order);
     if (look.colored) {
-        find_styles(cells);
-        if (styles_version_ != cells.version()) {
-            gl_->NamedBufferData(
-                styles_.name(), static_cast<GLsizeiptr>(std::span(style_of_triangle_).size_bytes()),
-                style_of_triangle_.data(), GL_STREAM_DRAW);
-            gl_->TextureBuffer(styles_texture_.name(), GL_R16UI, styles_.name());
-            styles_version_ = cells.version();
-        }
+        send_styles(cells, sorted);
         gl_->BindTextureUnit(kStylesUnit, styles_texture_.name());
     }
-    const GLuint of_look = program(look.colored ? Kind::styled : Kind::plain, look, views);
+    const GLuint of_look = program(look.colored ? Kind::styled : Kind::plain, look);
     gl_->UseProgram(of_look);
     tell_surfaces(of_look, cells);
+    const GLuint triangles = sorted ? near_first_.name() : cells.mesh().indices();
     const auto surfaces = cells.mesh().surfaces();
     std::size_t before = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -130,7 +161,7 @@ void MeshPass::draw(const CellBuffers& cells, const Look& look, std::size_t view
             gl_->ProgramUniform1i(of_look, 0, static_cast<GLint>(from));
         else
             gl_->ProgramUniform3f(of_look, 0, look.colors[i].x, look.colors[i].y, look.colors[i].z);
-        draw_triangles(cells, cells.mesh().indices(), 3 * from, 3 * cut.count, first_vertex, views);
+        draw_triangles(cells, triangles, 3 * from, 3 * cut.count, first_vertex);
     }
 }
 
@@ -167,11 +198,11 @@ void MeshPass::draw_blended(const CellBuffers& cells, const Look& look,
     gl_->TextureBuffer(styles_texture_.name(), GL_R16UI, styles_.name());
     styles_version_ = 0; // of no set
     gl_->BindTextureUnit(kStylesUnit, styles_texture_.name());
-    const GLuint of_look = program(Kind::blended, look, 1);
+    const GLuint of_look = program(Kind::blended, look);
     gl_->ProgramUniform1i(of_look, 0, 0);
     tell_surfaces(of_look, cells);
     gl_->UseProgram(of_look);
-    draw_triangles(cells, order_.name(), 0, indices.size(), 0, 1);
+    draw_triangles(cells, order_.name(), 0, indices.size(), 0);
 }
 
 } // namespace isochron::render

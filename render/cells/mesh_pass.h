@@ -3,6 +3,7 @@
 
 #include "render/cells/cell_buffers.h"
 #include "render/cells/draw_part.h"
+#include "render/cells/mesh_order.h"
 
 #include <glm/vec4.hpp>
 #include <string>
@@ -18,25 +19,25 @@ namespace isochron::render {
 
 class MeshPass {
   public:
-    /// @param two_views_at_once also makes the programs that draw two views in one pass
     /// @param grid_prelude see CellPass
     /// @throws Error when a shader does not compile
-    MeshPass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude);
+    MeshPass(const Gl& gl, const std::string& grid_prelude);
 
     /// How triangles are drawn, apart from their order.
     struct Look {
         std::int32_t surfaces = 0;         ///< one bit for each drawn surface
         std::span<const glm::vec4> colors; ///< of each surface, linear light
         bool colored = false;              ///< by the cells' coordinates
-        bool near = false;                 ///< some may be cut away or fade, as they are near
-        bool small = false;                ///< triangles are of few pixels: lit at their vertices
+        bool near = false;  ///< so near that some may be cut away or fade, or large in the view
+        bool small = false; ///< triangles are of few pixels: lit at their vertices
     };
 
-    /// Draws with the frame and viewports that CellPass has bound, and its depth and blend state.
+    /// Draws one view with the frame and viewport that CellPass has bound, and its depth and blend
+    /// state. (Two in one pass take software GL a third longer.)
     /// @param cells with a mesh, see `CellBuffers::has_mesh`
-    /// @param views 1 or 2
+    /// @param order in which most is hidden by what comes before; unless there are too many
     /// @param part of the triangles of the surfaces that are drawn
-    void draw(const CellBuffers& cells, const Look& look, std::size_t views, DrawPart part);
+    void draw(const CellBuffers& cells, const Look& look, PlaneOrder order, DrawPart part);
     /// Triangles of the surfaces that `draw` draws.
     static std::size_t triangles(const CellBuffers& cells, std::int32_t surfaces);
     /// Draws blended triangles, cell by cell in this order. @param back_to_front slots of the cells
@@ -46,24 +47,26 @@ class MeshPass {
   private:
     enum class Kind : std::uint8_t { plain, styled, blended };
     enum class Way : std::uint8_t { plain, near, small }; ///< of Look
-    /// [views - 1]
-    using Programs = std::array<std::optional<Program>, 2>;
-    Programs make_programs(Kind kind, Way way, bool two_views_at_once,
-                           const std::string& grid_prelude) const;
-    GLuint program(Kind kind, const Look& look, std::size_t views) const;
+    Program make_program(Kind kind, Way way, const std::string& grid_prelude) const;
+    GLuint program(Kind kind, const Look& look) const;
+    void put_near_first(const CellBuffers& cells, PlaneOrder order);
+    void send_styles(const CellBuffers& cells, bool sorted);
     void find_styles(const CellBuffers& cells);
     void tell_surfaces(GLuint program, const CellBuffers& cells) const;
     void draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
-                        std::size_t count, std::size_t base, std::size_t views) const;
+                        std::size_t count, std::size_t base) const;
 
     const Gl* gl_;
-    std::array<std::array<Programs, 3>, 3> programs_; ///< [kind][way]
+    std::array<std::array<std::optional<Program>, 3>, 3> programs_; ///< [kind][way]
     VertexArray vertex_array_;
-    Buffer styles_, order_; ///< styles by triangle; sorted vertex indices
+    Buffer styles_, near_first_, order_; ///< styles by triangle; vertex indices, also to be blended
     Texture styles_texture_;
     std::vector<std::uint16_t> style_of_triangle_; ///< of the set with cells_version_
     std::vector<std::uint32_t> first_of_cell_;     ///< first triangle of each cell, by slot
-    std::uint64_t styles_version_ = 0, cells_version_ = 0;
+    OrderedTriangles near_triangles_;              ///< in `near_first_`
+    PlaneOrder sorted_;                            ///< of `near_first_`
+    bool styles_sorted_ = false;                   ///< of `styles_`: as `near_first_`
+    std::uint64_t styles_version_ = 0, cells_version_ = 0, sorted_version_ = 0;
 };
 
 } // namespace isochron::render

@@ -1,6 +1,8 @@
 #version 450 core
-// A triangle of a mesh, lit as the exact surface is: for each pixel, by normals in between; or, where
-// triangles are of few pixels, for each vertex.
+// A triangle of a mesh, lit as the exact surface is: for each pixel, by normals in between.
+// NEAR: all of it is found for each pixel, and what is too near is left out. Else the ways to the eye
+// and the key light, which hardly change within a triangle, are those of the vertices; and with
+// LIT_AT_VERTICES, where triangles are of few pixels, the light is.
 
 #include "frame.glsl"
 #ifdef LIT_AT_VERTICES
@@ -20,12 +22,14 @@ layout(location = 0) uniform vec3 base; // linear light
 #ifdef LIT_AT_VERTICES
 in vec2 lit;
 #else
-in vec3 at_in_eye;
-in vec3 normal;
-in float light_share;
-#endif
+in vec4 normal;
 #ifdef NEAR
+in vec3 at_in_eye;
 in vec3 at_in_index;
+#else
+in vec3 to_eye;
+in vec4 halfway;
+#endif
 #endif
 out vec4 result;
 
@@ -34,15 +38,21 @@ void main() {
     uint style = texelFetch(styles, first_triangle + gl_PrimitiveID).x;
     vec3 base = base_color(style);
 #endif
-#ifndef LIT_AT_VERTICES
-    vec2 lit = light_share * light_in_eye(at_in_eye, normal);
+#if defined(NEAR)
+    vec2 lit = normal.w * light_in_eye(at_in_eye, normal.xyz);
+#elif !defined(LIT_AT_VERTICES)
+    vec3 n = normal.xyz * inversesqrt(max(dot(normal.xyz, normal.xyz), 1e-20));
+    float facing = dot(n, to_eye);
+    n = facing < 0.0 ? -n : n;
+    vec2 lit = normal.w * light_of(n, abs(facing), halfway);
 #endif
-    vec3 shown = written(base * lit.x + lit.y);
+    vec3 shown = base * lit.x + lit.y;
 #ifdef BLENDED
+    shown = written(shown);
     float alpha = surfaces[style & 7u].a * near_share(at_in_eye);
     result = vec4(shown * alpha, alpha);
 #else
-#ifdef NEAR
+#if defined(NEAR)
     vec3 cell = floor(at_in_index);
     if (near_share(at_in_eye) <= grain(at_in_index - cell - 0.5, hash_of(uvec3(uint(cell.x) | uint(cell.y) << 16, uint(cell.z), 0))))
         discard;

@@ -5,22 +5,25 @@
 #include "pixels.glsl"
 #include "cell_place.glsl"
 #include "surroundings.glsl"
-#ifdef LIT_AT_VERTICES
+#ifndef NEAR
 #include "lighting.glsl"
 #endif
 
 layout(location = 1) uniform int first_vertices[MOST_SURFACES]; // of each surface, ascending
 layout(location = 0) in uvec4 vertex; // the lower end's x and y; z and axis; share; normal
 
+// See mesh.frag.
 #ifdef LIT_AT_VERTICES
 out vec2 lit;
 #else
-out vec3 at_in_eye;
-out vec3 normal; // in eye space
-out float light_share;
-#endif
+out vec4 normal; // in eye space; w: the share of light that arrives
 #ifdef NEAR
+out vec3 at_in_eye;
 out vec3 at_in_index;
+#else
+out vec3 to_eye;
+out vec4 halfway;
+#endif
 #endif
 
 vec3 unpacked(uint word) {
@@ -44,15 +47,19 @@ void main() {
         surface += uint(gl_VertexID >= first_vertices[i]);
     float share = unshadowed(vec3(low) + in_cell, toward_eye_in_index(at.xyz), size, n, surface);
     vec3 eye_at = (EYE(eye_from_index) * at).xyz, eye_normal = mat3(EYE(eye_from_physical)) * n;
-#ifdef LIT_AT_VERTICES
+#if defined(LIT_AT_VERTICES)
     lit = share * light_in_eye(eye_at, eye_normal);
-#else
+#elif defined(NEAR)
     at_in_eye = eye_at;
-    normal = eye_normal;
-    light_share = share;
-#endif
-#ifdef NEAR
+    normal = vec4(eye_normal, share);
     at_in_index = vec3(low) + in_cell;
+#else
+    float to_distance = inversesqrt(max(dot(eye_at, eye_at), 1e-12));
+    to_eye = way_to_eye(eye_at, to_distance);
+    halfway = halfway_to_key(to_eye);
+    // Without a normal a triangle faces the viewer; if only a vertex has none, the others decide.
+    vec3 facing = vertex.w == 0x80008000u ? 1e-4 * to_eye : eye_normal;
+    normal = vec4(facing, share * cue_left(eye_at, to_distance));
 #endif
     vec4 p = to_pixels(at);
     gl_Position = vec4(p.xy * EYE(clip_per_pixel).xy, p.zw);

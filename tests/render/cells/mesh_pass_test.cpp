@@ -1,6 +1,7 @@
 // Meshes: their pictures, compared with the exact surface, and their upload.
 #include "render/cells/cell_pass.h"
 
+#include "index/extraction/mesh_cases.h"
 #include "index/extraction/mesh_parts.h"
 #include "index/scan/scan.h"
 #include "render/gl/driver.h"
@@ -17,7 +18,9 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
+#include <vector>
 
 namespace isochron::render {
 namespace {
@@ -174,6 +177,101 @@ TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
                     EXPECT_GT(parts_, 2);
                 part_.reset();
             }
+}
+
+/// Where a voxel is small, ways to the eye and the key light are found at vertices and highlights are
+/// approximated; where something is cut away, all is found for each pixel.
+TEST_P(MeshPassTest, LightIsThatOfEachPixelFoundInFull) {
+    const auto set = extraction({90.5});
+    for (const float away : {0.7f, 0.65f})
+        for (const float shininess : {4.0f, 7.0f, 10.0f}) {
+            SCOPED_TRACE(testing::Message() << away << " " << shininess);
+            CellAppearance look;
+            look.shininess = shininess;
+            look.reflectance = 0.3f;
+            const glm::vec3 eye = glm::vec3(15) + away * glm::vec3(25, 20, 45);
+            const Image fast = draw(set, Footprint::mesh, look, eye);
+            look.cut = glm::vec4(1, 0, 0, -1000); // nothing
+            const Image full = draw(set, Footprint::mesh, look, eye);
+            int most = 0;
+            for (std::size_t i = 0; i < full.rgba.size(); ++i)
+                most = std::max(most, std::abs(full.rgba[i] - fast.rgba[i]));
+            EXPECT_LE(most, 4) << "of 255";
+            EXPECT_NE(full.rgba, fast.rgba) << "both are found in the same way";
+        }
+}
+
+TEST_P(MeshPassTest, AnyOrderOfPlanesGivesTheSamePicture) {
+    const auto set = extraction({90.5, 150.5}, true);
+    const index::CellMesh& mesh = *set->surfaces[0].mesh;
+    std::vector<CellPlace> cells;
+    for (const index::CellPoint& point : set->surfaces[0].points)
+        cells.push_back({point.x, point.y, point.z, 0});
+    std::vector<std::size_t> cell_of; // of each triangle
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        cell_of.insert(cell_of.end(), index::mesh_cases()[mesh.cases[i]].triangles, i);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool descending : {false, true}) {
+            OrderedTriangles triangles{{1, 2, 3}, {0}}; // of a surface before
+            append_in_order(cells, mesh, {axis, descending}, triangles);
+            ASSERT_EQ(triangles.numbers.size(), 1 + mesh.triangles.size() / 3);
+            ASSERT_EQ(triangles.corners.size(), 3 + mesh.triangles.size());
+            std::vector<std::uint32_t> order;
+            for (std::size_t i = 1; i < triangles.numbers.size(); ++i) {
+                order.push_back(triangles.numbers[i] - 1);
+                for (std::size_t k = 0; k < 3; ++k)
+                    ASSERT_EQ(triangles.corners[3 * i + k], mesh.triangles[3 * order.back() + k]);
+            }
+            const auto plane = [&](std::uint32_t triangle) {
+                const CellPlace& cell = cells[cell_of[triangle]];
+                return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z;
+            };
+            for (std::size_t i = 1; i < order.size(); ++i) {
+                const int before = plane(order[i - 1]), here = plane(order[i]);
+                ASSERT_TRUE(descending ? before >= here : before <= here);
+                ASSERT_TRUE(before != here || order[i - 1] < order[i]);
+            }
+            EXPECT_EQ(std::set(order.begin(), order.end()).size(), order.size());
+        }
+    // Seen along each axis from either side, the nearer planes come first, and the pictures are
+    // those of the exact surface.
+    for (const glm::vec3 ahead : {glm::vec3(60, 5, 9), glm::vec3(7, 60, 5), glm::vec3(3, 8, 60)})
+        for (const float side : {1.0f, -1.0f}) {
+            const glm::vec3 eye = glm::vec3(15) + side * ahead;
+            const PlaneOrder order =
+                near_planes_first(glm::vec4(eye, 1), glm::vec3(30), glm::vec3(1));
+            EXPECT_GT(std::abs(ahead[order.axis]), 50);
+            EXPECT_EQ(order.descending, side > 0);
+            CellAppearance look;
+            EXPECT_LT(differing(draw(set, Footprint::mesh, look, eye),
+                                draw(set, Footprint::surface, look, eye)),
+                      0.01);
+        }
+}
+
+TEST_P(MeshPassTest, TranslucentTrianglesAreSortedInPieces) {
+    const auto set = extraction({90.5, 150.5});
+    CellBuffers cells(gl_, field_.view().grid);
+    while (cells.shown() != set)
+        cells.upload(set, std::numeric_limits<std::size_t>::max());
+    CellAppearance look;
+    look.surfaces[0].opacity = look.surfaces[1].opacity = 0.4f;
+    RenderTarget target(gl_, kSize);
+    target.bind();
+    const View view{.clip_from_eye = glm::perspective(0.6f, 1.0f, 5.0f, 200.0f),
+                    .eye_from_room =
+                        glm::lookAt(glm::vec3(40, 35, 60), glm::vec3(15), glm::vec3(0, 1, 0)),
+                    .size = kSize};
+    const Placement placement = Placement::of(field_.view().grid, glm::mat4(1.0f));
+    const std::size_t work = pass_.work(1, cells, Footprint::mesh, look);
+    EXPECT_GT(work, cells.size());
+    std::size_t pieces = 0;
+    for (std::size_t first = 0; first < work; first += 40) {
+        pass_.draw(std::span(&view, 1), placement, cells, Footprint::mesh, look, {first, 40});
+        pieces += pass_.orders().sorts() == 0;
+    }
+    EXPECT_NEAR(pieces, (work - cells.size()) / 40.0, 1);
+    EXPECT_EQ(pass_.orders().sorts(), 1u);
 }
 
 TEST_P(MeshPassTest, AMeshComesInPortionsAndIsShownWhole) {

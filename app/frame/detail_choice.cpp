@@ -12,11 +12,13 @@
 namespace isochron::app {
 namespace {
 
-constexpr double kUp = 1.4;          ///< times a number of cells must fit before it is taken up
-constexpr double kDown = 0.9;        ///< and below this share of it, it is left
-constexpr double kStay = 0.25;       ///< levels beyond its range within which a wish stays
-constexpr double kFinerAtRest = 0.5; ///< levels by which voxels at rest are less than a pixel
-constexpr double kUnseen = 2;        ///< levels by which unseen regions may be coarser
+constexpr double kUp = 1.15;   ///< times a number of cells must fit before it is taken up
+constexpr double kDown = 0.9;  ///< and below this share of it, it is left
+constexpr double kStay = 0.25; ///< levels beyond its range within which a wish stays
+/// Levels by which voxels at rest are less than a pixel, at first and in the end: the light of
+/// cells that share a pixel is another one at the next level until they are far below it.
+constexpr double kFinerAtFirst = 0.5, kFinerAtLast = 2;
+constexpr double kUnseen = 2; ///< levels by which unseen regions may be coarser
 constexpr double kNearest = -8, kFarthest = 8;
 constexpr int kParts = index::DetailQuery::kPartsOfLevel;
 
@@ -117,10 +119,19 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
     return {std::min(cells_of(step_), most_), false, kept_};
 }
 
-index::DetailQuery DetailChoice::at_rest(std::uint64_t cells) const {
+index::DetailQuery DetailChoice::at_first_rest(std::uint64_t cells) const {
+    return resting(cells, kFinerAtFirst);
+}
+
+index::DetailQuery DetailChoice::at_rest() const {
+    return resting(most_, kFinerAtLast);
+}
+
+/// @param finer levels by which voxels are less than a pixel
+index::DetailQuery DetailChoice::resting(std::uint64_t cells, double finer) const {
     index::DetailQuery query{std::min(cells, most_), true, {}};
-    const auto level = [](double ideal) {
-        return static_cast<std::int8_t>(kParts * std::max(std::floor(ideal - kFinerAtRest), 0.0));
+    const auto level = [finer](double ideal) {
+        return static_cast<std::int8_t>(kParts * std::max(std::floor(ideal - finer), 0.0));
     };
     if (std::ranges::any_of(ideal_, [&](double ideal) { return level(ideal) > 0; }))
         for (const double ideal : ideal_)

@@ -49,10 +49,14 @@ class DetailChoice {
     /// @param fit cells that are expected to fit the budget; empty: not known yet
     /// @param drawn `most_cells` of the cells that are drawn
     index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn);
-    /// For a picture at rest, and for pictures that are written: level 0 wherever a voxel is larger
-    /// than half a pixel, and elsewhere a level of which a voxel is at most 0.7 pixels.
+    /// For a picture that has just come to rest: level 0 wherever a voxel is larger than half a
+    /// pixel, and elsewhere a level of which a voxel is at most 0.7 pixels.
     /// @param cells that it may have
-    index::DetailQuery at_rest(std::uint64_t cells) const;
+    index::DetailQuery at_first_rest(std::uint64_t cells) const;
+    /// For a picture that stays at rest, and for pictures that are written: level 0 wherever a
+    /// voxel is larger than an eighth of a pixel, and elsewhere a level of which a voxel is at most
+    /// a quarter of a pixel. As many cells as a set may have.
+    index::DetailQuery at_rest() const;
 
   private:
     /// A region in even coordinates, and the mean sides of its cells of level 0.
@@ -60,6 +64,7 @@ class DetailChoice {
         glm::vec3 low, high, cell;
     };
     Box box_of(std::size_t region, const index::Grid& grid) const;
+    index::DetailQuery resting(std::uint64_t cells, double finer) const;
 
     index::DetailRegions regions_;
     std::vector<Box> boxes_; ///< by region

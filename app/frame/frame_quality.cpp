@@ -86,7 +86,8 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
             return false;
         }
     }
-    QualityController& controller = still && !slices ? still_ : steady_;
+    const bool pauses = still && !slices && report.pace != interaction::Pace::moving;
+    QualityController& controller = pauses ? still_ : steady_;
     QualityInput with_mesh = input;
     with_mesh.available = possible;
     const QualityChoice with_all = QualityController(controller).choose(with_mesh);

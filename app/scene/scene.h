@@ -121,6 +121,9 @@ class Scene {
     void draw(std::span<const render::View> views,
               const interaction::Similarity& room_from_physical, render::Footprint footprint,
               const std::optional<interaction::Pose>& wand, const SceneSlice& slice = {});
+    /// Draws a cell in each way in which moving pictures draw cells, and what stands beside them.
+    void warm_up(std::span<const render::View> views,
+                 const interaction::Similarity& room_from_physical);
     /// Work of drawing the cells into so many views, in the units of `SceneSlice::cells`.
     std::size_t work(std::size_t views, render::Footprint footprint) const;
     /// Does some of the work that comes before a slice with this footprint.

@@ -170,6 +170,7 @@ bool LiveLoop::closes(const Session& session, Commands& asked) const {
 }
 
 void LiveLoop::run(Session& session) {
+    session.warm_up();
     const Latch latch = [this] { return trackers_.latch(clock_()); };
     Pacer pacer(config_.frame_rate_limit);
     emulation_.set_eye(

@@ -91,6 +91,7 @@ void replay_live(Session& session, const interaction::Recording& recording,
                  const ReplayOptions& options) {
     const auto& frames = recording.frames;
     expect_arrays(session, recording);
+    session.warm_up();
     const auto clock = [start = std::chrono::steady_clock::now(), &frames] {
         return std::chrono::steady_clock::now() - start + frames.front().input.time;
     };

@@ -227,7 +227,9 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     const index::DetailQuery had_detail = detail_;
     bool measure = quality_.choose(state_, changed, how, footprints, possible, report);
     report.final &= is_finest(waiting);
-    measure = agree(measure, wanted_detail(waiting, report), report);
+    const index::DetailQuery wanted = wanted_detail(waiting, report);
+    report.final &= !live || wanted == detail_;
+    measure = agree(measure, wanted, report);
     // A replay's picture is as good as it gets at once.
     if (!live && ((mesh_wanted_ && !had_mesh) || detail_ != had_detail)) {
         request_cells(waiting);
@@ -244,6 +246,22 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
         finer && quality_.ends_in_slices() && report.expected && *report.expected > report.budget;
     // While a headset wants no picture, there is nothing to draw or to measure.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
+}
+
+void Session::warm_up() {
+    if (outputs_.headset())
+        return;
+    Audience audience;
+    audience.viewers =
+        viewer_poses(config_.installation, {}, state_.eye_separation, parallel_center());
+    audience.stereo = state_.stereo;
+    scene_.look(state_, audience.viewers.front().head, std::nullopt);
+    outputs_.draw(audience,
+                  [this](const ScenePlace&, std::span<const render::View> views) {
+                      scene_.warm_up(views, state_.room_from_physical);
+                  },
+                  {});
+    outputs_.gl().Finish();
 }
 
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,

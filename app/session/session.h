@@ -27,6 +27,7 @@
 #include "interaction/controls.h"
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -94,6 +95,9 @@ class Session {
     std::vector<interaction::WindowEvent>
     panel_events(std::span<const interaction::WindowEvent> events);
 
+    /// Draws once what nobody sees, before the first frame: drivers compile what they draw with
+    /// when it is first used, which takes longer than a frame may.
+    void warm_up();
     /// Makes one frame, from commands to the presented picture.
     /// @param latch returns where the heads are when the views are made; empty: as in `input`
     const FrameReport& frame(const interaction::InputState& input,
@@ -209,7 +213,10 @@ class Session {
     bool is_finest(Waiting waiting) const;
     void choose_set(Picture& now, Waiting waiting, FrameReport& report);
     index::DetailQuery wanted_detail(Waiting waiting, const FrameReport& report);
-    index::DetailQuery detail_for_live(const FrameReport& report);
+    index::DetailQuery detail_for_live(Waiting waiting, const FrameReport& report);
+    index::DetailQuery detail_at_rest(Waiting waiting, std::uint64_t moving,
+                                      const FrameReport& report);
+    bool comes_late(const index::ExtractionPtr& set) const;
     bool give_way(const index::ExtractionPtr& set);
     void report_cells(FrameReport& report) const;
     FrameAnswer answer() const;
@@ -217,6 +224,7 @@ class Session {
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     Choosing choosing(Waiting waiting) const;
+    bool may_be_sliced(Waiting waiting) const;
     bool only_gets_finer(const Picture& now, Waiting waiting) const;
     void rest_in_slices(Picture& now, Waiting waiting, FrameReport& report);
     void draw_slices(const Picture& now, const Outputs::Overlay& overlay, FrameReport& report);
@@ -280,7 +288,9 @@ class Session {
     interaction::Seconds constant_since_{0};         ///< when the eyes last saw something change
     bool comes_in_slices_ = false;                   ///< the newest picture is drawn in slices only
     bool rests_ = false;                             ///< the set for pictures at rest may be drawn
-    bool mesh_wanted_ = false;                       ///< by the last frame's choice of quality
+    std::uint64_t cells_at_first_ = std::numeric_limits<std::uint32_t>::max(); ///< of a set at rest
+    bool all_at_rest_ = false; ///< all cells are wanted for this picture at rest
+    bool mesh_wanted_ = false; ///< by the last frame's choice of quality
     bool recording_ = false;
     MovieState movies_;
     std::string message_, standing_;

@@ -121,12 +121,16 @@ void Session::choose_set(Picture& now, Waiting waiting, FrameReport& report) {
         same.footprint = drawn_->footprint;
         same.scale = drawn_->scale;
     }
-    if (same != drawn_)
+    if (same != drawn_) {
         constant_since_ = report.time;
+        all_at_rest_ = false;
+    }
     rests_ = waiting != Waiting::never || captures_.wanted() > 0 ||
              report.time - constant_since_ >= FrameQuality::kStillAfter;
     const index::ExtractionPtr& moving = scene_.held(Scene::Use::always);
-    if (rests_ || !moving || scene_.shown() == moving)
+    const bool later = waiting == Waiting::never && captures_.wanted() == 0 && !all_at_rest_ &&
+                       comes_late(scene_.shown());
+    if ((rests_ && !later) || !moving || scene_.shown() == moving)
         return;
     scene_.draw_at_rest(false, surfaces());
     now.cells = scene_.shown();
@@ -143,13 +147,13 @@ index::DetailQuery Session::wanted_detail(Waiting waiting, const FrameReport& re
     details_.look(config_.level_of_detail ? scene_.views() : std::span<const render::View>(),
                   placement);
     if (waiting == Waiting::never && config_.level_of_detail)
-        return detail_for_live(report);
-    index::DetailQuery all = details_.at_rest(details_.most());
+        return detail_for_live(waiting, report);
+    index::DetailQuery all = details_.at_rest();
     all.at_rest = false; // it is the only set
     return all;
 }
 
-index::DetailQuery Session::detail_for_live(const FrameReport& report) {
+index::DetailQuery Session::detail_for_live(Waiting waiting, const FrameReport& report) {
     const index::SurfacesQuery wanted = surfaces();
     const auto shows = [&](const index::ExtractionPtr& set) {
         return set && set->query.of_cells() == wanted;
@@ -161,21 +165,49 @@ index::DetailQuery Session::detail_for_live(const FrameReport& report) {
     if (shows(held) && !held->coarse() && held->cells() <= moving.most_cells)
         return held->query.detail; // it has all there is
     if (report.pace == interaction::Pace::moving || !rests_ || !shows(held)) {
+        all_at_rest_ = false;
         // What is on its way comes first, so that a set comes at all while the view changes.
         const bool on_its_way = extractor_.busy() && !detail_.at_rest && detail_.most_cells > 0 &&
                                 moving.most_cells >= detail_.most_cells / 2;
         return on_its_way ? detail_ : moving;
     }
-    const bool kept = captures_.wanted() > 0;
-    const double fit = quality_.cells_that_fit(interaction::Pace::settled)
-                           .value_or(static_cast<double>(moving.most_cells));
-    const auto cells = std::bit_floor(
-        static_cast<std::uint64_t>(std::max(fit, static_cast<double>(moving.most_cells))));
-    index::DetailQuery rest = details_.at_rest(kept ? details_.most() : cells);
+    return detail_at_rest(waiting, moving.most_cells, report);
+}
+
+/// First as many cells as quads would show in the pause that a picture at rest may take, so that it
+/// gets better soon; then, where slices draw them, all.
+/// @param moving cells of moving pictures
+index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving,
+                                           const FrameReport& report) {
+    const auto fewest = static_cast<double>(moving);
+    const double fit = quality_.cells_that_fit(interaction::Pace::settled).value_or(fewest);
+    cells_at_first_ = std::bit_floor(static_cast<std::uint64_t>(std::max(fit, fewest)));
+    const index::DetailQuery last = details_.at_rest();
     const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
-    if (!kept && shows(resting) && resting->query.detail.wished == rest.wished)
+    const bool kept = captures_.wanted() > 0;
+    const bool shows = resting && resting->query.of_cells() == surfaces();
+    const bool serves = shows && (kept || all_at_rest_ || !comes_late(resting));
+    if (serves && (resting->query.detail == last || !resting->coarse()))
         return resting->query.detail;
-    return detail_.at_rest && extractor_.busy() && !kept ? detail_ : rest;
+    if (kept)
+        return last;
+    if (detail_.at_rest && extractor_.busy())
+        return detail_;
+    all_at_rest_ |= serves && may_be_sliced(waiting) && drawn_ && drawn_->cells == resting &&
+                    (report.final || drawn_->footprint == report.in_slices);
+    if (all_at_rest_)
+        return last;
+    const index::DetailQuery first = details_.at_first_rest(cells_at_first_);
+    // A little more room is no reason for another one.
+    const bool stays = serves && resting->query.detail.wished == first.wished &&
+                       resting->query.detail.most_cells >= first.most_cells;
+    return stays ? resting->query.detail : first;
+}
+
+/// Whether a set for pictures at rest has so many cells that another one is to be shown before it.
+bool Session::comes_late(const index::ExtractionPtr& set) const {
+    const std::uint64_t many = 2 * cells_at_first_;
+    return set && set->query.detail.most_cells > many && set->cells() > many;
 }
 
 } // namespace isochron::app

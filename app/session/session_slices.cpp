@@ -17,6 +17,12 @@ Choosing Session::choosing(Waiting waiting) const {
                                                    : Choosing::by_measurement;
 }
 
+/// Whether a picture at rest of more cells than a frame can draw is made in slices.
+bool Session::may_be_sliced(Waiting waiting) const {
+    return choosing(waiting) == Choosing::with_slices && config_.still_budget_ms > 0 &&
+           state_.quality == interaction::QualityMode::automatic && !state_.playback.playing;
+}
+
 /// Whether a picture at rest differs from the one that is shown in nothing but more detail, and may
 /// be made in slices.
 bool Session::only_gets_finer(const Picture& now, Waiting waiting) const {

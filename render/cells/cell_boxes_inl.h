@@ -74,16 +74,29 @@ struct Boxes {
 };
 
 /// The next cells of a rectilinear grid, from their coordinates.
+/// @tparam kMixed these are those of mixed levels
+template <bool kMixed>
 HWY_INLINE Boxes<UnevenSides> uneven_boxes(const SquareProjection& p,
                                            const hn::Vec<hn::RebindToSigned<Floats>> (&cell)[3]) {
     const Floats d;
     const hn::RebindToSigned<Floats> di;
     const V half = hn::Set(d, 0.5f);
+    const auto voxels = hn::And(cell[0], hn::Neg(cell[0]));
     V center[3], size[3];
     for (int axis = 0; axis < 3; ++axis) {
-        const auto low = hn::Min(cell[axis], hn::Set(di, p.last[axis]));
-        size[axis] = hn::GatherIndex(d, p.sides[axis], low);
-        center[axis] = hn::MulAdd(half, size[axis], hn::GatherIndex(d, p.places[axis], low));
+        const auto last = hn::Set(di, p.last[axis]);
+        const auto place = [&](hn::Vec<decltype(di)> vertex)
+                               HWY_ATTR { return hn::GatherIndex(d, p.places[axis], vertex); };
+        if constexpr (kMixed) {
+            const auto low = hn::Min(hn::ShiftRight<1>(hn::Sub(cell[axis], voxels)), last);
+            const V first = place(low), end = place(hn::Min(hn::Add(low, voxels), last));
+            center[axis] = hn::Mul(half, hn::Add(first, end));
+            size[axis] = hn::Sub(end, first);
+        } else {
+            const auto low = hn::Min(cell[axis], last);
+            size[axis] = hn::GatherIndex(d, p.sides[axis], low);
+            center[axis] = hn::MulAdd(half, size[axis], place(low));
+        }
     }
     return {{center[0], center[1], center[2]}, {{size[0], size[1], size[2]}}};
 }
@@ -102,10 +115,10 @@ HWY_INLINE auto boxes(const SquareProjection& p, const std::uint32_t* words) {
         return hn::ConvertTo(d, hn::BitCast(di, cell));
     };
     const auto x = hn::And(xy, low), y = hn::ShiftRight<16>(xy), z = hn::And(z_style, low);
-    if constexpr (kKind == CellKind::uneven) {
+    if constexpr (kKind == CellKind::uneven || kKind == CellKind::mixed_uneven) {
         const hn::Vec<decltype(di)> cell[3] = {hn::BitCast(di, x), hn::BitCast(di, y),
                                                hn::BitCast(di, z)};
-        return uneven_boxes(p, cell);
+        return uneven_boxes<kKind == CellKind::mixed_uneven>(p, cell);
     } else if constexpr (kKind == CellKind::even) {
         const auto middle = [&](hn::Vec<decltype(du)> cell) { return hn::Add(number(cell), half); };
         return Boxes<EvenSides>{{middle(x), middle(y), middle(z)}, {one}};

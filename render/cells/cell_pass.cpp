@@ -257,7 +257,6 @@ SequenceWanted CellPass::sequence_wanted(const View& view, const Placement& plac
     // display's values shows in dark places.
     const bool leaves_out =
         seen_only_ && !all_cells_ && !has_layers(footprint) &&
-        !(placement.rectilinear && cells.slots().largest > 0) && // of mixed levels
         !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&
         (shapes_.shape == CellShape::voxel || cells.slots().planes.size() == cells.size());
     const SplatShape shape{shapes_.shape, shapes_.radius_of(footprint)};

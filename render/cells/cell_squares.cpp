@@ -9,7 +9,6 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -262,6 +261,8 @@ void project(const SquareProjection& projection, const std::uint32_t* words,
         return project_all<CellKind::mixed>(projection, words, planes, cells, out);
     case CellKind::uneven:
         return project_all<CellKind::uneven>(projection, words, planes, cells, out);
+    case CellKind::mixed_uneven:
+        return project_all<CellKind::mixed_uneven>(projection, words, planes, cells, out);
     }
 }
 
@@ -314,9 +315,10 @@ void CellSquares::begin(const View& view, const Placement& placement, const Spla
         projection_.sides[axis] = axes_[axis].side.data();
         projection_.last[axis] = static_cast<std::int32_t>(axes_[axis].place.size()) - 1;
     }
-    const bool mixed = slots.largest > 0;
-    assert(!(mixed && grid_));
-    kind_ = grid_ ? CellKind::uneven : mixed ? CellKind::mixed : CellKind::even;
+    if (slots.largest > 0) // of mixed levels
+        kind_ = grid_ ? CellKind::mixed_uneven : CellKind::mixed;
+    else
+        kind_ = grid_ ? CellKind::uneven : CellKind::even;
 }
 
 void CellSquares::project_to(std::size_t to, const Slots& slots,

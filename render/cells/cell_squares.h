@@ -27,8 +27,7 @@ class CellSquares {
     static constexpr std::size_t kBlock = 16; ///< the arrays are padded to whole blocks
 
     /// Projects all cells.
-    /// @param slots with planes if the shape is `CellShape::plane`; on a rectilinear grid, cells
-    ///        must not be of mixed levels of detail
+    /// @param slots with planes if the shape is `CellShape::plane`
     /// @param back_to_front slots in this order
     void project(const View& view, const Placement& placement, const SplatShape& shape,
                  const Slots& slots, std::span<const std::uint32_t> back_to_front) {

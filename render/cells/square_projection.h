@@ -11,11 +11,12 @@
 
 namespace isochron::render {
 
-/// Where the cells of a set lie. Those of mixed levels on a rectilinear grid are not projected.
+/// Where the cells of a set lie.
 enum class CellKind : std::uint8_t {
-    even,  ///< on a regular grid
-    mixed, ///< of mixed levels of detail, on a regular grid
-    uneven ///< on a rectilinear grid
+    even,        ///< on a regular grid
+    mixed,       ///< of mixed levels of detail, on a regular grid
+    uneven,      ///< on a rectilinear grid
+    mixed_uneven ///< of mixed levels of detail, on a rectilinear grid
 };
 
 /// The data that all cells share.

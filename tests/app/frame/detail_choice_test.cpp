@@ -44,13 +44,14 @@ TEST(DetailChoice, AVoxelAtRestIsOfLevelZeroWhereverItIsLargerThanHalfAPixel) {
     const index::DetailRegions regions(grid);
     const render::Placement placement = a_meter_wide(grid);
     std::mt19937 random(7);
-    int coarse = 0;
+    int coarse = 0, small = 0;
     for (int i = 0; i < 40; ++i) {
         const float distance = std::uniform_real_distribution<float>(1.5f, 12.0f)(random);
         const render::View view = view_from(distance, 400);
         DetailChoice choice(grid, 1'000'000);
         choice.look(std::span(&view, 1), placement);
-        const auto wished = choice.at_rest(1'000'000).wished;
+        const auto wished = choice.at_first_rest(1'000'000).wished;
+        const auto last = choice.at_rest().wished;
         const float scale = 200.0f * view.clip_from_eye[1][1];
         for (std::size_t r = 0; r < wished.size(); ++r) {
             const auto at = regions.at(r);
@@ -66,9 +67,20 @@ TEST(DetailChoice, AVoxelAtRestIsOfLevelZeroWhereverItIsLargerThanHalfAPixel) {
                 EXPECT_EQ(wished[r] % kParts, 0) << "whole levels";
                 ++coarse;
             }
+            if (last.empty())
+                continue;
+            if (pixels > 0.125f) {
+                EXPECT_EQ(last[r], 0) << pixels;
+            }
+            if (last[r] > 0) {
+                EXPECT_LE(std::exp2(float(last[r]) / kParts) * pixels, 0.251f);
+                EXPECT_LT(last[r], wished[r]);
+                ++small;
+            }
         }
     }
     EXPECT_GT(coarse, 100);
+    EXPECT_GT(small, 100);
 }
 
 TEST(DetailChoice, NearRegionsAreFinerAndUnseenOnesCoarser) {
@@ -148,7 +160,7 @@ TEST(DetailChoice, NumbersOfCellsFitAndAreLeftLate) {
     EXPECT_EQ(choice.for_motion(1e9, drawn).most_cells, 3'000'000u);
     choice.limit(100'000);
     EXPECT_EQ(choice.for_motion(1e9, drawn).most_cells, 100'000u);
-    EXPECT_EQ(choice.at_rest(1e9).most_cells, 100'000u);
+    EXPECT_EQ(choice.at_rest().most_cells, 100'000u);
     EXPECT_TRUE(DetailChoice(cube(65), 1000).small());
     EXPECT_FALSE(DetailChoice(cube(66), 1000).small());
     DetailChoice little(cube(65), 100'000);

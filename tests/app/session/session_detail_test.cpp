@@ -113,6 +113,57 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
     EXPECT_EQ(report.volume_cells, all) << "it is known";
 }
 
+TEST_P(SessionDetail, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThemSoon) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 2;
+    Session session(config, large_, *context_);
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, false, first);
+    for (int rest = 0; rest < 2; ++rest) {
+        SCOPED_TRACE(rest);
+        std::uint64_t most = 0; // cells of pictures that came before
+        int coarse = 0;
+        ASSERT_TRUE(test_support::eventually([&] {
+            const auto ends = [&] { return report.final && report.cells > 0; };
+            for (int i = 0; i < 50 && !ends(); ++i) { // the worker may take its time
+                report = frame(session, false);
+                if (!report.redrawn || report.reason != QualityReason::in_slices)
+                    continue;
+                EXPECT_GE(report.cells, most) << "it only gets better";
+                most = report.cells;
+                coarse += report.coarsest > 0;
+            }
+            return ends();
+        }));
+        EXPECT_EQ(report.coarsest, 0u);
+        EXPECT_GT(report.cells, 3 * DetailChoice::kFewest);
+        EXPECT_EQ(report.footprint, render::Footprint::surface);
+        EXPECT_GT(coarse, 0) << "all cells take long";
+        for (int i = 0; i < 3; ++i)
+            report = frame(session, true);
+        EXPECT_GT(report.coarsest, 0u);
+    }
+}
+
+TEST_P(SessionDetail, AnythingThatMayStillMoveHasTheBudgetOfAFrame) {
+    Session session(config_with(1e-6), file_, *context_);
+    FrameReport report = frame(session, false);
+    ASSERT_TRUE(test_support::eventually([&] { return (report = frame(session, false)).final; }));
+    EXPECT_NE(report.footprint, render::Footprint::quad);
+    interaction::InputState input = head_at_rest(frame_++ / 60.0);
+    input.devices[0].pose->position.x = 0.3f;
+    report = session.frame(input, {}, Waiting::never);
+    ASSERT_EQ(report.pace, interaction::Pace::moving);
+    int still = 0;
+    for (int i = 0; i < 60 && report.pace == interaction::Pace::moving; ++i) {
+        EXPECT_EQ(report.footprint, render::Footprint::quad) << i;
+        report = frame(session, false); // where it was before
+        ++still;
+    }
+    EXPECT_GT(still, 7) << "longer than until a picture is taken for still";
+}
+
 class SessionWithLittleRoom : public SessionDetail {
   protected:
     static constexpr int kRoom = 40'000; ///< cells

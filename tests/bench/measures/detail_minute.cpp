@@ -107,6 +107,7 @@ Minute measure_minute(const std::shared_ptr<const index::IndexFile>& file,
     app::Session session(config, file, *context);
     const Script script{options.low, options.high,
                         static_cast<std::uint32_t>(file->info().steps())};
+    session.warm_up();
     session.frame(input_at(0, 0, 0), script.commands(0, 0), app::Waiting::never);
     const auto started = Clock::now();
     Counted scripted, control;

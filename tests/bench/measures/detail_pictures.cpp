@@ -147,7 +147,7 @@ double measure_settled_detail(const render::Gl& gl,
     app::DetailChoice choice(view.grid(), kAll);
     choice.look(view.camera().views, view.camera().placement);
     const render::Image all = view.picture(view.cells({}));
-    const render::Image rest = view.picture(view.cells(choice.at_rest(kAll)));
+    const render::Image rest = view.picture(view.cells(choice.at_rest()));
     std::size_t off = 0;
     const std::size_t pixels = all.rgba.size() / 4;
     for (std::size_t i = 0; i < pixels; ++i) {

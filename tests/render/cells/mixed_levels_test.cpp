@@ -52,7 +52,7 @@ class MixedLevels : public GlTest {
         CellBuffers buffers(gl_, grid);
         while (!buffers.upload(set, kRoom, SendVolume::never))
             ;
-        CellPass pass(gl_, {.shape = shape});
+        CellPass pass(gl_, {.shape = shape}, prelude_for(grid));
         if (all)
             pass.draw_hidden_cells();
         RenderTarget target(gl_, {kPicture, kPicture});

@@ -1,8 +1,10 @@
 // Occlusion culling on rectilinear grids: hidden cells are left out, and pictures do not change.
 #include "index/extraction/detail_regions.h"
 #include "render/cells/cell_pass.h"
+#include "render/gl/driver.h"
 #include "tests/render/cells/hidden_cells.h"
 
+#include <array>
 #include <cstdlib>
 #include <set>
 #include <tuple>
@@ -44,6 +46,21 @@ std::vector<index::CellPoint> coarser(const std::vector<index::CellPoint>& point
 
 class UnevenCulling : public HiddenCellsTest {
   protected:
+    UnevenCulling() { gl_.CreateQueries(GL_PRIMITIVES_GENERATED, 1, &query_); }
+    ~UnevenCulling() override { gl_.DeleteQueries(1, &query_); }
+
+    /// @param drawn the number of points or quads is added to it
+    Image draw_counted(CellPass& pass, const Volume& volume, const CellBuffers& cells,
+                       const CellAppearance& look, Footprint footprint, std::uint64_t& drawn) {
+        gl_.BeginQuery(GL_PRIMITIVES_GENERATED, query_);
+        Image image = draw(pass, volume, cells, look, footprint);
+        gl_.EndQuery(GL_PRIMITIVES_GENERATED);
+        GLuint64 count = 0;
+        gl_.GetQueryObjectui64v(query_, GL_QUERY_RESULT, &count);
+        drawn += count;
+        return image;
+    }
+
     /// Draws random volumes with all cells and without hidden ones.
     /// @param compare gets both pictures
     template <class Compare>
@@ -54,6 +71,7 @@ class UnevenCulling : public HiddenCellsTest {
             CellPass seen(gl_, {.shape = shape}, "#define UNEVEN\n"),
                 all(gl_, {.shape = shape}, "#define UNEVEN\n");
             all.draw_hidden_cells();
+            std::array<std::uint64_t, 2> left{}, whole{}; // by whether of mixed levels
             for (int round = 0; round < rounds; ++round) {
                 Volume volume = random_volume(random_);
                 if (volume.cells.empty())
@@ -66,13 +84,18 @@ class UnevenCulling : public HiddenCellsTest {
                 const CellBuffers cells = CellBuffers::of_points(
                     gl_, points, *volume.placement.rectilinear, mixed ? 4u : 0u);
                 SCOPED_TRACE(testing::Message() << name_of(shape) << " round " << round);
-                compare(draw(seen, volume, cells, look, footprint),
-                        draw(all, volume, cells, look, footprint));
+                compare(draw_counted(seen, volume, cells, look, footprint, left[mixed]),
+                        draw_counted(all, volume, cells, look, footprint, whole[mixed]));
                 if (testing::Test::HasFailure())
                     return;
             }
+            if (takes_processor_ways(gl_))
+                for (const bool mixed : {false, true})
+                    EXPECT_LT(left[mixed], whole[mixed]) << name_of(shape) << " " << mixed;
         }
     }
+
+    GLuint query_ = 0;
 };
 
 TEST_P(UnevenCulling, PicturesOfQuadsAreThoseOfAllCells) {

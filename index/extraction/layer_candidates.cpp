@@ -91,7 +91,9 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
         std::erase_if(places, [&](std::uint32_t place) { // candidates have been announced
             return may_hold(tables_[i]->low[place], tables_[i]->high[place], cut);
         });
-        store.expect(step, layer + i - 1, places);
+        if (tables_[i] &&
+            !store.fetches_all(places_of(*tables_[i], cut, layer + i - 1, only).size()))
+            store.expect(step, layer + i - 1, places);
     }
     time_ = std::chrono::steady_clock::now() - started;
 }

@@ -58,7 +58,7 @@ bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, con
     ReadAhead ahead(layers, [&](std::uint32_t layer) {
         if (stop.stop_requested())
             throw Stopped();
-        return store_.expect(step, layer, places(layer));
+        return store_.fetch(step, layer, places(layer), stop);
     });
     const auto threads = static_cast<unsigned>(slabs_.size());
     // Each item prepares a layer, and works on one that has been prepared a while ago.

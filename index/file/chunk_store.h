@@ -81,6 +81,13 @@ class ChunkStore {
     std::uint64_t expect(std::uint32_t step, std::uint32_t layer,
                          std::span<const std::uint32_t> places) const;
 
+    /// The same; if most of a layer's bytes must be read, all of it is read in one go, and this waits
+    /// until it has come from the disk.
+    std::uint64_t fetch(std::uint32_t step, std::uint32_t layer,
+                        std::span<const std::uint32_t> places, const std::stop_token& stop) const;
+    /// Whether `fetch` of so many chunks of a layer, of which none is in the cache, reads all of it.
+    bool fetches_all(std::size_t places) const { return 6 * places >= grid_.chunks_of_layer(); }
+
     /// The values and bricks of one whole step, for work that needs all of it.
     /// @throws Stopped as well
     LoadedStep whole(std::uint32_t step, const std::stop_token& stop = {}) const;

@@ -17,6 +17,8 @@
 
 namespace isochron::index {
 
+constexpr std::size_t kTileBytes = 256; ///< four cache lines
+
 /// Bytes of the tiles of a step.
 std::size_t tile_bytes(const Grid& grid);
 

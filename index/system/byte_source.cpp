@@ -2,19 +2,26 @@
 #include "index/system/byte_source.h"
 
 #include "index/error.h"
+#include "index/system/descriptor.h"
 #include "index/system/input_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <mutex>
+#include <vector>
 
 #include <fcntl.h>
+#include <unistd.h>
 
 namespace isochron::index {
 namespace {
 
 /// Most bytes that the kernel reads ahead for one call; it silently ignores the rest.
 constexpr std::uint64_t kAdvised = 128 << 10;
+/// Bytes that are fetched between two looks at the stop token.
+constexpr std::size_t kFetched = 1 << 20;
 
 class OpenFile final : public ByteSource {
   public:
@@ -32,6 +39,28 @@ class OpenFile final : public ByteSource {
                             POSIX_FADV_WILLNEED);
     }
 
+    void fetch(std::uint64_t offset, std::uint64_t bytes,
+               const std::stop_token& stop) const override {
+        // Advice holds for a description of the file, so this one has its own, on which the kernel
+        // reads ahead as it sees fit: in large requests, and into large folios.
+        std::call_once(opened_, [this] {
+            const std::string same = fmt::format("/proc/self/fd/{}", file_.descriptor());
+            in_order_ = Descriptor(::open(same.c_str(), O_RDONLY | O_CLOEXEC));
+        });
+        if (!in_order_)
+            return expect(offset, bytes);
+        thread_local std::vector<std::byte> unused;
+        unused.resize(kFetched);
+        for (const std::uint64_t end = offset + bytes; offset < end && !stop.stop_requested();) {
+            const ssize_t got = ::pread(in_order_.number(), unused.data(),
+                                        std::min<std::uint64_t>(kFetched, end - offset),
+                                        static_cast<off_t>(offset));
+            if (got == 0 || (got < 0 && errno != EINTR))
+                return;
+            offset += static_cast<std::uint64_t>(std::max<ssize_t>(got, 0));
+        }
+    }
+
   protected:
     std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
         return file_.read(offset, out);
@@ -40,6 +69,8 @@ class OpenFile final : public ByteSource {
   private:
     std::string name_;
     InputFile file_;
+    mutable std::once_flag opened_;
+    mutable Descriptor in_order_; ///< of the same file
 };
 
 } // namespace

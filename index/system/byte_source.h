@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 
 namespace isochron::index {
@@ -26,6 +27,13 @@ class ByteSource {
     std::uint64_t bytes_read() const { return bytes_read_; }
     /// Announces that these bytes are needed soon, so that the disk works on many requests at once.
     virtual void expect(std::uint64_t /*offset*/, std::uint64_t /*bytes*/) const {}
+    /// The same for bytes of which nearly all are needed: reads them from the disk in their order,
+    /// which takes less time than many requests, and waits until they have come. Never throws for
+    /// the file or the disk: whoever reads them gets the error. Returns early when stopped.
+    virtual void fetch(std::uint64_t offset, std::uint64_t bytes,
+                       const std::stop_token& /*stop*/) const {
+        expect(offset, bytes);
+    }
 
   protected:
     /// Reads some of the bytes. @return how many; 0 at the end of the file

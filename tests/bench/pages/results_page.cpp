@@ -47,6 +47,9 @@ constexpr std::string_view kHowToRead =
     "- FP: false positives in percent of the active cells at the isovalue of the times; those over "
     "all queries are in the rows. FN: false negatives over all queries. A query is a step and one "
     "of 64 isovalues, the quantiles of the values.\n"
+    "- *tiles*: bricks with the vertices of each side by side in memory, which the program makes "
+    "of "
+    "a step of wide values that is searched more than 16 times in a row.\n"
     "- *T-BON*: branch-on-need octree per step over one topology, exact, with the volume at hand "
     "(Sutton and Hansen 1999). *Flying edges*: `vtkFlyingEdges3D`, sequential. It makes triangles "
     "where the others find cells: the fair partner of *full* is flying edges with normals.\n\n";

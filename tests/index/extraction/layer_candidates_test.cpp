@@ -2,6 +2,7 @@
 #include "index/build/index_build.h"
 #include "index/extraction/cell_set.h"
 #include "index/extraction/id_sort.h"
+#include "index/extraction/layer_search.h"
 #include "index/extraction/step_slab.h"
 #include "index/file/index_file.h"
 #include "index/scan/bricks.h"
@@ -12,8 +13,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
+#include <memory>
+#include <random>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace isochron::index {
@@ -31,9 +36,14 @@ class WatchedSource final : public ByteSource {
         std::fill_n(announced_.begin() + static_cast<std::ptrdiff_t>(offset), bytes, true);
         announcements += bytes;
     }
+    void fetch(std::uint64_t offset, std::uint64_t bytes, const std::stop_token&) const override {
+        ++fetches;
+        expect(offset, bytes);
+    }
     void forget() const { std::fill(announced_.begin(), announced_.end(), false); }
 
     mutable std::uint64_t announcements = 0;         ///< bytes
+    mutable std::atomic<std::uint32_t> fetches = 0;  ///< requests for all of a layer
     mutable std::uint64_t ends = 0;                  ///< bytes from here on are not watched
     mutable std::uint64_t read = 0, unannounced = 0; ///< bytes
 
@@ -76,7 +86,7 @@ TEST_P(LayerCandidatesTest, NothingIsReadThatWasNotAnnouncedWithTheCandidates) {
             source.forget();
             for (std::uint32_t near = layer - std::min(layer, 1u);
                  near < std::min(layer + 2, store.grid().layers()); ++near)
-                store.expect(0, near, LayerCandidates::places_of(*store.layer(0, near), cut));
+                store.fetch(0, near, LayerCandidates::places_of(*store.layer(0, near), cut), {});
             LayerCandidates candidates(store, 0, layer, cut, normals, {});
             const std::uint64_t announced = source.announcements;
             source.unannounced = 0;
@@ -101,6 +111,29 @@ TEST_P(LayerCandidatesTest, NothingIsReadThatWasNotAnnouncedWithTheCandidates) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutNormals, LayerCandidatesTest, testing::Bool());
+
+TEST(LayersOfAStep, AreReadInOneGoEachWhereMostOfThemIsNeeded) {
+    std::mt19937 random(test_seed());
+    const test_support::TestFolder folder;
+    const auto path = folder.path() / "a.isochron";
+    const auto fetched = [&](const TestField& field, double isovalue) {
+        MemorySeries series(field.view());
+        build_index(series, path, {.tiers = TierSet().with(Tier::bricks), .codec = Codec::none});
+        auto made = std::make_unique<WatchedSource>(path);
+        const WatchedSource& source = *made;
+        CellSet set;
+        set.query = {0, isovalue};
+        EXPECT_TRUE(LayerSearch(IndexFile::open(std::move(made), 1)).search(set, true, true, {}));
+        EXPECT_EQ(set.ids, BruteForce(field.view(), 0).active(isovalue));
+        return source.fetches.load();
+    };
+    const TestField rough({83, 70, 67}, 1, ValueType::u8, scaled(turbulence(random), 60, 120));
+    EXPECT_EQ(fetched(rough, quantiles(sorted_values(rough.view()), 3)[1]), 5u);
+    const TestField corner(
+        {83, 70, 67}, 1, ValueType::u8,
+        [](double x, double y, double z, double) { return x < 20 && y < 20 ? 10 + z : 0.0; });
+    EXPECT_EQ(fetched(corner, 5.5), 0u);
+}
 
 TEST(PreparedCandidates, AreReadOnceByWhoeverComesFirst) {
     std::array<std::atomic<int>, 50> reads{};

@@ -70,6 +70,18 @@ class ByteSourceTest : public testing::Test {
     std::shared_ptr<const IndexFile> file_;
 };
 
+TEST_F(ByteSourceTest, FetchingReadsNothingForTheCallerAndLeavesErrorsToTheRead) {
+    const auto source = open_bytes(path_);
+    std::vector<std::byte> all(source->size());
+    source->fetch(0, source->size(), {});
+    EXPECT_EQ(source->bytes_read(), 0u);
+    source->read(0, all);
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(all.data()), all.size()), read_file(path_));
+    std::filesystem::resize_file(path_, 100);
+    EXPECT_NO_THROW(source->fetch(0, all.size(), {}));
+    EXPECT_THROW(source->read(0, all), Error);
+}
+
 TEST_F(ByteSourceTest, ReadsThatComeInPiecesGiveTheSame) {
     source_->most = 7;
     EXPECT_EQ(search_in(file_)({1, 100.0}, {})->ids, BruteForce(field_.view(), 1).active(100.0));

@@ -13,12 +13,12 @@ using RenderFigure = std::function<std::optional<double>(const RenderRow&)>;
 
 constexpr unsigned kThreads = 2; // for which all goals are given
 
-/// The figure for rows of one footprint (empty: any), series (empty: any) and one-eyed picture.
+/// The figure for rows of one footprint (empty: any), series (empty: any) and size of picture.
 RenderFigure of(const std::string& footprint, const std::string& data, int size,
-                const RenderFigure& figure) {
+                const RenderFigure& figure, int eyes = 1) {
     return [=](const RenderRow& row) -> std::optional<double> {
         if ((!footprint.empty() && row.footprint != footprint) ||
-            (!data.empty() && row.data != data) || row.size != size || row.eyes != 1 ||
+            (!data.empty() && row.data != data) || row.size != size || row.eyes != eyes ||
             row.threads != kThreads)
             return std::nullopt;
         return figure(row);
@@ -73,6 +73,8 @@ std::vector<Goal<RenderRow>> all_goals(const std::vector<RenderRow>& rows) {
          of("gaussian", "vorticity64", 512, fps)},
         {"whole time-scrub frame of fast quads against VTK, 1024^2", "x", 4, 2, true,
          of("quad", "", 1024, over_vtk)},
+        {"the same of meshes", "x", 2, 1.4, true, of("mesh", "", 1024, over_vtk)},
+        {"the same of meshes, both eyes", "x", 2, 1.3, true, of("mesh", "", 1024, over_vtk, 2)},
         {"fast quads, those that are seen, against all bare quads, 512^2", "x", 1.1, 1.3, false,
          of("quad", "", 512, drawn_over_bare)},
         {"fast quads, all of them, against bare quads, 512^2", "x", 1.1, 1.3, false,

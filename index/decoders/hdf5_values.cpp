@@ -37,6 +37,7 @@ Hdf5Values::Hdf5Values(const Hdf5File& file, const Hdf5Dataset& dataset,
     : file_(file), dataset_(dataset) {
     const std::string what = fmt::format("{} cannot be read", dataset.path);
     const auto open = [&](hid_t access) {
+        open_ = {}; // a dataset that is open keeps the cache that it has
         open_ = {H5Dopen2(file.id(), dataset.path.c_str(), access), H5Dclose};
         file.expect(static_cast<bool>(open_), what);
     };
@@ -52,26 +53,26 @@ Hdf5Values::Hdf5Values(const Hdf5File& file, const Hdf5Dataset& dataset,
     }
     expect_filters(properties.id());
     expect_room_for(properties.id(), file.name());
-    constexpr double kCache = 1 << 20;
-    double chunk_bytes = static_cast<double>(size_of(*dataset.type));
-    for (const std::uint64_t length : chunk_)
-        chunk_bytes *= static_cast<double>(length);
-    in_parts_ = chunk_bytes > kCache && H5Pget_nfilters(properties.id()) == 0;
-    if (chunk_.empty() || !shared || chunk_[*shared] == 1)
+    if (chunk_.empty())
         return;
     double bytes = static_cast<double>(size_of(*dataset.type)), chunks = 1; // of one step
     for (std::size_t i = 0; i < rank; ++i) {
         bytes *= static_cast<double>(chunk_[i]);
-        if (i != *shared)
+        if (i != shared)
             chunks *= std::ceil(static_cast<double>(dataset.dimensions[i]) /
                                 static_cast<double>(chunk_[i]));
     }
-    constexpr double kMostBytes = 512.0 * (1 << 20), kMostChunks = 1e6;
-    if (bytes * chunks > kMostBytes || chunks > kMostChunks)
+    constexpr double kCache = 1 << 20; // HDF5's own
+    in_parts_ = bytes > kCache && H5Pget_nfilters(properties.id()) == 0;
+    // A large chunk that is the whole step is kept, too: pieces of it need less room beside it.
+    constexpr double kMostBytes = 512.0 * (1 << 20), kMostChunks = 1e6, kLarge = 64 << 20;
+    const bool has_steps = shared && chunk_[*shared] > 1;
+    const bool is_all = chunks == 1 && bytes > kLarge && !in_parts_;
+    if ((!has_steps && !is_all) || bytes * chunks > kMostBytes || chunks > kMostChunks)
         return;
+    in_parts_ = is_all;
     const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     constexpr std::size_t kSlotsPerChunk = 10; // as HDF5 advises
-    in_parts_ = false;
     H5Pset_chunk_cache(access.id(), static_cast<std::size_t>(chunks) * kSlotsPerChunk + 1,
                        static_cast<std::size_t>(bytes * chunks), 1.0);
     open(access.id());

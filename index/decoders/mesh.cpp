@@ -62,7 +62,7 @@ class Mesh {
     /// Call both within `with_vtk`. The image of a step is there until another is asked for.
     vtkImageData& image(std::size_t step) {
         if (step != held_) {
-            image_ = onto_image_like(load(step), *image_);
+            image_ = onto_image_like(load(step), *image_, path_.string());
             held_ = step;
         }
         return *image_;

@@ -3,6 +3,7 @@
 #include "index/decoders/decoders.h"
 #include "index/decoders/shared_decode.h"
 #include "index/decoders/vtk_ghosts.h"
+#include "index/decoders/vtk_numbers.h"
 #include "index/decoders/vtk_resample.h"
 #include "index/decoders/vtk_session.h"
 #include "index/decoders/xml_markup.h"
@@ -14,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetReader.h>
@@ -21,8 +23,11 @@
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkXMLGenericDataObjectReader.h>
+#include <vtkXMLReader.h>
+#include <vtkXMLUniformGridAMRReader.h>
 
 #include <algorithm>
 #include <iterator>
@@ -41,15 +46,28 @@ vtkSmartPointer<vtkDataObject> read_xml(const fs::path& path) {
     expect_end(file, name);
     expect_shallow(markup, name);
     expect_names(markup, name);
-    const vtkNew<vtkXMLGenericDataObjectReader> reader;
+    const vtkNew<vtkXMLGenericDataObjectReader> any;
+    bool parallel = false;
+    const int type = any->ReadOutputType(path.c_str(), parallel);
+    const auto reader = type < 0 ? nullptr : any->CreateReader(type, parallel);
+    if (!reader)
+        throw Error(fmt::format("{}: holds no data that VTK knows", name));
+    // Else it reads the coarsest level alone.
+    if (auto* levels = vtkXMLUniformGridAMRReader::SafeDownCast(reader))
+        levels->SetMaximumLevelsToReadByDefault(0);
     reader->SetFileName(path.c_str());
     reader->Update();
-    return reader->GetOutput();
+    return reader->GetOutputDataObject(0);
 }
 
 vtkSmartPointer<vtkDataObject> read_legacy(const fs::path& path) {
     const vtkNew<vtkDataSetReader> reader;
     reader->SetFileName(path.c_str());
+    const auto text = text_with_stand_ins(path);
+    if (text) {
+        reader->SetInputString(*text);
+        reader->ReadFromInputStringOn();
+    }
     reader->ReadAllScalarsOn();
     reader->ReadAllVectorsOn();
     reader->ReadAllNormalsOn();
@@ -58,7 +76,12 @@ vtkSmartPointer<vtkDataObject> read_legacy(const fs::path& path) {
     reader->ReadAllTCoordsOn();
     reader->ReadAllFieldsOn();
     reader->Update();
-    return reader->GetOutput();
+    vtkDataSet* const data = reader->GetOutput();
+    if (text && data) {
+        replace_stand_ins(*data->GetPointData());
+        replace_stand_ins(*data->GetCellData());
+    }
+    return data;
 }
 
 std::vector<double> coordinates_of(vtkDataArray* array) {

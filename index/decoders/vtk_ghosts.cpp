@@ -26,10 +26,14 @@ std::vector<std::uint8_t> flagged(vtkFieldData* fields, int hiding, std::size_t 
         hidden.resize(tuples);
         // vtkGhostLevels has the distance from the nearest value that is no ghost: not 0 is a
         // ghost.
-        const int mask = std::string_view(name) == kGhostFlags[0] ? hiding : 0xff;
-        for (std::size_t i = 0; i < tuples; ++i)
-            hidden[i] |=
-                (static_cast<int>(flags->GetTuple1(static_cast<vtkIdType>(i))) & mask) != 0;
+        const bool levels = std::string_view(name) != kGhostFlags[0];
+        for (std::size_t i = 0; i < tuples; ++i) {
+            const double flag = flags->GetTuple1(static_cast<vtkIdType>(i)); // of any type
+            constexpr double kMost = 255;
+            hidden[i] |= levels
+                             ? flag != 0
+                             : flag > 0 && flag <= kMost && (static_cast<int>(flag) & hiding) != 0;
+        }
     }
     return hidden;
 }

@@ -6,8 +6,6 @@
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/stored_file.h"
-#include "index/formats/text_header.h"
-#include "index/system/mapped_file.h"
 
 #include <fmt/format.h>
 
@@ -71,7 +69,11 @@ class LegacyFile final : public DecodedFile {
         expect_believable(path_);
         with_vtk(path_, [&] {
             reader_->SetFileName(path_.c_str());
-            const bool replaced = take_hard_numbers();
+            const auto replaced = text_with_stand_ins(path_);
+            if (replaced) {
+                reader_->SetInputString(*replaced);
+                reader_->ReadFromInputStringOn();
+            }
             reader_->ReadAllScalarsOn();
             reader_->ReadAllVectorsOn();
             reader_->ReadAllNormalsOn();
@@ -112,26 +114,6 @@ class LegacyFile final : public DecodedFile {
     }
 
   private:
-    /// @return whether VTK reads other numbers now, which stand for NaN and infinities
-    bool take_hard_numbers() {
-        constexpr std::size_t kHead = 1024;
-        std::istringstream head(head_of(path_, kHead));
-        std::string line;
-        for (int i = 0; i < 3; ++i)
-            std::getline(head, line);
-        if (!lower_case(line).starts_with("ascii"))
-            return false;
-        const MappedFile file(path_);
-        const auto text = with_stand_ins(
-            {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()},
-            path_.string());
-        if (!text)
-            return false;
-        reader_->SetInputString(*text);
-        reader_->ReadFromInputStringOn();
-        return true;
-    }
-
     fs::path path_;
     SeriesInfo info_;
     ChosenScalar chosen_;

@@ -2,7 +2,9 @@
 #include "index/decoders/vtk_numbers.h"
 
 #include "index/error.h"
+#include "index/formats/data_stream.h"
 #include "index/formats/text_header.h"
+#include "index/system/mapped_file.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <sstream>
 
 namespace isochron::index {
 namespace {
@@ -84,6 +87,19 @@ std::optional<std::string> with_stand_ins(std::string_view text, const std::stri
                                 "apart",
                                 file, kHighest));
     return easy.append(text.substr(copied));
+}
+
+std::optional<std::string> text_with_stand_ins(const std::filesystem::path& file) {
+    constexpr std::size_t kHead = 1024;
+    std::istringstream head(head_of(file, kHead));
+    std::string line;
+    for (int i = 0; i < 3; ++i)
+        std::getline(head, line);
+    if (!lower_case(line).starts_with("ascii"))
+        return std::nullopt;
+    const MappedFile text(file);
+    return with_stand_ins({reinterpret_cast<const char*>(text.bytes().data()), text.bytes().size()},
+                          file.string());
 }
 
 void replace_stand_ins(vtkDataSetAttributes& arrays) {

@@ -7,12 +7,14 @@
 
 #include <fmt/format.h>
 
+#include <vtkAbstractArray.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -40,41 +42,35 @@ void each_grid(vtkDataObject& data, const std::function<void(vtkDataSet&)>& take
             take(*one);
 }
 
-std::array<std::uint32_t, 3> vertices_by_cells(vtkDataObject& data, const std::string& file) {
-    constexpr double kMostVertices = 1 << 27;
-    std::array<double, 3> low{}, high{}, least{};
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    least = low;
-    each_grid(data, [&](vtkDataSet& grid) {
-        for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
-            std::array<double, 6> box{};
-            grid.GetCellBounds(cell, box.data());
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                low[axis] = std::min(low[axis], box[2 * axis]);
-                high[axis] = std::max(high[axis], box[2 * axis + 1]);
-                if (const double size = box[2 * axis + 1] - box[2 * axis]; size > 0)
-                    least[axis] = std::min(least[axis], size);
-            }
-        }
-    });
-    std::array<double, 3> counts{};
-    double all = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!(high[axis] > low[axis]) || !std::isfinite(least[axis]))
-            throw Error(fmt::format("{}: holds no cells of three dimensions", file));
-        constexpr double kRounding = 1e-6;
-        counts[axis] = std::ceil((high[axis] - low[axis]) / least[axis] - kRounding) + 1;
-        all *= counts[axis];
+/// Flags of what lay within a grid, of an earlier resampling, too: ghost flags say the same.
+void remove_masks(vtkDataSet& grid) {
+    for (const char* mask : {"vtkValidPointMask", "vtkValidCellMask"}) {
+        grid.GetPointData()->RemoveArray(mask);
+        grid.GetCellData()->RemoveArray(mask);
     }
-    if (all > kMostVertices)
-        throw Error(fmt::format("{}: its smallest cell asks for {} x {} x {} vertices, expected at "
-                                "most {:.0f}; --resample NX NY NZ says how many",
-                                file, counts[0], counts[1], counts[2], kMostVertices));
-    std::array<std::uint32_t, 3> vertices{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        vertices[axis] = std::max(static_cast<std::uint32_t>(counts[axis]), 2u);
-    return vertices;
+}
+
+/// Checks what VTK takes for granted, and crashes on otherwise. Masks of the data's own would take
+/// the place of those that it writes.
+void make_sound(vtkDataObject& data, const std::string& file) {
+    const auto check = [&](vtkFieldData& arrays, vtkIdType tuples) {
+        for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) {
+            vtkAbstractArray& array = *arrays.GetAbstractArray(i);
+            if (array.GetNumberOfTuples() != tuples)
+                throw Error(fmt::format("{}: array {} has {} values, expected {}", file,
+                                        array.GetName() ? array.GetName() : "without a name",
+                                        array.GetNumberOfTuples(), tuples));
+        }
+    };
+    each_grid(data, [&](vtkDataSet& grid) {
+        remove_masks(grid);
+        check(*grid.GetPointData(), grid.GetNumberOfPoints());
+        check(*grid.GetCellData(), grid.GetNumberOfCells());
+        std::array<double, 6> box{};
+        grid.GetBounds(box.data());
+        if (!std::ranges::all_of(box, [](double at) { return std::isfinite(at); }))
+            throw Error(fmt::format("{}: has points that are nowhere (not finite)", file));
+    });
 }
 
 /// The chosen component, or the length, of a tuple.
@@ -115,8 +111,10 @@ double interpolated(vtkImageData& image, vtkDataArray& values, const ChosenScala
 }
 
 /// @param box lowest and highest coordinate along each axis; null: the data's own
-vtkSmartPointer<vtkImageData>
-resampled_by(vtkDataObject& data, const std::array<std::uint32_t, 3>& counts, const double* box) {
+vtkSmartPointer<vtkImageData> resampled_by(vtkDataObject& data,
+                                           const std::array<std::uint32_t, 3>& counts,
+                                           const double* box, const std::string& file) {
+    make_sound(data, file);
     const vtkNew<vtkResampleToImage> filter;
     filter->SetInputDataObject(&data);
     filter->SetSamplingDimensions(static_cast<int>(counts[0]), static_cast<int>(counts[1]),
@@ -127,29 +125,64 @@ resampled_by(vtkDataObject& data, const std::array<std::uint32_t, 3>& counts, co
     }
     filter->Update();
     vtkSmartPointer<vtkImageData> image = filter->GetOutput();
-    for (const char* mask : {"vtkValidPointMask", "vtkValidCellMask"}) { // flags say the same
-        image->GetPointData()->RemoveArray(mask);
-        image->GetCellData()->RemoveArray(mask);
-    }
+    remove_masks(*image);
     return image;
 }
 
 } // namespace
 
+std::array<std::uint32_t, 3> vertices_by_cells(vtkDataObject& data, const std::string& file) {
+    constexpr double kMostVertices = 1 << 27;
+    std::array<double, 3> low{}, high{}, least{};
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    least = low;
+    each_grid(data, [&](vtkDataSet& grid) {
+        for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
+            std::array<double, 6> box{};
+            grid.GetCellBounds(cell, box.data());
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                low[axis] = std::min(low[axis], box[2 * axis]);
+                high[axis] = std::max(high[axis], box[2 * axis + 1]);
+                if (const double size = box[2 * axis + 1] - box[2 * axis]; size > 0)
+                    least[axis] = std::min(least[axis], size);
+            }
+        }
+    });
+    std::array<double, 3> counts{};
+    double all = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(high[axis] > low[axis]) || !std::isfinite(least[axis]))
+            throw Error(fmt::format("{}: holds no cells of three dimensions", file));
+        constexpr double kRounding = 1e-6;
+        counts[axis] = std::ceil((high[axis] - low[axis]) / least[axis] - kRounding) + 1;
+        all *= counts[axis];
+    }
+    if (all > kMostVertices)
+        throw Error(fmt::format("{}: its smallest cell asks for {} x {} x {} vertices, expected at "
+                                "most {:.0f}; --resample NX NY NZ says how many",
+                                file, counts[0], counts[1], counts[2], kMostVertices));
+    std::array<std::uint32_t, 3> vertices{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        vertices[axis] = std::max(static_cast<std::uint32_t>(counts[axis]), 2u);
+    return vertices;
+}
+
 vtkSmartPointer<vtkImageData> onto_image(vtkDataObject& data,
                                          const std::array<std::uint32_t, 3>& vertices,
                                          const std::string& file) {
     const auto counts = vertices == kBySmallestCell ? vertices_by_cells(data, file) : vertices;
-    return resampled_by(data, counts, nullptr);
+    return resampled_by(data, counts, nullptr, file);
 }
 
-vtkSmartPointer<vtkImageData> onto_image_like(vtkDataObject& data, vtkImageData& like) {
+vtkSmartPointer<vtkImageData> onto_image_like(vtkDataObject& data, vtkImageData& like,
+                                              const std::string& file) {
     const int* counts = like.GetDimensions();
     return resampled_by(data,
                         {static_cast<std::uint32_t>(counts[0]),
                          static_cast<std::uint32_t>(counts[1]),
                          static_cast<std::uint32_t>(counts[2])},
-                        like.GetBounds());
+                        like.GetBounds(), file);
 }
 
 std::string note_on_resampling(vtkDataObject& data, vtkImageData& image, const ChosenScalar& chosen,

@@ -4,6 +4,7 @@
 #include "index/decoders/xdmf_document.h"
 #include "index/decoders/xdmf_paths.h"
 #include "index/error.h"
+#include "index/formats/data_stream.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
 #include "index/system/input_file.h"
@@ -196,7 +197,19 @@ class XdmfFile final : public DecodedFile {
         if (components_of(*found, part.grid) != chosen_.array.components)
             throw Error(fmt::format("{}: {} of step {} is not as in step 0", name_,
                                     chosen_.array.name, step));
+        expect_room_for(found->item);
         return found->item;
+    }
+
+    /// A document that lies about sizes is to cost no memory.
+    void expect_room_for(const XdmfItem& item) const {
+        const std::uint64_t values = product(item.dimensions);
+        if (item.where == XdmfItem::Where::plain)
+            expect_room(item.document.parent_path() / item.text, item.seek, Compression::none,
+                        values * size_of(item.type));
+        if (item.where == XdmfItem::Where::document && values > item.text.size() / 2 + 1)
+            throw Error(fmt::format("{}: {} bytes of numbers as text, expected {} numbers", name_,
+                                    item.text.size(), values));
     }
 
     /// Reads layers along z. @param grid that the item is of

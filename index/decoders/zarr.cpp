@@ -4,6 +4,8 @@
 // https://ngff.openmicroscopy.org.
 #include "index/decoders/decoders.h"
 #include "index/decoders/zarr_array.h"
+#include "index/decoders/zarr_cf.h"
+#include "index/decoders/zarr_groups.h"
 #include "index/error.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
@@ -32,71 +34,6 @@ struct ZarrLayout {
     std::array<std::size_t, 3> space{}; ///< fastest first
     std::optional<std::size_t> time, channel;
 };
-
-json attributes_of_group(const ZarrStore& store, const std::string& group) {
-    const std::string prefix = group.empty() ? "" : group + "/";
-    for (const char* file : {"zarr.json", ".zattrs"}) {
-        const auto bytes = store.read(prefix + file);
-        if (!bytes)
-            continue;
-        const auto* text = reinterpret_cast<const char*>(bytes->data());
-        json parsed = json::parse(text, text + bytes->size(), nullptr, false);
-        if (!parsed.is_object())
-            throw Error(fmt::format("{}: {}{} is no JSON object", store.name(), prefix, file));
-        return std::string(file) == "zarr.json" ? parsed.value("attributes", json::object())
-                                                : parsed;
-    }
-    return json::object();
-}
-
-/// Of OME-Zarr: the part of the attributes that describes the image; null: none.
-json multiscale_of(const json& attributes) {
-    for (const json& place : {attributes.value("ome", json::object()), attributes})
-        if (const auto found = place.find("multiscales");
-            found != place.end() && found->is_array() && !found->empty())
-            return found->front();
-    return {};
-}
-
-/// Arrays below a group, with what a name stands for in them.
-void find_arrays(const ZarrStore& store, const std::string& group, int depth,
-                 std::vector<std::string>& paths) {
-    constexpr int kDeepest = 6;
-    constexpr std::size_t kMost = 1000;
-    for (const std::string& name : store.names(group)) {
-        if (depth >= kDeepest || paths.size() >= kMost || name.starts_with('.') ||
-            name == "zarr.json")
-            continue;
-        const std::string path = group.empty() ? name : group + "/" + name;
-        if (store.read(path + "/.zarray")) {
-            paths.push_back(path);
-            continue;
-        }
-        const auto v3 = store.read(path + "/zarr.json");
-        const auto* text = v3 ? reinterpret_cast<const char*>(v3->data()) : nullptr;
-        const json parsed = v3 ? json::parse(text, text + v3->size(), nullptr, false) : json();
-        if (parsed.is_object() && parsed.value("node_type", "") == "array")
-            paths.push_back(path);
-        else if (v3 || store.read(path + "/.zgroup"))
-            find_arrays(store, path, depth + 1, paths);
-    }
-}
-
-std::string tidy_unit_of_ome(const std::string& unit) {
-    for (const auto& [known, tidy] :
-         std::initializer_list<std::pair<const char*, const char*>>{{"micrometer", "um"},
-                                                                    {"nanometer", "nm"},
-                                                                    {"millimeter", "mm"},
-                                                                    {"meter", "m"},
-                                                                    {"angstrom", "angstrom"},
-                                                                    {"second", "s"},
-                                                                    {"millisecond", "ms"},
-                                                                    {"minute", "min"},
-                                                                    {"hour", "h"}})
-        if (unit == known)
-            return tidy;
-    return unit;
-}
 
 std::optional<ZarrLayout> layout_by_names(const ZarrArray& array, const std::vector<ZarrAxis>& axes,
                                           const ReadOptions& options, std::string& why) {
@@ -166,6 +103,8 @@ class ZarrVolume final : public DecodedFile {
                                     fmt::join(array_->shape(), " x "), why));
         layout_ = *layout;
         describe(attributes, asked);
+        if (image.is_null())
+            place_by_coordinates(*store_, *array_, layout_.space, layout_.time, asked, info_);
     }
 
     const SeriesInfo& info() const override { return info_; }
@@ -175,6 +114,8 @@ class ZarrVolume final : public DecodedFile {
         constexpr std::uint32_t kOfPlain = 8; // each slab opens its chunks' files once more
         if (array_->plain())
             return std::min(all, kOfPlain * worth);
+        if (array_->keeps_whole(layout_.space))
+            return std::min(all, worth);
         const auto along = std::clamp<std::uint64_t>(array_->chunk()[layout_.space[2]], 1, all);
         return static_cast<std::uint32_t>(
             std::min<std::uint64_t>((worth + along - 1) / along * along, all));
@@ -190,6 +131,8 @@ class ZarrVolume final : public DecodedFile {
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
         Grid slab = info_.grid;
         slab.vertices[2] = slices.count;
+        if (!missing_.empty())
+            return read_with_gaps(step, slices, slab, out);
         convert_planes(chosen_, slab, out, name_,
                        [&](std::size_t component, std::span<std::byte> plane) {
                            load(step, slices, first_channel_ + component, plane);
@@ -197,6 +140,19 @@ class ZarrVolume final : public DecodedFile {
     }
 
   private:
+    /// Of one component.
+    void read_with_gaps(std::size_t step, Slices slices, const Grid& slab,
+                        std::span<std::byte> out) {
+        ChosenScalar alone = chosen_;
+        alone.array.components = 1;
+        alone.component = 0;
+        std::vector<std::byte> values(slab.vertex_count() * size_of(*array_->type()));
+        load(step, slices, first_channel_ + chosen_.component, values);
+        const std::vector<std::uint8_t> gaps = take_out(missing_, *array_->type(), values);
+        convert(alone, values, slab, out, name_,
+                alone.array.gaps ? std::span(gaps) : std::span<const std::uint8_t>());
+    }
+
     std::string array_name() const { return array_->path().empty() ? "values" : array_->path(); }
 
     void open_array(const json& image, ReadOptions& options) {
@@ -294,7 +250,13 @@ class ZarrVolume final : public DecodedFile {
         if (!array_->type())
             throw Error(
                 fmt::format("{}: {} does not hold numbers that can be read", name_, array_name()));
+        if (options.component != "magnitude")
+            missing_ = missing_in(*array_);
+        const bool whole = *array_->type() != StoredType::f32 && *array_->type() != StoredType::f64;
+        for (StoredArray& each : offered)
+            each.gaps = !missing_.empty() && whole;
         chosen_ = choose_scalar(offered, options, name_);
+        info_.scaling = scaling_of(*array_, fmt::format("{}: {}", name_, array_name()));
         if (info_.arrays.empty())
             info_.arrays = chosen_.offered;
         if (!by_components) // each channel is offered as an array
@@ -371,6 +333,7 @@ class ZarrVolume final : public DecodedFile {
     ZarrLayout layout_;
     ChosenScalar chosen_;
     SeriesInfo info_;
+    std::vector<double> missing_;   ///< values that stand for missing ones
     std::size_t first_channel_ = 0; ///< of the chosen array's components
 };
 

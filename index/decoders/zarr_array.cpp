@@ -104,6 +104,12 @@ void ZarrArray::check() const {
         product(chunk(), size_of(*type_), where(""));
 }
 
+bool ZarrArray::keeps_whole(std::span<const std::size_t> dimensions) const {
+    const std::size_t bytes = type_ ? values_in_chunk() * size_of(*type_) : 0;
+    return bytes > kLarge && bytes <= kKept &&
+           std::ranges::all_of(dimensions, [&](std::size_t i) { return chunk()[i] >= shape_[i]; });
+}
+
 void ZarrArray::fill_with(const json& value) {
     double number = 0;
     if (value.is_number())
@@ -112,6 +118,8 @@ void ZarrArray::fill_with(const json& value) {
         number = std::numeric_limits<double>::quiet_NaN();
     else if (value == "Infinity" || value == "-Infinity")
         number = value == "Infinity" ? HUGE_VAL : -HUGE_VAL;
+    if (!value.is_null())
+        fill_number_ = number;
     if (type_)
         visit_stored_type(*type_, [&]<class T>(std::type_identity<T>) {
             T fill{};
@@ -233,6 +241,8 @@ void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
     constexpr std::size_t kSlack = 64;
     for (const ZarrCodec& codec : pipeline_.codecs)
         decode(codec, bytes + kSlack, name, values, spare_);
+    if (spare_.capacity() > kLarge)
+        spare_ = {};
     if (values.size() != bytes)
         throw Error(fmt::format("{}: {} bytes, expected {}", name, values.size(), bytes));
     if (pipeline_.big_endian)
@@ -296,6 +306,7 @@ bool ZarrArray::load_part(const std::vector<std::uint64_t>& at, std::size_t firs
 const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {
     if (const ZarrBytes* found = kept_.find(at))
         return *found;
+    kept_.make_room(values_in_chunk() * size_of(*type_));
     ZarrBytes values;
     load(at, values);
     const std::size_t bytes = values.size();

@@ -30,11 +30,17 @@ class ZarrArray {
     /// Names of the dimensions; empty if the array does not give them.
     const std::vector<std::string>& names() const { return names_; }
     const nlohmann::json& attributes() const { return attributes_; }
+    /// The value of chunks that were never written, where the description has one.
+    std::optional<double> fill() const { return fill_number_; }
     /// Whether files hold the chunks as they are in memory, so that a part can be read alone.
     bool plain() const {
         return inner_.empty() && pipeline_.codecs.empty() && pipeline_.order.empty() &&
                !pipeline_.big_endian;
     }
+
+    /// Whether a chunk spans these dimensions, and is large, but small enough to be kept: pieces of
+    /// it then need less room beside it than all of it.
+    bool keeps_whole(std::span<const std::size_t> dimensions) const;
 
     /// The box of values from `start`, `count` along each dimension, as stored, in the machine's
     /// byte order, the last dimension fastest. @throws Error naming the chunk that is damaged
@@ -89,7 +95,9 @@ class ZarrArray {
     Pipeline pipeline_, index_;
     bool index_at_end_ = true;
     ZarrBytes fill_; ///< one value
-    ZarrCache<ZarrBytes> kept_{std::size_t{256} << 20};
+    std::optional<double> fill_number_;
+    static constexpr std::size_t kKept = std::size_t{256} << 20, kLarge = std::size_t{64} << 20;
+    ZarrCache<ZarrBytes> kept_{kKept};
     ZarrCache<ShardIndex> shards_{std::size_t{64} << 20};
     ZarrBytes chunk_values_, spare_; ///< their memory is used again
 };

@@ -9,7 +9,7 @@
 
 namespace isochron::index {
 
-/// Values by the place of their chunk; all are dropped when they take more than `most` bytes.
+/// Values by the place of their chunk; all are dropped when they would take more than `most` bytes.
 template <class Value>
 class ZarrCache {
   public:
@@ -20,11 +20,15 @@ class ZarrCache {
         const auto found = kept_.find(at);
         return found == kept_.end() ? nullptr : &found->second;
     }
+    /// Lets all go if so many bytes more are too many.
+    void make_room(std::size_t bytes) {
+        if (bytes_ + bytes <= most_)
+            return;
+        kept_.clear();
+        bytes_ = 0;
+    }
     const Value& keep(const std::vector<std::uint64_t>& at, Value value, std::size_t bytes) {
-        if (bytes_ > most_) {
-            kept_.clear();
-            bytes_ = 0;
-        }
+        make_room(bytes);
         bytes_ += bytes;
         return kept_[at] = std::move(value);
     }

@@ -24,6 +24,10 @@ std::span<const Target> volume_targets();
 /// text with a line `@key` before each value, and as zip files; descriptions in TIFF files.
 std::span<const Target> decoder_targets();
 
+/// Grids as VTK's readers may give them, from a row of choices, resampled and read; text that is
+/// checked and changed before VTK reads it.
+std::span<const Target> mesh_targets();
+
 /// Indices, whole: their checksums are made to match before they are read.
 std::span<const Target> index_targets();
 

@@ -81,7 +81,9 @@ void expect_values(const std::vector<double>& got, const std::vector<double>& wa
     for (std::size_t i = 0; i < got.size(); ++i) {
         const double off = slack * std::abs(wanted[i]) + slack / 10;
         const bool same =
-            std::isnan(wanted[i]) ? std::isnan(got[i]) : std::abs(got[i] - wanted[i]) <= off;
+            std::isnan(wanted[i])
+                ? std::isnan(got[i])
+                : got[i] == wanted[i] || std::abs(got[i] - wanted[i]) <= off; // infinities, too
         if (!same && ++wrong <= 3)
             ADD_FAILURE() << "value " << i << " is " << got[i] << ", expected " << wanted[i];
     }

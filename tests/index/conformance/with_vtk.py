@@ -51,6 +51,18 @@ write(vtk.vtkXMLPRectilinearGridWriter(), rectilinear(values), "parts.pvtr", Set
       SetEndPiece=1)
 for name in ["a.vtr", "ascii.vtr", "legacy.vtk", "parts.pvtr"]:
     expect(name, values, **where)
+# NaN and infinities as text; falling coordinates.
+hard = values.copy()
+hard[0, 1, 2], hard[1, 2, 3] = np.nan, -1e30
+text = "\n".join(str(v) for v in hard.ravel())
+for name, y in [("hard.vtk", Y), ("falling.vtk", Y[::-1])]:
+    with open(path(name), "w") as f:
+        f.write("# vtk DataFile Version 3.0\nnan\nASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 5 4 3\n" + "".join(
+            f"{axis}_COORDINATES {len(at)} double\n{' '.join(map(str, at))}\n" for axis, at in zip("XYZ", (X, y, Z))) +
+            f"POINT_DATA 60\nSCALARS p float\nLOOKUP_TABLE default\n{text}\n")
+expect("hard.vtk", hard, **where)
+expect("falling.vtk", hard, **{**where, "origin": (0, 4.25, -1), "positions": [X, Y[::-1], Z]},
+       direction=[[1, 0, 0], [0, -1, 0], [0, 0, 1]])
 series = field(2, 3, 4, 5)
 write(vtk.vtkXMLPImageDataWriter(), image(values), "parts.pvti", SetNumberOfPieces=2, SetStartPiece=0, SetEndPiece=1)
 expect("parts.pvti", values, spacing=(0.5, 1, 2), origin=(1, 2, 3))
@@ -100,4 +112,30 @@ for writer, data, name in [(vtk.vtkXMLStructuredGridWriter(), curved, "c.vts"),
     hidden |= np.logical_and.reduce([around[k:k + 7, j:j + 8, i:i + 9] for k in (0, 1) for j in (0, 1) for i in (0, 1)])
     expect(name, np.where(hidden, np.nan, got), spacing=out.GetSpacing(), origin=out.GetOrigin(), kind="hidden",
            resample=[9, 8, 7])
+
+# Two levels of refinement, the second on the first half of x; what the first says below it must not be seen.
+levels = vtk.vtkOverlappingAMR()
+levels.Initialize(2, [1, 1])
+levels.SetOrigin([0, 0, 0])
+levels.SetGridDescription(vtk.VTK_XYZ_GRID)
+for number, (counts, cell) in enumerate((((8, 8, 8), 1), ((8, 16, 16), 0.5))):
+    z, y, x = np.meshgrid(*[cell * (np.arange(n) + 0.5) for n in counts[::-1]], indexing="ij")
+    grid = vtk.vtkUniformGrid()
+    grid.SetSpacing(cell, cell, cell)
+    grid.SetDimensions([n + 1 for n in counts])
+    grid.GetCellData().AddArray(array(np.where((number == 0) & (x < 4), -99, x + 2 * y - 3 * z), "p"))
+    levels.SetSpacing(number, [cell] * 3)
+    levels.SetAMRBox(number, 0, vtk.vtkAMRBox([0, 0, 0], grid.GetDimensions(), [cell] * 3, [0, 0, 0], vtk.VTK_XYZ_GRID))
+    levels.SetDataSet(number, 0, grid)
+write(vtk.vtkXMLUniformGridAMRWriter(), levels, "levels.vth")
+at = 8 * np.arange(12) / 11  # between the borders of cells
+z, y, x = np.meshgrid(at, at, at, indexing="ij")
+cell = np.where(x < 4, 0.5, 1)
+
+
+def center(v):
+    return np.minimum(np.floor(v / cell), 8 / cell - 1) * cell + cell / 2
+
+
+expect("levels.vth", center(x) + 2 * center(y) - 3 * center(z), spacing=[8 / 11] * 3, kind="within", resample=[12] * 3)
 done()

@@ -129,6 +129,8 @@ refuse(write("curved.xmf", grid(steps[0], EVEN.replace("3DCoRectMesh", "3DSMesh"
 refuse(write("gone.xmf", grid(attribute(item("heavy.h5:/none")))), "holds no dataset /none")
 refuse(write("no_file.xmf", grid(attribute(item("no.h5:/none")))), "no.h5")
 refuse(write("short.xmf", grid(attribute(item("heavy.h5:/cells")))), "is not of the shape", reads=True)
+refuse(write("lying.xmf", grid(attribute(item("1 2 3", more='Format="XML"')))), "5 bytes of numbers as text, expected 120")
+refuse(write("beyond_end.xmf", grid(attribute(item("plain.bin", more='Format="Binary" Seek="8"')))), "truncated")
 refuse(write("stride.xmf", grid(attribute(part.replace("1 1 1 1", "1 1 1 2")))), "stride 2")
 refuse(write("beyond.xmf", grid(attribute(part.replace("1 3 0 0", "1 5 0 0")))), "a HyperSlab of 4 from 5 on")
 refuse(write("loop.xmf", '<Grid Reference="/Xdmf/Domain/Grid"/>'), "which is not in it")

@@ -12,7 +12,7 @@
 namespace isochron::app {
 namespace {
 
-constexpr double kUp = 1.15;   ///< times a number of cells must fit before it is taken up
+constexpr double kUp = 1.4;    ///< times a number of cells must fit before it is taken up
 constexpr double kDown = 0.9;  ///< and below this share of it, it is left
 constexpr double kStay = 0.25; ///< levels beyond its range within which a wish stays
 /// Levels by which voxels at rest are less than a pixel, at first and in the end: the light of

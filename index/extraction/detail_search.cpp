@@ -2,6 +2,7 @@
 #include "index/extraction/detail_search.h"
 
 #include "index/extraction/cell_colors.h"
+#include "index/extraction/coarse_planes.h"
 #include "index/extraction/lost_cells.h"
 
 #include <algorithm>
@@ -70,6 +71,8 @@ bool DetailSearch::search(const SurfacesQuery& query, unsigned level, const Chun
             return false;
         if (!color(set.query, level, set, found.colors.emplace_back(), stop))
             return false;
+        if (level > 0)
+            move_planes_out(set.points, file_->info().grid.spacing);
         found.cells += set.points.size();
     }
     if (level == 0) // its work space is the largest

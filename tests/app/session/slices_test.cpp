@@ -178,15 +178,19 @@ TEST_P(Slices, AreGivenUpInTheFrameThatChangesSomething) {
         EXPECT_FALSE(report.in_slices);
         EXPECT_NE(report.footprint, Footprint::surface);
         EXPECT_TRUE(report.redrawn || commands.step) << "the cells of another step come later";
-        // At rest a load of other programs that ends may be the time to try splats.
-        if (!commands.step && report.footprint == Footprint::quad) {
-            Session fresh(sliced(), file_, *context_);
+        if (!commands.step) {
+            // At rest a load of other programs that ends may be the time to try splats. A moving
+            // picture of a replay has quads.
+            Session fresh = at_once(sliced(), report.footprint);
             Commands same;
             same.isovalue = 2.0;
-            fresh.frame(head_at_rest(0), same, Waiting::for_cells);
-            interaction::InputState input = head_at_rest(1);
+            for (int i = 0; i < 30; ++i)
+                fresh.frame(head_at_rest(i / 60.0), i == 0 ? same : Commands{}, Waiting::for_cells);
+            interaction::InputState input = head_at_rest(0.5);
             input.devices[0].pose->position.x = static_cast<float>(head);
-            fresh.frame(input, commands, Waiting::never);
+            const FrameReport& whole = fresh.frame(input, commands, Waiting::for_cells);
+            EXPECT_EQ(whole.pace, report.pace);
+            ASSERT_EQ(whole.footprint, report.footprint);
             EXPECT_EQ(pictures(session), pictures(fresh)) << "nothing of the slices is left";
         }
         EXPECT_TRUE(rests_until(session, &FrameReport::final, head));

@@ -52,7 +52,8 @@ class DetailView {
         render::CellBuffers buffers(gl_, grid_);
         while (!buffers.upload(set, std::numeric_limits<std::size_t>::max(),
                                render::SendVolume::never))
-            ;
+            if (buffers.refused())
+                throw render::Error(buffers.refusal());
         std::vector<double> times;
         for (int i = 0; i < (draw_ms ? kDraws : 1); ++i) {
             target_.bind();

@@ -2,6 +2,7 @@
 #include "index/build/index_build.h"
 #include "index/extraction/cell_colors.h"
 #include "index/extraction/cell_ray.h"
+#include "index/extraction/coarse_planes.h"
 #include "index/extraction/detail_regions.h"
 #include "index/extraction/extraction.h"
 #include "index/extraction/layer_search.h"
@@ -73,6 +74,8 @@ std::vector<CellPoint> slowly(const std::shared_ptr<const IndexFile>& file, cons
         set.query = query;
         EXPECT_TRUE(LayerSearch(file, level).search(set, true, true, {}));
         EXPECT_EQ(set.ids, search_level(file, level, query).ids);
+        if (level > 0)
+            move_planes_out(set.points, file->info().grid.spacing);
         for (const CellPoint& p : set.points) {
             unsigned own = 99;
             bool beside = false;

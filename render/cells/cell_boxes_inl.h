@@ -55,6 +55,11 @@ struct EvenSides {
     /// Half axes of a shape of this radius, and a vector in the units that these are in.
     HWY_INLINE V half_axes(float radius) const { return hn::Mul(hn::Set(Floats(), radius), size); }
     HWY_INLINE V3 in_form(const V3& v) const { return v; }
+    /// From what that form leads to, to voxels.
+    HWY_INLINE V3 in_voxels(const V3& v) const {
+        const V share = hn::Div(hn::Set(Floats(), 1.0f), size);
+        return scaled(v, {share, share, share});
+    }
 };
 
 /// Sides of the boxes of a rectilinear grid: half axes are in voxels.
@@ -64,6 +69,7 @@ struct UnevenSides {
     HWY_INLINE V3 stretched(const V3& v) const { return scaled(v, size); }
     HWY_INLINE V half_axes(float radius) const { return hn::Set(Floats(), radius); }
     HWY_INLINE V3 in_form(const V3& v) const { return scaled(v, size); }
+    HWY_INLINE V3 in_voxels(const V3& v) const { return v; }
 };
 
 /// Boxes of cells, as in cell_box.glsl.

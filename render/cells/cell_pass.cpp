@@ -46,10 +46,12 @@ CellPass::Programs CellPass::programs(std::string_view fragment_shader,
 }
 
 CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragment_shader,
-                                                         bool round) const {
+                                                         Footprint footprint) const {
+    const bool round = is_round(footprint);
     const std::string prelude =
         std::string(shapes_.shape == CellShape::plane ? "#define PLANE\n" : "") +
-        (round ? "#define ROUND\n" : "");
+        (round ? "#define ROUND\n" : "") + (footprint == Footprint::quad ? "#define QUAD\n" : "") +
+        (stays_in_cell(footprint) ? "#define IN_CELL\n" : "");
     return {programs(fragment_shader, prelude),
             programs(fragment_shader, prelude + "#define POINTS\n"), std::nullopt};
 }
@@ -58,8 +60,8 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
     : gl_(&gl), shapes_(shapes), grid_prelude_(grid_prelude),
       two_views_at_once_(draws_to_two_viewports(gl)), seen_only_(takes_processor_ways(gl)),
       largest_point_(Limits(gl).largest_point),
-      quad_programs_(footprint_programs("cell_quad.frag", is_round(Footprint::quad))),
-      gaussian_programs_(footprint_programs("cell_gaussian.frag", is_round(Footprint::gaussian))),
+      quad_programs_(footprint_programs("cell_quad.frag", Footprint::quad)),
+      gaussian_programs_(footprint_programs("cell_gaussian.frag", Footprint::gaussian)),
       mesh_(gl, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude), quads_(gl),
       sequences_(gl), frame_(gl) {
     if (shapes.shape == CellShape::voxel)
@@ -74,6 +76,10 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
 
 bool CellPass::is_round(Footprint footprint) const {
     return footprint == Footprint::gaussian || shapes_.shape == CellShape::plane;
+}
+
+bool CellPass::stays_in_cell(Footprint footprint) const {
+    return footprint == Footprint::quad && shapes_.shape == CellShape::plane && shapes_.in_cell;
 }
 
 /// log2 of a splat's opacity on its outline, relative to its middle.
@@ -259,7 +265,8 @@ SequenceWanted CellPass::sequence_wanted(const View& view, const Placement& plac
         seen_only_ && !all_cells_ && !has_layers(footprint) &&
         !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&
         (shapes_.shape == CellShape::voxel || cells.slots().planes.size() == cells.size());
-    const SplatShape shape{shapes_.shape, shapes_.radius_of(footprint)};
+    const SplatShape shape{shapes_.shape, shapes_.radius_of(footprint),
+                           footprint == Footprint::quad, stays_in_cell(footprint)};
     return {view, placement, cells, shape, gaussian_falloff(), blended, leaves_out};
 }
 

@@ -50,6 +50,7 @@ struct Spheres {
 template <class Sides>
 struct Ellipsoids {
     Sides sides;
+    V3 in_cell; ///< the middle, from the cell's [voxels]
     V3 normal, lengthwise;
     V across2, normal2, lengthwise2; ///< square half axes; the last two minus the first
     HWY_INLINE V form(const V3& u_even, const V3& v_even) const {
@@ -57,6 +58,19 @@ struct Ellipsoids {
         const V flat = hn::Mul(normal2, hn::Mul(dot(u, normal), dot(v, normal)));
         const V length = hn::Mul(lengthwise2, hn::Mul(dot(u, lengthwise), dot(v, lengthwise)));
         return hn::MulAdd(across2, dot(u, v), hn::Add(flat, length));
+    }
+    /// [voxels]
+    HWY_INLINE V3 spread(const V3& u_even) const {
+        const V3 u = sides.in_form(u_even);
+        const V flat = hn::Mul(normal2, dot(u, normal));
+        const V length = hn::Mul(lengthwise2, dot(u, lengthwise));
+        const auto along = [&](V of_u, V of_normal, V of_length) HWY_ATTR {
+            return hn::MulAdd(across2, of_u,
+                              hn::MulAdd(flat, of_normal, hn::Mul(length, of_length)));
+        };
+        return sides.in_voxels({along(u.x, normal.x, lengthwise.x),
+                                along(u.y, normal.y, lengthwise.y),
+                                along(u.z, normal.z, lengthwise.z)});
     }
 };
 
@@ -124,10 +138,9 @@ HWY_INLINE Ellipsoids<Sides> ellipsoids(const SquareProjection& p, const std::ui
     at = {hn::MulAdd(back, normal.x, at.x), hn::MulAdd(back, normal.y, at.y),
           hn::MulAdd(back, normal.z, at.z)};
     V3& center = cells.center;
+    at = select(is_flat, at, {zero, zero, zero});
     const V3 shift = cells.sides.stretched(at);
-    center = {hn::Add(center.x, hn::IfThenElseZero(is_flat, shift.x)),
-              hn::Add(center.y, hn::IfThenElseZero(is_flat, shift.y)),
-              hn::Add(center.z, hn::IfThenElseZero(is_flat, shift.z))};
+    center = {hn::Add(center.x, shift.x), hn::Add(center.y, shift.y), hn::Add(center.z, shift.z)};
     const auto x_is = hn::Eq(size.x, least), y_is = hn::Eq(size.y, least);
     const V3 edge = select(x_is, {one, zero, zero}, select(y_is, {zero, one, zero}, any));
     const V lean = dot(edge, normal);
@@ -143,15 +156,42 @@ HWY_INLINE Ellipsoids<Sides> ellipsoids(const SquareProjection& p, const std::ui
         return hn::Clamp(length, hn::Set(d, SplatShape::kLeastWidth), one);
     };
     const V across2 = square(clamped(hn::Div(rest, median)));
-    const V length2 =
-        square(clamped(hn::Div(hn::Mul(rest, hn::Set(d, SplatShape::kLengthwise)), least)));
-    const V thickness2 = square(hn::Set(d, SplatShape::kThickness));
+    const V length2 = square(clamped(hn::Div(hn::Mul(rest, hn::Set(d, p.lengthwise)), least)));
+    const V thickness2 = square(hn::Set(d, p.thickness));
     return {cells.sides,
+            at,
             normal,
             lengthwise,
             across2,
             hn::Sub(thickness2, across2),
             hn::Sub(length2, across2)};
+}
+
+/// The stripes of the picture in which places in the cell are between its faces; see `CellSquares`.
+/// @param a, b, over_w, xx, xy, yy as `project_shape` has them
+template <class Shape, class Mask>
+HWY_INLINE void write_stripes(const SquareProjection& p, const Shape& cells, const V3& a,
+                              const V3& b, V over_w, V xx, V xy, V yy, Mask is_near, std::size_t i,
+                              const SquareArrays& out) {
+    const Floats d;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const V3 along_a = cells.spread(a), along_b = cells.spread(b);
+    const V share = hn::Div(over_w, hn::NegMulAdd(xy, xy, hn::Mul(xx, yy)));
+    const auto write = [&](int axis, V place, V of_a, V of_b) HWY_ATTR {
+        const V right = hn::Mul(share, hn::MulSub(yy, of_a, hn::Mul(xy, of_b)));
+        const V up = hn::Mul(share, hn::MulSub(xx, of_b, hn::Mul(xy, of_a)));
+        const V steep = hn::CopySign(hn::Max(hn::Abs(right), hn::Set(d, 1e-9f)), right);
+        const V pixels = hn::Div(one, steep);
+        const auto store = [&](int what, V value, V of_near) HWY_ATTR {
+            hn::StoreU(hn::IfThenElse(is_near, of_near, value), d, out.stripes[axis][what] + i);
+        };
+        store(0, hn::Neg(hn::Mul(place, pixels)), zero);
+        store(1, hn::Neg(hn::Mul(up, pixels)), zero);
+        store(2, hn::Mul(hn::Set(d, p.half_cell), hn::Abs(pixels)), hn::Set(d, 4.0f * kFar));
+    };
+    write(0, cells.in_cell.x, along_a.x, along_b.x);
+    write(1, cells.in_cell.y, along_a.y, along_b.y);
+    write(2, cells.in_cell.z, along_a.z, along_b.z);
 }
 
 /// @tparam Shape of the cells, with a function `form`
@@ -213,10 +253,14 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells,
     store(far, hn::Add(hn::Set(d, p.middle.y), hn::Add(y, shift_y)), out.y);
     store(hn::Neg(far), z, out.z);
     if constexpr (kEllipses) {
-        const V all = hn::Mul(everywhere, everywhere);
-        store(all, xx, out.xx);
-        store(zero, xy, out.xy);
-        store(all, yy, out.yy);
+        const V up = hn::Sqrt(yy), right = hn::Sqrt(xx);
+        const V lean = hn::Div(xy, yy);
+        store(everywhere, up, out.up);
+        store(everywhere, hn::Sqrt(hn::Max(hn::NegMulAdd(xy, lean, xx), zero)), out.half);
+        store(zero, lean, out.lean);
+        store(zero, hn::Div(xy, right), out.tip);
+        if (out.stripes[0][0])
+            write_stripes(p, cells, a, b, over_w, xx, xy, yy, is_near, i, out);
         store(zero, hn::IfThenElseZero(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)), one), out.inner);
     } else {
         store(zero, inner, out.inner);
@@ -293,9 +337,12 @@ void CellSquares::begin(const View& view, const Placement& placement, const Spla
     planes_.resize(on_planes ? whole : 0);
     for (std::vector<float>* array : {&x_, &y_, &z_, &inner_, &inner_disc_, &outer_disc_})
         array->resize(whole);
-    for (std::vector<float>* array : {&xx_, &xy_, &yy_})
+    for (std::vector<float>* array : {&up_, &half_, &lean_, &tip_})
         array->resize(planes_.size());
     outer_.resize(on_planes ? 0 : whole);
+    for (auto& axis : stripes_)
+        for (std::vector<float>& array : axis)
+            array.resize(on_planes && shape.in_cell ? whole : 0);
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
     const glm::mat4 rows =
         glm::transpose(view.clip_from_eye * view.eye_from_room * placement.room_from_index);
@@ -305,6 +352,9 @@ void CellSquares::begin(const View& view, const Placement& placement, const Spla
                    rows[3],
                    half_size,
                    shape.radius,
+                   shape.thickness(),
+                   shape.lengthwise(),
+                   SplatShape::kHalfCell * shape.radius,
                    placement.index_from_normal(),
                    placement.extent,
                    {},
@@ -335,11 +385,15 @@ void CellSquares::project_to(std::size_t to, const Slots& slots,
     const auto from = [&](std::vector<float>& array) {
         return array.empty() ? nullptr : array.data() + done_;
     };
+    SquareArrays arrays{from(x_),     from(y_),          from(z_),          from(inner_),
+                        from(outer_), from(inner_disc_), from(outer_disc_), from(up_),
+                        from(half_),  from(lean_),       from(tip_),        {}};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t what = 0; what < 3; ++what)
+            arrays.stripes[axis][what] = from(stripes_[axis][what]);
     HWY_DYNAMIC_DISPATCH(project)
     (projection_, &words_[2 * done_], planes_.empty() ? nullptr : &planes_[done_], to - done_,
-     kind_,
-     {from(x_), from(y_), from(z_), from(inner_), from(outer_), from(inner_disc_),
-      from(outer_disc_), from(xx_), from(xy_), from(yy_)});
+     kind_, arrays);
     done_ = to;
 }
 

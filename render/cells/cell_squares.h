@@ -55,11 +55,24 @@ class CellSquares {
     /// Radii [pixel]. The inner one is 0 also if the vertex shader fades the cell near the eye.
     const float* inner_disc() const { return inner_disc_.data(); }
     const float* outer_disc() const { return outer_disc_.data(); }
-    /// For ellipsoids on planes: the ellipse's shape F F^T [square pixels], where the columns of F
-    /// are its half axes.
-    const float* xx() const { return xx_.data(); }
-    const float* xy() const { return xy_.data(); }
-    const float* yy() const { return yy_.data(); }
+    /// For ellipsoids on planes: half the ellipse's height, half its width in the row of its middle
+    /// [pixel], how far the middles of its rows move to the right for each pixel up, and how high
+    /// above its middle it reaches farthest to the right [pixel].
+    const float* up() const { return up_.data(); }
+    const float* half() const { return half_.data(); }
+    const float* lean() const { return lean_.data(); }
+    const float* tip() const { return tip_.data(); }
+    /// Of such ellipses, only what lies in the cell is drawn: in three stripes, one for each axis.
+    struct Stripe {
+        const float* middle; ///< to the right of the ellipse's middle, in the row of it [pixel]
+        const float* lean;   ///< how far it moves to the right for each pixel up
+        const float* half;   ///< half its width [pixel]
+    };
+    /// Null where ellipses are not cut.
+    Stripe stripe(std::size_t axis) const {
+        const auto& [middle, lean, half] = stripes_[axis];
+        return middle.empty() ? Stripe{} : Stripe{middle.data(), lean.data(), half.data()};
+    }
 
   private:
     void take_axes(const Placement& placement);
@@ -71,7 +84,9 @@ class CellSquares {
     std::array<AxisPlaces, 3> axes_;
     std::vector<std::uint32_t> words_; ///< two for each cell: those of its CellPlace
     std::vector<std::uint32_t> planes_;
-    std::vector<float> x_, y_, z_, inner_, outer_, inner_disc_, outer_disc_, xx_, xy_, yy_;
+    std::vector<float> x_, y_, z_, inner_, outer_, inner_disc_, outer_disc_, up_, half_, lean_,
+        tip_;
+    std::array<std::array<std::vector<float>, 3>, 3> stripes_;
 };
 
 } // namespace isochron::render

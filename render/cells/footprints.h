@@ -71,7 +71,8 @@ struct FootprintShapes {
     float gaussian_diameter = 4.0f; ///< at which the Gaussian is cut off
     float gaussian_sigma = 0.7f;
     // Ellipsoids on planes that pass near the middles of their cells:
-    float plane_radius = 0.8f;
+    float plane_radius = 0.9f;
+    bool in_cell = true; ///< a quad shows only what lies in its cell, a little enlarged
     float plane_gaussian_radius = 1.45f; ///< at which the Gaussian is cut off
     float plane_sigma = 0.5075f;
 

@@ -118,6 +118,23 @@ HWY_INLINE void cover(const TileNumbers& tiles, const Tiles& across, const Tiles
 constexpr int kMostRows = 64;
 constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
 
+/// The tiles of the middles of a block of ellipses; -1 if it is outside the view.
+HWY_INLINE void tiles_of_middles(const TileNumbers& tiles, const float* x, const float* y,
+                                 std::array<std::int32_t, CellSquares::kBlock>& out) {
+    const Floats d;
+    const Ints di;
+    const auto columns = hn::Set(di, tiles.columns), rows = hn::Set(di, tiles.rows);
+    for (std::size_t i = 0; i < CellSquares::kBlock; i += hn::Lanes(d)) {
+        const auto column = hn::ShiftRightSame(pixel_at(hn::LoadU(d, x + i)), tiles.bits);
+        const auto row = hn::ShiftRightSame(pixel_at(hn::LoadU(d, y + i)), tiles.bits);
+        const auto inside =
+            hn::And(hn::And(hn::Gt(column, hn::Set(di, -1)), hn::Lt(column, columns)),
+                    hn::And(hn::Gt(row, hn::Set(di, -1)), hn::Lt(row, rows)));
+        const auto tile = hn::Add(hn::Mul(row, columns), column);
+        hn::StoreU(hn::IfThenElse(inside, tile, hn::Set(di, -1)), di, out.data() + i);
+    }
+}
+
 using Span = hn::CappedTag<float, 8>; // most ellipses have fewer rows of tiles
 using SpanV = hn::Vec<Span>;
 
@@ -130,38 +147,43 @@ class TiledEllipse {
     };
 
     /// @param n number of the ellipse
-    HWY_INLINE TiledEllipse(const CellSquares& ellipses, const TileNumbers& tiles, std::size_t n)
-        : tiles_(tiles), x_(ellipses.x()[n]), y_(ellipses.y()[n]) {
-        const float xy = ellipses.xy()[n], yy = ellipses.yy()[n];
-        lean_ = xy / yy;
-        half_ = std::sqrt(std::max(ellipses.xx()[n] - xy * lean_, 0.0f));
-        up_ = std::sqrt(yy);
-        first_ = std::max(tile_at(y_ - up_ - kMargin), 0);
-        count_ = std::min(tile_at(y_ + up_ + kMargin), tiles.rows - 1) - first_ + 1;
+    /// @param first, last rows of tiles that it touches
+    HWY_INLINE TiledEllipse(const CellSquares& ellipses, const TileNumbers& tiles, std::size_t n,
+                            int first, int last)
+        : tiles_(tiles), x_(ellipses.x()[n]), y_(ellipses.y()[n]), lean_(ellipses.lean()[n]),
+          half_(ellipses.half()[n]), up_(ellipses.up()[n]), first_(first),
+          count_(last - first + 1) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const CellSquares::Stripe stripe = ellipses.stripe(axis);
+            stripes_[axis] = stripe.middle
+                                 ? Stripe{x_ + stripe.middle[n], stripe.lean[n], stripe.half[n]}
+                                 : Stripe{x_, 0.0f, 4.0f * kFarthest};
+        }
     }
 
     int rows() const { return count_; }
     float* row(int i) const {
         return tiles_.numbers + static_cast<std::size_t>(first_ + i) * tiles_.columns;
     }
-    /// The tile of its middle; null if that is outside the view.
-    const float* middle() const {
-        const int column = tile_at(x_), at = tile_at(y_);
-        if (column < 0 || column >= tiles_.columns || at < 0 || at >= tiles_.rows)
-            return nullptr;
-        return tiles_.numbers + static_cast<std::size_t>(at) * tiles_.columns + column;
-    }
-
     /// Tiles in which it may cover the middle of a pixel.
-    HWY_INLINE void touched(float xx, float xy, Ranges& out) const {
-        const float rightmost = xy / std::sqrt(xx); // height of the point farthest to the right
+    /// @param tip height of the point farthest to the right
+    HWY_INLINE void touched(float tip, Ranges& out) const {
         each_rows([&](int i, SpanV low, SpanV high) HWY_ATTR {
             const auto least = hn::Clamp(hn::Sub(low, set(kMargin)), set(-up_), set(up_));
             const auto most = hn::Clamp(hn::Add(high, set(kMargin)), set(-up_), set(up_));
-            const auto at_right = hn::Clamp(set(rightmost), least, most);
-            const auto at_left = hn::Clamp(set(-rightmost), least, most);
-            const auto right = hn::Add(right_at(at_right), set(kMargin));
-            const auto left = hn::Sub(left_at(at_left), set(kMargin));
+            const auto at_right = hn::Clamp(set(tip), least, most);
+            const auto at_left = hn::Clamp(set(-tip), least, most);
+            auto right = right_at(at_right), left = left_at(at_left);
+            const auto middle = hn::Mul(hn::Add(least, most), set(0.5f));
+            const auto reach = hn::Sub(most, middle);
+            for (const Stripe& stripe : stripes_) {
+                const auto at = stripe.at(middle);
+                const auto half = hn::MulAdd(set(std::abs(stripe.lean)), reach, set(stripe.half));
+                right = hn::Min(right, hn::Add(at, half));
+                left = hn::Max(left, hn::Sub(at, half));
+            }
+            right = hn::Add(right, set(kMargin));
+            left = hn::Sub(left, set(kMargin));
             const Ints di;
             hn::StoreU(hn::Max(tile(left), hn::Zero(di)), di, out.from.data() + i);
             hn::StoreU(hn::Min(tile(right), hn::Set(di, tiles_.columns - 1)), di,
@@ -177,8 +199,17 @@ class TiledEllipse {
             const auto first = hn::Add(low, set(0.5f - kMargin));
             const auto last = hn::Sub(high, set(0.5f - kMargin));
             const auto inside = hn::And(hn::Ge(first, set(-up_)), hn::Le(last, set(up_)));
-            const auto right = hn::Min(right_at(first), right_at(last));
-            const auto left = hn::Max(left_at(first), left_at(last));
+            auto right = hn::Min(right_at(first), right_at(last));
+            auto left = hn::Max(left_at(first), left_at(last));
+            const auto middle = hn::Mul(hn::Add(first, last), set(0.5f));
+            const auto reach = hn::Sub(last, middle);
+            for (const Stripe& stripe : stripes_) {
+                const auto at = stripe.at(middle);
+                const auto half =
+                    hn::NegMulAdd(set(std::abs(stripe.lean)), reach, set(stripe.half));
+                right = hn::Min(right, hn::Add(at, half));
+                left = hn::Max(left, hn::Sub(at, half));
+            }
             const Ints di;
             const auto from = tile(hn::Add(left, set(kMargin + size - 0.5f)));
             const auto end = tile(hn::Sub(right, set(kMargin - 0.5f)));
@@ -191,11 +222,15 @@ class TiledEllipse {
 
   private:
     using Ints = hn::RebindToSigned<Span>;
+    /// As `CellSquares` has it, with its middle in the picture.
+    struct Stripe {
+        float middle, lean, half;
+        HWY_INLINE SpanV at(SpanV height) const {
+            return hn::MulAdd(hn::Set(Span(), lean), height, hn::Set(Span(), middle));
+        }
+    };
 
     static HWY_INLINE SpanV set(float value) { return hn::Set(Span(), value); }
-    HWY_INLINE int tile_at(float at) const {
-        return static_cast<int>(std::floor(std::clamp(at, -kFarthest, kFarthest))) >> tiles_.bits;
-    }
     HWY_INLINE hn::Vec<Ints> tile(SpanV at) const {
         const auto near = hn::Clamp(at, set(-kFarthest), set(kFarthest));
         return hn::ShiftRightSame(hn::ConvertTo(Ints(), hn::Floor(near)), tiles_.bits);
@@ -225,6 +260,7 @@ class TiledEllipse {
 
     const TileNumbers& tiles_;
     float x_, y_, lean_, half_, up_;
+    std::array<Stripe, 3> stripes_;
     int first_, count_;
 };
 
@@ -243,29 +279,37 @@ HWY_INLINE bool hidden(const TiledEllipse& ellipse, const TiledEllipse::Ranges& 
 } // namespace
 
 /// The same as `find`, for ellipses.
-std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles, std::size_t first,
+std::size_t find_ellipses(const CellSquares& ellipses, const TileNumbers& tiles, std::size_t from,
                           std::size_t end, std::uint32_t* seen) {
+    Tiles up;
     TiledEllipse::Ranges ranges;
+    std::array<std::int32_t, CellSquares::kBlock> middles;
     std::size_t count = 0;
-    for (std::size_t n = first; n < end; ++n) {
-        const TiledEllipse ellipse(ellipses, tiles, n);
-        const float z = ellipses.z()[n];
-        if (ellipse.rows() < 1)
-            continue;
-        const bool large = ellipse.rows() > kMostRows;
-        // Most visible ellipses are visible in the middle, so test that first.
-        const float* const middle = ellipse.middle();
-        if (!large && !(middle && *middle >= z - kLevel)) {
-            ellipse.touched(ellipses.xx()[n], ellipses.xy()[n], ranges);
-            if (hidden(ellipse, ranges, z))
+    for (std::size_t first = from; first < end; first += CellSquares::kBlock) {
+        touched(tiles, ellipses.y() + first, ellipses.up() + first, tiles.rows, up);
+        tiles_of_middles(tiles, ellipses.x() + first, ellipses.y() + first, middles);
+        const std::size_t cells = std::min(end - first, CellSquares::kBlock);
+        for (std::size_t i = 0; i < cells; ++i) {
+            const std::size_t n = first + i;
+            const int rows = up.last[i] - up.first[i] + 1;
+            if (rows < 1)
                 continue;
+            const TiledEllipse ellipse(ellipses, tiles, n, up.first[i], up.last[i]);
+            const float z = ellipses.z()[n];
+            const bool large = rows > kMostRows;
+            // Most visible ellipses are visible in the middle, so test that first.
+            if (!large && !(middles[i] >= 0 && tiles.numbers[middles[i]] >= z - kLevel)) {
+                ellipse.touched(ellipses.tip()[n], ranges);
+                if (hidden(ellipse, ranges, z))
+                    continue;
+            }
+            seen[count++] = static_cast<std::uint32_t>(n);
+            if (large || ellipses.inner()[n] == 0.0f)
+                continue;
+            ellipse.covered(ranges);
+            for (int row = 0; row < rows; ++row)
+                cover_row(ellipse.row(row), ranges.from[row], ranges.to[row], z);
         }
-        seen[count++] = static_cast<std::uint32_t>(n);
-        if (large || ellipses.inner()[n] == 0.0f)
-            continue;
-        ellipse.covered(ranges);
-        for (int i = 0; i < ellipse.rows(); ++i)
-            cover_row(ellipse.row(i), ranges.from[i], ranges.to[i], z);
     }
     return count;
 }
@@ -304,12 +348,11 @@ HWY_EXPORT(find);
 HWY_EXPORT(find_ellipses);
 
 void SeenCells::lay_out(const View& view, const CellSquares& squares, PictureTiles& tiles) {
-    // With these sizes most quads cover some tiles. Ellipses need larger tiles, as each row takes
-    // longer.
-    const float tiles_across = ellipses_ ? 1.0f : 1.5f; // half of a quad
+    // With this size most quads cover some tiles.
+    constexpr float kTilesAcross = 1.5f; // half of a quad
     constexpr int kMostTileBits = 4;
     tiles.lay_out(view, {ellipses_ ? squares.inner_disc() : squares.inner(), squares.size()},
-                  tiles_across, kMostTileBits, std::numeric_limits<float>::max());
+                  kTilesAcross, kMostTileBits, std::numeric_limits<float>::max());
 }
 
 std::size_t SeenCells::visit(const CellSquares& squares, const TileNumbers& tiles,

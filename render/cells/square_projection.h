@@ -24,6 +24,8 @@ struct SquareProjection {
     glm::vec4 row_x, row_y, row_z, row_w; ///< from index to clip space, x and y in pixels
     glm::vec2 middle;                     ///< of the viewport, pixels
     float radius;
+    float thickness, lengthwise; ///< of SplatShape
+    float half_cell;             ///< half a side of the enlarged cell [voxels]
     glm::mat3 index_from_normal; ///< normals of planes from physical to index space
     glm::vec3 extent;            ///< of the volume in index space
     /// Of a rectilinear grid, as AxisPlaces has them; null for a regular one.
@@ -33,7 +35,8 @@ struct SquareProjection {
 
 /// The arrays for the results.
 struct SquareArrays {
-    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc, *xx, *xy, *yy;
+    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc, *up, *half, *lean, *tip;
+    float* stripes[3][3]; ///< null unless ellipses are cut at their cells
 };
 
 } // namespace isochron::render

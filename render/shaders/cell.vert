@@ -84,7 +84,7 @@ void main() {
 
     vec4 p = to_pixels(center);
     vec3 row_w = EYE(row_w).xyz;
-    float d = p.w * p.w - form(splat, row_w, row_w);
+    float d = p.w * p.w - dot(spread(splat, row_w), row_w);
     vec3 from_center = EYE(eye_in_index).xyz - center.xyz;
     if (soft_near_eye && EYE(eye_in_index).w != 0.0)
         shaded.a *= smoothstep(1.0, 2.0, length(from_center / splat.size) / radius);
@@ -95,11 +95,18 @@ void main() {
         vec3 a = EYE(row_x).xyz - m.x * row_w;
         vec3 b = EYE(row_y).xyz - m.y * row_w;
         float k = 1.0 / d;
-        vec2 shift = -k * vec2(form(splat, a, row_w), form(splat, b, row_w));
-        vec3 shape = vec3(shift.x * shift.x + k * form(splat, a, a),
-                          shift.x * shift.y + k * form(splat, a, b),
-                          shift.y * shift.y + k * form(splat, b, b));
+        vec3 along_a = spread(splat, a), along_b = spread(splat, b);
+        vec2 shift = -k * vec2(dot(along_a, row_w), dot(along_b, row_w));
+        vec3 shape = vec3(shift.x * shift.x + k * dot(along_a, a),
+                          shift.x * shift.y + k * dot(along_a, b),
+                          shift.y * shift.y + k * dot(along_b, b));
         vec2 at = m + shift;
+#ifdef IN_CELL
+        // By how much the place in the cell changes for each pixel to the right, and up.
+        float share = 1.0 / (kHalfCell * radius * p.w * (shape.x * shape.z - shape.y * shape.y));
+        vec3 right = share * (shape.z * along_a - shape.y * along_b);
+        vec3 up = share * (shape.x * along_b - shape.y * along_a);
+#endif
 #ifdef SQUARE
         gl_PointSize = 2.0 * sqrt(max(shape.x, shape.z));
 #else
@@ -115,7 +122,16 @@ void main() {
         mat2 from_point = half_size * inverse(axes);
         disc_from_point = vec4(from_point[0], from_point[1]);
         gl_PointSize = 2.0 * half_size;
+#ifdef IN_CELL
+        cell_middle_place = splat.center / (kHalfCell * radius);
+        cell_right = half_size * right;
+        cell_up = half_size * up;
+#endif
 #else
+#ifdef IN_CELL
+        vec2 away = axes * disc;
+        cell_place = splat.center / (kHalfCell * radius) + away.x * right + away.y * up;
+#endif
         at += axes * disc;
 #endif
 #endif
@@ -138,7 +154,11 @@ void main() {
         vec3 e1 = normalize(cross(eye, least));
         vec3 e2 = normalize(cross(eye, e1));
         vec3 at = along * eye + size * (disc.x * e1 + disc.y * e2);
-        vec4 q = to_pixels(vec4(center.xyz + splat.size * stretched(splat, at, splat.half_axes), 1.0));
+        vec3 from_middle = stretched(splat, at, splat.half_axes);
+#ifdef IN_CELL
+        cell_place = (splat.center + from_middle) / (kHalfCell * radius);
+#endif
+        vec4 q = to_pixels(vec4(center.xyz + splat.size * from_middle, 1.0));
         gl_Position = vec4(q.xy * EYE(clip_per_pixel).xy, q.zw);
 #endif
     }

@@ -1,7 +1,8 @@
 // The ellipsoid that a cell's quad or splat stands for, in the cell; needs frame.glsl.
 //
 // With PLANE it is flat: it lies on the plane of the surface in the cell (index::CellPlane), around
-// the part of that plane inside the cell. Without PLANE it is the voxel's sphere.
+// the part of that plane inside the cell. With IN_CELL only what lies in the cell, a little enlarged,
+// is drawn of it. Without PLANE it is the voxel's sphere.
 
 struct Splat {
     vec3 center; // voxels from the cell's middle
@@ -23,7 +24,12 @@ vec3 plane_normal(uint word) {
 
 #ifdef PLANE
 // As render/cells/cell_shape.h has them.
-const float kThickness = 0.125, kLeastWidth = 0.15, kLengthwise = 1.3, kLeastRest = 0.007;
+#ifdef QUAD
+const float kThickness = 0.03, kLengthwise = 0.8;
+#else
+const float kThickness = 0.125, kLengthwise = 1.3;
+#endif
+const float kLeastWidth = 0.15, kLeastRest = 0.007, kHalfCell = 0.7;
 
 vec3 signs(vec3 v) { return vec3(v.x < 0.0 ? -1.0 : 1.0, v.y < 0.0 ? -1.0 : 1.0, v.z < 0.0 ? -1.0 : 1.0); }
 
@@ -51,13 +57,13 @@ Splat splat_of(vec3 voxel, vec3 normal, uint word) {
                  radius * (flat_one ? vec3(kThickness, lengths) : vec3(1)));
 }
 
-// The bilinear form of the ellipsoid's shape in even coordinates: u . v for the unit sphere.
-float form(Splat s, vec3 u, vec3 v) {
+// The shape F F^T of the ellipsoid, whose points are F s with |s| = 1, times a vector in even
+// coordinates [voxels]: as far as it goes in that direction, times the place where it goes that far.
+vec3 spread(Splat s, vec3 u) {
     u *= s.size;
-    v *= s.size;
     vec3 squares = s.half_axes * s.half_axes;
-    return squares.z * dot(u, v) + (squares.x - squares.z) * dot(u, s.normal) * dot(v, s.normal) +
-           (squares.y - squares.z) * dot(u, s.lengthwise) * dot(v, s.lengthwise);
+    return squares.z * u + (squares.x - squares.z) * dot(u, s.normal) * s.normal +
+           (squares.y - squares.z) * dot(u, s.lengthwise) * s.lengthwise;
 }
 
 // Stretches a vector in the cell along the ellipsoid's axes.
@@ -67,6 +73,6 @@ vec3 stretched(Splat s, vec3 v, vec3 by) {
 }
 #else
 Splat splat_of(vec3 voxel, vec3 normal, uint word) { return Splat(vec3(0), voxel, vec3(radius)); }
-float form(Splat s, vec3 u, vec3 v) { return s.half_axes.x * s.half_axes.x * dot(s.size * u, s.size * v); }
+vec3 spread(Splat s, vec3 u) { return s.half_axes.x * s.half_axes.x * s.size * u; }
 vec3 stretched(Splat s, vec3 v, vec3 by) { return by * v; }
 #endif

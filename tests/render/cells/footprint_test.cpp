@@ -75,7 +75,7 @@ struct PlaneEllipsoid {
             std::max(0.5 * (size.x + size.y + size.z) - std::abs(plane.offset), 0.007);
         std::array<int, 3> by_size{0, 1, 2};
         std::ranges::sort(by_size, {}, [&](int i) { return size[i]; });
-        const double length = 1.3 * rest / size[by_size[0]], width = rest / size[by_size[1]];
+        const double length = 0.8 * rest / size[by_size[0]], width = rest / size[by_size[1]];
 
         glm::dvec3 corner, edge(0.0);
         for (int i = 0; i < 3; ++i) {
@@ -85,7 +85,7 @@ struct PlaneEllipsoid {
         edge[by_size[0]] = 1.0;
         center = glm::dvec3(scene.cell) + 0.5 + corner + (plane.offset - glm::dot(n, corner)) * n;
         const glm::dvec3 lengthwise = glm::normalize(edge - glm::dot(edge, n) * n);
-        for (const auto& [axis, half] : {std::pair(n, 0.125),
+        for (const auto& [axis, half] : {std::pair(n, 0.03),
                                          {lengthwise, std::clamp(length, 0.15, 1.0)},
                                          {glm::cross(n, lengthwise), std::clamp(width, 0.15, 1.0)}})
             quadric += glm::outerProduct(axis, axis) / (radius * radius * half * half);
@@ -101,7 +101,7 @@ std::uint32_t random_plane(std::mt19937& random) {
 }
 
 TEST_P(FootprintGeometry, ACellOnAPlaneCoversTheProjectionOfItsEllipsoidWithinAPixel) {
-    const FootprintShapes shapes{.plane_radius = 2.0f};
+    const FootprintShapes shapes{.plane_radius = 2.0f, .in_cell = false};
     int covered = 0;
     for (int round = 0; round < 150; ++round) {
         const Scene scene = random_scene(random_, {200, 160}, 3.0);
@@ -120,6 +120,43 @@ TEST_P(FootprintGeometry, ACellOnAPlaneCoversTheProjectionOfItsEllipsoidWithinAP
             << "round " << round;
     }
     EXPECT_GT(covered, 4000);
+}
+
+TEST_P(FootprintGeometry, AQuadOnAPlaneShowsOfItsEllipsoidWhatLiesInTheCell) {
+    constexpr double kRadius = double{FootprintShapes{}.plane_radius};
+    constexpr double kHalf = 0.7 * kRadius;
+    int cut = 0, left = 0;
+    for (int round = 0; round < 150; ++round) {
+        const Scene scene = random_scene(random_, {200, 160}, kRadius);
+        const std::uint32_t plane = random_plane(random_);
+        const PlaneEllipsoid ellipsoid(scene, plane, kRadius);
+        const glm::dmat4 pixel_from_index = scene.pixel_from_index();
+        const Ellipse ellipse =
+            paper_ellipse(pixel_from_index, ellipsoid.center, ellipsoid.quadric);
+        if (scene.eye_distance() < 8.0)
+            continue; // so near that the place in the cell is not linear in the picture
+        const glm::dmat4 index_from_pixel = glm::inverse(pixel_from_index);
+        const auto unprojected = [&](const glm::dvec2& at, double z) {
+            const glm::dvec4 p = index_from_pixel * glm::dvec4(at, z, 1.0);
+            return glm::dvec3(p) / p.w;
+        };
+        // The middle of the ray's part in the ellipsoid.
+        const auto inside = [&](const glm::dvec2& at) {
+            if (ellipse.distance(at) >= 1.0)
+                return false;
+            const glm::dvec3 start = unprojected(at, 0.0), way = unprojected(at, 0.5) - start;
+            const glm::dvec3 moved = ellipsoid.quadric * way;
+            const double t = glm::dot(moved, ellipsoid.center - start) / glm::dot(moved, way);
+            const glm::dvec3 place = start + t * way - (glm::dvec3(scene.cell) + 0.5);
+            const bool in_cell = glm::all(glm::lessThan(glm::abs(place), glm::dvec3(kHalf)));
+            ++(in_cell ? left : cut);
+            return in_cell;
+        };
+        EXPECT_EQ(wrong_pixels(draw(scene, Footprint::quad, {}, plane), 127, inside), 0)
+            << "round " << round;
+    }
+    EXPECT_GT(left, 4000);
+    EXPECT_GT(cut, 1000);
 }
 
 TEST_P(FootprintGeometry, AnEllipsoidBesideTheEyeIsCutAtTheEyesPlane) {
@@ -142,7 +179,8 @@ TEST_P(FootprintGeometry, AnEllipsoidBesideTheEyeIsCutAtTheEyesPlane) {
         const double inside = glm::dot(from, ellipsoid.quadric * from);
         if (inside < 1.1)
             continue;
-        const Image image = draw(scene, Footprint::quad, {.plane_radius = 2.0f}, plane);
+        const Image image =
+            draw(scene, Footprint::quad, {.plane_radius = 2.0f, .in_cell = false}, plane);
         const auto hit = [&](const glm::dvec2& pixel) {
             const double slope = std::tan(glm::radians(60.0)) / 80.0;
             const glm::dvec3 ray(index_from_eye * glm::dvec4(pixel * slope, -1.0, 0.0));

@@ -9,6 +9,7 @@
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/system/huge_pages.h"
+#include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
@@ -107,9 +108,11 @@ class Field {
     std::size_t count() const { return size_ * size_ * size_ * size_of(type_); }
     const fs::path& path() const { return path_; }
 
-    /// Reads the values from the file again.
+    /// Reads the values from the file again, in order and without advice: the kernel reads ahead.
     void read_again() {
-        index::open_bytes(path_)->read(0, std::as_writable_bytes(std::span(bytes_)).first(count()));
+        const auto to = std::as_writable_bytes(std::span(bytes_)).first(count());
+        if (index::InputFile(path_).read(0, to) != to.size())
+            throw index::Error(fmt::format("{}: too short", path_.string()));
     }
     std::unique_ptr<index::VolumeSeries> series() const {
         index::ReadOptions options;
@@ -328,9 +331,11 @@ void add_scale(app::Command& program) {
         .existing_folder()
         .type_name("DIR")
         .shows_default();
-    command.footer("Cold: the file has been taken out of the page cache. Bytes are what disks "
-                   "gave this process, from opening on.\nTakes five bytes of memory for each "
-                   "vertex. The cells found are compared with the scan's.");
+    command.footer(
+        "Cold: the file has been taken out of the page cache. Bytes are what disks "
+        "gave this process, from opening on.\nThe plain read is in order, "
+        "and the kernel reads ahead as it does for any file.\nTakes five bytes of memory for each "
+        "vertex. The cells found are compared with the scan's.");
     command.on_run([arguments] { run_bench_scale(*arguments); });
 }
 

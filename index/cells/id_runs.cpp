@@ -56,21 +56,10 @@ std::size_t copy_ids(std::span<const IdRun> runs, std::span<CellId> out) {
 }
 
 void append_ids(std::span<const IdRun> runs, std::vector<CellId>& out) {
-    // Makes room for some runs at a time: a vector clears what it makes room for, which is copied
-    // to while it is still in the first cache.
-    constexpr std::size_t kRoom = 2048; ///< ids, or a longer run
-    out.reserve(out.size() + count_ids(runs) + IdRun::kSlack);
-    while (!runs.empty()) {
-        std::size_t taken = 0, count = 0;
-        do {
-            count += runs[taken++].count;
-        } while (taken < runs.size() && count + runs[taken].count <= kRoom);
-        const std::size_t begin = out.size();
-        out.resize(begin + count + IdRun::kSlack);
-        copy_ids(runs.first(taken), std::span(out).subspan(begin));
-        out.resize(begin + count);
-        runs = runs.subspan(taken);
-    }
+    const std::size_t begin = out.size();
+    out.resize(begin + count_ids(runs) + IdRun::kSlack);
+    copy_ids(runs, std::span(out).subspan(begin));
+    out.resize(out.size() - IdRun::kSlack);
 }
 
 } // namespace isochron::index

@@ -24,8 +24,7 @@ enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept, tiles_ke
 /// Records with fewer bytes than this between them are read together: a disk reads these in the
 /// time of one more request.
 constexpr std::uint64_t kNear = 16 << 10;
-/// Most bytes that are read at a time, so that they are still in the processor's cache when
-/// decoded.
+/// Most bytes that are read at a time: they are decoded while in the processor's cache.
 constexpr std::uint64_t kTogether = 256 << 10;
 /// Bytes of tables that are read at a time.
 constexpr std::uint64_t kTables = 1 << 20;
@@ -203,14 +202,12 @@ std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t layer,
 std::uint64_t ChunkStore::fetch(std::uint32_t step, std::uint32_t layer,
                                 std::span<const std::uint32_t> places,
                                 const std::stop_token& stop) const {
-    // A sixth of the chunks are spread so evenly that, with their neighbors, most are needed.
     const std::vector<bool> held = cache_.held(keys(step, layer, places));
     if (!fetches_all(static_cast<std::size_t>(std::ranges::count(held, false))))
         return expect(step, layer, places);
     const ChunkLayerPtr table = this->layer(step, layer);
-    const std::uint64_t begin = table->offsets.front(), bytes = table->offsets.back() - begin;
-    source_.fetch(begin, bytes, stop);
-    return bytes;
+    source_.fetch(table->offsets.front(), table->offsets.back() - table->offsets.front(), stop);
+    return table->offsets.back() - table->offsets.front();
 }
 
 /// Calls `f(i, record)` for every place, `i` counting from 0.
@@ -221,8 +218,7 @@ void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint
     for (const Run& run : runs_of(table, places)) {
         if (stop.stop_requested())
             throw Stopped();
-        if (const std::uint64_t size = run.end - run.begin; bytes.size() < size)
-            bytes.resize(size);
+        bytes.resize(std::max<std::size_t>(bytes.size(), run.end - run.begin));
         source_.read(run.begin, std::span(bytes).first(run.end - run.begin));
         for (std::size_t i = run.first; i <= run.last; ++i) {
             const std::uint64_t begin = table.offsets[places[i]];

@@ -6,6 +6,7 @@
 #include "index/file/chunk_table.h"
 #include "index/file/file_layout.h"
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -36,22 +37,29 @@ class LayerPacker {
     StepEntry finish(const Append& append);
 
   private:
-    struct Piece {
-        std::vector<std::byte> records;
-        std::vector<std::byte> values; ///< of a chunk
+    /// What a thread packs with.
+    struct Packer {
+        ChunkPacker chunks;
+        std::vector<std::byte> values;                   ///< of some chunks, one after the other
+        std::vector<std::size_t> begins;                 ///< of each in `values`, and the end
+        std::vector<std::array<std::uint32_t, 3>> order; ///< y, x and place of each, ascending
     };
-    void pack_chunk(const Layer& layer, std::uint32_t place, ChunkPacker& packer, Piece& out,
-                    ChunkEntry& entry) const;
+    void take_values(const Layer& layer, std::uint32_t first, std::uint32_t end, Packer& to) const;
+    void pack_chunk(const Layer& layer, std::uint32_t place, std::span<const std::byte> values,
+                    ChunkPacker& packer, std::vector<std::byte>& out, ChunkEntry& entry) const;
+    void pack_piece(const Layer& layer, std::uint32_t first, std::uint32_t end, Packer& packer,
+                    std::vector<std::byte>& out);
 
     Grid grid_;
     ValueType type_;
     ChunkGrid chunks_;
-    std::vector<ChunkPacker> packers_; ///< by thread
-    std::vector<Piece> pieces_;        ///< of a layer
-    std::vector<ChunkEntry> entries_;  ///< of a layer
-    std::vector<std::byte> tables_;    ///< of the layers so far
-    std::uint32_t packed_ = 0;         ///< layers so far
-    std::uint64_t end_ = 0;            ///< of their records
+    std::uint32_t together_;                     ///< chunks that a thread takes out of a layer
+    std::vector<Packer> packers_;                ///< by thread
+    std::vector<std::vector<std::byte>> pieces_; ///< the records of a layer
+    std::vector<ChunkEntry> entries_;            ///< of a layer
+    std::vector<std::byte> tables_;              ///< of the layers so far
+    std::uint32_t packed_ = 0;                   ///< layers so far
+    std::uint64_t end_ = 0;                      ///< of their records
 };
 
 } // namespace isochron::index

@@ -68,7 +68,14 @@ std::shared_ptr<const index::IndexFile> build_file(const DataSet& data,
     const auto series = std::visit(
         [&](const auto& of_kind) { return std::make_unique<MadeSeries>(of_kind, progress); },
         data.series);
-    index::build_index(*series, file, {}, progress);
+    // All structures that the table compares, also where the program would leave some out.
+    index::BuildOptions options;
+    if (size_of(series->info().type) == 1)
+        options.tiers = index::TierSet()
+                            .with(index::Tier::bricks)
+                            .with(index::Tier::cells)
+                            .with(index::Tier::deltas);
+    index::build_index(*series, file, options, progress);
     return index::IndexFile::open(file);
 }
 

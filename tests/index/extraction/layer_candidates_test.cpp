@@ -121,11 +121,20 @@ TEST(LayersOfAStep, AreReadInOneGoEachWhereMostOfThemIsNeeded) {
         build_index(series, path, {.tiers = TierSet().with(Tier::bricks), .codec = Codec::none});
         auto made = std::make_unique<WatchedSource>(path);
         const WatchedSource& source = *made;
+        const auto file = IndexFile::open(std::move(made), 1);
+        const ChunkStore& store = file->chunks();
+        const auto cut = *store.levels(0)->cut(store.info().scaling, isovalue);
+        std::uint64_t bytes = 0;
+        for (std::uint32_t layer = 0; layer < StepSlab::layers(store.info().grid); ++layer)
+            bytes +=
+                store.fetch(0, layer, LayerCandidates::places_of(*store.layer(0, layer), cut), {});
+        EXPECT_EQ(source.announcements, bytes);
+        const std::uint32_t fetches = source.fetches;
         CellSet set;
         set.query = {0, isovalue};
-        EXPECT_TRUE(LayerSearch(IndexFile::open(std::move(made), 1)).search(set, true, true, {}));
+        EXPECT_TRUE(LayerSearch(file).search(set, true, true, {}));
         EXPECT_EQ(set.ids, BruteForce(field.view(), 0).active(isovalue));
-        return source.fetches.load();
+        return fetches;
     };
     const TestField rough({83, 70, 67}, 1, ValueType::u8, scaled(turbulence(random), 60, 120));
     EXPECT_EQ(fetched(rough, quantiles(sorted_values(rough.view()), 3)[1]), 5u);

@@ -35,8 +35,6 @@ constexpr float kClipped =
     1.0f - 1e-6f; ///< cells at a larger |z| may be clipped: they hide nothing
 /// Like kLeastDepth, but for an eye two radii away: splats farther away do not fade.
 constexpr float kWholeDepth = 0.75f;
-/// Least determinant of an ellipse's shape, over the product of its diagonal, that is precise.
-constexpr float kNarrow = 1e-3f;
 constexpr float kFar = 1e9f; ///< beyond any view and before any depth
 
 /// Spheres of one radius, in voxels.
@@ -256,21 +254,15 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells,
     store(far, hn::Add(hn::Set(d, p.middle.y), hn::Add(y, shift_y)), out.y);
     store(hn::Neg(far), z, out.z);
     if constexpr (kEllipses) {
-        // Of a long and narrow ellipse rounding leaves too little to say how narrow it is, so that one
-        // around its box stands for it, and it hides nothing.
-        const V boxed = hn::Set(d, 1.42f), root_yy = hn::Sqrt(yy), root_xx = hn::Sqrt(xx);
-        const auto narrow = hn::Lt(hn::NegMulAdd(xy, xy, hn::Mul(xx, yy)),
-                                   hn::Mul(hn::Set(d, kNarrow), hn::Mul(xx, yy)));
+        const V up = hn::Sqrt(yy), right = hn::Sqrt(xx);
         const V lean = hn::Div(xy, yy);
-        const V half = hn::Sqrt(hn::Max(hn::NegMulAdd(xy, lean, xx), zero));
-        store(everywhere, hn::IfThenElse(narrow, hn::Mul(boxed, root_yy), root_yy), out.up);
-        store(everywhere, hn::IfThenElse(narrow, hn::Mul(boxed, root_xx), half), out.half);
-        store(zero, hn::IfThenZeroElse(narrow, lean), out.lean);
-        store(zero, hn::IfThenZeroElse(narrow, hn::Div(xy, root_xx)), out.tip);
-        const auto hides_more = hn::AndNot(narrow, hn::Lt(hn::Abs(z), hn::Set(d, kClipped)));
-        store(zero, hn::IfThenElseZero(hides_more, one), out.inner);
+        store(everywhere, up, out.up);
+        store(everywhere, hn::Sqrt(hn::Max(hn::NegMulAdd(xy, lean, xx), zero)), out.half);
+        store(zero, lean, out.lean);
+        store(zero, hn::Div(xy, right), out.tip);
+        store(zero, hn::IfThenElseZero(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)), one), out.inner);
         if (out.stripes[0][0])
-            write_stripes(p, cells, a, b, over_w, xx, xy, yy, hn::Or(is_near, narrow), i, out);
+            write_stripes(p, cells, a, b, over_w, xx, xy, yy, is_near, i, out);
     } else {
         store(zero, inner, out.inner);
         store(everywhere, outer, out.outer);

@@ -259,9 +259,9 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells,
         store(everywhere, hn::Sqrt(hn::Max(hn::NegMulAdd(xy, lean, xx), zero)), out.half);
         store(zero, lean, out.lean);
         store(zero, hn::Div(xy, right), out.tip);
+        store(zero, hn::IfThenElseZero(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)), one), out.inner);
         if (out.stripes[0][0])
             write_stripes(p, cells, a, b, over_w, xx, xy, yy, is_near, i, out);
-        store(zero, hn::IfThenElseZero(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)), one), out.inner);
     } else {
         store(zero, inner, out.inner);
         store(everywhere, outer, out.outer);

@@ -157,7 +157,7 @@ class TiledEllipse {
             const CellSquares::Stripe stripe = ellipses.stripe(axis);
             stripes_[axis] = stripe.middle
                                  ? Stripe{x_ + stripe.middle[n], stripe.lean[n], stripe.half[n]}
-                                 : Stripe{x_, 0.0f, 4.0f * kFarthest};
+                                 : Stripe{x_, 0.0f, std::numeric_limits<float>::max()};
         }
     }
 

@@ -83,8 +83,8 @@ void main() {
     }
 
     vec4 p = to_pixels(center);
-    vec3 row_w = EYE(row_w).xyz;
-    float d = p.w * p.w - dot(spread(splat, row_w), row_w);
+    vec3 row_w = splat.size * EYE(row_w).xyz; // per voxel, as are the other rows
+    float d = p.w * p.w - form(splat, spread(splat, row_w), row_w);
     vec3 from_center = EYE(eye_in_index).xyz - center.xyz;
     if (soft_near_eye && EYE(eye_in_index).w != 0.0)
         shaded.a *= smoothstep(1.0, 2.0, length(from_center / splat.size) / radius);
@@ -92,14 +92,14 @@ void main() {
     if (p.w > 0.0 && d > 0.1 * p.w * p.w) {
         // Coordinates relative to the center's image keep small ellipses precise.
         vec2 m = p.xy / p.w;
-        vec3 a = EYE(row_x).xyz - m.x * row_w;
-        vec3 b = EYE(row_y).xyz - m.y * row_w;
+        vec3 a = splat.size * EYE(row_x).xyz - m.x * row_w;
+        vec3 b = splat.size * EYE(row_y).xyz - m.y * row_w;
         float k = 1.0 / d;
         vec3 along_a = spread(splat, a), along_b = spread(splat, b);
-        vec2 shift = -k * vec2(dot(along_a, row_w), dot(along_b, row_w));
-        vec3 shape = vec3(shift.x * shift.x + k * dot(along_a, a),
-                          shift.x * shift.y + k * dot(along_a, b),
-                          shift.y * shift.y + k * dot(along_b, b));
+        vec2 shift = -k * vec2(form(splat, along_a, row_w), form(splat, along_b, row_w));
+        vec3 shape = vec3(shift.x * shift.x + k * form(splat, along_a, a),
+                          shift.x * shift.y + k * form(splat, along_a, b),
+                          shift.y * shift.y + k * form(splat, along_b, b));
         vec2 at = m + shift;
 #ifdef IN_CELL
         // By how much the place in the cell changes for each pixel to the right, and up.

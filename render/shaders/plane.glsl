@@ -57,14 +57,16 @@ Splat splat_of(vec3 voxel, vec3 normal, uint word) {
                  radius * (flat_one ? vec3(kThickness, lengths) : vec3(1)));
 }
 
-// The shape F F^T of the ellipsoid, whose points are F s with |s| = 1, times a vector in even
-// coordinates [voxels]: as far as it goes in that direction, times the place where it goes that far.
+// The shape F F^T of the ellipsoid, whose points are F s with |s| = 1, times a vector in the cell
+// [voxels]: as far as it goes in that direction, times the place where it goes that far.
 vec3 spread(Splat s, vec3 u) {
-    u *= s.size;
     vec3 squares = s.half_axes * s.half_axes;
     return squares.z * u + (squares.x - squares.z) * dot(u, s.normal) * s.normal +
            (squares.y - squares.z) * dot(u, s.lengthwise) * s.lengthwise;
 }
+
+// u . v in that shape. @param along u, spread
+float form(Splat s, vec3 along, vec3 v) { return dot(along, v); }
 
 // Stretches a vector in the cell along the ellipsoid's axes.
 vec3 stretched(Splat s, vec3 v, vec3 by) {
@@ -73,6 +75,7 @@ vec3 stretched(Splat s, vec3 v, vec3 by) {
 }
 #else
 Splat splat_of(vec3 voxel, vec3 normal, uint word) { return Splat(vec3(0), voxel, vec3(radius)); }
-vec3 spread(Splat s, vec3 u) { return s.half_axes.x * s.half_axes.x * s.size * u; }
+vec3 spread(Splat s, vec3 u) { return u; }
+float form(Splat s, vec3 along, vec3 v) { return s.half_axes.x * s.half_axes.x * dot(along, v); }
 vec3 stretched(Splat s, vec3 v, vec3 by) { return by * v; }
 #endif

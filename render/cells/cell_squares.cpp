@@ -1,5 +1,4 @@
-// Projects cells as the vertex shader does; compiled once for each SIMD target and chosen at run
-// time.
+// Projects cells as the vertex shader does; compiled for each SIMD target, chosen at run time.
 #include "render/cells/cell_squares.h"
 
 #include "index/extraction/cell_plane.h"

@@ -139,7 +139,7 @@ TEST(Config, LooksThatCannotBeAreErrorsWithTheirPlace) {
     EXPECT_THAT(error_of("[coloring]\npercentiles = [98, 2]\n"), HasSubstr("ascending"));
     EXPECT_THAT(error_of("[coloring]\npercentiles = [2, 101]\n"), HasSubstr("0 to 100"));
     EXPECT_THAT(error_of("[coloring]\npercentiles = [2, 98]\nrange = [1, 2]\n"),
-                HasSubstr("one of them"));
+                HasSubstr("got both"));
     EXPECT_THAT(error_of("[lighting]\nkey_direction = [0, 0, 0]\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[[surfaces]]\nisovalue = 1\nquantile = 0.5\n"), HasSubstr("quantile"));
     EXPECT_THAT(error_of("[[surfaces]]\ncolor = [0, 0, 2]\n"), HasSubstr("sRGB"));

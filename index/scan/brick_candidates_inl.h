@@ -49,6 +49,14 @@ class Candidates {
         return sum;
     }
 
+    /// Calls `f(brick)` for every candidate, ascending.
+    template <class F>
+    HWY_INLINE void for_each(const F& f) const {
+        for (std::size_t first = 0; first < count_; first += kWordBits)
+            for (std::uint64_t bits = word(first); bits; bits &= bits - 1)
+                f(static_cast<std::uint32_t>(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)));
+    }
+
   private:
     HWY_INLINE std::uint64_t whole_word(const std::uint8_t* low, const std::uint8_t* high) const {
         const hn::CappedTag<std::uint8_t, kWordBits> d;

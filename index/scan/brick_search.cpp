@@ -256,10 +256,7 @@ std::optional<std::uint64_t> search_step(const StepValues& values,
         return std::nullopt;
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         BrickSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), out);
-        for (std::size_t first = 0; first < candidates.bricks(); first += kWordBits)
-            for (std::uint64_t word = candidates.word(first); word; word &= word - 1)
-                search.test(
-                    static_cast<std::uint32_t>(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(word)));
+        candidates.for_each([&](std::uint32_t brick) HWY_ATTR { search.test(brick); });
         search.finish();
         return search.tested();
     });

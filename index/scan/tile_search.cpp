@@ -279,15 +279,12 @@ std::uint64_t search_tiles(const StepValues& values, std::span<const std::uint8_
         constexpr std::size_t kWaiting = 16;
         std::array<std::uint32_t, kWaiting> waiting{};
         std::size_t found = 0;
-        for (std::size_t first = 0; first < candidates.bricks(); first += kWordBits)
-            for (std::uint64_t word = candidates.word(first); word; word &= word - 1) {
-                const auto brick =
-                    static_cast<std::uint32_t>(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(word));
-                search.expect(brick);
-                if (found >= kWaiting)
-                    search.test(waiting[found % kWaiting]);
-                waiting[found++ % kWaiting] = brick;
-            }
+        candidates.for_each([&](std::uint32_t brick) HWY_ATTR {
+            search.expect(brick);
+            if (found >= kWaiting)
+                search.test(waiting[found % kWaiting]);
+            waiting[found++ % kWaiting] = brick;
+        });
         for (std::size_t i = found - std::min(found, kWaiting); i < found; ++i)
             search.test(waiting[i % kWaiting]);
         search.finish();

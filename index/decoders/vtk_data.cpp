@@ -3,7 +3,7 @@
 #include "index/decoders/decoders.h"
 #include "index/decoders/shared_decode.h"
 #include "index/decoders/vtk_ghosts.h"
-#include "index/decoders/vtk_numbers.h"
+#include "index/decoders/vtk_legacy_reading.h"
 #include "index/decoders/vtk_resample.h"
 #include "index/decoders/vtk_session.h"
 #include "index/decoders/xml_markup.h"
@@ -15,7 +15,6 @@
 
 #include <fmt/format.h>
 
-#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetReader.h>
@@ -23,7 +22,6 @@
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkXMLGenericDataObjectReader.h>
 #include <vtkXMLReader.h>
@@ -62,26 +60,8 @@ vtkSmartPointer<vtkDataObject> read_xml(const fs::path& path) {
 
 vtkSmartPointer<vtkDataObject> read_legacy(const fs::path& path) {
     const vtkNew<vtkDataSetReader> reader;
-    reader->SetFileName(path.c_str());
-    const auto text = text_with_stand_ins(path);
-    if (text) {
-        reader->SetInputString(*text);
-        reader->ReadFromInputStringOn();
-    }
-    reader->ReadAllScalarsOn();
-    reader->ReadAllVectorsOn();
-    reader->ReadAllNormalsOn();
-    reader->ReadAllTensorsOn();
-    reader->ReadAllColorScalarsOn();
-    reader->ReadAllTCoordsOn();
-    reader->ReadAllFieldsOn();
-    reader->Update();
-    vtkDataSet* const data = reader->GetOutput();
-    if (text && data) {
-        replace_stand_ins(*data->GetPointData());
-        replace_stand_ins(*data->GetCellData());
-    }
-    return data;
+    read_all(*reader, path);
+    return reader->GetOutput();
 }
 
 std::vector<double> coordinates_of(vtkDataArray* array) {

@@ -1,7 +1,7 @@
 // Reads legacy VTK structured points (.vtk), ascii and binary, with vtkStructuredPointsReader.
 #include "index/decoders/decoders.h"
 #include "index/decoders/vtk_ghosts.h"
-#include "index/decoders/vtk_numbers.h"
+#include "index/decoders/vtk_legacy_reading.h"
 #include "index/decoders/vtk_session.h"
 #include "index/error.h"
 #include "index/formats/data_stream.h"
@@ -9,12 +9,10 @@
 
 #include <fmt/format.h>
 
-#include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkStructuredPoints.h>
 #include <vtkStructuredPointsReader.h>
 
@@ -68,25 +66,8 @@ class LegacyFile final : public DecodedFile {
     LegacyFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
         expect_believable(path_);
         with_vtk(path_, [&] {
-            reader_->SetFileName(path_.c_str());
-            const auto replaced = text_with_stand_ins(path_);
-            if (replaced) {
-                reader_->SetInputString(*replaced);
-                reader_->ReadFromInputStringOn();
-            }
-            reader_->ReadAllScalarsOn();
-            reader_->ReadAllVectorsOn();
-            reader_->ReadAllNormalsOn();
-            reader_->ReadAllTensorsOn();
-            reader_->ReadAllColorScalarsOn();
-            reader_->ReadAllTCoordsOn();
-            reader_->ReadAllFieldsOn();
-            reader_->Update();
+            read_all(*reader_, path_);
             vtkImageData& image = *reader_->GetOutput();
-            if (replaced) {
-                replace_stand_ins(*image.GetPointData());
-                replace_stand_ins(*image.GetCellData());
-            }
             info_.grid = grid_of_vtk(*reinterpret_cast<int(*)[6]>(image.GetExtent()),
                                      image.GetOrigin(), image.GetSpacing(),
                                      image.GetDirectionMatrix()->GetData(), path_.string());

@@ -182,7 +182,7 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
     const auto fewest = static_cast<double>(moving);
     const double fit = quality_.cells_that_fit(interaction::Pace::settled).value_or(fewest);
     cells_at_first_ = std::bit_floor(static_cast<std::uint64_t>(std::max(fit, fewest)));
-    const index::DetailQuery last = details_.at_rest();
+    index::DetailQuery last = details_.at_rest();
     const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
     const bool kept = captures_.wanted() > 0;
     const bool shows = resting && resting->query.of_cells() == surfaces();

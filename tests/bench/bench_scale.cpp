@@ -14,6 +14,7 @@
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/isovalues.h"
+#include "tests/bench/measures/mesh_making.h"
 #include "tests/bench/measures/stopwatch.h"
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/measures/touched_lines.h"
@@ -287,6 +288,13 @@ void measure_warm(const ScaleArguments& arguments, const std::string& name,
                    name, arguments.size, ids.size(), 100 * static_cast<double>(ids.size()) / cells,
                    1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0], 1e3 * seconds[2],
                    seconds[1] / seconds[2], 100 * tested / cells);
+        if (arguments.vtk) {
+            const MeshMaking mesh = measure_mesh_making(field.values(), query, ids);
+            fmt::print("  mesh of {} triangles with normals from these cells, one thread: {:.1f} "
+                       "ms, VTK {:.1f} ms, {:.1f}x\n",
+                       mesh.triangles, 1e3 * mesh.seconds, 1e3 * mesh.seconds_of_vtk,
+                       mesh.seconds_of_vtk / mesh.seconds);
+        }
         constexpr std::array<std::array<std::uint32_t, 3>, 4> kEdges{
             index::BrickGrid::kCells, {4, 4, 2}, {2, 2, 2}, {1, 1, 1}};
         for (const auto& edges : kEdges) {
@@ -334,7 +342,7 @@ void add_scale(app::Command& program) {
     command.flag("--vtk", arguments->vtk, "Measure VTK's flying edges too");
     command.flag("--warm", arguments->warm,
                  "Measure ids of a float step in memory instead, by bricks and by the scan, and "
-                 "what limits them");
+                 "what limits them; with --vtk also how long its mesh takes");
     command.option("--work", arguments->work, "Folder for the files, on a disk: two steps")
         .existing_folder()
         .type_name("DIR")

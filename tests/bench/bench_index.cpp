@@ -127,8 +127,8 @@ void add_index(app::Command& program) {
         .shows_default();
     command
         .option("--steps", arguments->steps,
-                "Steps of the series (default: 25 and 55 sphere, 64 vorticity and "
-                "fourier-128, 16 fourier-256)")
+                "Steps of the series (default: 25 and 55 sphere, 64 vorticity, 16 fourier-128, "
+                "10 fourier-256)")
         .between(1, 100000);
     command.option("--isovalue", arguments->isovalue,
                    "Isovalue of the times (default: 112.5 on the sphere, 3,940 active cells "

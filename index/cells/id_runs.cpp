@@ -29,11 +29,11 @@ HWY_INLINE void copy_block(const std::uint16_t* ids, CellId first, CellId* out) 
 
 std::size_t copy_ids(const IdRun* runs, std::size_t run_count, CellId* out) {
     CellId* next = out;
-    for (const IdRun* run = runs; run != runs + run_count; ++run) {
-        const std::uint16_t* ids = run->ids;
-        for (std::size_t at = 0; at < run->count; at += kBlock)
-            copy_block(ids + at, run->first, next + at);
-        next += run->count;
+    for (const IdRun* each = runs; each != runs + run_count; ++each) {
+        const IdRun run = *each; // the compiler would read it again after every store
+        for (std::size_t at = 0; at < run.count; at += kBlock)
+            copy_block(run.ids + at, run.first, next + at);
+        next += run.count;
     }
     return static_cast<std::size_t>(next - out);
 }

@@ -110,8 +110,8 @@ void CellTier::expect_cells(std::uint32_t step) const {
                 cells_[begin + chunk].head_bytes(epoch_steps(step / kEpoch)));
 }
 
-/// Calls `f` with the cells of every chunk, checked as far as the step needs them, while the next
-/// chunk's first bytes are prefetched.
+/// Calls `f` with the cells of every chunk, checked as far as the step needs them, while the
+/// references of the chunk after the next and the next one's tables are prefetched.
 template <class F>
 void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
     assert(step < steps_);
@@ -121,8 +121,11 @@ void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
     if (pages_ && !sound_steps_[begin * kEpoch + step % kEpoch])
         expect_cells(step);
     for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
-        if (chunk + 1 < chunks)
-            cells_[begin + chunk + 1].prefetch(path);
+        if (chunk + 2 < chunks)
+            cells_[begin + chunk + 2].prefetch(path);
+        // Bytes that have not been checked may be being read from the file right now.
+        if (chunk + 1 < chunks && sound_steps_[(begin + chunk + 1) * kEpoch + step % kEpoch])
+            cells_[begin + chunk + 1].prefetch_tables(path);
         if (!sound_steps_[(begin + chunk) * kEpoch + step % kEpoch])
             check_cells(epoch, chunk, step);
         f(cells_[begin + chunk]);

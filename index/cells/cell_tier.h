@@ -22,7 +22,7 @@ namespace isochron::index {
 ///     index::CellTier cells(Chunking(grid), steps, cell_bytes, delta_bytes);
 ///     const auto held = cells.hold();
 ///     cells.search(t, cut, certain, ambiguous);
-///     index::append_ids(certain, ids);
+///     index::assign_ids(certain, ids);
 class CellTier {
   public:
     /// One unit for each chunk of each epoch: [epoch][chunk], epochs of TimePath::kMaxSteps steps.

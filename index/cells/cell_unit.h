@@ -70,6 +70,14 @@ class CellTables {
 
     /// Prefetches the reference of a table.
     void prefetch(std::uint32_t table) const { __builtin_prefetch(refs() + table); }
+    /// Prefetches the beginning of a table, whose reference must be intact.
+    void prefetch_table(std::uint32_t table) const {
+        constexpr std::size_t kCacheLine = 64;
+        const std::byte* begin =
+            bytes_ + std::size_t{refs()[table].offset} * CellTableHead::kAlignment;
+        __builtin_prefetch(begin);
+        __builtin_prefetch(begin + kCacheLine);
+    }
 
     const CellUnitHead& head() const { return *reinterpret_cast<const CellUnitHead*>(bytes_); }
     /// The table; none if it surely has no entries that count at the level.
@@ -165,6 +173,11 @@ class CellUnit {
     void prefetch(const TimePath& path) const {
         for (const std::uint32_t node : path)
             tables_.prefetch(node);
+    }
+    /// The same of the tables, if the head and they are intact.
+    void prefetch_tables(const TimePath& path) const {
+        for (const std::uint32_t node : path)
+            tables_.prefetch_table(node);
     }
     /// Appends the active cells in the time nodes on a path (in all nodes of a step if it begins at
     /// the root) to `certain`, and the cells that only the volume decides to `ambiguous`.

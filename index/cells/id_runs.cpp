@@ -14,23 +14,26 @@ namespace isochron::index::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Copies a whole block without a branch, as most runs are shorter; the next run overwrites what is
-/// too much.
+/// Copies a whole block without a branch, as many runs are shorter; the next run overwrites what is
+/// too much. A longer block costs more, as most stores touch two cache lines.
+constexpr std::size_t kBlock = 16;
+static_assert(kBlock <= IdRun::kSlack);
+
 HWY_INLINE void copy_block(const std::uint16_t* ids, CellId first, CellId* out) {
-    const hn::CappedTag<CellId, IdRun::kSlack> d;
+    const hn::CappedTag<CellId, kBlock> d;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;
     const auto base = hn::Set(d, first);
-    for (std::size_t i = 0; i < IdRun::kSlack; i += hn::Lanes(d))
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d))
         hn::StoreU(hn::Add(hn::PromoteTo(d, hn::LoadU(d16, ids + i)), base), d, out + i);
 }
 
 std::size_t copy_ids(const IdRun* runs, std::size_t run_count, CellId* out) {
     CellId* next = out;
-    for (const IdRun* run = runs; run != runs + run_count; ++run) {
-        const std::uint16_t* ids = run->ids;
-        for (std::size_t at = 0; at < run->count; at += IdRun::kSlack)
-            copy_block(ids + at, run->first, next + at);
-        next += run->count;
+    for (const IdRun* each = runs; each != runs + run_count; ++each) {
+        const IdRun run = *each; // the compiler would read it again after every store
+        for (std::size_t at = 0; at < run.count; at += kBlock)
+            copy_block(run.ids + at, run.first, next + at);
+        next += run.count;
     }
     return static_cast<std::size_t>(next - out);
 }
@@ -55,11 +58,13 @@ std::size_t copy_ids(std::span<const IdRun> runs, std::span<CellId> out) {
     return HWY_DYNAMIC_DISPATCH(copy_ids)(runs.data(), runs.size(), out.data());
 }
 
-void append_ids(std::span<const IdRun> runs, std::vector<CellId>& out) {
-    const std::size_t begin = out.size();
-    out.resize(begin + count_ids(runs) + IdRun::kSlack);
-    copy_ids(runs, std::span(out).subspan(begin));
-    out.resize(out.size() - IdRun::kSlack);
+void assign_ids(std::span<const IdRun> runs, std::vector<CellId>& out) {
+    const std::size_t wanted = count_ids(runs) + IdRun::kSlack;
+    if (wanted > out.capacity())
+        out.clear(); // else it would be copied
+    if (wanted > out.size())
+        out.resize(wanted);
+    out.resize(copy_ids(runs, out));
 }
 
 } // namespace isochron::index

@@ -54,7 +54,8 @@ std::size_t count_ids(std::span<const IdRun> runs);
 /// @param out must have room for kSlack ids more than the runs have @return number of ids written
 std::size_t copy_ids(std::span<const IdRun> runs, std::span<CellId> out);
 
-/// Appends the cells of the runs, in order.
-void append_ids(std::span<const IdRun> runs, std::vector<CellId>& out);
+/// Replaces `out` by the cells of the runs, in order. For a vector that is kept from search to
+/// search: only what it grows by is filled with zeros before.
+void assign_ids(std::span<const IdRun> runs, std::vector<CellId>& out);
 
 } // namespace isochron::index

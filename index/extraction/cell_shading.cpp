@@ -11,6 +11,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "index/extraction/cell_shading.cpp"
@@ -53,6 +54,29 @@ class Shader {
     std::size_t size_ = 0;
 };
 
+/// Appends rows many at a time: appending each takes a fifth of the time to shade its cells.
+class RowBuffer {
+  public:
+    explicit RowBuffer(std::vector<CellRow>& out) : out_(out) {}
+    RowBuffer(const RowBuffer&) = delete;
+    RowBuffer& operator=(const RowBuffer&) = delete;
+
+    HWY_INLINE void add(CellRow row) {
+        rows_[size_] = row;
+        if (++size_ == rows_.size())
+            flush();
+    }
+    void flush() {
+        out_.insert(out_.end(), rows_.data(), rows_.data() + size_);
+        size_ = 0;
+    }
+
+  private:
+    std::vector<CellRow>& out_;
+    std::size_t size_ = 0;
+    std::array<CellRow, 256> rows_;
+};
+
 /// Least ratio of the spacings for which `float` is precise enough.
 constexpr double kFloatIsEnough = 1e-4;
 
@@ -73,6 +97,7 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     const bool regular = !values.grid.rectilinear();
     const bool float_is_enough = kSmall && smallest >= kFloatIsEnough && regular;
     CellWalk walk(values.grid);
+    RowBuffer rows(set.rows);
     // The current row:
     std::uint32_t y = 0, z = 0, inner_width = 0; // number of cells, from the second on, for `fast`
     const T* of_row = volume;
@@ -87,8 +112,8 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
         if (walk.to(ids[i])) {
             y = walk.y();
             z = walk.z();
-            set.rows.push_back({static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z),
-                                static_cast<std::uint32_t>(i)});
+            rows.add({static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z),
+                      static_cast<std::uint32_t>(i)});
             of_row = volume + z * slice_size + y * row_size;
             const bool border = y == 0 || y + 1 == height || z == 0 || z + 1 == depth;
             inner_width = float_is_enough && !border && width > 2 ? width - 2 : 0;
@@ -107,6 +132,7 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
         exact.add(points[i], (*differences)(x), differences->slope(x, level),
                   regular ? glm::dvec3(1.0) : values.grid.even_size({x, y, z}));
     }
+    rows.flush();
     fast.finish();
     exact.finish();
     return true;

@@ -131,11 +131,10 @@ class IndexSearch {
         certain_.clear();
         ambiguous_.clear();
         file_->cells()->search(set.query.step, *cut, certain_, ambiguous_);
-        append_ids(certain_, set.ids);
+        assign_ids(certain_, set.ids);
         set.candidates = set.ids.size();
         if (!ambiguous_.empty()) {
-            candidates_.clear();
-            append_ids(ambiguous_, candidates_);
+            assign_ids(ambiguous_, candidates_);
             set.candidates += candidates_.size();
             if (!test_candidates(set, stop))
                 return false;

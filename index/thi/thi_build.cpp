@@ -11,12 +11,16 @@ namespace isochron::index {
 
 std::vector<std::byte> build_thi_tree(const StepValues& values, const ThiOptions& options,
                                       const Progress& progress, unsigned threads) {
-    ThiEntries entries(values, options, progress, threads);
+    return build_thi_tree(ThiEntries(values, options, progress, threads), progress, threads);
+}
+
+std::vector<std::byte> build_thi_tree(ThiEntries entries, const Progress& progress,
+                                      unsigned threads) {
     const std::vector<OrderKey>& lines = entries.lines();
     ThiHeader header;
-    header.steps = static_cast<std::uint32_t>(values.steps);
-    header.lattice = options.lattice;
-    header.max_variation = options.max_variation;
+    header.steps = entries.steps();
+    header.lattice = entries.options().lattice;
+    header.max_variation = entries.options().max_variation;
     header.elements = static_cast<std::uint32_t>(lines.size());
     const std::size_t nodes = entries.nodes();
     std::vector<ThiNodeStart> node_starts(nodes + 1);

@@ -133,16 +133,16 @@ void check(const StepValues& values, const ThiOptions& options) {
 } // namespace
 
 ThiEntries::ThiEntries(const StepValues& values, const ThiOptions& options,
-                       const Progress& progress, unsigned threads) {
+                       const Progress& progress, unsigned threads)
+    : options_(options), steps_(static_cast<std::uint32_t>(values.steps)) {
     check(values, options);
     const Batches batches(values);
     const std::size_t worker_count = std::min<std::size_t>(thread_count(threads), batches.count());
     std::vector<Worker> workers(worker_count, Worker(values));
-    const auto steps = static_cast<std::uint32_t>(values.steps);
-    nodes_ = TimeNode::count(steps);
+    nodes_ = TimeNode::count(steps_);
     lines_ =
         find_lattice(batches, workers, options.lattice, phase_of(progress, "dividing span space"));
-    by_worker_ = classify(batches, workers, lines_, steps, options.max_variation,
+    by_worker_ = classify(batches, workers, lines_, steps_, options.max_variation,
                           phase_of(progress, "finding coherence"));
 }
 

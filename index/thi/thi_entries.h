@@ -34,6 +34,8 @@ class ThiEntries {
     ThiEntries(const StepValues& values, const ThiOptions& options, const Progress& progress,
                unsigned threads);
 
+    const ThiOptions& options() const { return options_; }
+    std::uint32_t steps() const { return steps_; }
     const std::vector<OrderKey>& lines() const { return lines_; } ///< of the lattice
     std::size_t nodes() const { return nodes_; }                  ///< as TimeNode numbers them
     std::uint64_t count(std::size_t node) const;
@@ -45,6 +47,8 @@ class ThiEntries {
     /// Entries of each time node; in small blocks, since there are many nodes.
     using ByNode = std::vector<std::deque<Interval>>;
 
+    ThiOptions options_;
+    std::uint32_t steps_;
     std::size_t nodes_;
     std::vector<OrderKey> lines_;
     std::vector<ByNode> by_worker_; ///< the entries that each building thread found

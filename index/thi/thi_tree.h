@@ -33,6 +33,9 @@ namespace isochron::index {
 /// @throws Error when an option is out of its range, or there is no step
 std::vector<std::byte> build_thi_tree(const StepValues& values, const ThiOptions& options,
                                       const Progress& progress = {}, unsigned threads = 0);
+/// The same from entries that were found before.
+std::vector<std::byte> build_thi_tree(ThiEntries entries, const Progress& progress,
+                                      unsigned threads);
 
 /// A built tree. Refers to the bytes, which must outlive it.
 class ThiTree {

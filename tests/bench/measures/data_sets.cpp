@@ -57,7 +57,7 @@ DataSet data_set(const std::string& name, index::ValueType type, std::optional<s
     return {.name = large ? "fourier256" : "fourier128",
             .series = app::FourierSeries{.type = type,
                                          .size = large ? 256u : 128u,
-                                         .steps = steps.value_or(large ? 16 : 64)},
+                                         .steps = steps.value_or(large ? 10 : 16)},
             .isovalue = {},
             .active_cells = large ? 96'000.0 : 10'240.0};
 }

@@ -3,6 +3,7 @@
 
 #include "index/scan/scan.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace isochron::bench {
@@ -10,8 +11,7 @@ namespace isochron::bench {
 ErrorCount count_errors(const index::StepValues& values, const Structure& structure,
                         std::span<const double> isovalues,
                         const std::function<void(double)>& progress) {
-    enum class Cell : std::uint8_t { inactive, active, found };
-    std::vector<Cell> state(values.grid.cell_count(), Cell::inactive);
+    std::vector<bool> missing(values.grid.cell_count()); // active and not found yet
     ErrorCount count;
     Ids active, found;
     for (std::uint32_t step = 0; step < values.steps; ++step) {
@@ -19,22 +19,21 @@ ErrorCount count_errors(const index::StepValues& values, const Structure& struct
         for (const double isovalue : isovalues) {
             const index::Query query{step, isovalue};
             active.clear();
-            found.clear();
             index::scan(values, query, active);
             structure.ids(query, found);
             for (const index::CellId id : active)
-                state[id] = Cell::active;
+                missing[id] = true;
             std::uint64_t hits = 0;
             for (const index::CellId id : found)
-                if (id < state.size() && state[id] == Cell::active) {
-                    state[id] = Cell::found;
+                if (id < missing.size() && missing[id]) {
+                    missing[id] = false;
                     ++hits;
                 }
             count.active += active.size();
             count.false_positives += found.size() - hits;
             count.false_negatives += active.size() - hits;
-            for (const index::CellId id : active)
-                state[id] = Cell::inactive;
+            if (hits < active.size())
+                std::fill(missing.begin(), missing.end(), false);
         }
     }
     return count;

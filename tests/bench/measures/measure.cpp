@@ -65,7 +65,6 @@ std::vector<Operation> comparisons(const StepValues& values, double isovalue, co
         index::scan(values, {step, isovalue}, out);
     });
     all.push_back([&tbon, isovalue, out = Ids()](std::uint32_t step) mutable {
-        out.clear();
         tbon.ids({step, isovalue}, out);
     });
     for (const bool normals : {false, true})
@@ -103,7 +102,6 @@ void time_searches(const StepValues& values, const Structure& structure,
     };
     std::vector<Operation> operations = compared;
     operations.push_back([&, out = Ids()](std::uint32_t step) mutable {
-        out.clear();
         structure.ids({step, isovalue}, out);
     });
     operations.push_back([&](std::uint32_t step) {
@@ -156,7 +154,6 @@ double sweep_seconds(const StepValues& values, const Structure& structure, doubl
                 structure.follow({step, isovalue});
                 return;
             }
-            out.clear();
             structure.ids({step, isovalue}, out);
         },
         static_cast<std::uint32_t>(values.steps), rounds);
@@ -188,7 +185,9 @@ Results measure(const std::shared_ptr<const index::IndexFile>& file, const Measu
     if (cell_steps > kMostThiCellSteps)
         wanted.lattices.clear();
     Results results;
-    for (const Recipe& recipe : structures_of(file, tbon, wanted)) {
+    for (Recipe& next : structures_of(file, tbon, wanted)) {
+        // What only this recipe and those before it share is freed when it is done.
+        const Recipe recipe = std::move(next);
         const auto phase = [&](const char* what) -> std::function<void(double)> {
             return [&, what](double fraction) {
                 progress(fmt::format("{} {} x {}, {}: {}", options.data,

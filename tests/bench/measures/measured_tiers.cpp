@@ -66,6 +66,7 @@ Recipe bricks_of(const FilePtr& file) {
                 structure.bytes = bytes_without(*file, {Tier::cells, Tier::deltas, Tier::tree});
                 structure.build_seconds = seconds_for_bricks(*file);
                 structure.ids = [file](const Query& query, Ids& out) {
+                    out.clear();
                     const index::LoadedStep step = file->load(query.step);
                     index::search_bricks(step.values, *file->chunks().levels(query.step),
                                          step.bricks, query, out);
@@ -97,6 +98,7 @@ Recipe tiles_of(const FilePtr& file) {
                 structure.ids = [file, tiles,
                                  held = std::make_shared<std::vector<index::LargeMemory>>(
                                      std::move(memory))](const Query& query, Ids& out) {
+                    out.clear();
                     const index::LoadedStep step = file->load(query.step);
                     index::test_tiles(step.values, *file->chunks().levels(query.step), step.bricks,
                                       (*tiles)[query.step], query, out);
@@ -138,11 +140,10 @@ Recipe cells_of(const FilePtr& file, bool deltas) {
                     return search->runs(query).size();
                 };
                 structure.ids = [search](const Query& query, Ids& out) {
-                    index::append_ids(search->runs(query), out);
+                    index::assign_ids(search->runs(query), out);
                 };
                 structure.follow = [search](const Query& query) {
-                    search->all.clear();
-                    index::append_ids(search->runs(query), search->all);
+                    index::assign_ids(search->runs(query), search->all);
                     return search->all.size();
                 };
                 if (deltas)

@@ -27,7 +27,7 @@ struct Structure {
     unsigned build_threads = 1;
     double build_seconds = 0; ///< processor time of all threads; 0 if nothing is built
 
-    /// Appends the cells of a full search, in any order, each once.
+    /// Replaces the ids by the cells of a full search, in any order, each once.
     std::function<void(const index::Query&, Ids&)> ids;
     /// A full search that does not copy the ids. @return the number of runs
     std::function<std::size_t(const index::Query&)> runs;

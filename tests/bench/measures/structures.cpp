@@ -26,6 +26,7 @@ Recipe scan_of(const FilePtr& file) {
                 Structure structure;
                 structure.name = "scan";
                 structure.ids = [file](const Query& query, Ids& out) {
+                    out.clear();
                     index::scan(file->values(), query, out);
                 };
                 structure.full = [file](const Query& query, index::CellSet& set) {
@@ -50,24 +51,60 @@ struct OwnThiTree {
     index::ThiTree::Cursor cursor;
 };
 
-Recipe thi_of(const FilePtr& file, const index::ThiOptions& options, unsigned threads) {
+/// The entries that the tree and its variants have in common, found once for all of them: their
+/// time counts for each.
+class CommonEntries {
+  public:
+    CommonEntries(FilePtr file, const index::ThiOptions& options, unsigned threads)
+        : file_(std::move(file)), options_(options), threads_(threads) {}
+
+    const index::ThiEntries& get(const index::Progress& progress) {
+        if (!entries_) {
+            const Stopwatch watch(Stopwatch::Of::all_threads);
+            entries_.emplace(file_->values(), options_, progress, threads_);
+            seconds_ = watch.seconds();
+        }
+        return *entries_;
+    }
+    double seconds() const { return seconds_; } ///< processor time of all threads, after `get`
+    const index::ThiOptions& options() const { return options_; }
+    unsigned threads() const { return threads_; }
+
+  private:
+    FilePtr file_;
+    index::ThiOptions options_;
+    unsigned threads_;
+    std::optional<index::ThiEntries> entries_;
+    double seconds_ = 0;
+};
+using CommonEntriesPtr = std::shared_ptr<CommonEntries>;
+
+/// What the tree and its variants have in common as structures, once they are built in that time.
+Structure built_of(const char* name, const CommonEntries& common, double seconds) {
+    Structure structure;
+    structure.name = name;
+    structure.thi = common.options();
+    structure.candidates = true;
+    structure.build_threads = index::thread_count(common.threads());
+    structure.build_seconds = common.seconds() + seconds;
+    return structure;
+}
+
+Recipe thi_of(const FilePtr& file, const CommonEntriesPtr& common) {
     const auto build = [=](const index::Progress& progress) {
-        const index::StepValues& values = file->values();
+        index::ThiEntries entries = common->get(progress);
         const Stopwatch watch(Stopwatch::Of::all_threads);
-        auto bytes = index::build_thi_tree(values, options, progress, threads);
+        auto bytes = index::build_thi_tree(std::move(entries), progress, common->threads());
         const double seconds = watch.seconds();
         const auto own = std::make_shared<OwnThiTree>(std::move(bytes));
+        const index::StepValues& values = file->values();
         const auto threshold = [keys = index::KeyMap(values.type, values.scaling)](
                                    const Query& query) { return keys.threshold(query.isovalue); };
-        Structure structure;
-        structure.name = "thi";
-        structure.thi = options;
+        Structure structure = built_of("thi", *common, seconds);
         structure.bytes = own->bytes.size();
         structure.entries = own->tree.entries();
-        structure.candidates = true;
-        structure.build_threads = index::thread_count(threads);
-        structure.build_seconds = seconds;
         structure.ids = [own, threshold](const Query& query, Ids& out) {
+            out.clear();
             own->tree.search(query.step, threshold(query), out);
         };
         structure.follow = [own, threshold](const Query& query) {
@@ -79,7 +116,7 @@ Recipe thi_of(const FilePtr& file, const index::ThiOptions& options, unsigned th
         };
         return structure;
     };
-    return {name_with("thi", options), build};
+    return {name_with("thi", common->options()), build};
 }
 
 struct NamedVariant {
@@ -91,28 +128,24 @@ constexpr std::array kVariants{NamedVariant{ThiVariant::node_lattices, "thi-node
                                NamedVariant{ThiVariant::compact_lists, "thi-compact-lists"}};
 
 Recipe variant_of(const FilePtr& file, const NamedVariant& variant,
-                  const index::ThiOptions& options, unsigned threads) {
+                  const CommonEntriesPtr& common) {
     const auto build = [=](const index::Progress& progress) {
-        const index::StepValues& values = file->values();
+        index::ThiEntries entries = common->get(progress);
         const Stopwatch watch(Stopwatch::Of::all_threads);
         const std::shared_ptr<const ThiVariantTree> tree =
-            build_thi_variant(variant.variant, values, options, progress, threads);
+            build_thi_variant(variant.variant, std::move(entries), progress, common->threads());
         const double seconds = watch.seconds();
-        const index::KeyMap keys(values.type, values.scaling);
-        Structure structure;
-        structure.name = variant.name;
-        structure.thi = options;
+        const index::KeyMap keys(file->values().type, file->values().scaling);
+        Structure structure = built_of(variant.name, *common, seconds);
         structure.bytes = tree->bytes();
         structure.entries = tree->entries();
-        structure.candidates = true;
-        structure.build_threads = index::thread_count(threads);
-        structure.build_seconds = seconds;
         structure.ids = [tree, keys](const Query& query, Ids& out) {
+            out.clear();
             tree->search(query.step, keys.threshold(query.isovalue), out);
         };
         return structure;
     };
-    return {name_with(variant.name, options), build};
+    return {name_with(variant.name, common->options()), build};
 }
 
 } // namespace
@@ -125,7 +158,10 @@ Structure build_tbon(const FilePtr& file, unsigned threads) {
     structure.bytes = tbon->bytes();
     structure.build_threads = index::thread_count(threads);
     structure.build_seconds = watch.seconds();
-    structure.ids = [file, tbon](const Query& query, Ids& out) { tbon->search(query, out); };
+    structure.ids = [file, tbon](const Query& query, Ids& out) {
+        out.clear();
+        tbon->search(query, out);
+    };
     return structure;
 }
 
@@ -137,10 +173,11 @@ std::vector<Recipe> structures_of(const FilePtr& file, const Structure& tbon,
         all.push_back(std::move(recipe));
     for (const std::uint32_t lattice : options.lattices)
         for (const std::uint32_t max_variation : options.max_variations) {
-            const index::ThiOptions thi{lattice, max_variation};
-            all.push_back(thi_of(file, thi, options.threads));
+            const auto common = std::make_shared<CommonEntries>(
+                file, index::ThiOptions{lattice, max_variation}, options.threads);
+            all.push_back(thi_of(file, common));
             for (const NamedVariant& variant : kVariants)
-                all.push_back(variant_of(file, variant, thi, options.threads));
+                all.push_back(variant_of(file, variant, common));
         }
     return all;
 }

@@ -83,11 +83,8 @@ class Tree : public ThiVariantTree {
   public:
     /// @param make `Node(entries, lines of the lattice)`
     template <class Make>
-    Tree(const index::StepValues& values, const index::ThiOptions& options,
-         const index::Progress& progress, unsigned threads, Make&& make)
-        : steps_(static_cast<std::uint32_t>(values.steps)) {
-        index::ThiEntries entries(values, options, progress, threads);
-        lines_ = entries.lines();
+    Tree(index::ThiEntries entries, const index::Progress& progress, unsigned threads, Make&& make)
+        : steps_(entries.steps()), lines_(entries.lines()) {
         std::vector<std::optional<Node>> nodes(entries.nodes());
         index::parallel_for(
             nodes.size(), index::thread_count(threads),
@@ -126,30 +123,30 @@ class Tree : public ThiVariantTree {
 
 } // namespace
 
-std::unique_ptr<ThiVariantTree> build_thi_variant(ThiVariant variant,
-                                                  const index::StepValues& values,
-                                                  const index::ThiOptions& options,
+std::unique_ptr<ThiVariantTree> build_thi_variant(ThiVariant variant, index::ThiEntries entries,
                                                   const index::Progress& progress,
                                                   unsigned threads) {
     switch (variant) {
-    case ThiVariant::node_lattices:
+    case ThiVariant::node_lattices: {
+        const std::uint32_t lattice = entries.options().lattice;
         return std::make_unique<Tree<NodeLattice>>(
-            values, options, progress, threads,
-            [&](std::vector<Interval> entries, std::span<const OrderKey>) {
-                return NodeLattice(std::move(entries), options.lattice);
+            std::move(entries), progress, threads,
+            [lattice](std::vector<Interval> of_node, std::span<const OrderKey>) {
+                return NodeLattice(std::move(of_node), lattice);
             });
+    }
     case ThiVariant::interval_trees:
         return std::make_unique<Tree<WholeIntervalTree>>(
-            values, options, progress, threads,
-            [](std::vector<Interval> entries, std::span<const OrderKey>) {
-                return WholeIntervalTree(std::move(entries));
+            std::move(entries), progress, threads,
+            [](std::vector<Interval> of_node, std::span<const OrderKey>) {
+                return WholeIntervalTree(std::move(of_node));
             });
     case ThiVariant::compact_lists: break;
     }
     return std::make_unique<Tree<CompactSpanSpace>>(
-        values, options, progress, threads,
-        [](std::vector<Interval> entries, std::span<const OrderKey> lines) {
-            return CompactSpanSpace(std::move(entries), lines);
+        std::move(entries), progress, threads,
+        [](std::vector<Interval> of_node, std::span<const OrderKey> lines) {
+            return CompactSpanSpace(std::move(of_node), lines);
         });
 }
 

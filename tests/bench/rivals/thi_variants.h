@@ -3,7 +3,6 @@
 
 #include "index/progress.h"
 #include "index/thi/thi_entries.h"
-#include "index/volume/step_values.h"
 
 #include <cstdint>
 #include <memory>
@@ -31,10 +30,8 @@ class ThiVariantTree {
                         std::vector<index::CellId>& out) const = 0;
 };
 
-/// @throws index::Error as build_thi_tree
-std::unique_ptr<ThiVariantTree> build_thi_variant(ThiVariant variant,
-                                                  const index::StepValues& values,
-                                                  const index::ThiOptions& options,
+/// @param threads 0: one for each processor
+std::unique_ptr<ThiVariantTree> build_thi_variant(ThiVariant variant, index::ThiEntries entries,
                                                   const index::Progress& progress = {},
                                                   unsigned threads = 0);
 

@@ -43,6 +43,7 @@ TEST(ErrorCount, TellsWhatIsMissingFromWhatIsTooMuch) {
     std::uint64_t active = 0;
     Structure structure;
     structure.ids = [&](const Query& query, Ids& out) {
+        out.clear();
         index::scan(field.view(), query, out);
         active += out.size();
         ASSERT_GT(out.size(), 10u);

@@ -38,7 +38,7 @@ void expect_published_candidates(const StepValues& values, const ThiOptions& opt
         SCOPED_TRACE(testing::Message()
                      << "variant " << static_cast<int>(variant) << ", L " << options.lattice
                      << ", MaxVariation " << options.max_variation);
-        const auto tree = build_thi_variant(variant, values, options);
+        const auto tree = build_thi_variant(variant, {values, options, {}, 1});
         EXPECT_EQ(tree->entries(), published.entries());
         for (std::uint32_t step = 0; step < values.steps; ++step) {
             const index::BruteForce oracle(values, step);
@@ -101,7 +101,7 @@ TEST(ThiVariants, HoldForListsTooLongForNarrowPlaces) {
 TEST(ThiVariants, CompactListsTakeLessThanThePublishedOnesWhereKeysRepeat) {
     const TestField field({41, 40, 40}, 12, ValueType::u8, index::moving_sphere);
     const auto published = index::build_thi_tree(field.view(), {64, 2});
-    EXPECT_LT(build_thi_variant(ThiVariant::compact_lists, field.view(), {64, 2})->bytes(),
+    EXPECT_LT(build_thi_variant(ThiVariant::compact_lists, {field.view(), {64, 2}, {}, 1})->bytes(),
               published.size() * 6 / 10);
 }
 

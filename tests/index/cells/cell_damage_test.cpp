@@ -67,8 +67,11 @@ bool survives(const std::vector<std::byte>& bytes, std::uint32_t cells, std::mt1
                 unit.change(step, cut, to_a, to_b);
             }
         }
-        append_ids(a, ids);
-        append_ids(b, ids);
+        for (const std::vector<IdRun>* runs : {&a, &b}) {
+            std::vector<CellId> found;
+            assign_ids(*runs, found);
+            ids.insert(ids.end(), found.begin(), found.end());
+        }
     }
     if (sound && !ids.empty()) {
         EXPECT_LT(*std::ranges::max_element(ids), cells);

@@ -66,7 +66,7 @@ inline std::uint32_t below(std::mt19937& random, std::uint32_t end) {
 /// The cells of the runs in ascending order.
 inline std::vector<CellId> sorted_ids(const std::vector<IdRun>& runs) {
     std::vector<CellId> ids;
-    append_ids(runs, ids);
+    assign_ids(runs, ids);
     std::sort(ids.begin(), ids.end());
     return ids;
 }

@@ -307,15 +307,7 @@ TEST(CellSet, HugeAndTinyGradientsKeepTheirDirection) {
     }
 }
 
-TEST(CellSet, RowsPartitionTheCellsInOrder) {
-    const std::uint32_t seed = test_seed();
-    std::mt19937 random(seed);
-    const TestField field({9, 8, 7}, 1, ValueType::f32, turbulence(random));
-    const StepValues values = field.view();
-    CellSet set;
-    scan(values, {0, 0.05}, set.ids);
-    ASSERT_FALSE(set.ids.empty());
-    ASSERT_TRUE(shade_cells(values, set));
+void expect_rows_partition_the_cells(const StepValues& values, const CellSet& set) {
     ASSERT_EQ(set.points.size(), set.ids.size());
     ASSERT_EQ(set.rows.front().begin, 0u);
     for (std::size_t r = 0; r < set.rows.size(); ++r) {
@@ -331,6 +323,30 @@ TEST(CellSet, RowsPartitionTheCellsInOrder) {
                       std::tuple(set.points[i].x, set.points[i].y, set.points[i].z));
             EXPECT_EQ(std::tuple(row.y, row.z), std::tuple(y, z));
         }
+    }
+}
+
+TEST(CellSet, RowsPartitionTheCellsInOrder) {
+    std::mt19937 random(test_seed());
+    for (const std::array<std::uint32_t, 3> vertices : {std::array{9u, 8u, 7u}, {5u, 41u, 31u}}) {
+        const TestField field({vertices}, 1, ValueType::f32, turbulence(random));
+        CellSet set;
+        scan(field.view(), {0, 0.05}, set.ids);
+        ASSERT_FALSE(set.ids.empty());
+        ASSERT_TRUE(shade_cells(field.view(), set));
+        expect_rows_partition_the_cells(field.view(), set);
+    }
+}
+
+TEST(CellSet, HasAllRowsHoweverManyThereAre) {
+    for (const std::uint32_t rows : {255u, 256u, 257u, 512u}) {
+        const TestField field({4, rows + 1, 2}, 1, ValueType::u8,
+                              [](double x, double, double, double) { return 100 * x; });
+        CellSet set;
+        scan(field.view(), {0, 150}, set.ids);
+        ASSERT_TRUE(shade_cells(field.view(), set));
+        EXPECT_EQ(set.rows.size(), rows);
+        expect_rows_partition_the_cells(field.view(), set);
     }
 }
 

@@ -3,8 +3,7 @@
 
 #include "index/file/byte_cache.h"
 #include "index/file/chunk_grid.h"
-#include "index/file/chunk_table.h"
-#include "index/file/file_layout.h"
+#include "index/file/chunk_records.h"
 #include "index/file/index_contents.h"
 #include "index/system/huge_pages.h"
 #include "index/system/slot_pool.h"
@@ -27,13 +26,7 @@ struct Chunk {
 };
 using ChunkPtr = std::shared_ptr<const Chunk>;
 
-/// The byte offsets of a layer's chunks, and the range of ranks in each.
-struct ChunkLayer {
-    std::vector<std::uint64_t> offsets;  ///< in the file, by place, then the end of the last chunk
-    std::vector<std::uint8_t> low, high; ///< by place
-};
 using LevelMapPtr = std::shared_ptr<const LevelMap>;
-using ChunkLayerPtr = std::shared_ptr<const ChunkLayer>;
 
 /// The tiles of a step (brick_tiles.h).
 struct StepTiles {
@@ -48,15 +41,6 @@ using StepTilesPtr = std::shared_ptr<const StepTiles>;
 
 /// Thrown by a read that was asked to stop.
 struct Stopped {};
-
-/// What must be known of an array before its chunks can be read.
-struct ChunkArray {
-    std::string called;       ///< its name in messages: `volume`
-    std::uint32_t number = 0; ///< different for each array that shares a cache
-    SeriesInfo info;
-    std::vector<StepEntry> steps;
-    bool has_bricks = false, has_values = true;
-};
 
 /// Thread-safe. Functions that read the file throw Error if it is damaged or cannot be read.
 class ChunkStore {
@@ -113,22 +97,26 @@ class ChunkStore {
   private:
     ByteCache::Key key(unsigned kind, std::uint32_t step, std::uint32_t layer = 0,
                        std::uint32_t place = 0) const;
+    /// Bytes of the values of a chunk of so many vertices.
+    std::size_t bytes_of(const std::array<std::uint32_t, 3>& size) const;
+    std::size_t most_values() const { return bytes_of({kChunkEdge, kChunkEdge, kChunkEdge}); }
     std::size_t chunk_bytes() const;
     ChunkPtr decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                      std::span<const std::byte> record) const;
     template <class F>
     void read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
                       const std::stop_token& stop, F&& f) const;
+    std::vector<std::uint32_t> missing(std::uint32_t step, std::uint32_t layer,
+                                       std::span<const std::uint32_t> places) const;
+    std::uint64_t announce(std::uint32_t step, std::uint32_t layer,
+                           std::span<const std::uint32_t> missing) const;
     std::vector<ByteCache::Key> keys(std::uint32_t step, std::uint32_t layer,
                                      std::span<const std::uint32_t> places) const;
-    ChunkLayerPtr table_from(std::uint32_t step, std::uint32_t layer,
-                             std::span<const std::byte> bytes) const;
-    [[noreturn]] void damaged(std::uint32_t step, const std::string& what) const;
-
     const ByteSource& source_;
     ByteCache& cache_;
     ChunkArray array_;
     ChunkGrid grid_;
+    ChunkDecoder decoder_;
     LevelMapPtr of_type_;            ///< levels of all steps, for an 8-bit type
     std::shared_ptr<SlotPool> pool_; ///< memory of chunks with their values
     mutable std::mutex visits_mutex_;

@@ -43,18 +43,6 @@ std::uint32_t joined(BricksOfChunk bricks, const ChunksAround& around) {
     return chunks;
 }
 
-/// Whether cells with ranks from `low` to `high` may be active.
-bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
-    return low + (cut.exact ? 1 : 0) <= cut.level && high >= cut.level;
-}
-
-BricksOfChunk candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
-    BricksOfChunk bits = 0;
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
-        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
-    return bits;
-}
-
 } // namespace
 
 LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
@@ -71,7 +59,7 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
     chunks_ = store.chunks(step, layer, places_, stop);
     const auto& n = grid.counts();
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        bricks_.push_back(candidates_of(chunks_[i]->bricks, cut));
+        bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
         const auto [x, y] = grid.at(places_[i]);
         std::uint32_t around =
             joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick) & ~kOwnChunk;
@@ -96,6 +84,13 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
             store.expect(step, layer + i - 1, places);
     }
     time_ = std::chrono::steady_clock::now() - started;
+}
+
+BricksOfChunk LayerCandidates::bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
+    BricksOfChunk bits = 0;
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
+        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
+    return bits;
 }
 
 std::vector<std::uint32_t> LayerCandidates::places_of(const ChunkLayer& table,

@@ -8,8 +8,6 @@
 #include "index/system/parallel.h"
 #include "index/system/read_ahead.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -329,8 +327,12 @@ bool ChunkStore::better_whole(std::uint32_t step) const {
     const std::uint64_t bytes = array_.info.step_bytes();
     if (bytes > cache_.use().budget / 4)
         return false;
+    return bytes <= (was_worked_on(step) ? kModerateStep : kSmallStep);
+}
+
+bool ChunkStore::was_worked_on(std::uint32_t step) const {
     const std::scoped_lock lock(visits_mutex_);
-    return bytes <= (visited_[step] ? kModerateStep : kSmallStep);
+    return visited_[step];
 }
 
 void ChunkStore::worked_on(std::uint32_t step) const {

@@ -50,6 +50,8 @@ class ChunkStore {
 
     const SeriesInfo& info() const { return array_.info; }
     const ChunkGrid& grid() const { return grid_; }
+    const ChunkDecoder& decoder() const { return decoder_; }
+    const ByteSource& source() const { return source_; }
 
     /// The table of a layer; if it is not in the cache, tables of neighboring layers are read too.
     ChunkLayerPtr layer(std::uint32_t step, std::uint32_t layer) const;
@@ -88,18 +90,21 @@ class ChunkStore {
     /// Bytes that `whole` would read.
     std::uint64_t missing_bytes(std::uint32_t step) const;
 
+    /// Bytes of the values of a chunk of so many vertices.
+    std::size_t bytes_of(const std::array<std::uint32_t, 3>& size) const;
+    /// The same of a chunk that is not clipped.
+    std::size_t most_values() const { return bytes_of({kChunkEdge, kChunkEdge, kChunkEdge}); }
+
     /// Whether work on the whole step is faster than on the needed chunks alone: if the step is
     /// small, or of moderate size and `worked_on` before, and fits into a quarter of the cache.
     bool better_whole(std::uint32_t step) const;
     /// Notes that a step has been worked on.
     void worked_on(std::uint32_t step) const;
+    bool was_worked_on(std::uint32_t step) const;
 
   private:
     ByteCache::Key key(unsigned kind, std::uint32_t step, std::uint32_t layer = 0,
                        std::uint32_t place = 0) const;
-    /// Bytes of the values of a chunk of so many vertices.
-    std::size_t bytes_of(const std::array<std::uint32_t, 3>& size) const;
-    std::size_t most_values() const { return bytes_of({kChunkEdge, kChunkEdge, kChunkEdge}); }
     std::size_t chunk_bytes() const;
     ChunkPtr decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                      std::span<const std::byte> record) const;

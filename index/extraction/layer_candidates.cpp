@@ -79,8 +79,7 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
         std::erase_if(places, [&](std::uint32_t place) { // candidates have been announced
             return may_hold(tables_[i]->low[place], tables_[i]->high[place], cut);
         });
-        if (tables_[i] &&
-            !store.fetches_all(places_of(*tables_[i], cut, layer + i - 1, only).size()))
+        if (tables_[i] && !store.fetches_all(count_of(*tables_[i], cut, layer + i - 1, only)))
             store.expect(step, layer + i - 1, places);
     }
     time_ = std::chrono::steady_clock::now() - started;
@@ -101,6 +100,16 @@ std::vector<std::uint32_t> LayerCandidates::places_of(const ChunkLayer& table,
         if (may_hold(table.low[place], table.high[place], cut) && (!only || only(layer, place)))
             places.push_back(place);
     return places;
+}
+
+std::size_t LayerCandidates::count_of(const ChunkLayer& table, const LevelMap::Cut& cut,
+                                      std::uint32_t layer, const ChunkFilter& only) {
+    if (only)
+        return places_of(table, cut, layer, only).size();
+    std::size_t count = 0; // of a plain loop, which the compiler makes one of vectors
+    for (std::size_t place = 0; place < table.low.size(); ++place)
+        count += may_hold(table.low[place], table.high[place], cut) ? 1 : 0;
+    return count;
 }
 
 unsigned LayerCandidates::reach(std::size_t i) const {

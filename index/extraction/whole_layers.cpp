@@ -26,12 +26,12 @@ std::optional<WholeLayers::Range> WholeLayers::worth(const ChunkStore& store, st
     Range range{layers, 0};
     std::uint32_t whole = 0;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        const auto places = LayerCandidates::places_of(*store.layer(step, layer), cut);
-        if (places.empty())
+        const std::size_t places = LayerCandidates::count_of(*store.layer(step, layer), cut);
+        if (places == 0)
             continue;
         range.first = std::min(range.first, layer);
         range.end = layer + 1;
-        whole += store.fetches_all(places.size()) ? 1 : 0;
+        whole += store.fetches_all(places) ? 1 : 0;
     }
     if (range.first >= range.end || 4 * whole < 3 * (range.end - range.first))
         return {};

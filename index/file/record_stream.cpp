@@ -21,10 +21,10 @@ std::uint32_t end_of_piece(const ChunkLayer& table, std::uint32_t first) {
 } // namespace
 
 RecordStream::RecordStream(const ChunkStore& store, std::uint32_t step, std::uint32_t first,
-                           std::uint32_t end, const std::stop_token& stop)
-    : store_(store), stop_(stop), reading_([this, step, first, end](const std::stop_token& quit) {
-          run(quit, step, first, end);
-      }) {}
+                           std::uint32_t end, std::stop_token stop)
+    : store_(store), stop_(std::move(stop)),
+      reading_(
+          [this, step, first, end](const std::stop_token& quit) { run(quit, step, first, end); }) {}
 
 RecordStream::~RecordStream() {
     close();

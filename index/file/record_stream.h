@@ -32,9 +32,9 @@ struct RecordPiece {
 /// threads. Memory of pieces is used again.
 class RecordStream {
   public:
-    /// @param store, stop outlive this @param first, end layers
+    /// @param store outlives this @param first, end layers
     RecordStream(const ChunkStore& store, std::uint32_t step, std::uint32_t first,
-                 std::uint32_t end, const std::stop_token& stop);
+                 std::uint32_t end, std::stop_token stop);
     ~RecordStream();
     RecordStream(const RecordStream&) = delete;
     RecordStream& operator=(const RecordStream&) = delete;
@@ -55,7 +55,7 @@ class RecordStream {
     bool put(RecordPiece& piece, const std::stop_token& quit);
 
     const ChunkStore& store_;
-    const std::stop_token& stop_;
+    const std::stop_token stop_;
     std::mutex mutex_; ///< for the members below
     std::condition_variable_any taken_, came_;
     std::deque<RecordPiece> pieces_;

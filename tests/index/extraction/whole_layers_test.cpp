@@ -66,7 +66,8 @@ class WholeLayersTest : public testing::Test {
         return file_->chunks().levels(step)->cut(file_->info().scaling, isovalue);
     }
     std::optional<WholeLayers::Range> worth(double isovalue, std::uint64_t room = kRoom) const {
-        return WholeLayers::worth(file_->chunks(), 0, *cut(0, isovalue), 2, room);
+        const auto at = cut(0, isovalue);
+        return at ? WholeLayers::worth(file_->chunks(), 0, *at, 2, room) : std::nullopt;
     }
 
     std::mt19937 random_{test_seed()};

@@ -17,8 +17,8 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <random>
-#include <thread>
 
 namespace isochron::index {
 namespace {

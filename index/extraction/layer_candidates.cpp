@@ -43,18 +43,6 @@ std::uint32_t joined(BricksOfChunk bricks, const ChunksAround& around) {
     return chunks;
 }
 
-/// Whether cells with ranks from `low` to `high` may be active.
-bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
-    return low + (cut.exact ? 1 : 0) <= cut.level && high >= cut.level;
-}
-
-BricksOfChunk candidates_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
-    BricksOfChunk bits = 0;
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
-        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
-    return bits;
-}
-
 } // namespace
 
 LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
@@ -71,7 +59,7 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
     chunks_ = store.chunks(step, layer, places_, stop);
     const auto& n = grid.counts();
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        bricks_.push_back(candidates_of(chunks_[i]->bricks, cut));
+        bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
         const auto [x, y] = grid.at(places_[i]);
         std::uint32_t around =
             joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick) & ~kOwnChunk;
@@ -91,11 +79,17 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
         std::erase_if(places, [&](std::uint32_t place) { // candidates have been announced
             return may_hold(tables_[i]->low[place], tables_[i]->high[place], cut);
         });
-        if (tables_[i] &&
-            !store.fetches_all(places_of(*tables_[i], cut, layer + i - 1, only).size()))
+        if (tables_[i] && !store.fetches_all(count_of(*tables_[i], cut, layer + i - 1, only)))
             store.expect(step, layer + i - 1, places);
     }
     time_ = std::chrono::steady_clock::now() - started;
+}
+
+BricksOfChunk LayerCandidates::bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
+    BricksOfChunk bits = 0;
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
+        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
+    return bits;
 }
 
 std::vector<std::uint32_t> LayerCandidates::places_of(const ChunkLayer& table,
@@ -106,6 +100,16 @@ std::vector<std::uint32_t> LayerCandidates::places_of(const ChunkLayer& table,
         if (may_hold(table.low[place], table.high[place], cut) && (!only || only(layer, place)))
             places.push_back(place);
     return places;
+}
+
+std::size_t LayerCandidates::count_of(const ChunkLayer& table, const LevelMap::Cut& cut,
+                                      std::uint32_t layer, const ChunkFilter& only) {
+    if (only)
+        return places_of(table, cut, layer, only).size();
+    std::size_t count = 0; // of a plain loop, which the compiler makes one of vectors
+    for (std::size_t place = 0; place < table.low.size(); ++place)
+        count += may_hold(table.low[place], table.high[place], cut) ? 1 : 0;
+    return count;
 }
 
 unsigned LayerCandidates::reach(std::size_t i) const {

@@ -40,6 +40,15 @@ class LayerCandidates {
     static std::vector<std::uint32_t> places_of(const ChunkLayer& table, const LevelMap::Cut& cut,
                                                 std::uint32_t layer = 0,
                                                 const ChunkFilter& only = {});
+    /// How many these are.
+    static std::size_t count_of(const ChunkLayer& table, const LevelMap::Cut& cut,
+                                std::uint32_t layer = 0, const ChunkFilter& only = {});
+    /// Whether cells with ranks from `low` to `high` may be active.
+    static bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
+        return low + (cut.exact ? 1 : 0) <= cut.level && high >= cut.level;
+    }
+    /// The bricks that may hold active cells.
+    static BricksOfChunk bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut);
 
     /// Ascending.
     const std::vector<std::uint32_t>& places() const { return places_; }

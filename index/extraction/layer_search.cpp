@@ -5,6 +5,7 @@
 #include "index/extraction/cell_colors.h"
 #include "index/extraction/id_sort.h"
 #include "index/extraction/mesh_parts.h"
+#include "index/extraction/whole_layers.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/system/parallel.h"
@@ -60,7 +61,7 @@ bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, con
             throw Stopped();
         return store_.fetch(step, layer, places(layer), stop);
     });
-    const auto threads = static_cast<unsigned>(slabs_.size());
+    const unsigned threads = this->threads();
     // Each item prepares a layer, and works on one that has been prepared a while ago.
     const unsigned before = prepare ? threads : 0;
     try {
@@ -125,7 +126,8 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
     if (levels && !cut)
         return true;
     const auto started = Clock::now();
-    LayerResults results(set, StepSlab::layers(store_.info().grid));
+    const std::uint32_t layers = StepSlab::layers(store_.info().grid);
+    LayerResults results(set, layers);
     const auto places = [&](std::uint32_t layer) {
         if (cut)
             return LayerCandidates::places_of(*store_.layer(query.step, layer), *cut, layer, only);
@@ -133,41 +135,65 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
         std::iota(all.begin(), all.end(), 0u);
         return all;
     };
-    PreparedCandidates candidates(StepSlab::layers(store_.info().grid), [&](std::uint32_t layer) {
+    PreparedCandidates candidates(layers, [&](std::uint32_t layer) {
         return LayerCandidates(store_, query.step, layer, *cut, shaded, stop, only);
     });
     const auto prepare = [&](std::uint32_t layer) {
         if (cut)
             candidates.prepare(layer);
     };
-    const auto work = [&](StepSlab& slab, std::uint32_t layer) {
-        LayerResult result = results.begin();
-        std::vector<CellId>& ids = result.cells.ids;
-        const auto begun = Clock::now();
-        if (!by_bricks) {
-            slab.fill_all();
-            scan(slab.cells(), query, ids);
-            result.cells.candidates = ids.size();
-        } else {
-            LayerCandidates prepared = candidates.take(layer);
-            result.searching = prepared.time();
-            if (slab.fill_candidates(std::move(prepared))) {
-                result.cells.candidates =
-                    test_bricks(slab.cells(), *levels, slab.bricks(), query, ids);
-                sort_ids(ids, slab.cells().grid.cell_count());
-            }
-        }
+    const auto find = [&](StepSlab& slab, LayerResult& result) {
+        result.cells.candidates =
+            test_bricks(slab.cells(), *levels, slab.bricks(), query, result.cells.ids);
+        sort_ids(result.cells.ids, slab.cells().grid.cell_count());
+    };
+    const auto finish = [&](StepSlab& slab, std::uint32_t layer, LayerResult& result,
+                            Clock::time_point begun) {
         result.first = slab.first_around();
         result.first_plane = slab.first_plane();
-        for (CellId& id : ids)
+        for (CellId& id : result.cells.ids)
             id += slab.first_cell() - slab.first_around();
         result.searching += Clock::now() - begun;
-        if (shaded && !ids.empty())
+        if (shaded && !result.cells.ids.empty())
             shade(slab, query, result, stop);
         results.add(layer, std::move(result));
     };
-    if (!for_each_layer(query.step, places, prepare, work, stop))
+    const auto work = [&](StepSlab& slab, std::uint32_t layer) {
+        LayerResult result = results.begin();
+        const auto begun = Clock::now();
+        if (!by_bricks) {
+            slab.fill_all();
+            scan(slab.cells(), query, result.cells.ids);
+            result.cells.candidates = result.cells.ids.size();
+        } else {
+            LayerCandidates prepared = candidates.take(layer);
+            result.searching = prepared.time();
+            if (slab.fill_candidates(std::move(prepared)))
+                find(slab, result);
+        }
+        finish(slab, layer, result, begun);
+    };
+    const auto whole =
+        cut && !only && level_ == 0 && !store_.was_worked_on(query.step)
+            ? WholeLayers::worth(store_, query.step, *cut, threads(), file_->cache().budget)
+            : std::nullopt;
+    if (whole) {
+        for (std::uint32_t layer = 0; layer < layers; ++layer)
+            if (layer < whole->first || layer >= whole->end)
+                results.add(layer, {});
+        WholeLayers all(store_, query.step, *whole, *cut, threads());
+        const auto work_on_whole = [&](StepSlab& slab, std::uint32_t layer,
+                                       std::chrono::nanoseconds decoding) {
+            LayerResult result = results.begin();
+            const auto begun = Clock::now() - decoding;
+            find(slab, result);
+            finish(slab, layer, result, begun);
+        };
+        if (!all.for_each(work_on_whole, stop))
+            return false;
+    } else if (!for_each_layer(query.step, places, prepare, work, stop)) {
         return false;
+    }
     // Search and shading ran in parallel: the elapsed time is divided by their shares.
     const auto passed = std::chrono::duration<double>(Clock::now() - started);
     const auto both =

@@ -44,6 +44,7 @@ class LayerSearch {
                      std::span<std::uint16_t> out, const std::stop_token& stop);
 
   private:
+    unsigned threads() const { return static_cast<unsigned>(slabs_.size()); }
     using Work = std::function<void(StepSlab& slab, std::uint32_t layer)>;
     /// Called for a layer some layers before the work on it; may be empty.
     using Prepare = std::function<void(std::uint32_t layer)>;

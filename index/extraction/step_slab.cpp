@@ -107,6 +107,7 @@ std::uint64_t StepSlab::bytes(const SeriesInfo& info) {
 void StepSlab::begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop) {
     for (auto& of_layer : state_)
         std::ranges::fill(of_layer, std::uint8_t{vacant});
+    whole_ = false;
     stop_ = std::move(stop);
     candidates_.reset();
     step_ = step;
@@ -137,8 +138,14 @@ StepValues StepSlab::around() const {
     return planes(first_plane_, end_plane_);
 }
 
+void StepSlab::forget_bricks() {
+    const BrickGrid grid(cells().grid);
+    bricks_.assign(grid.bytes_per_step(), 0);
+    std::fill_n(bricks_.begin(), grid.count(), std::uint8_t{255});
+}
+
 void StepSlab::set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y,
-                          std::uint32_t candidates) {
+                          BricksOfChunk candidates) {
     const BrickGrid grid(cells().grid);
     const auto& n = grid.bricks();
     for (; candidates; candidates &= candidates - 1) {
@@ -158,9 +165,7 @@ bool StepSlab::fill_candidates(LayerCandidates candidates) {
     candidates_ = std::move(candidates);
     if (candidates_->places().empty())
         return false;
-    const BrickGrid grid(cells().grid);
-    bricks_.assign(grid.bytes_per_step(), 0);
-    std::fill_n(bricks_.begin(), grid.count(), std::uint8_t{255});
+    forget_bricks();
     std::vector<std::uint32_t> own_places;
     std::vector<ChunkPtr> own;
     for (std::size_t i = 0; i < candidates_->places().size(); ++i) {
@@ -186,6 +191,8 @@ bool StepSlab::fill_candidates(LayerCandidates candidates) {
 
 /// Marks for each chunk the sides at which it has cells, then the chunks that these need.
 void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
+    if (whole_)
+        return;
     const auto& n = chunks_.counts();
     sides_.assign(std::size_t{n[0]} * n[1], 0);
     CellWalk walk(around().grid);
@@ -217,6 +224,35 @@ void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
         }
     }
     fill();
+}
+
+void StepSlab::begin_whole(std::uint32_t step, std::uint32_t layer, std::stop_token stop) {
+    begin(step, layer, std::move(stop));
+    whole_ = true;
+    if (layer < layers(grid_))
+        forget_bricks();
+}
+
+void StepSlab::put(const Chunk& chunk, std::uint32_t place, BricksOfChunk candidates) {
+    const auto [x, y] = chunks_.at(place);
+    set_bricks(chunk, x, y, candidates);
+    const std::size_t size = size_of(store_.info().type), width = chunk.size[0] * size;
+    const std::size_t row = grid_.vertices[0] * size, plane = grid_.vertices[1] * row;
+    const Neighbors alone{{chunk.values.data()}, 1};
+    std::byte* to = values_.get() + (layer_ * kChunkEdge - first_plane_) * plane +
+                    y * kChunkEdge * row + x * kChunkEdge * size;
+    for (std::uint32_t z = 0; z < chunk.size[2]; ++z, to += plane)
+        copy_rows(alone, z * chunk.size[1] * width, width, chunk.size[1], to, row);
+}
+
+void StepSlab::fill_from(const StepSlab& next) {
+    const std::uint32_t bottom = next.layer_ * kChunkEdge;
+    const std::uint32_t first = std::max(bottom, first_plane_);
+    const std::uint32_t end = std::min(bottom + kChunkEdge, end_plane_);
+    const std::size_t plane =
+        std::size_t{grid_.vertices[0]} * grid_.vertices[1] * size_of(store_.info().type);
+    std::memcpy(values_.get() + (first - first_plane_) * plane,
+                next.values_.get() + (first - next.first_plane_) * plane, (end - first) * plane);
 }
 
 void StepSlab::fill_all() {

@@ -50,6 +50,14 @@ class StepSlab {
     void fill_around(std::span<const CellId> cells, bool normals);
     void fill_all();
 
+    /// Moves to a layer of which all chunks will be `put`; nothing more is read.
+    void begin_whole(std::uint32_t step, std::uint32_t layer, std::stop_token stop);
+    /// Copies a chunk of this layer to its place. Several threads may do so at once.
+    /// @param candidates its bricks that may hold active cells
+    void put(const Chunk& chunk, std::uint32_t place, BricksOfChunk candidates);
+    /// Copies the planes that this slab needs of the layer next to it.
+    void fill_from(const StepSlab& next);
+
     /// The layer's cells and their vertices; ids are counted from `first_cell()`.
     StepValues cells() const;
     CellId first_cell() const { return plane_cells_ * layer_ * kChunkEdge; }
@@ -68,7 +76,8 @@ class StepSlab {
         if (state == vacant)
             state = needed;
     }
-    void set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y, std::uint32_t candidates);
+    void forget_bricks();
+    void set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y, BricksOfChunk candidates);
     void fill();
     void copy(std::uint32_t layer, std::span<const std::uint32_t> places,
               std::span<const ChunkPtr> chunks);
@@ -83,6 +92,7 @@ class StepSlab {
     std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
     std::vector<std::uint64_t> sides_;               ///< of each column: where its cells lie
     std::vector<const Chunk*> by_column_;            ///< chunks to copy
+    bool whole_ = false;                             ///< all chunks are put, or will be
     std::stop_token stop_;
     std::optional<LayerCandidates> candidates_; ///< have been announced, with what lies around
 };

@@ -1,16 +1,12 @@
 // Reads and decodes chunks.
 #include "index/file/chunk_store.h"
 
-#include "index/error.h"
-#include "index/file/chunk_codec.h"
 #include "index/file/metadata.h"
 #include "index/file/step_levels.h"
 #include "index/scan/brick_tiles.h"
 #include "index/system/huge_pages.h"
 #include "index/system/parallel.h"
 #include "index/system/read_ahead.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
@@ -21,11 +17,6 @@ namespace {
 
 enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept, tiles_kept, kinds };
 
-/// Records with fewer bytes than this between them are read together: a disk reads these in the
-/// time of one more request.
-constexpr std::uint64_t kNear = 16 << 10;
-/// Most bytes that are read at a time: they are decoded while in the processor's cache.
-constexpr std::uint64_t kTogether = 256 << 10;
 /// Bytes of tables that are read at a time.
 constexpr std::uint64_t kTables = 1 << 20;
 /// A step up to this size is always decoded as a whole, which takes less time than choosing chunks.
@@ -47,35 +38,13 @@ LargeMemory step_memory(std::size_t bytes) {
     return memory;
 }
 
-/// Records that are read together.
-struct Run {
-    std::size_t first, last; ///< of the places
-    std::uint64_t begin, end;
-};
-
-/// @param places ascending
-std::vector<Run> runs_of(const ChunkLayer& table, std::span<const std::uint32_t> places) {
-    std::vector<Run> runs;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const std::uint64_t begin = table.offsets[places[i]], end = table.offsets[places[i] + 1];
-        if (!runs.empty() && begin - runs.back().end < kNear &&
-            end - runs.back().begin <= kTogether) {
-            runs.back().last = i;
-            runs.back().end = end;
-        } else {
-            runs.push_back({i, i, begin, end});
-        }
-    }
-    return runs;
-}
-
 /// Copies a chunk's bricks to their places in the order of `build_bricks`.
-void place_bricks(const Chunk& chunk, const BrickGrid& grid, const std::array<std::uint32_t, 3>& at,
-                  std::span<std::uint8_t> bricks) {
+void place_bricks(const ChunkBricks& of_chunk, const BrickGrid& grid,
+                  const std::array<std::uint32_t, 3>& at, std::span<std::uint8_t> bricks) {
     for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
         if (const auto brick = brick_of_chunk(grid, at, i)) {
-            bricks[*brick] = chunk.bricks[i];
-            bricks[grid.count() + *brick] = chunk.bricks[kBricksOfChunk + i];
+            bricks[*brick] = of_chunk[i];
+            bricks[grid.count() + *brick] = of_chunk[kBricksOfChunk + i];
         }
 }
 
@@ -83,26 +52,26 @@ void place_bricks(const Chunk& chunk, const BrickGrid& grid, const std::array<st
 
 ChunkStore::ChunkStore(const ByteSource& source, ByteCache& cache, ChunkArray array)
     : source_(source), cache_(cache), array_(std::move(array)), grid_(array_.info.grid),
-      pool_(std::make_shared<SlotPool>(chunk_bytes())), visited_(array_.info.steps()) {
+      decoder_(source_, array_, grid_), pool_(std::make_shared<SlotPool>(chunk_bytes())),
+      visited_(array_.info.steps()) {
     if (!has_step_levels(array_.info.type))
         of_type_ = std::make_shared<LevelMap>(LevelMap::of_type(array_.info.type));
 }
 
+std::size_t ChunkStore::bytes_of(const std::array<std::uint32_t, 3>& size) const {
+    return array_.has_values ? std::size_t{size[0]} * size[1] * size[2] * size_of(array_.info.type)
+                             : 0;
+}
+
 /// Bytes of a Chunk and its values, which follow it in memory.
 std::size_t ChunkStore::chunk_bytes() const {
-    constexpr std::size_t kVertices = std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge;
-    return sizeof(Chunk) + (array_.has_values ? kVertices * size_of(array_.info.type) : 0);
+    return sizeof(Chunk) + most_values();
 }
 
 ByteCache::Key ChunkStore::key(unsigned kind, std::uint32_t step, std::uint32_t layer,
                                std::uint32_t place) const {
     return {std::uint64_t{array_.number * kinds + kind} << 32 | step,
             std::uint64_t{layer} << 32 | place};
-}
-
-void ChunkStore::damaged(std::uint32_t step, const std::string& what) const {
-    throw Error(
-        fmt::format("{}: damaged: {}, step {}: {}", source_.name(), array_.called, step, what));
 }
 
 std::vector<ByteCache::Key> ChunkStore::keys(std::uint32_t step, std::uint32_t layer,
@@ -127,39 +96,13 @@ ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
     source_.read(entry.offset + entry.tables + first * size, bytes);
     std::vector<ByteCache::Entry> tables;
     for (std::uint32_t i = first; i < end; ++i)
-        tables.push_back({key(layer_kept, step, i),
-                          table_from(step, i, std::span(bytes).subspan((i - first) * size, size)),
-                          count * (sizeof(std::uint64_t) + 2)});
+        tables.push_back(
+            {key(layer_kept, step, i),
+             decoder_.table(step, i, std::span(bytes).subspan((i - first) * size, size)),
+             count * (sizeof(std::uint64_t) + 2)});
     auto asked = std::static_pointer_cast<const ChunkLayer>(tables[layer - first].value);
     cache_.add_all(std::move(tables));
     return asked;
-}
-
-ChunkLayerPtr ChunkStore::table_from(std::uint32_t step, std::uint32_t layer,
-                                     std::span<const std::byte> bytes) const {
-    const StepEntry& entry = array_.steps[step];
-    const std::uint32_t count = grid_.chunks_of_layer();
-    LayerHead head;
-    std::memcpy(&head, bytes.data(), sizeof head);
-    if (checksum_of(bytes.subspan(sizeof head.checksum)) != head.checksum)
-        damaged(step, fmt::format("the checksum of the table of layer {} does not match", layer));
-    auto table = std::make_shared<ChunkLayer>();
-    table->offsets.resize(count + 1);
-    table->low.resize(count);
-    table->high.resize(count);
-    std::uint64_t end = head.records;
-    for (std::uint32_t place = 0; place < count; ++place) {
-        ChunkEntry chunk;
-        std::memcpy(&chunk, bytes.data() + sizeof head + place * sizeof chunk, sizeof chunk);
-        table->offsets[place] = entry.offset + end;
-        table->low[place] = chunk.low;
-        table->high[place] = chunk.high;
-        end += chunk.bytes;
-    }
-    table->offsets[count] = entry.offset + end;
-    if (head.records > entry.tables || end > entry.tables)
-        damaged(step, fmt::format("layer {} lies outside its step", layer));
-    return table;
 }
 
 LevelMapPtr ChunkStore::levels(std::uint32_t step) const {
@@ -175,36 +118,47 @@ LevelMapPtr ChunkStore::levels(std::uint32_t step) const {
     source_.read(entry.offset + begin, bytes);
     const auto levels = step_levels(array_.info.type, bytes);
     if (!levels)
-        damaged(step, "the levels of its bricks");
+        decoder_.damaged(step, "the levels of its bricks");
     auto kept = std::make_shared<LevelMap>(*levels);
     // For types of two bytes the map has a table, too.
     cache_.add(at, kept, bytes.size() + (size_of(array_.info.type) == 2 ? 1 << 16 : 0));
     return kept;
 }
 
-std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t layer,
-                                 std::span<const std::uint32_t> places) const {
+std::vector<std::uint32_t> ChunkStore::missing(std::uint32_t step, std::uint32_t layer,
+                                               std::span<const std::uint32_t> places) const {
     const std::vector<bool> held = cache_.held(keys(step, layer, places));
     std::vector<std::uint32_t> missing;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (!held[i])
             missing.push_back(places[i]);
+    return missing;
+}
+
+/// @param missing places that are not in the cache, ascending
+std::uint64_t ChunkStore::announce(std::uint32_t step, std::uint32_t layer,
+                                   std::span<const std::uint32_t> missing) const {
     std::uint64_t bytes = 0;
     if (missing.empty())
         return bytes;
-    for (const Run& run : runs_of(*this->layer(step, layer), missing)) {
+    for (const RecordRun& run : runs_of(*this->layer(step, layer), missing)) {
         source_.expect(run.begin, run.end - run.begin);
         bytes += run.end - run.begin;
     }
     return bytes;
 }
 
+std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t layer,
+                                 std::span<const std::uint32_t> places) const {
+    return announce(step, layer, missing(step, layer, places));
+}
+
 std::uint64_t ChunkStore::fetch(std::uint32_t step, std::uint32_t layer,
                                 std::span<const std::uint32_t> places,
                                 const std::stop_token& stop) const {
-    const std::vector<bool> held = cache_.held(keys(step, layer, places));
-    if (!fetches_all(static_cast<std::size_t>(std::ranges::count(held, false))))
-        return expect(step, layer, places);
+    const std::vector<std::uint32_t> missing = this->missing(step, layer, places);
+    if (!fetches_all(missing.size()))
+        return announce(step, layer, missing);
     const ChunkLayerPtr table = this->layer(step, layer);
     source_.fetch(table->offsets.front(), table->offsets.back() - table->offsets.front(), stop);
     return table->offsets.back() - table->offsets.front();
@@ -215,7 +169,7 @@ template <class F>
 void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
                               const std::stop_token& stop, F&& f) const {
     thread_local std::vector<std::byte> bytes;
-    for (const Run& run : runs_of(table, places)) {
+    for (const RecordRun& run : runs_of(table, places)) {
         if (stop.stop_requested())
             throw Stopped();
         bytes.resize(std::max<std::size_t>(bytes.size(), run.end - run.begin));
@@ -230,31 +184,13 @@ void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint
 
 ChunkPtr ChunkStore::decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                              std::span<const std::byte> record) const {
-    const auto refuse = [&](const char* what) {
-        const auto [x, y] = grid_.at(place);
-        damaged(step, fmt::format("chunk {} {} {}: {}", x, y, layer, what));
-    };
-    RecordChecksum checksum = 0;
-    const std::size_t head = sizeof checksum + (array_.has_bricks ? sizeof(ChunkBricks) : 0);
-    if (record.size() < head)
-        refuse("too short");
-    std::memcpy(&checksum, record.data(), sizeof checksum);
-    if (record_checksum(record.subspan(sizeof checksum)) != checksum)
-        refuse("its checksum does not match");
     std::byte* const slot = pool_->take();
     const std::shared_ptr<Chunk> chunk(new (slot) Chunk, [pool = pool_](Chunk* done) {
         pool->give_back(reinterpret_cast<std::byte*>(done));
     });
     chunk->size = grid_.size(layer, place);
-    if (array_.has_bricks)
-        std::memcpy(chunk->bricks.data(), record.data() + sizeof checksum, sizeof(ChunkBricks));
-    if (!array_.has_values)
-        return chunk;
-    const auto& size = chunk->size;
-    const std::span values(slot + sizeof(Chunk),
-                           std::size_t{size[0]} * size[1] * size[2] * size_of(array_.info.type));
-    if (!unpack_chunk(array_.info.type, size, record.subspan(head), values))
-        refuse("it cannot be unpacked");
+    const std::span values(slot + sizeof(Chunk), bytes_of(chunk->size));
+    decoder_.chunk(step, layer, place, record, chunk->bricks, values);
     chunk->values = values;
     return chunk;
 }
@@ -318,19 +254,23 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
             if (ahead)
                 ahead->reach(layer);
             const ChunkLayerPtr table = this->layer(step, layer);
+            std::vector<std::byte> values(most_values());
+            ChunkBricks of_chunk;
             read_records(
                 *table, places, stop, [&](std::size_t i, std::span<const std::byte> record) {
-                    const ChunkPtr chunk = decoded(step, layer, places[i], record);
+                    const auto extent = grid_.size(layer, places[i]);
+                    decoder_.chunk(step, layer, places[i], record, of_chunk,
+                                   std::span(values).first(bytes_of(extent)));
                     const auto [x, y] = grid_.at(places[i]);
                     if (array_.has_bricks)
-                        place_bricks(*chunk, bricks, {x, y, layer}, all->bricks);
-                    const std::byte* from = chunk->values.data();
-                    for (std::uint32_t dz = 0; array_.has_values && dz < chunk->size[2]; ++dz)
-                        for (std::uint32_t dy = 0; dy < chunk->size[1]; ++dy) {
+                        place_bricks(of_chunk, bricks, {x, y, layer}, all->bricks);
+                    const std::byte* from = values.data();
+                    for (std::uint32_t dz = 0; array_.has_values && dz < extent[2]; ++dz)
+                        for (std::uint32_t dy = 0; dy < extent[1]; ++dy) {
                             std::memcpy(out + (layer * kChunkEdge + dz) * plane +
                                             (y * kChunkEdge + dy) * row + x * kChunkEdge * size,
-                                        from, chunk->size[0] * size);
-                            from += chunk->size[0] * size;
+                                        from, extent[0] * size);
+                            from += extent[0] * size;
                         }
                 });
         };
@@ -351,11 +291,10 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
 
 std::uint64_t ChunkStore::missing_bytes(std::uint32_t step, std::uint32_t layer,
                                         std::span<const std::uint32_t> places) const {
-    const std::vector<bool> held = cache_.held(keys(step, layer, places));
     const ChunkLayerPtr table = this->layer(step, layer);
     std::uint64_t bytes = 0;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        bytes += held[i] ? 0 : table->offsets[places[i] + 1] - table->offsets[places[i]];
+    for (const std::uint32_t place : missing(step, layer, places))
+        bytes += table->offsets[place + 1] - table->offsets[place];
     return bytes;
 }
 
@@ -388,8 +327,12 @@ bool ChunkStore::better_whole(std::uint32_t step) const {
     const std::uint64_t bytes = array_.info.step_bytes();
     if (bytes > cache_.use().budget / 4)
         return false;
+    return bytes <= (was_worked_on(step) ? kModerateStep : kSmallStep);
+}
+
+bool ChunkStore::was_worked_on(std::uint32_t step) const {
     const std::scoped_lock lock(visits_mutex_);
-    return bytes <= (visited_[step] ? kModerateStep : kSmallStep);
+    return visited_[step];
 }
 
 void ChunkStore::worked_on(std::uint32_t step) const {

@@ -3,8 +3,7 @@
 
 #include "index/file/byte_cache.h"
 #include "index/file/chunk_grid.h"
-#include "index/file/chunk_table.h"
-#include "index/file/file_layout.h"
+#include "index/file/chunk_records.h"
 #include "index/file/index_contents.h"
 #include "index/system/huge_pages.h"
 #include "index/system/slot_pool.h"
@@ -27,13 +26,7 @@ struct Chunk {
 };
 using ChunkPtr = std::shared_ptr<const Chunk>;
 
-/// The byte offsets of a layer's chunks, and the range of ranks in each.
-struct ChunkLayer {
-    std::vector<std::uint64_t> offsets;  ///< in the file, by place, then the end of the last chunk
-    std::vector<std::uint8_t> low, high; ///< by place
-};
 using LevelMapPtr = std::shared_ptr<const LevelMap>;
-using ChunkLayerPtr = std::shared_ptr<const ChunkLayer>;
 
 /// The tiles of a step (brick_tiles.h).
 struct StepTiles {
@@ -49,15 +42,6 @@ using StepTilesPtr = std::shared_ptr<const StepTiles>;
 /// Thrown by a read that was asked to stop.
 struct Stopped {};
 
-/// What must be known of an array before its chunks can be read.
-struct ChunkArray {
-    std::string called;       ///< its name in messages: `volume`
-    std::uint32_t number = 0; ///< different for each array that shares a cache
-    SeriesInfo info;
-    std::vector<StepEntry> steps;
-    bool has_bricks = false, has_values = true;
-};
-
 /// Thread-safe. Functions that read the file throw Error if it is damaged or cannot be read.
 class ChunkStore {
   public:
@@ -66,6 +50,8 @@ class ChunkStore {
 
     const SeriesInfo& info() const { return array_.info; }
     const ChunkGrid& grid() const { return grid_; }
+    const ChunkDecoder& decoder() const { return decoder_; }
+    const ByteSource& source() const { return source_; }
 
     /// The table of a layer; if it is not in the cache, tables of neighboring layers are read too.
     ChunkLayerPtr layer(std::uint32_t step, std::uint32_t layer) const;
@@ -104,11 +90,17 @@ class ChunkStore {
     /// Bytes that `whole` would read.
     std::uint64_t missing_bytes(std::uint32_t step) const;
 
+    /// Bytes of the values of a chunk of so many vertices.
+    std::size_t bytes_of(const std::array<std::uint32_t, 3>& size) const;
+    /// The same of a chunk that is not clipped.
+    std::size_t most_values() const { return bytes_of({kChunkEdge, kChunkEdge, kChunkEdge}); }
+
     /// Whether work on the whole step is faster than on the needed chunks alone: if the step is
     /// small, or of moderate size and `worked_on` before, and fits into a quarter of the cache.
     bool better_whole(std::uint32_t step) const;
     /// Notes that a step has been worked on.
     void worked_on(std::uint32_t step) const;
+    bool was_worked_on(std::uint32_t step) const;
 
   private:
     ByteCache::Key key(unsigned kind, std::uint32_t step, std::uint32_t layer = 0,
@@ -119,16 +111,17 @@ class ChunkStore {
     template <class F>
     void read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
                       const std::stop_token& stop, F&& f) const;
+    std::vector<std::uint32_t> missing(std::uint32_t step, std::uint32_t layer,
+                                       std::span<const std::uint32_t> places) const;
+    std::uint64_t announce(std::uint32_t step, std::uint32_t layer,
+                           std::span<const std::uint32_t> missing) const;
     std::vector<ByteCache::Key> keys(std::uint32_t step, std::uint32_t layer,
                                      std::span<const std::uint32_t> places) const;
-    ChunkLayerPtr table_from(std::uint32_t step, std::uint32_t layer,
-                             std::span<const std::byte> bytes) const;
-    [[noreturn]] void damaged(std::uint32_t step, const std::string& what) const;
-
     const ByteSource& source_;
     ByteCache& cache_;
     ChunkArray array_;
     ChunkGrid grid_;
+    ChunkDecoder decoder_;
     LevelMapPtr of_type_;            ///< levels of all steps, for an 8-bit type
     std::shared_ptr<SlotPool> pool_; ///< memory of chunks with their values
     mutable std::mutex visits_mutex_;

@@ -22,6 +22,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t kRow = 16; ///< numbers in a row, which has its own number of bits
 constexpr unsigned kMostBits = 8;
 
+unsigned width_of(const std::byte* widths, std::size_t row) {
+    return std::to_integer<unsigned>(widths[row / 2]) >> row % 2 * 4 & 15;
+}
+
 #if HWY_TARGET == HWY_SCALAR
 std::uint8_t folded(std::uint8_t number) {
     return static_cast<std::uint8_t>(number << 1 ^ (number & 0x80 ? 0xff : 0));
@@ -51,9 +55,6 @@ void numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
                 (std::to_integer<unsigned>(planes[2 * bit + i / 8]) >> i % 8 & 1) << bit);
     std::ranges::transform(numbers, out, unfolded);
 }
-void whole_numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
-    numbers_of(planes, bits, out);
-}
 #else
 unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostBits>& planes) {
     const hn::CappedTag<std::uint8_t, kRow> d;
@@ -73,34 +74,71 @@ unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostB
     return bits;
 }
 
-/// @param planes must have 16 readable bytes, the size of eight planes
-HWY_INLINE void whole_numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
-    const hn::CappedTag<std::uint8_t, kRow> d;
-    auto fold = hn::Zero(d);
-    // Reads eight planes, even those of the next row: testing at each costs more.
-    for (unsigned bit = 0; bit < kMostBits; ++bit) {
-        std::array<std::uint8_t, 8> stored; // LoadMaskBits reads eight bytes
-        std::uint64_t plane = 0;
-        std::memcpy(&plane, planes + 2 * bit, 2);
-        std::memcpy(stored.data(), &plane, sizeof plane);
-        const auto set = hn::LoadMaskBits(d, stored.data());
-        fold =
-            hn::Or(fold, hn::IfThenElseZero(set, hn::Set(d, static_cast<std::uint8_t>(1u << bit))));
+/// Vectors of which the half of a half has a whole number of rows.
+using Rows = hn::CappedTag<std::uint8_t, HWY_HAVE_SCALABLE ? kRow : 4 * kRow>;
+
+/// By number of bits: all ones in the bytes of a row's planes, zeros in what follows them.
+alignas(kRow) constexpr auto kOwnPlanes = [] {
+    std::array<std::array<std::uint8_t, kRow>, kMostBits + 1> own{};
+    for (std::size_t bits = 0; bits < own.size(); ++bits)
+        std::fill_n(own[bits].begin(), 2 * bits, std::uint8_t{0xff});
+    return own;
+}();
+
+/// The planes of as many rows as a vector holds. Reads the bytes of eight planes for each, even
+/// those of the next row: testing at each costs more.
+/// @param at of the planes of `row`; moves behind those of the last one
+template <class D>
+HWY_INLINE hn::Vec<D> planes_of_rows(D d, const std::byte* widths, std::size_t row,
+                                     const std::byte*& at) {
+    if constexpr (hn::MaxLanes(d) == kRow) {
+        const unsigned bits = width_of(widths, row);
+        const auto planes = hn::And(hn::LoadU(d, reinterpret_cast<const std::uint8_t*>(at)),
+                                    hn::Load(d, kOwnPlanes[bits].data()));
+        at += 2 * bits;
+        return planes;
+    } else {
+        const hn::Half<D> half;
+        const auto low = planes_of_rows(half, widths, row, at);
+        return hn::Combine(d, planes_of_rows(half, widths, row + hn::MaxLanes(half) / kRow, at),
+                           low);
     }
-    fold = hn::And(fold, hn::Set(d, static_cast<std::uint8_t>((1u << bits) - 1)));
-    const auto sign = hn::Sub(hn::Zero(d), hn::And(fold, hn::Set(d, std::uint8_t{1})));
-    // Bytes have no shift of their own: the bit that comes in from above is masked away.
-    const hn::Repartition<std::uint16_t, decltype(d)> wide;
-    const auto half = hn::And(hn::BitCast(d, hn::ShiftRight<1>(hn::BitCast(wide, fold))),
-                              hn::Set(d, std::uint8_t{0x7f}));
-    hn::StoreU(hn::Xor(half, sign), d, out);
 }
 
-/// The same at the end of the bytes, where eight planes cannot be read.
+/// Exchanges the bits of `mask` with those `kBack` above them.
+template <int kBack, class D>
+HWY_INLINE hn::Vec<D> exchange(D d, hn::Vec<D> words, std::uint64_t mask) {
+    const auto changed = hn::And(hn::Xor(words, hn::ShiftRight<kBack>(words)), hn::Set(d, mask));
+    return hn::Xor(words, hn::Xor(changed, hn::ShiftLeft<kBack>(changed)));
+}
+
+/// Numbers from the planes of rows.
+template <class D>
+HWY_INLINE hn::Vec<D> numbers_of_planes(D d, hn::Vec<D> planes) {
+    // The bytes of the first eight numbers, then those of the others: two squares of 8 x 8 bits.
+    alignas(kRow) static constexpr std::array<std::uint8_t, kRow> kHalves{
+        0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15};
+    const hn::Repartition<std::uint64_t, D> squares;
+    auto bits =
+        hn::BitCast(squares, hn::TableLookupBytes(planes, hn::LoadDup128(d, kHalves.data())));
+    // Rows and columns of each square change places: single bits, then 2 x 2 and 4 x 4 of them.
+    bits = exchange<7>(squares, bits, 0x00aa00aa00aa00aa);
+    bits = exchange<14>(squares, bits, 0x0000cccc0000cccc);
+    bits = exchange<28>(squares, bits, 0x00000000f0f0f0f0);
+    const auto fold = hn::BitCast(d, bits);
+    const auto sign = hn::Sub(hn::Zero(d), hn::And(fold, hn::Set(d, std::uint8_t{1})));
+    // Bytes have no shift of their own: the bit that comes in from above is masked away.
+    const hn::Repartition<std::uint16_t, D> wide;
+    const auto half = hn::And(hn::BitCast(d, hn::ShiftRight<1>(hn::BitCast(wide, fold))),
+                              hn::Set(d, std::uint8_t{0x7f}));
+    return hn::Xor(half, sign);
+}
+
 void numbers_of(const std::byte* planes, unsigned bits, std::uint8_t* out) {
-    std::array<std::byte, 2 * kMostBits> copy{};
-    std::copy_n(planes, 2 * bits, copy.begin());
-    whole_numbers_of(copy.data(), bits, out);
+    const hn::CappedTag<std::uint8_t, kRow> d;
+    alignas(kRow) std::array<std::uint8_t, kRow> own{};
+    std::memcpy(own.data(), planes, 2 * bits);
+    hn::StoreU(numbers_of_planes(d, hn::Load(d, own.data())), d, out);
 }
 #endif
 
@@ -125,30 +163,41 @@ void pack(const std::uint8_t* numbers, std::size_t count, std::vector<std::byte>
     out.resize(static_cast<std::size_t>(at - out.data()));
 }
 
+/// Whether each of so many rows has a width that there is, and all of them take `planes` bytes.
+bool are_widths(const std::byte* widths, std::size_t rows, std::size_t planes) {
+    std::size_t bits = 0;
+    bool fit = true;
+    for (std::size_t i = 0; i < (rows + 1) / 2; ++i) {
+        const auto both = std::to_integer<std::uint8_t>(widths[i]);
+        const std::uint8_t low = both & 15, high = both >> 4;
+        fit &= low <= kMostBits && high <= kMostBits;
+        bits += low + high;
+    }
+    return fit && planes == 2 * bits && (rows % 2 == 0 || width_of(widths, rows) == 0);
+}
+
 bool unpack(const std::byte* packed, std::size_t size, std::uint8_t* out, std::size_t count) {
     const std::size_t rows = (count + kRow - 1) / kRow, widths = (rows + 1) / 2;
-    if (size < widths)
+    if (size < widths || !are_widths(packed, rows, size - widths))
         return false;
     const std::byte* at = packed + widths;
+    std::size_t row = 0;
+#if HWY_TARGET != HWY_SCALAR
+    const Rows d;
+    const std::size_t lanes = hn::Lanes(d), whole = count / kRow;
     const std::byte* const end = packed + size;
-    for (std::size_t row = 0; row < rows; ++row) {
-        const unsigned bits = std::to_integer<unsigned>(packed[row / 2]) >> row % 2 * 4 & 15;
-        const auto there = static_cast<std::size_t>(end - at);
-        if (bits > kMostBits || there < 2 * bits)
-            return false;
-        if (const std::size_t left = count - row * kRow; left >= kRow && there >= 2 * kMostBits) {
-            whole_numbers_of(at, bits, out + row * kRow);
-        } else if (left < kRow) {
-            std::array<std::uint8_t, kRow> last;
-            numbers_of(at, bits, last.data());
-            std::copy_n(last.begin(), left, out + row * kRow);
-        } else {
-            numbers_of(at, bits, out + row * kRow);
-        }
+    for (; row + lanes / kRow <= whole && static_cast<std::size_t>(end - at) >= lanes;
+         row += lanes / kRow)
+        hn::StoreU(numbers_of_planes(d, planes_of_rows(d, packed, row, at)), d, out + row * kRow);
+#endif
+    for (; row < rows; ++row) {
+        const unsigned bits = width_of(packed, row);
+        std::array<std::uint8_t, kRow> numbers;
+        numbers_of(at, bits, numbers.data());
+        std::copy_n(numbers.begin(), std::min(kRow, count - row * kRow), out + row * kRow);
         at += 2 * bits;
     }
-    const bool rest = rows % 2 && std::to_integer<unsigned>(packed[rows / 2]) >> 4;
-    return at == end && !rest;
+    return true;
 }
 
 } // namespace

@@ -2,18 +2,15 @@
 #include "index/system/byte_source.h"
 
 #include "index/error.h"
-#include "index/system/descriptor.h"
 #include "index/system/input_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <mutex>
 #include <vector>
 
 #include <fcntl.h>
-#include <unistd.h>
 
 namespace isochron::index {
 namespace {
@@ -41,23 +38,22 @@ class OpenFile final : public ByteSource {
 
     void fetch(std::uint64_t offset, std::uint64_t bytes,
                const std::stop_token& stop) const override {
-        // Advice holds for a description of the file, so this one has its own, on which the kernel
-        // reads ahead as it sees fit: in large requests, and into large folios.
-        std::call_once(opened_, [this] {
-            const std::string same = fmt::format("/proc/self/fd/{}", file_.descriptor());
-            in_order_ = Descriptor(::open(same.c_str(), O_RDONLY | O_CLOEXEC));
-        });
-        if (!in_order_)
+        const InputFile* const file = in_order();
+        if (!file)
             return expect(offset, bytes);
         thread_local std::vector<std::byte> unused;
         unused.resize(kFetched);
-        for (const std::uint64_t end = offset + bytes; offset < end && !stop.stop_requested();) {
-            const ssize_t got = ::pread(in_order_.number(), unused.data(),
-                                        std::min<std::uint64_t>(kFetched, end - offset),
-                                        static_cast<off_t>(offset));
-            if (got == 0 || (got < 0 && errno != EINTR))
-                return;
-            offset += static_cast<std::uint64_t>(std::max<ssize_t>(got, 0));
+        try {
+            for (const std::uint64_t end = offset + bytes;
+                 offset < end && !stop.stop_requested();) {
+                const std::size_t got = file->read(
+                    offset,
+                    std::span(unused).first(std::min<std::uint64_t>(kFetched, end - offset)));
+                if (got == 0)
+                    return;
+                offset += got;
+            }
+        } catch (const Error&) { // whoever reads these bytes gets it, too
         }
     }
 
@@ -65,19 +61,38 @@ class OpenFile final : public ByteSource {
     std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
         return file_.read(offset, out);
     }
+    std::size_t read_some_in_order(std::uint64_t offset, std::span<std::byte> out) const override {
+        const InputFile* const file = in_order();
+        return (file ? *file : file_).read(offset, out);
+    }
 
   private:
+    /// The file without the advice above: the kernel reads ahead as it sees fit, in large requests
+    /// and into large folios. Null if it cannot be opened again.
+    const InputFile* in_order() const {
+        std::call_once(opened_, [this] { in_order_ = file_.opened_again(); });
+        return in_order_.get();
+    }
+
     std::string name_;
     InputFile file_;
     mutable std::once_flag opened_;
-    mutable Descriptor in_order_; ///< of the same file
+    mutable std::unique_ptr<InputFile> in_order_;
 };
 
 } // namespace
 
 void ByteSource::read(std::uint64_t offset, std::span<std::byte> out) const {
+    read_all(&ByteSource::read_some, offset, out);
+}
+
+void ByteSource::read_in_order(std::uint64_t offset, std::span<std::byte> out) const {
+    read_all(&ByteSource::read_some_in_order, offset, out);
+}
+
+void ByteSource::read_all(Some some, std::uint64_t offset, std::span<std::byte> out) const {
     while (!out.empty()) {
-        const std::size_t count = read_some(offset, out);
+        const std::size_t count = (this->*some)(offset, out);
         if (count == 0)
             throw Error(fmt::format("{}: truncated: nothing at byte {}, it had {} bytes when it "
                                     "was opened",

@@ -23,7 +23,10 @@ class ByteSource {
     /// Fills `out` with the bytes from `offset` on.
     /// @throws Error with the system's message, or saying that the file has become shorter
     void read(std::uint64_t offset, std::span<std::byte> out) const;
-    /// Bytes that `read` has given so far.
+    /// The same, for a caller that reads much of the file in order, on one thread: what follows is
+    /// read ahead.
+    void read_in_order(std::uint64_t offset, std::span<std::byte> out) const;
+    /// Bytes that have been read so far.
     std::uint64_t bytes_read() const { return bytes_read_; }
     /// Announces that these bytes are needed soon, so that the disk works on many requests at once.
     virtual void expect(std::uint64_t /*offset*/, std::uint64_t /*bytes*/) const {}
@@ -39,8 +42,14 @@ class ByteSource {
     /// Reads some of the bytes. @return how many; 0 at the end of the file
     /// @throws Error naming the file
     virtual std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const = 0;
+    virtual std::size_t read_some_in_order(std::uint64_t offset, std::span<std::byte> out) const {
+        return read_some(offset, out);
+    }
 
   private:
+    using Some = std::size_t (ByteSource::*)(std::uint64_t, std::span<std::byte>) const;
+    void read_all(Some some, std::uint64_t offset, std::span<std::byte> out) const;
+
     mutable std::atomic<std::uint64_t> bytes_read_{0};
 };
 

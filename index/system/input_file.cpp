@@ -92,6 +92,11 @@ std::size_t InputFile::read(std::uint64_t offset, std::span<std::byte> out) cons
     return done;
 }
 
+std::unique_ptr<InputFile> InputFile::opened_again() const {
+    const int again = ::open(fmt::format("/proc/self/fd/{}", file_).c_str(), O_RDONLY | O_CLOEXEC);
+    return again < 0 ? nullptr : std::unique_ptr<InputFile>(new InputFile(path_, again, size_));
+}
+
 InputStream::InputStream(const std::filesystem::path& path)
     : std::istream(nullptr), buffer_(open_regular(path), std::ios::in | std::ios::binary) {
     rdbuf(&buffer_);

@@ -6,8 +6,10 @@
 #include <ext/stdio_filebuf.h>
 #include <filesystem>
 #include <istream>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace isochron::index {
 
@@ -42,7 +44,14 @@ class InputFile {
     /// @throws Error naming the file when the system cannot read it
     std::size_t read(std::uint64_t offset, std::span<std::byte> out) const;
 
+    /// The same file, opened once more: advice to the kernel on how one of them is read does not
+    /// hold for the other. Null if the system refuses.
+    std::unique_ptr<InputFile> opened_again() const;
+
   private:
+    InputFile(std::filesystem::path path, int file, std::uint64_t size)
+        : path_(std::move(path)), file_(file), size_(size) {}
+
     std::filesystem::path path_;
     int file_ = -1;
     std::uint64_t size_ = 0;

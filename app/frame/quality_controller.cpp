@@ -58,8 +58,8 @@ const char* name_of(QualityReason reason) {
 }
 
 void QualityController::measured(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
-    if (load.cells <= 0)
-        return; // the cost of drawing nothing tells nothing about cells
+    if (load.cells <= 0) // tells what any picture costs
+        return of(Footprint::quad).cost.add(load, cost);
     Candidate& candidate = of(footprint);
     const bool first = !candidate.known && !candidate.failed;
     if (std::exchange(sampled_, footprint) != footprint && (first || cost > budget_)) {

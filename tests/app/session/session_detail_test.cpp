@@ -49,6 +49,8 @@ void* with_little_room(std::string_view name, void* found) {
     return found;
 }
 
+constexpr std::uint64_t kFew = 1 << 14; ///< cells: less than a third of those of `large_`
+
 class SessionDetail : public SessionTest {
   protected:
     SessionDetail()
@@ -87,11 +89,11 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, true);
         return report.coarsest > 0 && report.pace == interaction::Pace::settled &&
-               report.cells <= 2 * DetailChoice::kFewest; // once a time has been measured
+               report.cells <= 2 * kFew; // once a time has been measured
     }));
     for (int i = 0; i < 60; ++i) {
         report = frame(session, true);
-        ASSERT_LE(report.cells, 2 * DetailChoice::kFewest) << i;
+        ASSERT_LE(report.cells, 2 * kFew) << i;
     }
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
@@ -102,15 +104,33 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
         return report.coarsest == 0 && report.final;
     }));
     const std::uint64_t all = report.cells;
-    EXPECT_GT(all, 3 * DetailChoice::kFewest);
+    EXPECT_GT(all, 3 * kFew);
     EXPECT_EQ(report.volume_cells, all);
     for (int i = 0; i < 20; ++i)
         EXPECT_EQ(frame(session, false).cells, all);
     for (int i = 0; i < 3; ++i)
         report = frame(session, true); // by the last one the head has moved
     EXPECT_GT(report.coarsest, 0u) << "in the frame in which it moves";
-    EXPECT_LE(report.cells, 2 * DetailChoice::kFewest);
+    EXPECT_LE(report.cells, 2 * kFew);
     EXPECT_EQ(report.volume_cells, all) << "it is known";
+}
+
+TEST_P(SessionDetail, AFinerSetIsDrawnOnceItsVolumeIsThereAndInSlices) {
+    Config config = config_with(1e-6);
+    config.upload_kilobytes_per_frame = 16; // many frames long, cells and volume are on their way
+    Session session(config, large_, *context_);
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, false, first);
+    ASSERT_TRUE(test_support::eventually([&] {
+        const bool showed = report.cells > 0;
+        report = frame(session, false);
+        if (showed && report.redrawn && report.coarsest == 0) {
+            EXPECT_EQ(report.reason, QualityReason::in_slices);
+            EXPECT_EQ(report.footprint, render::Footprint::surface);
+        }
+        return report.coarsest == 0 && report.final && report.cells > 0;
+    }));
 }
 
 TEST_P(SessionDetail, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThemSoon) {
@@ -137,7 +157,7 @@ TEST_P(SessionDetail, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfT
             return ends();
         }));
         EXPECT_EQ(report.coarsest, 0u);
-        EXPECT_GT(report.cells, 3 * DetailChoice::kFewest);
+        EXPECT_GT(report.cells, 3 * kFew);
         EXPECT_EQ(report.footprint, render::Footprint::surface);
         EXPECT_GT(coarse, 0) << "all cells take long";
         for (int i = 0; i < 3; ++i)

@@ -7,10 +7,16 @@
 namespace isochron::app {
 namespace {
 
-constexpr double kKept = 0.9; ///< weight of a measurement relative to the next one that tells the same
+constexpr double kKept =
+    0.9; ///< weight of a measurement relative to the next one that tells the same
 /// Information on the difference between the two parts that is as good as none, beside 1 of a
 /// measurement: times scatter by some tenths, so loads that differ by a tenth tell nothing.
 constexpr double kScatter = 0.02;
+
+/// Growth of the time, at least, where there are more cells than were ever measured, beside that of
+/// their number: a first picture without cells may have taken longer than later ones with some, as
+/// if any number of cells cost nothing.
+constexpr double kLeastGrowth = 0.05;
 
 /// What a load is measured in, so that the units favor neither part.
 double unit_of(double load, double information) {
@@ -21,6 +27,7 @@ double unit_of(double load, double information) {
 
 void DrawCost::add(const DrawLoad& load, Milliseconds time) {
     measured_ = true;
+    most_cells_ = std::max(most_cells_, load.cells);
     // Forget along this load.
     const double along_pixels = pixels_pixels_ * load.pixels + pixels_cells_ * load.cells;
     const double along_cells = pixels_cells_ * load.pixels + cells_cells_ * load.cells;
@@ -56,8 +63,14 @@ std::optional<Milliseconds> DrawCost::predict(const DrawLoad& load) const {
         of_cell += of_pixel * pixels_cells_ / cells_cells_;
     else if (of_cell < 0 && pixels_pixels_ > 0)
         of_pixel += of_cell * pixels_cells_ / pixels_pixels_;
-    return Milliseconds(std::max(of_pixel, 0.0) * load.pixels +
-                        std::max(of_cell, 0.0) * load.cells);
+    const auto fitted = [&](double cells) {
+        return std::max(of_pixel, 0.0) * load.pixels + std::max(of_cell, 0.0) * cells;
+    };
+    double time = fitted(load.cells);
+    if (load.cells > most_cells_ && most_cells_ > 0)
+        time = std::max(time,
+                        fitted(most_cells_) * (1 + kLeastGrowth * (load.cells / most_cells_ - 1)));
+    return Milliseconds(time);
 }
 
 } // namespace isochron::app

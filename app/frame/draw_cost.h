@@ -32,6 +32,7 @@ class DrawCost {
     double of_pixel_ = 0, of_cell_ = 0; ///< [ms]; may be below 0
     /// Sums of products of the loads, with what is forgotten taken off: the information matrix.
     double pixels_pixels_ = 0, pixels_cells_ = 0, cells_cells_ = 0;
+    double most_cells_ = 0; ///< of a measurement
     bool measured_ = false;
 };
 

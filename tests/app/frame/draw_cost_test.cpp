@@ -76,6 +76,15 @@ TEST_F(DrawCostTest, APictureWithoutCellsTellsWhatPixelsCost) {
     EXPECT_FALSE(nothing.predict({100, 100}).has_value());
 }
 
+TEST_F(DrawCostTest, ManyMoreCellsAreDearEvenIfAPictureWithoutAnyTookLonger) {
+    DrawCost cost;
+    cost.add({0, 1e6}, Milliseconds(25)); // the first of a session
+    for (int i = 0; i < 5; ++i)
+        cost.add({10'000, 1e6}, Milliseconds(15));
+    EXPECT_GT(cost.predict({3e6, 1e6})->count(), 200);
+    EXPECT_NEAR(cost.predict({10'000, 1e6})->count(), 15, 2);
+}
+
 TEST_F(DrawCostTest, ManyFramesOfOneLoadLeaveWhatIsKnownOfOthers) {
     DrawCost cost;
     cost.add({0, 1e6}, Milliseconds(2));

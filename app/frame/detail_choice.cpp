@@ -12,9 +12,9 @@
 namespace isochron::app {
 namespace {
 
-constexpr double kUp = 1.4;    ///< times a number of cells must fit before it is taken up
-constexpr double kDown = 0.9;  ///< and below this share of it, it is left
-constexpr int kMostSteps = 2;  ///< by which it grows at a time: twice as many
+constexpr double kUp = 1.4;   ///< times a number of cells must fit before it is taken up
+constexpr double kDown = 0.9; ///< and below this share of it, it is left
+constexpr int kMostSteps = 2; ///< by which it grows at a time: twice as many
 /// Share of what was seen when a number was chosen; where less is seen, it does not grow.
 constexpr double kAsMuchSeen = 0.9;
 constexpr double kStay = 0.25; ///< levels beyond its range within which a wish stays

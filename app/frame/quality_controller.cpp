@@ -217,8 +217,7 @@ void QualityController::step_up(const QualityInput& input) {
 bool QualityController::has_room(const QualityInput& input) const {
     const Candidate& now = of(current_);
     const double share = was_moving_ ? kLeast : kRoom;
-    return now.known ? *now.cost.predict(input.load) <= share * budget_
-                     : bearable(current_, input);
+    return now.known ? *now.cost.predict(input.load) <= share * budget_ : bearable(current_, input);
 }
 
 /// Whether a frame with this footprint may be drawn to measure it.

@@ -68,7 +68,9 @@ class Scene {
     bool is_complete() const { return !drawn().wants_volume(); }
     /// The same for the set of this use, drawn or not; also where there is none.
     bool is_complete(Use use) const {
-        const render::CellBuffers* sets = use == Use::always ? &cells_ : resting_ ? &*resting_ : nullptr;
+        const render::CellBuffers* sets = use == Use::always ? &cells_
+                                          : resting_         ? &*resting_
+                                                             : nullptr;
         return !sets || !sets->shown() || !sets->wants_volume();
     }
     /// Why this set cannot be shown; empty if it can.

@@ -181,7 +181,8 @@ TEST(DetailChoice, CellsThatNobodySeesMakeNoRoomForMore) {
     };
     const render::View whole = view_from(2.0f, 1000);
     render::View half = whole;
-    half.eye_from_room = glm::translate(glm::mat4(1.0f), glm::vec3(0.8f, 0, 0)) * whole.eye_from_room;
+    half.eye_from_room =
+        glm::translate(glm::mat4(1.0f), glm::vec3(0.8f, 0, 0)) * whole.eye_from_room;
     const std::uint64_t chosen = cells(whole, 100'000);
     EXPECT_EQ(cells(half, 1e6), chosen) << "the head turns back soon";
     EXPECT_GT(cells(whole, 1e6), chosen);

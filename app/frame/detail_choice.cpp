@@ -12,8 +12,11 @@
 namespace isochron::app {
 namespace {
 
-constexpr double kUp = 1.4;    ///< times a number of cells must fit before it is taken up
-constexpr double kDown = 0.9;  ///< and below this share of it, it is left
+constexpr double kUp = 1.4;   ///< times a number of cells must fit before it is taken up
+constexpr double kDown = 0.9; ///< and below this share of it, it is left
+constexpr int kMostSteps = 2; ///< by which it grows at a time: twice as many
+/// Share of what was seen when a number was chosen; where less is seen, it does not grow.
+constexpr double kAsMuchSeen = 0.9;
 constexpr double kStay = 0.25; ///< levels beyond its range within which a wish stays
 /// Levels by which voxels at rest are less than a pixel, at first and in the end: the light of
 /// cells that share a pixel is another one at the next level until they are far below it.
@@ -76,6 +79,7 @@ DetailChoice::Box DetailChoice::box_of(std::size_t region, const index::Grid& gr
 
 void DetailChoice::look(std::span<const render::View> views, const render::Placement& placement) {
     ideal_.assign(views.empty() ? 0 : regions_.size(), kFarthest);
+    std::vector<bool> seen(ideal_.size());
     const glm::vec3 spacing = placement.spacing();
     for (const render::View& view : views) {
         const glm::mat4 clip_from_index =
@@ -90,11 +94,15 @@ void DetailChoice::look(std::span<const render::View> views, const render::Place
             const double distance =
                 view.is_parallel() ? 1.0
                                    : glm::length(glm::mat3(placement.room_from_index) * beside);
-            const double level = std::log2(std::max(distance, 1e-3) / pixels) +
-                                 (may_be_seen(clip_from_index, low, high) ? 0.0 : kUnseen);
+            const bool is_seen = may_be_seen(clip_from_index, low, high);
+            seen[i] = seen[i] || is_seen;
+            const double level =
+                std::log2(std::max(distance, 1e-3) / pixels) + (is_seen ? 0.0 : kUnseen);
             ideal_[i] = std::clamp(std::min(ideal_[i], level), kNearest, kFarthest);
         }
     }
+    seen_ = static_cast<double>(std::ranges::count(seen, true)) /
+            static_cast<double>(std::max<std::size_t>(seen.size(), 1));
 }
 
 index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint64_t drawn) {
@@ -102,14 +110,18 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
     const auto holds = [&](int step, double share) {
         return share * static_cast<double>(cells_of(step)) <= cells;
     };
+    const int before = step_;
     if (step_ < 0)
         while (holds(step_ + 1, 1))
             ++step_;
     while (step_ > 0 && !holds(step_, kDown))
         --step_;
     step_ = std::max(step_, 0);
-    if (drawn == cells_of(step_) && drawn < most_ && holds(step_ + 1, kUp))
-        ++step_;
+    if (drawn == cells_of(step_) && drawn < most_ && seen_ >= kAsMuchSeen * seen_then_)
+        for (int more = 0; more < kMostSteps && holds(step_ + 1, kUp); ++more)
+            ++step_;
+    if (step_ != before)
+        seen_then_ = seen_;
     kept_.resize(ideal_.size());
     for (std::size_t i = 0; i < ideal_.size(); ++i) {
         const double wish = kParts * ideal_[i];

@@ -20,10 +20,10 @@ namespace isochron::app {
 class DetailChoice {
   public:
     /// However small the budget, moving pictures may have at least this many cells.
-    static constexpr std::uint64_t kFewest = 1 << 14;
+    static constexpr std::uint64_t kFewest = 1 << 12;
     /// Number before any time has been measured: small, as a set that takes too long to draw is
     /// drawn until the next one comes.
-    static constexpr std::uint64_t kAtFirst = 1 << 15;
+    static constexpr std::uint64_t kAtFirst = 1 << 13;
     /// Volumes of at most this many cells are always shown as they are.
     static constexpr std::uint64_t kSmallVolume = 1 << 18;
 
@@ -44,8 +44,10 @@ class DetailChoice {
     /// shows count as four times as far away. Without views, every level will be 0.
     void look(std::span<const render::View> views, const render::Placement& placement);
 
-    /// For a picture that changes. The number of cells grows by one step at a time, once the last
-    /// one has been drawn, as costs are predicted well only near what has been drawn.
+    /// For a picture that changes. The number of cells grows to twice as many at most, once the last
+    /// ones have been drawn, as costs are predicted well only near what has been drawn. It does not
+    /// grow while less of the volume is seen than when it was chosen: cells that nobody sees cost
+    /// little until the head turns back.
     /// @param fit cells that are expected to fit the budget; empty: not known yet
     /// @param drawn `most_cells` of the cells that are drawn
     index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn);
@@ -71,6 +73,8 @@ class DetailChoice {
     std::uint64_t most_;
     bool small_;
     int step_ = -1;                 ///< the chosen number of cells; below 0: none yet
+    double seen_ = 0;               ///< share of the regions that some view may show
+    double seen_then_ = 0;          ///< the same when the number was chosen
     std::vector<double> ideal_;     ///< by region: the level of which a voxel is a pixel
     std::vector<std::int8_t> kept_; ///< wishes of moving pictures
 };

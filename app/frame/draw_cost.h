@@ -14,23 +14,26 @@ struct DrawLoad {
     bool operator==(const DrawLoad&) const = default;
 };
 
-/// `time = a * pixels + b * cells` with a, b >= 0, fitted to the measurements by weighted least
-/// squares in which older ones weigh less. If the measurements cannot tell the two parts apart
-/// (all have the same load), each part gets half of the time.
+/// `time = a * pixels + b * cells` with a, b >= 0, by recursive least squares with directional
+/// forgetting (Cao and Schwartz, A directional forgetting algorithm based on the decomposition of
+/// the information matrix, Automatica 36, 2000, doi:10.1016/S0005-1098(00)00093-5). A measurement
+/// makes older ones count for less only where it tells the same: many frames of one load leave what
+/// is known of how the time changes with the load. Where nothing is known of that, or loads differ
+/// by less than times scatter, each part takes half of what is unexpected.
 class DrawCost {
   public:
     void add(const DrawLoad& load, Milliseconds time);
     void forget() { *this = {}; }
 
-    /// Empty before the first measurement.
+    /// Empty before the first measurement; for a load with cells, before the first one with cells.
     std::optional<Milliseconds> predict(const DrawLoad& load) const;
 
   private:
-    /// Sums over the measurements, weighted by age.
-    double weight_ = 0;
-    double pixels_ = 0, cells_ = 0;
+    double of_pixel_ = 0, of_cell_ = 0; ///< [ms]; may be below 0
+    /// Sums of products of the loads, with what is forgotten taken off: the information matrix.
     double pixels_pixels_ = 0, pixels_cells_ = 0, cells_cells_ = 0;
-    double pixels_time_ = 0, cells_time_ = 0, time_ = 0;
+    double most_cells_ = 0; ///< of a measurement
+    bool measured_ = false;
 };
 
 } // namespace isochron::app

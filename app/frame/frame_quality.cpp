@@ -129,7 +129,7 @@ std::optional<render::Footprint> FrameQuality::sliced(const QualityInput& input,
 
 Milliseconds FrameQuality::slice_budget() const {
     // Shorter slices would take longer in all, and longer ones would be felt in what comes next.
-    constexpr Milliseconds kLeast{20}, kMost{50};
+    constexpr Milliseconds kLeast{8}, kMost{50};
     return std::min(still_budget_, std::clamp(steady_.budget(), kLeast, kMost));
 }
 

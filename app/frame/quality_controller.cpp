@@ -58,11 +58,12 @@ const char* name_of(QualityReason reason) {
 }
 
 void QualityController::measured(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
-    if (load.cells <= 0)
-        return; // the cost of drawing nothing tells nothing about cells
+    if (load.cells <= 0) // tells what any picture costs
+        return of(Footprint::quad).cost.add(load, cost);
     Candidate& candidate = of(footprint);
     const bool first = !candidate.known && !candidate.failed;
-    if (std::exchange(sampled_, footprint) != footprint && (first || cost > budget_)) {
+    if (std::exchange(sampled_, footprint) != footprint && !candidate.outdated &&
+        (first || cost > budget_)) {
         candidate.sampled.reset(); // to be measured again
         return;
     }
@@ -87,6 +88,10 @@ void QualityController::measured_in_slices(Footprint footprint, const DrawLoad& 
 }
 
 void QualityController::learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
+    if (std::exchange(candidate.outdated, false)) {
+        candidate.cost.forget();
+        candidate.beside.forget();
+    }
     candidate.cost.add(load, cost);
     if (const auto quads = of(Footprint::quad).cost.predict(load))
         candidate.beside.add(load, *quads);
@@ -158,6 +163,8 @@ QualityChoice QualityController::within_budget(const QualityInput& input) {
             ++candidate.age;
     if (Candidate& now = of(current_); current_ == Footprint::quad) {
         step_up(input);
+    } else if (!now.known && !bearable(current_, input)) {
+        step_down(input); // it was a trial of fewer cells
     } else if (!over_ && input.pace == Pace::moving && !has_room(input)) {
         step_down(input); // not a failure: a picture at rest may use it again
     } else if (over_ || outgrown(now, input.load)) {
@@ -208,9 +215,9 @@ void QualityController::step_up(const QualityInput& input) {
 
 /// Whether the current footprint leaves enough of the budget for a moving picture.
 bool QualityController::has_room(const QualityInput& input) const {
-    const auto expected = of(current_).cost.predict(input.load);
+    const Candidate& now = of(current_);
     const double share = was_moving_ ? kLeast : kRoom;
-    return expected ? *expected <= share * budget_ : bearable(current_, input);
+    return now.known ? *now.cost.predict(input.load) <= share * budget_ : bearable(current_, input);
 }
 
 /// Whether a frame with this footprint may be drawn to measure it.
@@ -261,9 +268,8 @@ bool QualityController::returns(Footprint footprint, const QualityInput& input) 
         return true;
     if (candidate.age < std::max(candidate.wait, kShortestWait) || !bearable(footprint, input))
         return false;
-    candidate.cost.forget();
-    candidate.beside.forget();
     candidate.sampled.reset();
+    candidate.outdated = true;
     candidate.known = false;
     candidate.fits = false;
     return true;

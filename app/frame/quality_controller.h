@@ -117,10 +117,11 @@ class QualityController {
         std::optional<DrawLoad> sampled; ///< load of the newest measurement that counts
         DrawLoad failed_at;              ///< least load of the failures
         Milliseconds failed_cost{0};
-        bool known = false;  ///< measured since it was last forgotten
-        bool fits = false;   ///< within the budget by the newest measurement
-        bool failed = false; ///< left as too slow, and not measured within the budget since
-        unsigned age = 0;    ///< frames chosen by the budget since the newest measurement
+        bool known = false;    ///< measured since it was last tried again
+        bool outdated = false; ///< the costs are of before that
+        bool fits = false;     ///< within the budget by the newest measurement
+        bool failed = false;   ///< left as too slow, and not measured within the budget since
+        unsigned age = 0;      ///< frames chosen by the budget since the newest measurement
         unsigned wait = kShortestWait / 2;
         unsigned lasted = 0; ///< frames since it became the current one
     };

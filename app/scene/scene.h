@@ -66,6 +66,13 @@ class Scene {
     }
     /// Whether nothing more is uploaded for the shown cells: their volume is there, or too large.
     bool is_complete() const { return !drawn().wants_volume(); }
+    /// The same for the set of this use, drawn or not; also where there is none.
+    bool is_complete(Use use) const {
+        const render::CellBuffers* sets = use == Use::always ? &cells_
+                                          : resting_         ? &*resting_
+                                                             : nullptr;
+        return !sets || !sets->shown() || !sets->wants_volume();
+    }
     /// Why this set cannot be shown; empty if it can.
     std::string refusal(const index::ExtractionPtr& set) const;
 

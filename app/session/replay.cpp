@@ -1,6 +1,7 @@
 // Replays a recording.
 #include "app/session/replay.h"
 
+#include "app/frame/pacer.h"
 #include "index/error.h"
 
 #include <fmt/format.h>
@@ -88,7 +89,7 @@ void replay_pattern(PatternShow& show, const interaction::Recording& recording,
 }
 
 void replay_live(Session& session, const interaction::Recording& recording,
-                 const ReplayOptions& options) {
+                 const ReplayOptions& options, double frame_rate_limit) {
     const auto& frames = recording.frames;
     expect_arrays(session, recording);
     session.warm_up();
@@ -96,6 +97,7 @@ void replay_live(Session& session, const interaction::Recording& recording,
         return std::chrono::steady_clock::now() - start + frames.front().input.time;
     };
     session.set_clock(clock);
+    Pacer pacer(frame_rate_limit);
     interaction::ReplayInput devices(recording);
     while (!devices.finished() && !session.should_close()) {
         session.outputs().windows().poll_events();
@@ -109,6 +111,7 @@ void replay_live(Session& session, const interaction::Recording& recording,
         session.frame(input, commands, Waiting::never, [&] {
             return interaction::InputState{clock(), frames[next - 1].latched.devices};
         });
+        pacer.wait();
     }
 }
 

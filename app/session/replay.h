@@ -36,10 +36,11 @@ std::vector<std::string> replay_fixed_step(Session& session,
 void replay_pattern(PatternShow& show, const interaction::Recording& recording,
                     const ReplayOptions& options, const FrameDone& done);
 
-/// Replays in real time: obeys every command, and draws frames as fast as the display takes them.
-/// Ends with the recording or when the window closes.
+/// Replays in real time, as a session goes: obeys every command, and frames wait for nothing but
+/// the display. Ends with the recording or when the window closes.
+/// @param frame_rate_limit [1/s] where no display paces the frames
 void replay_live(Session& session, const interaction::Recording& recording,
-                 const ReplayOptions& options);
+                 const ReplayOptions& options, double frame_rate_limit);
 
 /// The start state in a header. @throws interaction::Error when it is not valid for these data
 ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,

@@ -242,8 +242,8 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     now.footprint = report.footprint;
     rest_in_slices(now, waiting, report);
     // More cells than a frame can draw come in slices alone, which may begin some frames later.
-    comes_in_slices_ =
-        finer && quality_.ends_in_slices() && report.expected && *report.expected > report.budget;
+    const bool fits = report.expected && *report.expected <= report.budget;
+    comes_in_slices_ = finer && quality_.ends_in_slices() && !fits;
     // While a headset wants no picture, there is nothing to draw or to measure.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
 }

@@ -217,6 +217,8 @@ class Session {
     index::DetailQuery detail_at_rest(Waiting waiting, std::uint64_t moving,
                                       const FrameReport& report);
     bool comes_late(const index::ExtractionPtr& set) const;
+    bool is_half_sent() const;
+    bool set_comes() const;
     bool give_way(const index::ExtractionPtr& set);
     void report_cells(FrameReport& report) const;
     FrameAnswer answer() const;

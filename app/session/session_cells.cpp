@@ -53,7 +53,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
             cells = frames_->cells(extractor_, scene_.shown(), waiting);
         }
     }
-    scene_.draw_at_rest(!in_motion, surfaces());
+    scene_.draw_at_rest(!in_motion && !is_half_sent(), surfaces());
     if (cells.show)
         say_refused(*cells.show, report);
     if (cells.stage && scene_.stage(cells.stage, use_of(cells.stage)))
@@ -81,6 +81,22 @@ void Session::report_cells(FrameReport& report) const {
     report.reused = shown->reused();
     report.search = shown->search_time();
     report.gather = shown->gather_time;
+}
+
+/// Whether the set for pictures at rest lacks its volume, and the one for moving pictures shows the
+/// same: until then the finer one would be drawn in one frame, as a moving picture is.
+bool Session::is_half_sent() const {
+    const index::ExtractionPtr& moving = scene_.held(Scene::Use::always);
+    return captures_.wanted() == 0 && moving && moving->query.of_cells() == surfaces() &&
+           !scene_.is_complete(Scene::Use::at_rest);
+}
+
+/// Whether a set that was asked for is not on the GPU yet.
+bool Session::set_comes() const {
+    if (extractor_.busy())
+        return true;
+    const index::ExtractionPtr newest = extractor_.newest();
+    return newest && newest != refused_ && newest != scene_.held(use_of(newest));
 }
 
 /// Asks for fewer cells from now on, as these could not be shown. @return false if there is nothing
@@ -167,7 +183,7 @@ index::DetailQuery Session::detail_for_live(Waiting waiting, const FrameReport& 
     if (report.pace == interaction::Pace::moving || !rests_ || !shows(held)) {
         all_at_rest_ = false;
         // What is on its way comes first, so that a set comes at all while the view changes.
-        const bool on_its_way = extractor_.busy() && !detail_.at_rest && detail_.most_cells > 0 &&
+        const bool on_its_way = set_comes() && !detail_.at_rest && detail_.most_cells > 0 &&
                                 moving.most_cells >= detail_.most_cells / 2;
         return on_its_way ? detail_ : moving;
     }
@@ -191,8 +207,8 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
         return resting->query.detail;
     if (kept)
         return last;
-    if (detail_.at_rest && extractor_.busy())
-        return detail_;
+    if (detail_.at_rest && set_comes())
+        return detail_; // asking for another one now would bring the two in turn
     all_at_rest_ |= serves && may_be_sliced(waiting) && drawn_ && drawn_->cells == resting &&
                     (report.final || drawn_->footprint == report.in_slices);
     if (all_at_rest_)

@@ -62,14 +62,47 @@ TEST_F(DrawCostTest, NeverFallsWithTheLoadNorBelowZero) {
     }
 }
 
-TEST_F(DrawCostTest, EmptyPicturesHaveACostToo) {
-    DrawCost no_cells;
-    no_cells.add({0, 1e6}, Milliseconds(2));
-    EXPECT_NEAR(no_cells.predict({0, 1e6})->count(), 2, 1e-9);
-    EXPECT_GT(no_cells.predict({0, 2e6})->count(), 2);
+TEST_F(DrawCostTest, APictureWithoutCellsTellsWhatPixelsCost) {
+    DrawCost cost;
+    cost.add({0, 1e6}, Milliseconds(2));
+    EXPECT_NEAR(cost.predict({0, 1e6})->count(), 2, 1e-9);
+    EXPECT_NEAR(cost.predict({0, 2e6})->count(), 4, 1e-9);
+    EXPECT_FALSE(cost.predict({1000, 1e6}).has_value()) << "nothing is known of cells";
+    cost.add({1000, 1e6}, Milliseconds(5));
+    EXPECT_NEAR(cost.predict({2000, 1e6})->count(), 8, 0.3);
     DrawCost nothing;
     nothing.add({0, 0}, Milliseconds(2));
-    EXPECT_NEAR(nothing.predict({100, 100})->count(), 2, 1e-9);
+    EXPECT_EQ(nothing.predict({0, 0})->count(), 0);
+    EXPECT_FALSE(nothing.predict({100, 100}).has_value());
+}
+
+TEST_F(DrawCostTest, ManyMoreCellsAreDearEvenIfAPictureWithoutAnyTookLonger) {
+    DrawCost cost;
+    cost.add({0, 1e6}, Milliseconds(25)); // the first of a session
+    for (int i = 0; i < 5; ++i)
+        cost.add({10'000, 1e6}, Milliseconds(15));
+    EXPECT_GT(cost.predict({3e6, 1e6})->count(), 200);
+    EXPECT_NEAR(cost.predict({10'000, 1e6})->count(), 15, 2);
+}
+
+TEST_F(DrawCostTest, ManyFramesOfOneLoadLeaveWhatIsKnownOfOthers) {
+    DrawCost cost;
+    cost.add({0, 1e6}, Milliseconds(2));
+    for (int i = 0; i < 1000; ++i)
+        cost.add({40'000 * uniform(0.97, 1.03), 1e6}, Milliseconds(22 * uniform(0.8, 1.2)));
+    EXPECT_NEAR(cost.predict({40'000, 1e6})->count(), 22, 3);
+    EXPECT_NEAR(cost.predict({80'000, 1e6})->count(), 42, 8);
+}
+
+TEST_F(DrawCostTest, LoadsThatDifferByLessThanTimesScatterTellNothingOfTheParts) {
+    for (int trial = 0; trial < 200; ++trial) {
+        DrawCost cost;
+        for (int i = 0; i < 5; ++i)
+            cost.add({40'000 * uniform(0.99, 1.01), 1e6}, Milliseconds(30 * uniform(0.8, 1.2)));
+        const double ten_times = cost.predict({400'000, 1e6})->count();
+        EXPECT_GT(ten_times, 100) << trial;
+        EXPECT_LT(ten_times, 250) << trial;
+    }
 }
 
 TEST_F(DrawCostTest, WhatIsOldCountsForLittle) {

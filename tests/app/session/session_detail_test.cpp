@@ -6,10 +6,12 @@
 #include "tests/support/session_fixture.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 namespace isochron::app {
@@ -49,6 +51,8 @@ void* with_little_room(std::string_view name, void* found) {
     return found;
 }
 
+constexpr std::uint64_t kFew = 1 << 14; ///< cells: less than a third of those of `large_`
+
 class SessionDetail : public SessionTest {
   protected:
     SessionDetail()
@@ -87,11 +91,11 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, true);
         return report.coarsest > 0 && report.pace == interaction::Pace::settled &&
-               report.cells <= 2 * DetailChoice::kFewest; // once a time has been measured
+               report.cells <= 2 * kFew; // once a time has been measured
     }));
     for (int i = 0; i < 60; ++i) {
         report = frame(session, true);
-        ASSERT_LE(report.cells, 2 * DetailChoice::kFewest) << i;
+        ASSERT_LE(report.cells, 2 * kFew) << i;
     }
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
@@ -102,15 +106,65 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
         return report.coarsest == 0 && report.final;
     }));
     const std::uint64_t all = report.cells;
-    EXPECT_GT(all, 3 * DetailChoice::kFewest);
+    EXPECT_GT(all, 3 * kFew);
     EXPECT_EQ(report.volume_cells, all);
     for (int i = 0; i < 20; ++i)
         EXPECT_EQ(frame(session, false).cells, all);
     for (int i = 0; i < 3; ++i)
         report = frame(session, true); // by the last one the head has moved
     EXPECT_GT(report.coarsest, 0u) << "in the frame in which it moves";
-    EXPECT_LE(report.cells, 2 * DetailChoice::kFewest);
+    EXPECT_LE(report.cells, 2 * kFew);
     EXPECT_EQ(report.volume_cells, all) << "it is known";
+}
+
+TEST_P(SessionDetail, SlicesBeginAnewWhereAFinerSetComes) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 1e-6; // a piece in each frame
+    const render::Gl gl(context_->loader());
+    const auto second_picture = [&](bool in_the_midst) {
+        std::atomic<bool> wait = true, found = false;
+        const index::Extract real =
+            index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+        const index::Extract extract = [&](const index::SurfacesQuery& query,
+                                           std::stop_token stop) -> index::ExtractionPtr {
+            while (query.detail.at_rest && wait && !stop.stop_requested())
+                std::this_thread::yield();
+            if (!query.detail.at_rest)
+                return real(query, stop);
+            index::SurfacesQuery same = query; // whatever was measured
+            same.detail = {20'000, true, {}};
+            const index::ExtractionPtr set = real(same, stop);
+            if (!set)
+                return set;
+            auto asked = std::make_shared<index::Extraction>(*set);
+            asked->query = query;
+            found = true;
+            return asked;
+        };
+        Session session(config, large_, *context_, extract);
+        interaction::Commands first;
+        first.isovalue = 0.1;
+        FrameReport report = frame(session, false, first);
+        const auto made = [&] {
+            return report.in_slices && report.cells > 0 && report.footprint == *report.in_slices;
+        };
+        EXPECT_TRUE(test_support::eventually([&] {
+            report = frame(session, false);
+            return in_the_midst ? report.in_slices && !made() : made();
+        }));
+        for (int i = 0; i < 12; ++i) // until some cells are drawn, and not only put in order
+            report = frame(session, false);
+        EXPECT_NE(made(), in_the_midst);
+        const std::uint64_t cells = report.cells;
+        wait = false;
+        EXPECT_TRUE(test_support::eventually([&] { return found.load(); }));
+        EXPECT_TRUE(test_support::eventually([&] {
+            report = frame(session, false);
+            return report.cells != cells && made();
+        }));
+        return session.outputs().display().read_window().rgba;
+    };
+    EXPECT_TRUE(second_picture(true) == second_picture(false));
 }
 
 TEST_P(SessionDetail, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThemSoon) {
@@ -137,7 +191,7 @@ TEST_P(SessionDetail, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfT
             return ends();
         }));
         EXPECT_EQ(report.coarsest, 0u);
-        EXPECT_GT(report.cells, 3 * DetailChoice::kFewest);
+        EXPECT_GT(report.cells, 3 * kFew);
         EXPECT_EQ(report.footprint, render::Footprint::surface);
         EXPECT_GT(coarse, 0) << "all cells take long";
         for (int i = 0; i < 3; ++i)

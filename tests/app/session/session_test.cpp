@@ -292,6 +292,19 @@ TEST_P(SessionTest, AReplayGivesTheSamePicturesAndTheSameCells) {
     EXPECT_NE(pictures[0].front(), pictures[0].back()) << "nothing happened in the recording";
 }
 
+TEST_P(SessionTest, ALiveReplayObeysEveryCommandAndKeepsTheLimitOfFrames) {
+    interaction::Recording recording;
+    for (int i = 0; i <= 20; ++i) {
+        Commands commands;
+        commands.isovalue = 1.0 + 0.1 * i;
+        recording.frames.push_back({head_at_rest(0.01 * i), commands, {}});
+    }
+    Session session(small_config(), file_, *context_);
+    replay_live(session, recording, {}, 25.0);
+    EXPECT_EQ(session.state().isovalue(), 3.0);
+    EXPECT_LE(session.log().frames().size(), 7u) << "0.2 s, and a frame at each end";
+}
+
 TEST_P(SessionTest, AChangedCommandIsReportedWithItsFrame) {
     interaction::Recording recording;
     {

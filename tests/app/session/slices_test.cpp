@@ -217,6 +217,34 @@ TEST_P(Slices, AreNotMadeWithoutABudgetAtRestNorInFastAndPaperModeNorInAReplay) 
     EXPECT_EQ(session.log().frames().back().footprint, Footprint::surface);
 }
 
+TEST_P(Slices, GiveTheWholePictureInEveryViewport) {
+    Config config = sliced();
+    std::vector<stereo::Viewport>& viewports = config.installation.windows.front().viewports;
+    viewports.push_back(viewports.front());
+    for (std::size_t i = 0; i < viewports.size(); ++i) {
+        viewports[i].size = {0.5f, 1.0f};
+        viewports[i].position = {0.5f * static_cast<float>(i), 0.0f};
+    }
+    Session session(config, file_, *context_), reference = at_once(config);
+    start(session);
+    settle(session);
+    EXPECT_EQ(session.log().frames().back().reason, QualityReason::in_slices);
+    Commands same;
+    same.isovalue = 2.0;
+    EXPECT_EQ(pictures(session), whole(reference, same));
+}
+
+TEST_P(Slices, TellWhatThePictureCostsThatNoFrameHasDrawn) {
+    Session session(sliced(), file_, *context_);
+    start(session);
+    ASSERT_TRUE(begin_slices(session));
+    EXPECT_FALSE(session.log().frames().back().better) << "not known yet";
+    settle(session);
+    const std::optional<Milliseconds> cost = session.log().frames().back().expected;
+    ASSERT_TRUE(cost);
+    EXPECT_GT(cost->count(), 0);
+}
+
 TEST_P(Slices, TellWhatTheExactPictureCosts) {
     Config config = sliced();
     config.frame_budget_ms = 60000; // all fits once it is known to, on any machine

@@ -47,11 +47,11 @@ CellPass::Programs CellPass::programs(std::string_view fragment_shader,
 
 CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragment_shader,
                                                          Footprint footprint) const {
-    const bool round = is_round(footprint);
+    const bool plane = shapes_.shape == CellShape::plane;
     const std::string prelude =
-        std::string(shapes_.shape == CellShape::plane ? "#define PLANE\n" : "") +
-        (round ? "#define ROUND\n" : "") + (footprint == Footprint::quad ? "#define QUAD\n" : "") +
-        (stays_in_cell(footprint) ? "#define IN_CELL\n" : "");
+        footprint == Footprint::gaussian
+            ? std::string("#define ROUND\n") + (plane ? "#define PLANE\n" : "")
+            : std::string(plane ? "#define CUT\n" : "");
     return {programs(fragment_shader, prelude),
             programs(fragment_shader, prelude + "#define POINTS\n"), std::nullopt};
 }
@@ -72,14 +72,6 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
         if (programs->two)
             gl.ProgramUniform1f(programs->two->name(), 0, falloff);
     }
-}
-
-bool CellPass::is_round(Footprint footprint) const {
-    return footprint == Footprint::gaussian || shapes_.shape == CellShape::plane;
-}
-
-bool CellPass::stays_in_cell(Footprint footprint) const {
-    return footprint == Footprint::quad && shapes_.shape == CellShape::plane && shapes_.in_cell;
 }
 
 /// log2 of a splat's opacity on its outline, relative to its middle.
@@ -239,18 +231,20 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
 
 CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& placement,
                                  Footprint footprint, const CellBuffers& cells) const {
-    const bool flat = shapes_.shape == CellShape::plane;
-    // Ellipsoids on planes may be half of a cell's diagonal away from the cell's middle.
-    const float radius =
-        shapes_.radius_of(footprint) * static_cast<float>(std::max(cells.slots().largest, 1u));
-    const float reach = flat                           ? 1.0f + kFarthestPlane / radius
-                        : footprint == Footprint::quad ? kReachOfRectangle
-                                                       : 1.0f;
-    Form form = is_round(footprint) ? Form::points : Form::squares;
+    const bool cut = footprint == Footprint::quad && shapes_.shape == CellShape::plane;
+    const float size = static_cast<float>(std::max(cells.slots().largest, 1u));
+    // Ellipsoids and parts of planes may be beside their cells' middles.
+    const float radius = shapes_.radius_of(footprint) * size * (cut ? kMostOfCut : 1.0f);
+    const float reach = cut                                 ? 1.0f / kMostOfCut
+                        : shapes_.shape == CellShape::plane ? 1.0f + kFarthestPlane / radius
+                        : footprint == Footprint::quad      ? kReachOfRectangle
+                                                            : 1.0f;
+    const bool square = footprint == Footprint::quad && !cut;
+    Form form = square ? Form::squares : Form::points;
     for (const View& view : views) {
         if (!points_serve(view, placement, radius, reach, largest_point_))
             return Form::quads;
-        if (!is_round(footprint) && !footprints_are_squares(view, placement, radius))
+        if (square && !footprints_are_squares(view, placement, radius))
             form = Form::points;
     }
     return form;
@@ -266,7 +260,7 @@ SequenceWanted CellPass::sequence_wanted(const View& view, const Placement& plac
         !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&
         (shapes_.shape == CellShape::voxel || cells.slots().planes.size() == cells.size());
     const SplatShape shape{shapes_.shape, shapes_.radius_of(footprint),
-                           footprint == Footprint::quad, stays_in_cell(footprint)};
+                           footprint == Footprint::quad};
     return {view, placement, cells, shape, gaussian_falloff(), blended, leaves_out};
 }
 

@@ -80,10 +80,6 @@ class CellPass {
     Programs programs(std::string_view fragment_shader, const std::string& prelude) const;
     FootprintPrograms footprint_programs(std::string_view fragment_shader,
                                          Footprint footprint) const;
-    /// Whether cells are ellipses rather than the rectangles around them.
-    bool is_round(Footprint footprint) const;
-    /// Whether only what of them lies in the cell, a little enlarged, is drawn.
-    bool stays_in_cell(Footprint footprint) const;
     /// How footprints are drawn, from the most general to the fastest form.
     enum class Form : std::uint8_t { quads, points, squares };
     /// Surfaces that are drawn together.

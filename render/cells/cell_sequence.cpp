@@ -82,9 +82,19 @@ void CellSequences::look(const SequenceWanted& wanted, std::size_t to, std::size
         finder.advance(finder.work() * to / of, wanted.cells.slots(), order);
     if (to < of)
         return;
-    gl_->NamedBufferData(slots_.name(), static_cast<GLsizeiptr>(seen.size_bytes()), seen.data(),
-                         GL_STREAM_DRAW);
-    gl_->TextureBuffer(texture_.name(), GL_R32UI, slots_.name());
+    const std::span<const PixelSquare> parts = finder.parts();
+    if (parts.empty()) {
+        gl_->NamedBufferData(slots_.name(), static_cast<GLsizeiptr>(seen.size_bytes()), seen.data(),
+                             GL_STREAM_DRAW);
+    } else {
+        texels_.clear();
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            texels_.push_back({seen[i], parts[i].corner, parts[i].size});
+        gl_->NamedBufferData(slots_.name(),
+                             static_cast<GLsizeiptr>(texels_.size() * sizeof(texels_[0])),
+                             texels_.data(), GL_STREAM_DRAW);
+    }
+    gl_->TextureBuffer(texture_.name(), parts.empty() ? GL_R32UI : GL_RGB32UI, slots_.name());
     seen_->cells = seen.size();
     seen_->complete = true;
 }

@@ -8,9 +8,11 @@
 #include "render/cells/splat_culling.h"
 #include "render/gl/view.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace isochron::render {
 
@@ -68,6 +70,7 @@ class CellSequences {
     SeenCells seen_cells_;
     SeenSplats seen_splats_;
     std::optional<Seen> seen_;
+    std::vector<std::array<std::uint32_t, 3>> texels_; ///< see cell_order.glsl
     Buffer slots_;
     Texture texture_;
 };

@@ -1,7 +1,6 @@
 // Projects cells as the vertex shader does; compiled for each SIMD target, chosen at run time.
 #include "render/cells/cell_squares.h"
 
-#include "index/extraction/cell_plane.h"
 #include "render/cells/point_sprites.h"
 
 #include <glm/geometric.hpp>
@@ -15,7 +14,7 @@
 #define HWY_TARGET_INCLUDE "render/cells/cell_squares.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
 
-#include "render/cells/cell_boxes_inl.h"
+#include "render/cells/cut_stripes_inl.h"
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -29,11 +28,8 @@ static_assert(kMostAtOnce <= CellSquares::kBlock);
 /// As in cell.vert: an ellipse with half axes a, b has an upright quad if
 /// (a^2 - b^2) / (a^2 + b^2) is at most this.
 constexpr float kRound = 0.1f;
-constexpr float kClipped =
-    1.0f - 1e-6f; ///< cells at a larger |z| may be clipped: they hide nothing
 /// Like kLeastDepth, but for an eye two radii away: splats farther away do not fade.
 constexpr float kWholeDepth = 0.75f;
-constexpr float kFar = 1e9f; ///< beyond any view and before any depth
 
 /// Spheres of one radius, in voxels.
 template <class Sides>
@@ -45,11 +41,10 @@ struct Spheres {
     }
 };
 
-/// As plane.glsl has it: `Splat` and `form`.
+/// As ellipse.glsl has it: `Footprint` and `form`.
 template <class Sides>
 struct Ellipsoids {
     Sides sides;
-    V3 in_cell; ///< the middle, from the cell's [voxels]
     V3 normal, lengthwise;
     V across2, normal2, lengthwise2; ///< square half axes; the last two minus the first
     HWY_INLINE V form(const V3& u_even, const V3& v_even) const {
@@ -58,31 +53,7 @@ struct Ellipsoids {
         const V length = hn::Mul(lengthwise2, hn::Mul(dot(u, lengthwise), dot(v, lengthwise)));
         return hn::MulAdd(across2, dot(u, v), hn::Add(flat, length));
     }
-    /// [voxels]
-    HWY_INLINE V3 spread(const V3& u_even) const {
-        const V3 u = sides.in_form(u_even);
-        const V flat = hn::Mul(normal2, dot(u, normal));
-        const V length = hn::Mul(lengthwise2, dot(u, lengthwise));
-        const auto along = [&](V of_u, V of_normal, V of_length) HWY_ATTR {
-            return hn::MulAdd(across2, of_u,
-                              hn::MulAdd(flat, of_normal, hn::Mul(length, of_length)));
-        };
-        return sides.in_voxels({along(u.x, normal.x, lengthwise.x),
-                                along(u.y, normal.y, lengthwise.y),
-                                along(u.z, normal.z, lengthwise.z)});
-    }
 };
-
-HWY_INLINE V3 over_length(const V3& v) {
-    const V to_one = hn::Div(hn::Set(Floats(), 1.0f), hn::Sqrt(dot(v, v)));
-    return {hn::Mul(v.x, to_one), hn::Mul(v.y, to_one), hn::Mul(v.z, to_one)};
-}
-
-template <class M>
-HWY_INLINE V3 select(M which, const V3& yes, const V3& no) {
-    return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y),
-            hn::IfThenElse(which, yes.z, no.z)};
-}
 
 /// The ellipsoids on the planes of the next cells.
 /// @param cells their centers become those of the ellipsoids
@@ -90,56 +61,12 @@ template <class Sides>
 HWY_INLINE Ellipsoids<Sides> ellipsoids(const SquareProjection& p, const std::uint32_t* words,
                                         Boxes<Sides>& cells) {
     const Floats d;
-    const hn::RebindToUnsigned<Floats> du;
-    const hn::RebindToSigned<Floats> di;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const auto word = hn::LoadU(du, words);
-    const auto coordinate = [&](hn::Vec<decltype(du)> bits) HWY_ATTR {
-        const auto number = hn::BitCast(di, hn::And(bits, hn::Set(du, 0xfffu)));
-        const V steps = hn::ConvertTo(d, hn::Sub(number, hn::Set(di, index::packed_plane::kZero)));
-        return hn::Mul(steps, hn::Set(d, 1.0f / index::packed_plane::kOne));
-    };
-    V3 n{coordinate(word), coordinate(hn::ShiftRight<12>(word)), one};
-    n.z = hn::Sub(one, hn::Add(hn::Abs(n.x), hn::Abs(n.y)));
-    const V fold = hn::Max(hn::Neg(n.z), zero);
-    n.x = hn::Sub(n.x, hn::CopySign(fold, n.x));
-    n.y = hn::Sub(n.y, hn::CopySign(fold, n.y));
-    const auto row = [&](int i) {
-        const glm::vec3 r(p.index_from_normal[0][i], p.index_from_normal[1][i],
-                          p.index_from_normal[2][i]);
-        return dot({hn::Set(d, r.x), hn::Set(d, r.y), hn::Set(d, r.z)}, n);
-    };
-    const V3 in_index = cells.sides.in_form({row(0), row(1), row(2)});
-    const auto flat_bits = hn::Ne(hn::And(word, hn::Set(du, index::kNormalBits)), hn::Zero(du));
-    const auto is_flat =
-        hn::And(hn::RebindMask(d, flat_bits), hn::Gt(dot(in_index, in_index), zero));
-    const V3 any{zero, zero, one};
-    const V3 normal = over_length(select(is_flat, in_index, any));
-    constexpr float kStep = float(index::CellPlane::kFarthest / index::packed_plane::kFarthest);
-    const auto byte = hn::ShiftRight<24>(hn::BitCast(di, word));
-    const V offset = hn::Mul(hn::ConvertTo(d, byte), hn::Set(d, kStep));
-
-    const V tiny = hn::Set(d, 1e-6f), half = hn::Set(d, 0.5f);
-    const V3 size{hn::Max(hn::Abs(normal.x), tiny), hn::Max(hn::Abs(normal.y), tiny),
-                  hn::Max(hn::Abs(normal.z), tiny)};
-    const V sum = hn::Add(size.x, hn::Add(size.y, size.z));
-    const V rest =
-        hn::Max(hn::MulSub(half, sum, hn::Abs(offset)), hn::Set(d, SplatShape::kLeastRest));
+    const Planes planes = planes_in(p, words, cells.sides);
+    move_to(planes, cells);
+    const V3 &size = planes.size, &normal = planes.normal, any{zero, zero, one};
     const V lower = hn::Min(size.x, size.y), upper = hn::Max(size.x, size.y);
     const V least = hn::Min(lower, size.z), median = hn::Max(lower, hn::Min(upper, size.z));
-    const auto towards = [&](V of_size, V of_normal) HWY_ATTR {
-        const V third = hn::Div(rest, hn::Mul(hn::Set(d, 3.0f), of_size));
-        const V outwards = hn::Sub(half, hn::Min(third, half));
-        return hn::CopySign(outwards, hn::Xor(of_normal, offset));
-    };
-    V3 at{towards(size.x, normal.x), towards(size.y, normal.y), towards(size.z, normal.z)};
-    const V back = hn::Sub(offset, dot(normal, at));
-    at = {hn::MulAdd(back, normal.x, at.x), hn::MulAdd(back, normal.y, at.y),
-          hn::MulAdd(back, normal.z, at.z)};
-    V3& center = cells.center;
-    at = select(is_flat, at, {zero, zero, zero});
-    const V3 shift = cells.sides.stretched(at);
-    center = {hn::Add(center.x, shift.x), hn::Add(center.y, shift.y), hn::Add(center.z, shift.z)};
     const auto x_is = hn::Eq(size.x, least), y_is = hn::Eq(size.y, least);
     const V3 edge = select(x_is, {one, zero, zero}, select(y_is, {zero, one, zero}, any));
     const V lean = dot(edge, normal);
@@ -147,18 +74,18 @@ HWY_INLINE Ellipsoids<Sides> ellipsoids(const SquareProjection& p, const std::ui
         over_length({hn::NegMulAdd(lean, normal.x, edge.x), hn::NegMulAdd(lean, normal.y, edge.y),
                      hn::NegMulAdd(lean, normal.z, edge.z)});
     const auto square = [&](V half_axis) HWY_ATTR {
-        const V length =
-            hn::Mul(cells.sides.half_axes(p.radius), hn::IfThenElse(is_flat, half_axis, one));
+        const V length = hn::Mul(cells.sides.half_axes(p.radius),
+                                 hn::IfThenElse(planes.are_there, half_axis, one));
         return hn::Mul(length, length);
     };
     const auto clamped = [&](V length) {
         return hn::Clamp(length, hn::Set(d, SplatShape::kLeastWidth), one);
     };
-    const V across2 = square(clamped(hn::Div(rest, median)));
-    const V length2 = square(clamped(hn::Div(hn::Mul(rest, hn::Set(d, p.lengthwise)), least)));
-    const V thickness2 = square(hn::Set(d, p.thickness));
+    const V across2 = square(clamped(hn::Div(planes.rest, median)));
+    const V length2 =
+        square(clamped(hn::Div(hn::Mul(planes.rest, hn::Set(d, SplatShape::kLengthwise)), least)));
+    const V thickness2 = square(hn::Set(d, SplatShape::kThickness));
     return {cells.sides,
-            at,
             normal,
             lengthwise,
             across2,
@@ -166,35 +93,8 @@ HWY_INLINE Ellipsoids<Sides> ellipsoids(const SquareProjection& p, const std::ui
             hn::Sub(length2, across2)};
 }
 
-/// The stripes of the picture in which places in the cell are between its faces; see `CellSquares`.
-/// @param a, b, over_w, xx, xy, yy as `project_shape` has them
-template <class Shape, class Mask>
-HWY_INLINE void write_stripes(const SquareProjection& p, const Shape& cells, const V3& a,
-                              const V3& b, V over_w, V xx, V xy, V yy, Mask is_near, std::size_t i,
-                              const SquareArrays& out) {
-    const Floats d;
-    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const V3 along_a = cells.spread(a), along_b = cells.spread(b);
-    const V share = hn::Div(over_w, hn::NegMulAdd(xy, xy, hn::Mul(xx, yy)));
-    const auto write = [&](int axis, V place, V of_a, V of_b) HWY_ATTR {
-        const V right = hn::Mul(share, hn::MulSub(yy, of_a, hn::Mul(xy, of_b)));
-        const V up = hn::Mul(share, hn::MulSub(xx, of_b, hn::Mul(xy, of_a)));
-        const V steep = hn::CopySign(hn::Max(hn::Abs(right), hn::Set(d, 1e-9f)), right);
-        const V pixels = hn::Div(one, steep);
-        const auto store = [&](int what, V value, V of_near) HWY_ATTR {
-            hn::StoreU(hn::IfThenElse(is_near, of_near, value), d, out.stripes[axis][what] + i);
-        };
-        store(0, hn::Neg(hn::Mul(place, pixels)), zero);
-        store(1, hn::Neg(hn::Mul(up, pixels)), zero);
-        store(2, hn::Mul(hn::Set(d, p.half_cell), hn::Abs(pixels)), hn::Set(d, 4.0f * kFar));
-    };
-    write(0, cells.in_cell.x, along_a.x, along_b.x);
-    write(1, cells.in_cell.y, along_a.y, along_b.y);
-    write(2, cells.in_cell.z, along_a.z, along_b.z);
-}
-
 /// @tparam Shape of the cells, with a function `form`
-template <bool kEllipses, class Shape, class Sides>
+template <class Shape, class Sides>
 HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells,
                               const Boxes<Sides>& boxes, std::size_t i, const SquareArrays& out) {
     const Floats d;
@@ -251,20 +151,8 @@ HWY_INLINE void project_shape(const SquareProjection& p, const Shape& cells,
     store(far, hn::Add(hn::Set(d, p.middle.x), hn::Add(x, shift_x)), out.x);
     store(far, hn::Add(hn::Set(d, p.middle.y), hn::Add(y, shift_y)), out.y);
     store(hn::Neg(far), z, out.z);
-    if constexpr (kEllipses) {
-        const V up = hn::Sqrt(yy), right = hn::Sqrt(xx);
-        const V lean = hn::Div(xy, yy);
-        store(everywhere, up, out.up);
-        store(everywhere, hn::Sqrt(hn::Max(hn::NegMulAdd(xy, lean, xx), zero)), out.half);
-        store(zero, lean, out.lean);
-        store(zero, hn::Div(xy, right), out.tip);
-        store(zero, hn::IfThenElseZero(hn::Lt(hn::Abs(z), hn::Set(d, kClipped)), one), out.inner);
-        if (out.stripes[0][0])
-            write_stripes(p, cells, a, b, over_w, xx, xy, yy, is_near, i, out);
-    } else {
-        store(zero, inner, out.inner);
-        store(everywhere, outer, out.outer);
-    }
+    store(zero, inner, out.inner);
+    store(everywhere, outer, out.outer);
     store(zero, hn::IfThenElseZero(whole, hn::Div(det, major)), out.inner_disc);
     store(everywhere, major, out.outer_disc);
 }
@@ -275,13 +163,15 @@ template <CellKind kKind>
 HWY_INLINE void project_next(const SquareProjection& p, const std::uint32_t* words,
                              const std::uint32_t* planes, std::size_t i, const SquareArrays& out) {
     auto cells = boxes<kKind>(p, words);
-    if (planes) {
+    if (out.low) {
+        project_cuts(p, planes, cells, i, out);
+    } else if (planes) {
         const auto shape = ellipsoids(p, planes, cells);
-        project_shape<true>(p, shape, cells, i, out);
+        project_shape(p, shape, cells, i, out);
     } else {
         const V radius = cells.sides.half_axes(p.radius);
         const Spheres<decltype(cells.sides)> shape{cells.sides, hn::Mul(radius, radius)};
-        project_shape<false>(p, shape, cells, i, out);
+        project_shape(p, shape, cells, i, out);
     }
 }
 
@@ -334,14 +224,15 @@ void CellSquares::begin(const View& view, const Placement& placement, const Spla
     words_.resize(2 * whole);
     std::fill(words_.begin() + static_cast<std::ptrdiff_t>(2 * size_), words_.end(), 0u);
     planes_.resize(on_planes ? whole : 0);
-    for (std::vector<float>* array : {&x_, &y_, &z_, &inner_, &inner_disc_, &outer_disc_})
+    for (std::vector<float>* array : {&x_, &y_, &z_, &inner_, &inner_disc_})
         array->resize(whole);
-    for (std::vector<float>* array : {&up_, &half_, &lean_, &tip_})
-        array->resize(planes_.size());
-    outer_.resize(on_planes ? 0 : whole);
+    for (std::vector<float>* array : {&outer_, &outer_disc_})
+        array->resize(shape.is_cut() ? 0 : whole);
+    for (std::vector<float>* array : {&low_, &high_})
+        array->resize(shape.is_cut() ? whole : 0);
     for (auto& axis : stripes_)
         for (std::vector<float>& array : axis)
-            array.resize(on_planes && shape.in_cell ? whole : 0);
+            array.resize(low_.size());
     const glm::vec2 half_size = 0.5f * glm::vec2(view.size);
     const glm::mat4 rows =
         glm::transpose(view.clip_from_eye * view.eye_from_room * placement.room_from_index);
@@ -351,9 +242,6 @@ void CellSquares::begin(const View& view, const Placement& placement, const Spla
                    rows[3],
                    half_size,
                    shape.radius,
-                   shape.thickness(),
-                   shape.lengthwise(),
-                   SplatShape::kHalfCell * shape.radius,
                    placement.index_from_normal(),
                    placement.extent,
                    {},
@@ -384,9 +272,9 @@ void CellSquares::project_to(std::size_t to, const Slots& slots,
     const auto from = [&](std::vector<float>& array) {
         return array.empty() ? nullptr : array.data() + done_;
     };
-    SquareArrays arrays{from(x_),     from(y_),          from(z_),          from(inner_),
-                        from(outer_), from(inner_disc_), from(outer_disc_), from(up_),
-                        from(half_),  from(lean_),       from(tip_),        {}};
+    SquareArrays arrays{
+        from(x_),          from(y_),          from(z_),   from(inner_), from(outer_),
+        from(inner_disc_), from(outer_disc_), from(low_), from(high_),  {}};
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t what = 0; what < 3; ++what)
             arrays.stripes[axis][what] = from(stripes_[axis][what]);

@@ -20,8 +20,7 @@ namespace isochron::render {
 /// For each cell: two upright squares around the middle of its quad (as cell.vert makes it), one
 /// inside the quad and one around it; and two discs, one inside its ellipse and one around it.
 /// Cells behind the eye lie far outside the view. For cells too near to the eye the outer shapes
-/// cover everything. Ellipsoids on planes, which are drawn as ellipses, have the ellipses
-/// themselves instead of the squares.
+/// cover everything. Of quads on planes there are the outlines themselves instead.
 class CellSquares {
   public:
     static constexpr std::size_t kBlock = 16; ///< the arrays are padded to whole blocks
@@ -55,23 +54,20 @@ class CellSquares {
     /// Radii [pixel]. The inner one is 0 also if the vertex shader fades the cell near the eye.
     const float* inner_disc() const { return inner_disc_.data(); }
     const float* outer_disc() const { return outer_disc_.data(); }
-    /// For ellipsoids on planes: half the ellipse's height, half its width in the row of its middle
-    /// [pixel], how far the middles of its rows move to the right for each pixel up, and how high
-    /// above its middle it reaches farthest to the right [pixel].
-    const float* up() const { return up_.data(); }
-    const float* half() const { return half_.data(); }
-    const float* lean() const { return lean_.data(); }
-    const float* tip() const { return tip_.data(); }
-    /// Of such ellipses, only what lies in the cell is drawn: in three stripes, one for each axis.
+    /// Of quads on planes: the ends of the rows between which the quad lies [pixel of the
+    /// viewport], the upper one first beyond the lower one if there is nothing of it.
+    const float* low() const { return low_.data(); }
+    const float* high() const { return high_.data(); }
+    /// Such a quad lies in three stripes, one for each axis of the cell; `x` and `y` are a place in
+    /// all of them, and `inner_disc` is half a side of a square of about the quad's area.
     struct Stripe {
-        const float* middle; ///< to the right of the ellipse's middle, in the row of it [pixel]
+        const float* middle; ///< to the right of `x`, in the row of `y` [pixel]
         const float* lean;   ///< how far it moves to the right for each pixel up
         const float* half;   ///< half its width [pixel]
     };
-    /// Null where ellipses are not cut.
     Stripe stripe(std::size_t axis) const {
         const auto& [middle, lean, half] = stripes_[axis];
-        return middle.empty() ? Stripe{} : Stripe{middle.data(), lean.data(), half.data()};
+        return {middle.data(), lean.data(), half.data()};
     }
 
   private:
@@ -84,8 +80,7 @@ class CellSquares {
     std::array<AxisPlaces, 3> axes_;
     std::vector<std::uint32_t> words_; ///< two for each cell: those of its CellPlace
     std::vector<std::uint32_t> planes_;
-    std::vector<float> x_, y_, z_, inner_, outer_, inner_disc_, outer_disc_, up_, half_, lean_,
-        tip_;
+    std::vector<float> x_, y_, z_, inner_, outer_, inner_disc_, outer_disc_, low_, high_;
     std::array<std::array<std::vector<float>, 3>, 3> stripes_;
 };
 

@@ -10,7 +10,7 @@ const char* name_of(CellShape shape) {
 float FootprintShapes::radius_of(Footprint footprint) const {
     const bool gaussian = footprint == Footprint::gaussian;
     if (shape == CellShape::plane)
-        return gaussian ? plane_gaussian_radius : plane_radius;
+        return gaussian ? plane_gaussian_radius : half_cell;
     return 0.5f * (gaussian ? gaussian_diameter : quad_diameter);
 }
 

@@ -70,13 +70,14 @@ struct FootprintShapes {
     float quad_diameter = 1.41421356f;
     float gaussian_diameter = 4.0f; ///< at which the Gaussian is cut off
     float gaussian_sigma = 0.7f;
-    // Ellipsoids on planes that pass near the middles of their cells:
-    float plane_radius = 0.9f;
-    bool in_cell = true; ///< a quad shows only what lies in its cell, a little enlarged
+    // On planes:
+    /// Half a side of the enlarged cell of which a quad shows the plane's part: planes of neighbors
+    /// differ, so each goes on a little behind the common face.
+    float half_cell = 0.597f;
     float plane_gaussian_radius = 1.45f; ///< at which the Gaussian is cut off
     float plane_sigma = 0.5075f;
 
-    /// Radius of this footprint with the current shape [voxels].
+    /// Radius of this footprint with the current shape, or half the side of a cell [voxels].
     float radius_of(Footprint footprint) const;
     float sigma() const { return shape == CellShape::plane ? plane_sigma : gaussian_sigma; }
 };

@@ -38,4 +38,8 @@ constexpr float kReachOfRectangle = 1.5f;
 /// Largest distance between the middles of a cell and of the ellipsoid on its plane [voxels].
 constexpr float kFarthestPlane = 0.87f;
 
+/// Longest way from a place in a cell to another, in halves of the cell's sides: 2 sqrt(3), and a
+/// little more.
+constexpr float kMostOfCut = 3.5f;
+
 } // namespace isochron::render

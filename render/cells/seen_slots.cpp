@@ -11,6 +11,7 @@ void SeenSlots::begin(const View& view, const Placement& placement, const SplatS
     squares_.begin(view, placement, shape, slots);
     projected_ = visited_ = count_ = 0;
     seen_.resize(squares_.size());
+    parts_.resize(finds_parts() ? squares_.size() : 0);
 }
 
 std::span<const std::uint32_t> SeenSlots::advance(std::size_t to, const Slots& slots,
@@ -27,7 +28,8 @@ std::span<const std::uint32_t> SeenSlots::advance(std::size_t to, const Slots& s
         const std::size_t wanted = (to - cells + kVisit - 1) / kVisit;
         const std::size_t end = std::min((wanted + kBlock - 1) / kBlock * kBlock, cells);
         if (end > visited_)
-            count_ += visit(squares_, tiles_.numbers(), visited_, end, seen_.data() + count_);
+            count_ += visit(squares_, tiles_.numbers(), visited_, end, seen_.data() + count_,
+                            finds_parts() ? parts_.data() + count_ : nullptr);
         visited_ = std::max(visited_, end);
         if (visited_ == cells) {
             seen_.resize(count_);

@@ -14,6 +14,12 @@
 
 namespace isochron::render {
 
+/// A square of whole pixels of the viewport.
+struct PixelSquare {
+    std::uint32_t corner = 0; ///< its lower left pixel: x, and y from bit 16 on
+    std::uint32_t size = 0;   ///< of its sides [pixel]; 0 where it is not known
+};
+
 /// Projects the cells, then visits them nearest first with tiles that know what nearer ones hide.
 class SeenSlots {
   public:
@@ -29,6 +35,12 @@ class SeenSlots {
     /// @return slots of the visible cells once all is done; valid until the next call
     std::span<const std::uint32_t> advance(std::size_t to, const Slots& slots,
                                            std::span<const std::uint32_t> back_to_front);
+    /// Of each visible cell, once all is done, a square around all that others do not hide of it;
+    /// empty if that is not known. Valid as long as the slots.
+    std::span<const PixelSquare> parts() const {
+        return finds_parts() ? std::span<const PixelSquare>(parts_).first(seen_.size())
+                             : std::span<const PixelSquare>();
+    }
 
   protected:
     ~SeenSlots() = default;
@@ -37,10 +49,13 @@ class SeenSlots {
     /// Visits the cells from number `first` to `end` in the order of the squares; `first` is a
     /// multiple of `CellSquares::kBlock`.
     /// @param seen takes the numbers of the visible ones
+    /// @param parts takes what is seen of each, if `finds_parts`
     /// @return how many these are
     virtual std::size_t visit(const CellSquares& squares, const TileNumbers& tiles,
-                              std::size_t first, std::size_t end, std::uint32_t* seen) = 0;
+                              std::size_t first, std::size_t end, std::uint32_t* seen,
+                              PixelSquare* parts) = 0;
     virtual bool nearest_first() const = 0; ///< the order of what is found
+    virtual bool finds_parts() const = 0;   ///< only nearest first
 
   private:
     static constexpr std::size_t kVisit = 3; ///< times the work of projecting it, for a cell
@@ -50,6 +65,7 @@ class SeenSlots {
     PictureTiles tiles_;
     std::size_t projected_ = 0, visited_ = 0, count_ = 0;
     std::vector<std::uint32_t> seen_;
+    std::vector<PixelSquare> parts_;
 };
 
 } // namespace isochron::render

@@ -194,7 +194,8 @@ void SeenSplats::lay_out(const View& view, const CellSquares& squares, PictureTi
 }
 
 std::size_t SeenSplats::visit(const CellSquares& squares, const TileNumbers& tiles,
-                              std::size_t first, std::size_t end, std::uint32_t* seen) {
+                              std::size_t first, std::size_t end, std::uint32_t* seen,
+                              PixelSquare* /*parts*/) {
     return HWY_DYNAMIC_DISPATCH(find)(squares, falloff_, tiles, first, end, seen);
 }
 

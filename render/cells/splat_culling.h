@@ -39,8 +39,9 @@ class SeenSplats final : public SeenSlots {
     /// A tile has an upper bound of the light that comes through.
     void lay_out(const View& view, const CellSquares& squares, PictureTiles& tiles) override;
     std::size_t visit(const CellSquares& squares, const TileNumbers& tiles, std::size_t first,
-                      std::size_t end, std::uint32_t* seen) override;
+                      std::size_t end, std::uint32_t* seen, PixelSquare* parts) override;
     bool nearest_first() const override { return false; }
+    bool finds_parts() const override { return false; }
 
     float falloff_ = 0;
 };

@@ -24,8 +24,6 @@ struct SquareProjection {
     glm::vec4 row_x, row_y, row_z, row_w; ///< from index to clip space, x and y in pixels
     glm::vec2 middle;                     ///< of the viewport, pixels
     float radius;
-    float thickness, lengthwise; ///< of SplatShape
-    float half_cell;             ///< half a side of the enlarged cell [voxels]
     glm::mat3 index_from_normal; ///< normals of planes from physical to index space
     glm::vec3 extent;            ///< of the volume in index space
     /// Of a rectilinear grid, as AxisPlaces has them; null for a regular one.
@@ -33,10 +31,16 @@ struct SquareProjection {
     std::int32_t last[3]; ///< vertex along each axis
 };
 
+constexpr float kClipped =
+    1.0f - 1e-6f;            ///< cells at a larger |z| may be clipped: they hide nothing
+constexpr float kFar = 1e9f; ///< [pixel] beyond any view and before any depth
+
 /// The arrays for the results.
 struct SquareArrays {
-    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc, *up, *half, *lean, *tip;
-    float* stripes[3][3]; ///< null unless ellipses are cut at their cells
+    float *x, *y, *z, *inner, *outer, *inner_disc, *outer_disc;
+    // Null unless planes are cut at their cells:
+    float *low, *high;
+    float* stripes[3][3];
 };
 
 } // namespace isochron::render

@@ -2,6 +2,7 @@
 #include "stereo/context/gl_context.h"
 
 #include "stereo/context/gl_context_backends.h"
+#include "stereo/context/raster_memory.h"
 #include "stereo/context/raster_threads.h"
 
 #include <fmt/format.h>
@@ -87,8 +88,10 @@ std::unique_ptr<GlContext> make_context(ContextKind kind, const ContextOptions& 
                         fmt::format("size {}x{} is not positive", options.size.x, options.size.y));
                 auto context = row.make(options);
                 require_gl_4_5_core(context->loader());
-                if (describe_current(context->loader()).find("llvmpipe") != std::string::npos)
+                if (describe_current(context->loader()).find("llvmpipe") != std::string::npos) {
                     spread_raster_threads();
+                    keep_raster_memory();
+                }
                 return context;
             } catch (const NoDisplay&) {
                 throw;

@@ -37,7 +37,8 @@ std::string agreement_section(const AgreementResults& results, const std::string
     std::string page = fmt::format(
         "\n# Footprints beside the exact surface\n\n"
         "From `{}`, measured on {} with commit {} on {}. Quads and splats of both shapes, *plane* "
-        "(flat ellipses on the surface, the default) and *voxel* (the paper's spheres), beside the "
+        "(flat pieces and ellipses on the surface, the default) and *voxel* (the paper's spheres), "
+        "beside the "
         "exact surface in the same view: perspective, alone on black. *Extra* and *missed* are "
         "pixels that one lights and the other does not, of those of the exact surface; a pixel is "
         "lit where half of the light behind it is stopped. *Offset* is the area between the two "

@@ -9,9 +9,8 @@ namespace isochron::render {
 namespace {
 
 constexpr float kRadius = 0.5f * FootprintShapes{}.quad_diameter;
-constexpr std::array kShapes{
-    SplatShape{CellShape::plane, FootprintShapes{}.plane_radius, true, true},
-    SplatShape{CellShape::voxel, kRadius}};
+constexpr std::array kShapes{SplatShape{CellShape::plane, FootprintShapes{}.half_cell, true},
+                             SplatShape{CellShape::voxel, kRadius}};
 
 class SeenCellsPictures : public HiddenCellsTest {
   protected:

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -141,10 +142,14 @@ TEST_F(BenchRenderCommand, CountsArtifactsAndShowsThem) {
                                             "sphere_kept_normals.png", "sphere_quality_fast.png"));
     const auto rows = nlohmann::json::parse(folder.read("c.json")).at("rows");
     ASSERT_GE(rows.size(), 2u) << "one for each footprint";
-    for (const auto& row : rows)
-        for (const char* figure : {"cells", "angle_mean", "normals_mean", "false_positive_percent",
-                                   "false_changed_percent"})
+    double most_changed = 0;
+    for (const auto& row : rows) {
+        for (const char* figure : {"cells", "angle_mean", "normals_mean", "false_positive_percent"})
             EXPECT_GT(row.at(figure), 0.0) << figure;
+        most_changed = std::max(most_changed, row.at("false_changed_percent").get<double>());
+    }
+    // Quads may show none of them: no plane passes through cells without a surface.
+    EXPECT_GT(most_changed, 0.0);
 }
 
 TEST_F(BenchRenderCommand, CanceledItLeavesNothingBehind) {

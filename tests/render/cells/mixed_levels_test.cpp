@@ -205,7 +205,7 @@ TEST_P(MixedLevels, CellsThatReachIntoFinerRegionsCloseTheGapBetweenTheSheets) {
     });
     ASSERT_LT(cut->cells(), mixed->cells());
     EXPECT_LE(dark_rows(mixed), 1) << "3/4 of a voxel";
-    EXPECT_GT(dark_rows(cut), 4);
+    EXPECT_GE(dark_rows(cut), 4);
 }
 
 TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #undef HWY_TARGET_INCLUDE
@@ -25,8 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr float kMargin = 1.0f / 64.0f;
 /// Most rows of tiles of a cut. Larger ones are few: they are drawn, and hide nothing.
 constexpr int kMostRows = 64;
-constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
-constexpr int kLargestPart = 128;     ///< [pixel] of a square around what is seen of a cut
+constexpr int kLargestPart = 128; ///< [pixel] of a square around what is seen of a cut
 
 using Span = hn::CappedTag<float, 8>; // most cuts have fewer rows of tiles
 using SpanV = hn::Vec<Span>;
@@ -52,9 +50,7 @@ class TiledCut {
     }
 
     int rows() const { return count_; }
-    float* row(int i) const {
-        return tiles_.numbers + static_cast<std::size_t>(first_ + i) * tiles_.columns;
-    }
+    float* row(int i) const { return tiles_.row(first_ + i); }
     /// Tiles in which it may cover the middle of a pixel.
     HWY_INLINE void touched(Ranges& out) const {
         each_rows([&](int i, SpanV first, SpanV last) HWY_ATTR {
@@ -95,8 +91,7 @@ class TiledCut {
 
     static HWY_INLINE SpanV set(float value) { return hn::Set(Span(), value); }
     HWY_INLINE hn::Vec<Ints> tile(SpanV at) const {
-        const auto near = hn::Clamp(at, set(-kFarthest), set(kFarthest));
-        return hn::ShiftRightSame(hn::ConvertTo(Ints(), hn::Floor(near)), tiles_.bits);
+        return hn::ShiftRightSame(pixel_at(at), tiles_.bits);
     }
     /// What is in all stripes somewhere between two heights above `y_`, or everywhere.
     template <bool kSomewhere>
@@ -140,22 +135,21 @@ HWY_INLINE std::optional<PixelSquare> seen_part(const TiledCut& cut, const TileN
     const auto nearer = hn::Set(d, z - kLevel);
     int left = tiles.columns, right = -1, low = -1, high = -1;
     for (int i = 0; i < cut.rows(); ++i) {
-        const float* const row = cut.row(i);
-        all_of_row(cut.row(i), touched.from[i], touched.to[i],
-                   [&](const float* at, auto which) HWY_ATTR {
-                       const auto seen = hn::And(which, hn::Ge(hn::LoadU(d, at), nearer));
-                       if (hn::AllFalse(d, seen))
-                           return true;
-                       std::array<std::uint8_t, 8> bytes{};
-                       hn::StoreMaskBits(d, seen, bytes.data());
-                       const auto bits = std::bit_cast<std::uint64_t>(bytes);
-                       const int column = static_cast<int>(at - row);
-                       left = std::min(left, column + std::countr_zero(bits));
-                       right = std::max(right, column + 63 - std::countl_zero(bits));
-                       low = low < 0 ? i : low;
-                       high = i;
-                       return true;
-                   });
+        float* const row = cut.row(i);
+        all_of_row(row, touched.from[i], touched.to[i], [&](const float* at, auto which) HWY_ATTR {
+            const auto seen = hn::And(which, hn::Ge(hn::LoadU(d, at), nearer));
+            if (hn::AllFalse(d, seen))
+                return true;
+            std::array<std::uint8_t, 8> bytes{};
+            hn::StoreMaskBits(d, seen, bytes.data());
+            const auto bits = std::bit_cast<std::uint64_t>(bytes);
+            const int column = static_cast<int>(at - row);
+            left = std::min(left, column + std::countr_zero(bits));
+            right = std::max(right, column + 63 - std::countl_zero(bits));
+            low = low < 0 ? i : low;
+            high = i;
+            return true;
+        });
     }
     if (right < 0)
         return std::nullopt;

@@ -15,6 +15,8 @@ struct TileNumbers {
     float* numbers;                           ///< row by row
     int bits;                                 ///< tiles have 1 << bits pixels across and up
     int columns, rows;
+
+    float* row(int number) const { return numbers + static_cast<std::size_t>(number) * columns; }
 };
 
 class PictureTiles {

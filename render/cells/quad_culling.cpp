@@ -21,6 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// [pixels] by which GL's quads may be larger or smaller than ours, as GL rounds to 1/256.
 constexpr float kMargin = 1.0f / 16.0f;
+
 /// Tiles in which the quad may cover the middle of a pixel.
 HWY_INLINE void touched(const TileNumbers& tiles, const float* middle, const float* half, int count,
                         Tiles& out) {
@@ -59,10 +60,10 @@ HWY_INLINE bool hidden(const TileNumbers& tiles, const Tiles& across, const Tile
     const Row d;
     const auto nearer = hn::Set(d, z - kLevel);
     for (int y = up.first[i]; y <= up.last[i]; ++y) {
-        float* const row = tiles.numbers + static_cast<std::size_t>(y) * tiles.columns;
-        if (!all_of_row(row, across.first[i], across.last[i], [&](const float* at, auto which) {
-                return hn::AllFalse(d, hn::And(which, hn::Ge(hn::LoadU(d, at), nearer)));
-            }))
+        if (!all_of_row(
+                tiles.row(y), across.first[i], across.last[i], [&](const float* at, auto which) {
+                    return hn::AllFalse(d, hn::And(which, hn::Ge(hn::LoadU(d, at), nearer)));
+                }))
             return false;
     }
     return true;
@@ -71,8 +72,7 @@ HWY_INLINE bool hidden(const TileNumbers& tiles, const Tiles& across, const Tile
 HWY_INLINE void cover(const TileNumbers& tiles, const Tiles& across, const Tiles& up, std::size_t i,
                       float z) {
     for (int y = up.first[i]; y <= up.last[i]; ++y)
-        cover_row(tiles.numbers + static_cast<std::size_t>(y) * tiles.columns, across.first[i],
-                  across.last[i], z);
+        cover_row(tiles.row(y), across.first[i], across.last[i], z);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "render/cells/splat_culling.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
 
+#include "render/cells/tile_rows_inl.h"
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -16,8 +17,6 @@ namespace isochron::render::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-using Row = hn::CappedTag<float, TileNumbers::kSlack>;
 
 /// If less light than this comes through, nothing behind changes a byte by more than its rounding.
 constexpr float kDark = 1.0f / 512.0f;
@@ -29,7 +28,6 @@ constexpr float kToSample = 0.75f;
 /// Most tiles along an axis of a splat. Larger splats are few, and testing them takes long: they
 /// are drawn, and hide nothing.
 constexpr int kMostTiles = 96;
-constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
 
 using Floats = std::array<float, kMostTiles + TileNumbers::kSlack>;
 using Ints = std::array<std::int32_t, kMostTiles + TileNumbers::kSlack>;
@@ -97,8 +95,7 @@ HWY_INLINE void find_spans(const TileNumbers& tiles, const Profile& across, cons
     const auto radius2 = hn::Set(d, radius * radius), at = hn::Set(d, middle);
     const auto zero = hn::Zero(di), count = hn::Set(di, across.count);
     const auto tile = [&](hn::Vec<Row> pixel) {
-        const auto near = hn::Clamp(pixel, hn::Set(d, -kFarthest), hn::Set(d, kFarthest));
-        const auto number = hn::ShiftRightSame(hn::ConvertTo(di, hn::Floor(near)), tiles.bits);
+        const auto number = hn::ShiftRightSame(pixel_at(pixel), tiles.bits);
         return hn::Sub(number, hn::Set(di, across.first));
     };
     for (int i = 0; i < up.count; i += static_cast<int>(hn::Lanes(d))) {
@@ -157,10 +154,7 @@ std::size_t find(const CellSquares& splats, float falloff, const TileNumbers& ti
         }
         if (across.count < 1 || up.count < 1)
             continue;
-        const auto row = [&](int i) {
-            return tiles.numbers + static_cast<std::size_t>(up.first + i) * tiles.columns +
-                   across.first;
-        };
+        const auto row = [&](int i) { return tiles.row(up.first + i) + across.first; };
         find_spans(tiles, across, up, x, reach, spans);
         bool hidden = true;
         for (int i = 0; i < up.count && hidden; ++i)

@@ -35,11 +35,14 @@ struct Tiles {
     std::array<std::int32_t, CellSquares::kBlock> first, last;
 };
 
-/// The pixel at a place; places far outside any view are clamped.
-HWY_INLINE hn::Vec<BlockInts> pixel_at(hn::Vec<BlockFloats> at) {
-    const BlockFloats d;
-    const auto near = hn::Clamp(at, hn::Set(d, -65536.0f), hn::Set(d, 65536.0f));
-    return hn::ConvertTo(BlockInts(), hn::Floor(near));
+constexpr float kFarthest = 65536.0f; ///< [pixel] beyond any view
+
+/// The pixels at some places; places far outside any view are clamped.
+template <class V>
+HWY_INLINE hn::Vec<hn::RebindToSigned<hn::DFromV<V>>> pixel_at(V at) {
+    const hn::DFromV<V> d;
+    const auto near = hn::Clamp(at, hn::Set(d, -kFarthest), hn::Set(d, kFarthest));
+    return hn::ConvertTo(hn::RebindToSigned<hn::DFromV<V>>(), hn::Floor(near));
 }
 
 /// Visits the tiles of a row from `first` to `last`, a vector at a time: calls `each(tiles, which)`

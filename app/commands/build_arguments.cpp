@@ -23,10 +23,30 @@ std::string names_of(const index::TierSet& tiers) {
     return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ","));
 }
 
-std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
-    if (numbers.empty())
-        return std::nullopt;
-    return glm::dvec3(numbers[0], numbers[1], numbers[2]);
+glm::dvec3 vector_of(const std::vector<double>& numbers) {
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// Takes what the user left open from how files were read before.
+void fill_in(index::ReadOptions& read, const index::ReadOptions& held) {
+    const auto take = [](auto& of, const auto& held_one) {
+        if (!of)
+            of = held_one;
+    };
+    take(read.allow_surplus, held.allow_surplus);
+    take(read.extra_axis_is_time, held.extra_axis_is_time);
+    take(read.times_from_names, held.times_from_names);
+    take(read.resample, held.resample);
+    take(read.dims, held.dims);
+    take(read.type, held.type);
+    take(read.big_endian, held.big_endian);
+    take(read.header_bytes, held.header_bytes);
+    take(read.spacing, held.spacing);
+    take(read.origin, held.origin);
+    take(read.time_step, held.time_step);
+    take(read.length_unit, held.length_unit);
+    take(read.time_unit, held.time_unit);
+    take(read.value_unit, held.value_unit);
 }
 
 } // namespace
@@ -61,8 +81,10 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
         read.resample = index::kBySmallestCell;
     if (!arguments.type.empty())
         read.type = index::value_type_from_name(arguments.type);
-    read.spacing = vector_of(arguments.spacing);
-    read.origin = vector_of(arguments.origin);
+    if (!arguments.spacing.empty())
+        read.spacing = vector_of(arguments.spacing);
+    if (!arguments.origin.empty())
+        read.origin = vector_of(arguments.origin);
     return read;
 }
 
@@ -121,6 +143,10 @@ BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held)
         arguments.read.array = known.chosen_array;
         arguments.read.component = known.chosen_component;
     }
+    if (known.reading)
+        fill_in(arguments.read, *known.reading);
+    else if (held.referral()) // an index of an older program
+        fill_in(arguments.read, held.referral()->options);
     if (!arguments.color && held.color()) {
         arguments.color = held.color()->chosen_array.value_or(held.color()->array);
         arguments.color_component = held.color()->chosen_component;

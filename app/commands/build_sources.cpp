@@ -182,6 +182,10 @@ index::BuildOptions build_options(const BuildArguments& arguments, const BuildSo
         options.codec = *index::codec_from_name(arguments.codec);
     options.array = sources.array;
     options.component = sources.component;
+    index::ReadOptions reading = read_options(arguments);
+    reading.array = reading.component = std::nullopt;
+    if (reading != index::ReadOptions())
+        options.reading = reading;
     options.color_array = arguments.color;
     options.color_component = arguments.color_component;
     options.color = sources.colors.get();

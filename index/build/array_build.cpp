@@ -41,7 +41,8 @@ class ArrayBuild::Work {
                                  .tree = options.tree,
                                  .referral = options.referral,
                                  .chosen_array = options.array,
-                                 .chosen_component = options.component},
+                                 .chosen_component = options.component,
+                                 .reading = options.reading},
           steps_(static_cast<std::uint32_t>(series.info().steps())),
           levels_(detail_grids(series.info().grid).size()) {
         if (held)

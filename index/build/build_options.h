@@ -43,6 +43,8 @@ struct BuildOptions {
     std::optional<std::string> color_array = {}, color_component = {};
     /// The options that select the volume itself.
     std::optional<std::string> array = {}, component = {};
+    /// How the files are read, for steps that are appended later; without array and component.
+    std::optional<ReadOptions> reading = {};
     /// Further arrays, each with its own levels and tiers; fewer than kMostArrays.
     std::vector<FurtherArray> further = {};
 };

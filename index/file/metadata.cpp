@@ -208,6 +208,8 @@ std::string to_json(const Metadata& metadata) {
         j["levels"] = json_of(*metadata.levels);
     put_optional(j, "chosen_array", metadata.chosen_array);
     put_optional(j, "chosen_component", metadata.chosen_component);
+    if (metadata.reading)
+        j["reading"] = json_of(*metadata.reading);
     if (metadata.referral)
         j["referral"] = json_of(*metadata.referral);
     if (metadata.color)
@@ -245,6 +247,8 @@ Metadata metadata_from_json(std::string_view text) try {
     const json& tree = j.at("tree");
     metadata.tree.lattice = whole<std::uint32_t>(tree.at("lattice"));
     metadata.tree.max_variation = whole<std::uint32_t>(tree.at("max_variation"));
+    if (j.contains("reading"))
+        metadata.reading = read_options_of(j.at("reading"));
     if (j.contains("referral"))
         metadata.referral = referral_of(j.at("referral"));
     if (j.contains("color"))

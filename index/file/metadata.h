@@ -42,6 +42,9 @@ struct Metadata {
     std::optional<ColorArray> color = {};
     /// The options that select the array in the files: `ReadOptions::array` and `component`.
     std::optional<std::string> chosen_array = {}, chosen_component = {};
+    /// How the files were read, as far as the user said; without array and component. Indexes of
+    /// older programs have none.
+    std::optional<ReadOptions> reading = {};
     /// The arrays of the index besides this one; only the first array lists them.
     std::vector<ArrayPlace> further = {};
 };

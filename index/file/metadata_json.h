@@ -86,6 +86,10 @@ void get_optional(const json& j, const char* key, std::optional<T>& value) {
         value = j.at(key).get<T>();
 }
 
+/// How files are read, but not which array and component of them.
+json json_of(const ReadOptions& options);
+ReadOptions read_options_of(const json& j);
+
 /// The files that an index refers to. Reads only the options that say how to read them: grid, times
 /// and units are in the index.
 json json_of(const Referral& referral);

@@ -12,25 +12,75 @@
 
 namespace isochron::index {
 
-json json_of(const Referral& referral) {
-    const ReadOptions& options = referral.options;
-    json j{{"files", json::array()},
-           {"big_endian", options.big_endian},
-           {"header_bytes", options.header_bytes}};
-    for (const std::filesystem::path& file : referral.files)
-        j["files"].push_back(exact(file.string()));
+namespace {
+
+/// The options that say how files are decoded.
+void put_decoding(json& j, const ReadOptions& options) {
+    j["big_endian"] = options.big_endian;
+    j["header_bytes"] = options.header_bytes;
     if (options.allow_surplus)
         j["allow_surplus"] = true;
     if (options.times_from_names)
         j["times_from_names"] = true;
     if (options.extra_axis_is_time)
         j["extra_axis_is_time"] = true;
-    put_optional(j, "array", options.array);
-    put_optional(j, "component", options.component);
     put_optional(j, "dims", options.dims);
     put_optional(j, "resample", options.resample);
     if (options.type)
         j["type"] = name_of(*options.type);
+}
+
+void get_decoding(const json& j, ReadOptions& options) {
+    options.allow_surplus = j.value("allow_surplus", false);
+    options.times_from_names = j.value("times_from_names", false);
+    options.extra_axis_is_time = j.value("extra_axis_is_time", false);
+    j.at("big_endian").get_to(options.big_endian);
+    options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
+    for (auto [key, to] : {std::pair("dims", &options.dims), {"resample", &options.resample}})
+        if (j.contains(key))
+            get_whole(j.at(key), to->emplace());
+    if (j.contains("type"))
+        options.type = value_type_from_name(j.at("type").get<std::string>());
+}
+
+} // namespace
+
+json json_of(const ReadOptions& options) {
+    json j;
+    put_decoding(j, options);
+    for (const auto& [key, value] :
+         {std::pair("spacing", options.spacing), {"origin", options.origin}})
+        if (value)
+            j[key] = {value->x, value->y, value->z};
+    put_optional(j, "time_step", options.time_step);
+    put_optional(j, "length_unit", options.length_unit);
+    put_optional(j, "time_unit", options.time_unit);
+    put_optional(j, "value_unit", options.value_unit);
+    return j;
+}
+
+ReadOptions read_options_of(const json& j) {
+    ReadOptions options;
+    get_decoding(j, options);
+    for (auto [key, to] : {std::pair("spacing", &options.spacing), {"origin", &options.origin}})
+        if (j.contains(key)) {
+            const auto v = j.at(key).get<std::array<double, 3>>();
+            *to = {v[0], v[1], v[2]};
+        }
+    get_optional(j, "time_step", options.time_step);
+    get_optional(j, "length_unit", options.length_unit);
+    get_optional(j, "time_unit", options.time_unit);
+    get_optional(j, "value_unit", options.value_unit);
+    return options;
+}
+
+json json_of(const Referral& referral) {
+    json j{{"files", json::array()}};
+    for (const std::filesystem::path& file : referral.files)
+        j["files"].push_back(exact(file.string()));
+    put_decoding(j, referral.options);
+    put_optional(j, "array", referral.options.array);
+    put_optional(j, "component", referral.options.component);
     return j;
 }
 
@@ -38,19 +88,9 @@ Referral referral_of(const json& j) {
     Referral referral;
     for (const json& file : j.at("files"))
         referral.files.emplace_back(exact_text(file));
-    ReadOptions& options = referral.options;
-    options.allow_surplus = j.value("allow_surplus", false);
-    options.times_from_names = j.value("times_from_names", false);
-    options.extra_axis_is_time = j.value("extra_axis_is_time", false);
-    j.at("big_endian").get_to(options.big_endian);
-    options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
-    get_optional(j, "array", options.array);
-    get_optional(j, "component", options.component);
-    for (auto [key, to] : {std::pair("dims", &options.dims), {"resample", &options.resample}})
-        if (j.contains(key))
-            get_whole(j.at(key), to->emplace());
-    if (j.contains("type"))
-        options.type = value_type_from_name(j.at("type").get<std::string>());
+    get_decoding(j, referral.options);
+    get_optional(j, "array", referral.options.array);
+    get_optional(j, "component", referral.options.component);
     return referral;
 }
 

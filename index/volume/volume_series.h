@@ -72,6 +72,8 @@ struct ReadOptions {
     std::optional<std::string> length_unit; ///< --length-unit
     std::optional<std::string> time_unit;   ///< --time-unit
     std::optional<std::string> value_unit;  ///< --value-unit
+
+    bool operator==(const ReadOptions&) const = default;
 };
 
 /// Receives the stored values of a step, piece by piece.

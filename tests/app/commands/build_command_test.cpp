@@ -109,6 +109,26 @@ TEST_F(CommandLine, AppendingKeepsWhatTheIndexWasBuiltWith) {
     }
 }
 
+TEST_F(CommandLine, AppendingReadsFilesAsTheFirstOnesWereRead) {
+    const auto described = [&] {
+        return description(isochron({"info", "a.isochron", "--json"}).out);
+    };
+    const std::vector<std::string> options{"--spacing",     "1",  "2",           "0.5",
+                                           "--origin",      "3",  "0",           "-1",
+                                           "--length-unit", "mm", "--time-step", "0.25"};
+    ASSERT_EQ(isochron(build_of("t*.raw", options)).status, 0);
+    const auto whole = described();
+    std::filesystem::remove(folder.path() / "a.isochron");
+    ASSERT_EQ(isochron(build_of("t[01].raw", options)).status, 0);
+    for (const char* files : {"t[0123].raw", "t*.raw"}) { // what was filled in is kept, too
+        const ChildResult appended = isochron({"build", files, "-o", "a.isochron", "--append"});
+        ASSERT_EQ(appended.status, 0) << appended.err;
+    }
+    EXPECT_EQ(described(), whole);
+    expect_failure(isochron({"build", "t*.raw", "-o", "a.isochron", "--append", "--type", "u8"}), 1,
+                   "a.isochron: cannot be appended to: the files differ from it in grid, type");
+}
+
 TEST_F(CommandLine, AppendingSaysWhereItIsToldOtherwise) {
     for (const auto& [options, told] : {std::pair<std::vector<std::string>, std::string>{
                                             {"--tiers", "none"}, "tiers none instead of bricks"},

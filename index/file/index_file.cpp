@@ -257,42 +257,45 @@ LoadedStep IndexFile::load_color(std::uint32_t step, const std::stop_token& stop
 }
 
 const StepValues& IndexFile::values() const {
-    std::call_once(all_read_, [this] {
-        const SeriesInfo& info = metadata_.info;
-        StepValues all{.grid = info.grid,
-                       .type = info.type,
-                       .scaling = info.scaling,
-                       .steps = info.steps(),
-                       .stride = step_stride(info.step_bytes())};
-        const std::size_t bytes = align_up(all.stride * all.steps, kPage);
-        all_.reset(static_cast<std::byte*>(std::aligned_alloc(kPage, bytes)),
-                   [](std::byte* memory) { std::free(memory); });
-        if (!all_)
-            throw Error(fmt::format("{}: no memory for {} bytes", bytes_->name(), bytes));
-        for (std::uint32_t step = 0; step < info.steps(); ++step)
-            std::memcpy(all_.get() + step * all.stride, load(step).values.step_bytes(step).data(),
-                        info.step_bytes());
-        all.first = all_.get();
-        values_ = all;
-    });
+    const std::lock_guard lock(reading_);
+    if (all_)
+        return values_;
+    const SeriesInfo& info = metadata_.info;
+    StepValues all{.grid = info.grid,
+                   .type = info.type,
+                   .scaling = info.scaling,
+                   .steps = info.steps(),
+                   .stride = step_stride(info.step_bytes())};
+    const std::size_t bytes = align_up(all.stride * all.steps, kPage);
+    const std::shared_ptr<std::byte> memory(
+        static_cast<std::byte*>(std::aligned_alloc(kPage, bytes)),
+        [](std::byte* taken) { std::free(taken); });
+    if (!memory)
+        throw Error(fmt::format("{}: no memory for {} bytes", bytes_->name(), bytes));
+    for (std::uint32_t step = 0; step < info.steps(); ++step)
+        std::memcpy(memory.get() + step * all.stride, load(step).values.step_bytes(step).data(),
+                    info.step_bytes());
+    all.first = memory.get();
+    values_ = all;
+    all_ = memory;
     return values_;
 }
 
 const ThiTree* IndexFile::tree() const {
-    std::call_once(tree_read_, [this] {
-        const Section& where = header_.section(SectionKind::tree);
-        if (where.bytes == 0)
-            return;
-        tree_bytes_ = section<std::uint64_t>(SectionKind::tree);
-        try {
-            tree_ = std::make_unique<ThiTree>(std::as_bytes(std::span(tree_bytes_)));
-        } catch (const Error& error) {
-            throw damaged(fmt::format("tree: {}", error.what()));
-        }
-        if (tree_->steps() != steps())
-            throw damaged(
-                fmt::format("tree of {} steps, the volume has {}", tree_->steps(), steps()));
-    });
+    if (header_.section(SectionKind::tree).bytes == 0)
+        return nullptr;
+    const std::lock_guard lock(reading_);
+    if (tree_)
+        return tree_.get();
+    tree_bytes_ = section<std::uint64_t>(SectionKind::tree);
+    try {
+        auto tree = std::make_unique<ThiTree>(std::as_bytes(std::span(tree_bytes_)));
+        if (tree->steps() != steps())
+            throw Error(fmt::format("{} steps, the volume has {}", tree->steps(), steps()));
+        tree_ = std::move(tree);
+    } catch (const Error& error) {
+        throw damaged(fmt::format("tree: {}", error.what()));
+    }
     return tree_.get();
 }
 

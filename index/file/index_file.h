@@ -196,10 +196,10 @@ class IndexFile {
     std::vector<std::uint64_t> epoch_begins_; ///< file offsets of the units of each epoch
     CellTier::Pages units_;                   ///< by epoch
     std::optional<CellTier> cells_;
-    mutable std::once_flag tree_read_;
+    /// Of what is read when it is first asked for; a failure leaves it for the next to ask.
+    mutable std::mutex reading_;
     mutable std::vector<std::uint64_t> tree_bytes_;
     mutable std::unique_ptr<ThiTree> tree_;
-    mutable std::once_flag all_read_;
     mutable std::shared_ptr<std::byte> all_;
     mutable StepValues values_;
     std::vector<std::unique_ptr<IndexFile>> further_; ///< the other arrays, of the first one only

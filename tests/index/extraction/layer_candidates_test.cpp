@@ -16,6 +16,7 @@
 #include <atomic>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <random>
 #include <thread>
 #include <utility>
@@ -33,6 +34,7 @@ class WatchedSource final : public ByteSource {
     const std::string& name() const override { return name_; }
     std::uint64_t size() const override { return bytes_.size(); }
     void expect(std::uint64_t offset, std::uint64_t bytes) const override {
+        const std::lock_guard lock(mutex_);
         std::fill_n(announced_.begin() + static_cast<std::ptrdiff_t>(offset), bytes, true);
         announcements += bytes;
     }
@@ -40,7 +42,10 @@ class WatchedSource final : public ByteSource {
         ++fetches;
         expect(offset, bytes);
     }
-    void forget() const { std::fill(announced_.begin(), announced_.end(), false); }
+    void forget() const {
+        const std::lock_guard lock(mutex_);
+        std::fill(announced_.begin(), announced_.end(), false);
+    }
 
     mutable std::uint64_t announcements = 0;         ///< bytes
     mutable std::atomic<std::uint32_t> fetches = 0;  ///< requests for all of a layer
@@ -50,6 +55,7 @@ class WatchedSource final : public ByteSource {
   protected:
     std::size_t read_some(std::uint64_t offset, std::span<std::byte> out) const override {
         std::memcpy(out.data(), bytes_.data() + offset, out.size());
+        const std::lock_guard lock(mutex_);
         for (std::uint64_t i = offset; i < std::min(offset + out.size(), ends); ++i) {
             ++read;
             unannounced += announced_[i] ? 0 : 1;
@@ -59,6 +65,7 @@ class WatchedSource final : public ByteSource {
 
   private:
     std::string name_ = "watched.isochron", bytes_;
+    mutable std::mutex mutex_; ///< of all that is counted: other threads read ahead
     mutable std::vector<bool> announced_;
 };
 

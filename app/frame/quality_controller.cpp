@@ -163,10 +163,10 @@ QualityChoice QualityController::within_budget(const QualityInput& input) {
             ++candidate.age;
     if (Candidate& now = of(current_); current_ == Footprint::quad) {
         step_up(input);
-    } else if (!now.known && !bearable(current_, input)) {
-        step_down(input); // it was a trial of fewer cells
-    } else if (!over_ && input.pace == Pace::moving && !has_room(input)) {
-        step_down(input); // not a failure: a picture at rest may use it again
+    } else if ((!now.known && !bearable(current_, input)) ||
+               (!over_ && input.pace == Pace::moving && !has_room(input))) {
+        // Not a failure: it was a trial of fewer cells, or a picture at rest may use it again.
+        step_down(input);
     } else if (over_ || outgrown(now, input.load)) {
         if (over_)
             fail(now, over_load_, over_cost_);

@@ -69,7 +69,8 @@ TEST(ClusterMessages, WhatIsSaidIsUnderstoodExactly) {
             true,
             i % 2 == 0,
             i % 3 == 0,
-            {random() % 1000, i % 5 == 0, std::vector<std::int8_t>(i % 7, -i % 9)}};
+            {random() % 1000, i % 5 == 0,
+             std::vector<std::int8_t>(i % 7, static_cast<std::int8_t>(-i % 9))}};
         EXPECT_EQ(decode_choice(view(encoded(choice))), choice);
     }
     EXPECT_EQ(decode_order(view(encoded_end())), std::nullopt);

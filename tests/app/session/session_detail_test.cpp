@@ -135,7 +135,7 @@ TEST_P(SessionDetail, SlicesBeginAnewWhereAFinerSetComes) {
             same.detail = {20'000, true, {}};
             const index::ExtractionPtr set = real(same, stop);
             if (!set)
-                return set;
+                return nullptr;
             auto asked = std::make_shared<index::Extraction>(*set);
             asked->query = query;
             found = true;

@@ -174,8 +174,9 @@ TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
                 part_ = 700;
                 EXPECT_EQ(draw(set, footprint, look).rgba, whole.rgba);
                 // Without an order, as on a GPU, quads are drawn in one piece.
-                if (footprint != Footprint::quad || takes_processor_ways(gl_))
+                if (footprint != Footprint::quad || takes_processor_ways(gl_)) {
                     EXPECT_GT(parts_, 2);
+                }
                 part_.reset();
             }
 }
@@ -275,7 +276,7 @@ TEST_P(MeshPassTest, TranslucentTrianglesAreSortedInPieces) {
         pass_.draw(std::span(&view, 1), placement, cells, Footprint::mesh, look, {first, 40});
         pieces += pass_.orders().sorts() == 0;
     }
-    EXPECT_NEAR(pieces, (work - cells.size()) / 40.0, 1);
+    EXPECT_NEAR(pieces, static_cast<double>(work - cells.size()) / 40, 1);
     EXPECT_EQ(pass_.orders().sorts(), 1u);
 }
 

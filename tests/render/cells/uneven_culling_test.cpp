@@ -89,9 +89,10 @@ class UnevenCulling : public HiddenCellsTest {
                 if (testing::Test::HasFailure())
                     return;
             }
-            if (takes_processor_ways(gl_))
-                for (const bool mixed : {false, true})
+            for (const bool mixed : {false, true})
+                if (takes_processor_ways(gl_)) {
                     EXPECT_LT(left[mixed], whole[mixed]) << name_of(shape) << " " << mixed;
+                }
         }
     }
 

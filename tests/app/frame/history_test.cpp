@@ -182,7 +182,7 @@ TEST(History, UndoAfterHomeShowsWhatWasSeen) {
     const auto frame = [](double time, const interaction::Pose& head, std::uint64_t keys) {
         interaction::InputState input{interaction::Seconds(time), {}};
         input.devices.push_back({.name = "head", .pose = head, .valuators = {}});
-        input.devices.push_back({.name = "keys", .buttons = keys, .valuators = {}});
+        input.devices.push_back({.name = "keys", .pose = {}, .buttons = keys, .valuators = {}});
         input.devices.push_back({.name = "pointer", .pose = head, .valuators = {}});
         return input;
     };

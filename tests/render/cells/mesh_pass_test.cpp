@@ -276,7 +276,7 @@ TEST_P(MeshPassTest, TranslucentTrianglesAreSortedInPieces) {
         pass_.draw(std::span(&view, 1), placement, cells, Footprint::mesh, look, {first, 40});
         pieces += pass_.orders().sorts() == 0;
     }
-    EXPECT_NEAR(pieces, static_cast<double>(work - cells.size()) / 40, 1);
+    EXPECT_NEAR(static_cast<double>(pieces), static_cast<double>(work - cells.size()) / 40, 1);
     EXPECT_EQ(pass_.orders().sorts(), 1u);
 }
 

@@ -18,22 +18,34 @@ HeadsetDisplay::HeadsetDisplay(const render::Gl& gl, GlContext& drawing, GlConte
     window_picture_.clear({0, 0, 0, 1});
 }
 
+/// Also says where the eyes' pictures lie, and how large both are.
+std::vector<render::View> HeadsetDisplay::views_in_target(std::span<const HeadsetEye> eyes) {
+    std::vector<render::View> views;
+    whole_ = glm::ivec2(0);
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        parts_[i] = {{whole_.x, 0}, eyes[i].pixels};
+        views.push_back(view_of(eyes[i], options_.near_plane, options_.far_plane));
+        views.back().corner = parts_[i].corner;
+        whole_ = {whole_.x + eyes[i].pixels.x, glm::max(whole_.y, eyes[i].pixels.y)};
+    }
+    return views;
+}
+
 void HeadsetDisplay::draw(std::span<const HeadsetEye> eyes, const Scene& scene) {
     if (eyes.size() != parts_.size())
         return;
-    std::vector<render::View> views;
-    glm::ivec2 whole(0);
-    for (std::size_t i = 0; i < eyes.size(); ++i) {
-        parts_[i] = {{whole.x, 0}, eyes[i].pixels};
-        views.push_back(view_of(eyes[i], options_.near_plane, options_.far_plane));
-        views.back().corner = parts_[i].corner;
-        whole = {whole.x + eyes[i].pixels.x, glm::max(whole.y, eyes[i].pixels.y)};
-    }
-    draw_views(*gl_, target_, whole, options_, views, scene);
+    const std::vector<render::View> views = views_in_target(eyes);
+    draw_views(*gl_, target_, whole_, options_, views, scene);
     // When another framebuffer is bound, Mesa 22.3's llvmpipe copies a texture of the same format
     // without waiting for unfinished drawing into it.
     if (in_software_)
         gl_->Finish();
+}
+
+bool HeadsetDisplay::draw_slice(std::span<const HeadsetEye> eyes, bool begins,
+                                const DrawSlice& scene) {
+    const std::vector<render::View> views = views_in_target(eyes);
+    return draw_views_on(*gl_, next_, whole_, options_, views, begins, scene);
 }
 
 void HeadsetDisplay::submit(Headset& headset, std::span<const HeadsetEye> eyes, bool again) {

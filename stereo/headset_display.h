@@ -9,6 +9,8 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace isochron::stereo {
 
@@ -31,6 +33,13 @@ class HeadsetDisplay {
     /// @param eyes left and right
     void draw(std::span<const HeadsetEye> eyes, const Scene& scene);
 
+    /// Draws a slice of the next picture while the last one stays on show.
+    /// @param eyes of the last picture @param begins this is the first slice
+    /// @return whether the picture is complete, as `scene` said
+    bool draw_slice(std::span<const HeadsetEye> eyes, bool begins, const DrawSlice& scene);
+    /// The next picture, which must be complete, becomes the last one.
+    void show_slices() { std::swap(target_, next_); }
+
     /// Gives the last pictures to the headset, if the frame has eyes, and ends the frame.
     /// @param again the pictures were drawn for an earlier frame
     void submit(Headset& headset, std::span<const HeadsetEye> eyes, bool again);
@@ -48,6 +57,7 @@ class HeadsetDisplay {
     struct Part {
         glm::ivec2 corner{0}, size{0};
     };
+    std::vector<render::View> views_in_target(std::span<const HeadsetEye> eyes);
     /// Covers a part of the window with the largest crop of an eye's picture that has its shape.
     void cover(const Part& picture, glm::ivec2 corner, glm::ivec2 size) const;
     const Part& part(Eye eye) const { return parts_[eye == Eye::right]; }
@@ -60,6 +70,8 @@ class HeadsetDisplay {
     Presenter presenter_;
     render::RenderTarget window_picture_;
     std::optional<render::RenderTarget> target_; ///< both eyes side by side; empty before `draw`
+    std::optional<render::RenderTarget> next_;   ///< likewise; drawn in slices
+    glm::ivec2 whole_{0};                        ///< size of both eyes' pictures
     std::array<Part, 2> parts_;
 };
 

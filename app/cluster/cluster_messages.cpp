@@ -152,12 +152,18 @@ std::optional<FrameOrder> decode_order(std::span<const std::byte> bytes) {
 }
 
 MessageBytes encoded(const FrameChoice& choice) {
-    return bytes_of({{"footprint", choice.footprint},
-                     {"reason", choice.reason},
-                     {"final", choice.final},
-                     {"measure", choice.measure},
-                     {"mesh", choice.mesh},
-                     {"detail", detail_json(choice.detail)}});
+    json value{{"footprint", choice.footprint},
+               {"reason", choice.reason},
+               {"final", choice.final},
+               {"measure", choice.measure},
+               {"mesh", choice.mesh},
+               {"detail", detail_json(choice.detail)},
+               {"shows_slices", choice.shows_slices},
+               {"holds_finer", choice.holds_finer},
+               {"all_at_rest", choice.all_at_rest}};
+    if (choice.in_slices)
+        value["in_slices"] = *choice.in_slices;
+    return bytes_of(value);
 }
 
 FrameChoice decode_choice(std::span<const std::byte> bytes) {
@@ -170,8 +176,15 @@ FrameChoice decode_choice(std::span<const std::byte> bytes) {
         boolean(members.at("final"), "final"),
         boolean(members.at("measure"), "measure"),
         boolean(members.at("mesh"), "mesh"),
-        detail_from(members.at("detail"))};
-    members.done({"footprint", "reason", "final", "measure", "mesh", "detail"});
+        detail_from(members.at("detail")),
+        std::nullopt,
+        boolean(members.at("shows_slices"), "shows_slices"),
+        boolean(members.at("holds_finer"), "holds_finer"),
+        boolean(members.at("all_at_rest"), "all_at_rest")};
+    if (const json* in_slices = members.find("in_slices"))
+        choice.in_slices = footprint_from(*in_slices);
+    members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_slices",
+                  "shows_slices", "holds_finer", "all_at_rest"});
     return choice;
 }
 
@@ -184,6 +197,7 @@ MessageBytes encoded(const FrameAnswer& answer) {
                      {"failure", answer.failure},
                      {"view", load_json(answer.view)},
                      {"surface_limit", answer.surface_limit},
+                     {"slices_whole", answer.slices_whole},
                      {"samples", std::move(samples)}});
 }
 
@@ -195,10 +209,11 @@ FrameAnswer decode_answer(std::span<const std::byte> bytes) {
                        .failure = interaction::text(members.at("failure"), "failure"),
                        .view = load_from(members.at("view")),
                        .surface_limit = count(members, "surface_limit"),
+                       .slices_whole = boolean(members.at("slices_whole"), "slices_whole"),
                        .samples = {}};
     for (const json& sample : interaction::list(members.at("samples"), "samples", 0, kMostSamples))
         answer.samples.push_back(sample_from(sample));
-    members.done({"cells", "close", "failure", "view", "surface_limit", "samples"});
+    members.done({"cells", "close", "failure", "view", "surface_limit", "slices_whole", "samples"});
     return answer;
 }
 

@@ -39,6 +39,10 @@ struct FrameChoice {
     bool measure = false;        ///< draw even if nothing has changed
     bool mesh = false;           ///< the sets asked for from now on come with a mesh
     index::DetailQuery detail{}; ///< of the sets asked for from now on
+    std::optional<render::Footprint> in_slices{}; ///< of the picture at rest in slices, if any
+    bool shows_slices = false;                    ///< slices are whole everywhere, and shown
+    bool holds_finer = false; ///< finer cells of the same picture come in slices alone
+    bool all_at_rest = false; ///< all cells are wanted for this picture at rest
     bool operator==(const FrameChoice&) const = default;
 };
 
@@ -49,6 +53,7 @@ struct FrameAnswer {
     std::string failure;             ///< why the process has no cells; empty when all is well
     DrawLoad view;                   ///< load of one cell: the number of views, and their pixels
     std::uint64_t surface_limit = 0; ///< cells that can be drawn as exact surfaces
+    bool slices_whole = false;       ///< the picture in slices is whole, or shown
     std::vector<DrawSample> samples; ///< earlier frames whose draw times are now known
     bool operator==(const FrameAnswer&) const = default;
 };

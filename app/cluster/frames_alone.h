@@ -5,7 +5,7 @@
 
 namespace isochron::app {
 
-class FramesAlone final : public FrameSharing {
+class FramesAlone : public FrameSharing {
   public:
     bool leads() const override { return true; }
     bool alone() const override { return true; }
@@ -23,6 +23,7 @@ class FramesAlone final : public FrameSharing {
     std::vector<DrawSample> samples(std::vector<DrawSample> mine) override { return mine; }
     DrawLoad largest(const DrawLoad& mine) const override { return mine; }
     std::uint64_t surface_limit() const override;
+    bool slices_are_whole() const override { return true; }
     FrameChoice agree(const FrameChoice& mine) override { return mine; }
     void swap_barrier(const std::function<FrameAnswer()>&) override {}
     bool close_wanted() const override { return false; }

@@ -55,6 +55,10 @@ CellsInFrame SharedFrames::cells(const index::Extractor& extractor,
     return cells;
 }
 
+bool SharedFrames::slices_are_whole() const {
+    return !answers_.empty() && std::ranges::all_of(answers_, &FrameAnswer::slices_whole);
+}
+
 FrameChoice SharedFrames::agree(const FrameChoice& mine) {
     if (!leads())
         return decode_choice(cluster_.hear());

@@ -43,6 +43,8 @@ class SharedFrames final : public FrameSharing {
     std::vector<DrawSample> samples(std::vector<DrawSample> mine) override;
     DrawLoad largest(const DrawLoad& mine) const override;
     std::uint64_t surface_limit() const override;
+    /// By the answers to the last frame.
+    bool slices_are_whole() const override;
     FrameChoice agree(const FrameChoice& mine) override;
 
     /// @param mine cells and samples are filled in here

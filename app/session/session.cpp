@@ -199,10 +199,18 @@ void Session::learn_costs() {
 
 /// Takes over rank 0's choice. @return whether rank 0 wants this frame measured
 bool Session::agree(bool measure, const index::DetailQuery& detail, FrameReport& report) {
-    const FrameChoice choice = frames_->agree(
-        {report.footprint, report.reason, report.final, measure, quality_.wants_mesh(), detail});
+    // More cells than a frame can draw come in slices alone, which may begin some frames later.
+    const bool fits = report.expected && *report.expected <= report.budget;
+    const FrameChoice choice = frames_->agree({report.footprint, report.reason, report.final,
+                                               measure, quality_.wants_mesh(), detail,
+                                               report.in_slices, frames_->slices_are_whole(),
+                                               quality_.ends_in_slices() && !fits, all_at_rest_});
     mesh_wanted_ = choice.mesh;
     detail_ = choice.detail;
+    all_at_rest_ = choice.all_at_rest;
+    shows_slices_ = choice.shows_slices;
+    comes_in_slices_ = choice.holds_finer;
+    report.in_slices = choice.in_slices;
     report.footprint = choice.footprint;
     report.reason = choice.reason;
     report.final = choice.final;
@@ -241,9 +249,7 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     }
     now.footprint = report.footprint;
     rest_in_slices(now, waiting, report);
-    // More cells than a frame can draw come in slices alone, which may begin some frames later.
-    const bool fits = report.expected && *report.expected <= report.budget;
-    comes_in_slices_ = finer && quality_.ends_in_slices() && !fits;
+    comes_in_slices_ &= finer;
     // While a headset wants no picture, there is nothing to draw or to measure.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
 }
@@ -272,7 +278,9 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
                                              draw_panel_overlay(size, report);
                                          }
                                        : Outputs::Overlay();
-    if (report.in_slices && !report.redrawn && now.footprint != *report.in_slices) {
+    slices_whole_ = report.in_slices && now.footprint == *report.in_slices;
+    if (report.in_slices && !report.redrawn && now.footprint != *report.in_slices &&
+        outputs_.want(now.audience)) {
         draw_slices(now, panel, report);
         return outputs_.draw_room(input, panel);
     }
@@ -313,6 +321,7 @@ FrameAnswer Session::answer() const {
     answer.failure = extractor_.failure().value_or("");
     answer.view = quality_.view();
     answer.surface_limit = scene_.surface_limit();
+    answer.slices_whole = slices_whole_;
     return answer;
 }
 

@@ -177,6 +177,7 @@ class Session {
         SlicePace pace;
         Outputs::SlicePlace place;
         std::size_t done = 0; ///< units of work done at `place`
+        bool whole = false;
     };
 
     /// Things that show where somebody points.
@@ -289,6 +290,8 @@ class Session {
     index::DetailQuery detail_;                      ///< of the sets that are asked for
     interaction::Seconds constant_since_{0};         ///< when the eyes last saw something change
     bool comes_in_slices_ = false;                   ///< the newest picture is drawn in slices only
+    bool shows_slices_ = false;                      ///< slices that are whole may be shown
+    bool slices_whole_ = false;                      ///< those of the last frame are, or are shown
     bool rests_ = false;                             ///< the set for pictures at rest may be drawn
     std::uint64_t cells_at_first_ = std::numeric_limits<std::uint32_t>::max(); ///< of a set at rest
     bool all_at_rest_ = false; ///< all cells are wanted for this picture at rest

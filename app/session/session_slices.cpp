@@ -8,13 +8,9 @@
 
 namespace isochron::app {
 
-/// How footprints are chosen in a frame. The frames of a cluster, of a headset and of a replay are
-/// each drawn at once.
+/// How footprints are chosen in a frame. The frames of a replay are each drawn at once.
 Choosing Session::choosing(Waiting waiting) const {
-    if (waiting != Waiting::never)
-        return Choosing::by_pace;
-    return frames_->alone() && !outputs_.headset() ? Choosing::with_slices
-                                                   : Choosing::by_measurement;
+    return waiting == Waiting::never ? Choosing::with_slices : Choosing::by_pace;
 }
 
 /// Whether a picture at rest of more cells than a frame can draw is made in slices.
@@ -51,7 +47,8 @@ void Session::rest_in_slices(Picture& now, Waiting waiting, FrameReport& report)
         report.expected = std::exchange(report.better, std::nullopt);
 }
 
-/// Draws as much of the picture at rest as this frame has time for, and shows it once it is whole.
+/// Draws as much of the picture at rest as this frame has time for, and shows it once it is whole,
+/// in a cluster: once it is whole in all processes, which show it in the same frame.
 void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
                           FrameReport& report) {
     Picture wanted = now;
@@ -61,29 +58,29 @@ void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
     SlicePace& pace = slices_->pace;
     pace.begin_frame();
     StopWatch watch;
-    while (const std::size_t work = pace.next()) {
+    while (const std::size_t work = slices_->whole ? 0 : pace.next()) {
         std::size_t done = scene_.prepare_slices(wanted.footprint, work);
         if (done > 0) {
             outputs_.gl().Finish(); // so that its time is known
             pace.took(done, watch.lap());
             continue;
         }
-        const bool whole = outputs_.draw_slice(
+        slices_->whole = outputs_.draw_slice(
             slices_->place, [&](const ScenePlace& place, std::span<const render::View> views) {
                 return draw_slice(place, views, work, done);
             });
         pace.took(done, watch.lap());
-        if (!whole)
-            continue;
-        outputs_.show_slices(overlay);
-        quality_.learn_slices(wanted.footprint, report.cells, pace.whole());
-        drawn_ = std::move(wanted);
-        slices_.reset();
-        report.footprint = drawn_->footprint;
-        report.redrawn = true;
-        return;
+        if (slices_->whole)
+            quality_.learn_slices(wanted.footprint, report.cells, pace.whole());
     }
-    outputs_.draw_again(now.audience, overlay);
+    slices_whole_ = slices_->whole;
+    if (!slices_whole_ || !shows_slices_)
+        return outputs_.draw_again(now.audience, overlay);
+    outputs_.show_slices(overlay);
+    drawn_ = std::move(wanted);
+    slices_.reset();
+    report.footprint = drawn_->footprint;
+    report.redrawn = true;
 }
 
 /// Draws the next of: what comes before the cells of a viewport, some of the cells, what comes

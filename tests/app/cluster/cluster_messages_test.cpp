@@ -46,6 +46,7 @@ FrameAnswer rich_answer(std::mt19937& random) {
     answer.failure = random() % 2 ? "step 3: damaged" : "";
     answer.view = {2, 1e6 / 3};
     answer.surface_limit = random();
+    answer.slices_whole = random() % 2;
     answer.samples = {
         {random(), render::Footprint::surface, {1e5 / 3, 2}, Milliseconds(0.1), {}},
         {random(), render::Footprint::quad, {1, 2}, Milliseconds(1), Milliseconds(3)}};
@@ -70,7 +71,11 @@ TEST(ClusterMessages, WhatIsSaidIsUnderstoodExactly) {
             i % 2 == 0,
             i % 3 == 0,
             {random() % 1000, i % 5 == 0,
-             std::vector<std::int8_t>(i % 7, static_cast<std::int8_t>(-i % 9))}};
+             std::vector<std::int8_t>(i % 7, static_cast<std::int8_t>(-i % 9))},
+            i % 2 == 0 ? std::nullopt : std::optional(render::Footprint::surface),
+            i % 3 == 1,
+            i % 5 == 1,
+            i % 7 == 1};
         EXPECT_EQ(decode_choice(view(encoded(choice))), choice);
     }
     EXPECT_EQ(decode_order(view(encoded_end())), std::nullopt);

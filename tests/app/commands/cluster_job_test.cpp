@@ -359,5 +359,36 @@ TEST_F(ClusterJobTest, InWindowsEveryProcessShowsItsOwnAndAllLeaveTogether) {
     EXPECT_GE(shown.size(), 3u) << "several sets were shown";
 }
 
+TEST_F(ClusterJobTest, AStillPictureEndsExactOnAllWallsInTheSameFrameThoughNoFrameHoldsIt) {
+    const test_support::VirtualDisplay screen;
+    std::string lab = small_cave("\n[quality]\nframe_budget_ms = 0.001\nstill_budget_ms = 0.001\n");
+    for (std::size_t at; (at = lab.find("\"quadbuffer\"")) != lab.npos;)
+        lab.replace(at, 12, "\"mono\"");
+    folder_.write("lab.toml", lab);
+    const std::string explore = "$isochron explore sphere.isochron --config lab.toml --no-panel "
+                                "--report timing.json";
+    auto ended = std::async(std::launch::async, [&] { return job(2, explore); });
+    screen.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron.*floor"});
+    screen.xdotool(
+        {"search", "--sync", "--onlyvisible", "--name", "Isochron.*left", "windowfocus"});
+    screen.xdotool({"key", "p"}); // written once the picture is final
+    for (const char* wall : {"front", "left", "right", "floor"})
+        while (!std::filesystem::exists(folder_.path() / fmt::format("isochron_0001_{}.png", wall)))
+            screen.xdotool({"getmouselocation"}); // the test's limit ends a hang
+    screen.close_window("Isochron: sphere.isochron: floor");
+    const ChildResult result = ended.get();
+    EXPECT_EQ(result.status, 0) << result.err;
+    const auto first = nlohmann::json::parse(folder_.read("timing.json"))["rows"];
+    const auto second = nlohmann::json::parse(folder_.read("timing_rank1.json"))["rows"];
+    ASSERT_EQ(first.size(), second.size());
+    bool exact = false;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        for (const char* key : {"footprint", "reason"})
+            EXPECT_EQ(first[i][key], second[i][key]) << "frame " << i << ", " << key;
+        exact |= first[i]["footprint"] == "surface" && first[i]["reason"] == "in slices";
+    }
+    EXPECT_TRUE(exact);
+}
+
 } // namespace
 } // namespace isochron::app

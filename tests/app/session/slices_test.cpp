@@ -80,6 +80,12 @@ class Slices : public SessionTest {
                           Waiting::for_cells);
         return pictures(at_once);
     }
+    /// That a session which has come to rest shows what one shows that draws it at once.
+    void expect_whole(const Session& session, Session& at_once) {
+        Commands same;
+        same.isovalue = 2.0;
+        EXPECT_EQ(pictures(session), whole(at_once, same));
+    }
     int frame_ = 0, replayed_ = 0;
 };
 
@@ -137,9 +143,7 @@ TEST_P(Slices, EndAtWhatIsConfiguredForAPictureAtRest) {
     start(session);
     settle(session);
     EXPECT_EQ(session.log().frames().back().footprint, Footprint::gaussian);
-    Commands same;
-    same.isovalue = 2.0;
-    EXPECT_EQ(pictures(session), whole(reference, same));
+    expect_whole(session, reference);
 }
 
 TEST_P(Slices, ShowNothingUntilTheyAreWhole) {
@@ -229,9 +233,7 @@ TEST_P(Slices, GiveTheWholePictureInEveryViewport) {
     start(session);
     settle(session);
     EXPECT_EQ(session.log().frames().back().reason, QualityReason::in_slices);
-    Commands same;
-    same.isovalue = 2.0;
-    EXPECT_EQ(pictures(session), whole(reference, same));
+    expect_whole(session, reference);
 }
 
 TEST_P(Slices, TellWhatThePictureCostsThatNoFrameHasDrawn) {

@@ -72,18 +72,28 @@ void find_active_rows(const ChunkCube& cube, std::uint64_t cut, CubeRows& rows) 
 
 /// @param out room for all cells and a vector more @return behind the last place
 PlaceInChunk* write_places(const CubeRows& rows, PlaceInChunk* out) {
-    const hn::CappedTag<PlaceInChunk, kChunkEdge> d;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        if (rows[row] == 0)
-            continue;
+    // Words of 32 bits, which AVX-512 compresses in one step.
+    const hn::CappedTag<std::uint32_t, kChunkEdge> d;
+    const hn::Rebind<PlaceInChunk, decltype(d)> half;
+    const auto write_row = [&](std::size_t row) HWY_ATTR {
         for (std::size_t x = 0; x < kChunkEdge; x += hn::Lanes(d)) {
-            const auto first = static_cast<PlaceInChunk>(row * kChunkEdge + x);
+            const auto first = static_cast<std::uint32_t>(row * kChunkEdge + x);
             // LoadMaskBits reads eight bytes.
             const std::uint64_t part = rows[row] >> x & ((1u << hn::Lanes(d)) - 1);
             const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&part));
-            hn::StoreU(hn::Compress(hn::Iota(d, first), mask), d, out);
+            hn::StoreU(hn::TruncateTo(half, hn::Compress(hn::Iota(d, first), mask)), half, out);
             out += hwy::PopCount(part);
         }
+    };
+    const hn::CappedTag<PlaceInChunk, kWordBits> of_rows;
+    for (std::size_t first = 0; first < rows.size(); first += kWordBits) {
+        std::uint64_t some = 0; // rows with cells: testing each costs more
+        for (std::size_t i = 0; i < kWordBits; i += hn::Lanes(of_rows))
+            some |= bits_of(of_rows, hn::Ne(hn::LoadU(of_rows, rows.data() + first + i),
+                                            hn::Zero(of_rows)))
+                    << i;
+        for (; some; some &= some - 1)
+            write_row(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(some));
     }
     return out;
 }
@@ -111,40 +121,46 @@ HWY_EXPORT(add_row_counts);
 
 namespace {
 
-/// The bits of bricks that lie in a row of cells.
-std::uint16_t row_of_bricks(BricksOfChunk bricks, std::uint32_t y, std::uint32_t z) {
-    const std::uint32_t first = kChunkBricks[0] * (y / BrickGrid::kCells[1] +
-                                                   kChunkBricks[1] * (z / BrickGrid::kCells[2]));
-    return static_cast<std::uint16_t>((bricks >> first & 1 ? 0xff : 0) |
-                                      (bricks >> first & 2 ? 0xff00 : 0));
-}
 static_assert(kChunkBricks[0] == 2 && BrickGrid::kCells[0] == 8);
+
+/// The bits that two bricks next to each other along x have in a row of cells.
+constexpr std::array<std::uint16_t, 4> kRowOfBricks{0, 0xff, 0xff00, 0xffff};
 
 } // namespace
 
 CubeRows active_rows(const ChunkCube& cube, std::uint64_t cut, BricksOfChunk bricks) {
     CubeRows rows{};
     HWY_DYNAMIC_DISPATCH(find_active_rows)(cube, cut, rows);
-    // Rows beyond the chunk's own cells hold nothing of meaning.
     const auto& cells = cube.cells();
     for (std::uint32_t z = 0; z < kChunkEdge; ++z)
         for (std::uint32_t y = 0; y < kChunkEdge; ++y) {
+            const std::uint32_t brick = kChunkBricks[0] * (y / BrickGrid::kCells[1] +
+                                                           kChunkBricks[1] *
+                                                               (z / BrickGrid::kCells[2]));
+            // Rows beyond the chunk's own cells hold nothing of meaning.
             const bool inside = z < cells[2] && y < cells[1];
-            rows[z * kChunkEdge + y] = static_cast<std::uint16_t>(
-                rows[z * kChunkEdge + y] & (inside ? row_of_bricks(bricks, y, z) : 0));
+            if (!inside)
+                rows[z * kChunkEdge + y] = 0;
+            rows[z * kChunkEdge + y] &= kRowOfBricks[bricks >> brick & 3];
         }
     return rows;
 }
 
 SidesOfCells sides_of(const CubeRows& rows) {
-    std::array<std::uint16_t, std::size_t{kSides} * kSides> joined{};
+    // By side along z and place along y, then by sides along both: in plain loops over many rows.
+    std::array<std::array<std::uint16_t, kChunkEdge>, kSides> of_z{};
     for (std::uint32_t z = 0; z < kChunkEdge; ++z)
         for (std::uint32_t y = 0; y < kChunkEdge; ++y)
-            joined[kSide[z] * kSides + kSide[y]] |= rows[z * kChunkEdge + y];
+            of_z[kSide[z]][y] |= rows[z * kChunkEdge + y];
+    std::array<std::uint16_t, kSides> along_x{};
+    for (std::uint32_t x = 0; x < kChunkEdge; ++x)
+        along_x[kSide[x]] = static_cast<std::uint16_t>(along_x[kSide[x]] | 1u << x);
     SidesOfCells sides = 0;
-    for (std::size_t i = 0; i < joined.size(); ++i)
-        for (std::uint32_t x = 0; x < kChunkEdge; ++x)
-            sides |= SidesOfCells{joined[i] >> x & 1u} << (i * kSides + kSide[x]);
+    for (unsigned z = 0; z < kSides; ++z)
+        for (std::uint32_t y = 0; y < kChunkEdge; ++y)
+            for (unsigned x = 0; x < kSides; ++x)
+                sides |= SidesOfCells{(of_z[z][y] & along_x[x]) != 0}
+                         << (x + kSides * (kSide[y] + kSides * z));
     return sides;
 }
 

@@ -11,6 +11,8 @@
 namespace isochron::index {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// The chunks at offsets of 0 and 1, given as LayerCandidates::reach does.
 ChunksAround around_of(unsigned reach) {
     ChunksAround around = 0;
@@ -35,28 +37,25 @@ CubeSearch::CubeSearch(const ChunkStore& store)
 void CubeSearch::search(const LayerCandidates& candidates, const Query& query, std::uint64_t cut,
                         bool shaded, const std::stop_token& stop, CellSet& out,
                         std::chrono::nanoseconds& shading) {
-    find(candidates, query, cut, stop, out);
-    const auto found = std::chrono::steady_clock::now();
+    shading_ = std::chrono::nanoseconds(0);
+    find(candidates, query, cut, shaded, stop, out);
+    const auto found = Clock::now();
     if (shaded)
-        shade(candidates, query, stop);
-    else
-        for (Found& it : found_)
-            take_places(it);
+        shade_others(candidates, query, stop);
+    std::ranges::sort(found_, {}, [](const Found& it) { return std::tuple(it.y, it.x); });
     write(shaded, out);
-    shading = shaded ? std::chrono::steady_clock::now() - found : std::chrono::nanoseconds(0);
+    shading = shaded ? shading_ + (Clock::now() - found) : shading_;
 }
 
-void CubeSearch::take_places(Found& found) {
-    found.first = places_.size();
-    found.count = append_places(found.rows, places_);
-}
-
-/// Finds the chunks with active cells, and the cells as bits.
+/// Finds the chunks with active cells, and the cells as bits. Shades those of which all that lies
+/// around is there, while they are in the nearest cache.
 void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std::uint64_t cut,
-                      const std::stop_token& stop, CellSet& out) {
+                      bool shaded, const std::stop_token& stop, CellSet& out) {
     layer_ = candidates.layer();
     for (auto& layer : there_)
         std::ranges::fill(layer, nullptr);
+    for (auto& layer : missing_) // of a search that failed
+        layer.clear();
     held_.clear();
     found_.clear();
     places_.clear();
@@ -65,10 +64,7 @@ void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std
         there_[1][places[i]] = candidates.chunk(i).get();
     for (std::size_t i = 0; i < places.size(); ++i) {
         const auto [x, y] = chunks_.at(places[i]);
-        for_each_around(around_of(candidates.reach(i)), {x, y, layer_}, chunks_,
-                        [&](auto, std::uint32_t cx, std::uint32_t cy, std::uint32_t layer) {
-                            need(cx, cy, layer);
-                        });
+        need(x, y, around_of(candidates.reach(i)));
     }
     fetch(candidates, query.step, stop);
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -76,32 +72,53 @@ void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std
             continue;
         stop_if_asked(stop);
         const auto [x, y] = chunks_.at(places[i]);
-        fill_cube(query.step, x, y, around_of(candidates.reach(i)));
+        const ChunksAround reach = around_of(candidates.reach(i)) | 1u << kOwnChunk;
+        cube_.begin(query.step, {x, y, layer_});
+        fill_cube(x, y, reach);
         out.candidates += cells_of_bricks(candidates.bricks(i), cube_.cells());
         const CubeRows rows = active_rows(cube_, cut, candidates.bricks(i));
-        if (std::ranges::any_of(rows, [](std::uint16_t row) { return row != 0; }))
-            found_.push_back({x, y, rows, 0, 0});
+        const SidesOfCells sides = sides_of(rows);
+        if (sides == 0)
+            continue;
+        Found& found = found_.emplace_back(x, y, rows, chunks_around(sides, true), 0, 0);
+        if (!shaded) {
+            take_places(found);
+        } else if (are_there(x, y, found.around)) {
+            const auto started = Clock::now();
+            fill_cube(x, y, found.around & ~reach);
+            shade(found, query);
+            shading_ += Clock::now() - started;
+        }
     }
-    std::ranges::sort(found_, {}, [](const Found& it) { return std::tuple(it.y, it.x); });
 }
 
-/// Makes the planes of the found cells.
-void CubeSearch::shade(const LayerCandidates& candidates, const Query& query,
-                       const std::stop_token& stop) {
+/// Shades the found chunks around which something was missing.
+void CubeSearch::shade_others(const LayerCandidates& candidates, const Query& query,
+                              const std::stop_token& stop) {
     for (const Found& found : found_)
-        for_each_around(chunks_around(sides_of(found.rows), true), {found.x, found.y, layer_},
-                        chunks_, [&](auto, std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
-                            need(x, y, layer);
-                        });
+        need(found.x, found.y, found.around);
     fetch(candidates, query.step, stop);
     for (Found& found : found_) {
+        if (found.count > 0)
+            continue;
         stop_if_asked(stop);
-        fill_cube(query.step, found.x, found.y, chunks_around(sides_of(found.rows), true));
-        take_places(found);
-        planes_.resize(std::max(planes_.size(), places_.size()));
-        shade_cube(cube_, query, std::span(places_).subspan(found.first),
-                   std::span(planes_).subspan(found.first, found.count));
+        cube_.begin(query.step, {found.x, found.y, layer_});
+        fill_cube(found.x, found.y, found.around);
+        shade(found, query);
     }
+}
+
+/// Makes the planes of the cells of a chunk, which the cube holds.
+void CubeSearch::shade(Found& found, const Query& query) {
+    take_places(found);
+    planes_.resize(std::max(planes_.size(), places_.size()));
+    shade_cube(cube_, query, std::span(places_).subspan(found.first),
+               std::span(planes_).subspan(found.first, found.count));
+}
+
+void CubeSearch::take_places(Found& found) {
+    found.first = places_.size();
+    found.count = append_places(found.rows, places_);
 }
 
 /// Writes the found cells in the order of the layer: first counts those of each row.
@@ -150,14 +167,18 @@ void CubeSearch::write(bool shaded, CellSet& out) {
     }
 }
 
-void CubeSearch::need(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
+/// Notes which chunks around a chunk are to be fetched.
+void CubeSearch::need(std::uint32_t x, std::uint32_t y, ChunksAround around) {
     static const Chunk expected; // stands for a chunk until it has been read
-    const std::size_t i = layer + 1 - layer_;
-    const std::uint32_t place = chunks_.place(x, y);
-    if (there_[i][place])
-        return;
-    there_[i][place] = &expected;
-    missing_[i].push_back(place);
+    for_each_around(around, {x, y, layer_}, chunks_,
+                    [&](unsigned, std::uint32_t cx, std::uint32_t cy, std::uint32_t layer) {
+                        const std::size_t i = layer + 1 - layer_;
+                        const std::uint32_t place = chunks_.place(cx, cy);
+                        if (there_[i][place])
+                            return;
+                        there_[i][place] = &expected;
+                        missing_[i].push_back(place);
+                    });
 }
 
 /// Reads the chunks that are needed and not there.
@@ -182,11 +203,18 @@ void CubeSearch::fetch(const LayerCandidates& candidates, std::uint32_t step,
     }
 }
 
-/// Moves the cube to a chunk, and copies to it what is there of the chunks around.
-void CubeSearch::fill_cube(std::uint32_t step, std::uint32_t x, std::uint32_t y,
-                           ChunksAround around) {
-    cube_.begin(step, {x, y, layer_});
-    for_each_around(around | 1u << kOwnChunk, {x, y, layer_}, chunks_,
+bool CubeSearch::are_there(std::uint32_t x, std::uint32_t y, ChunksAround around) const {
+    bool all = true;
+    for_each_around(around, {x, y, layer_}, chunks_,
+                    [&](unsigned, std::uint32_t cx, std::uint32_t cy, std::uint32_t layer) {
+                        all &= there_[layer + 1 - layer_][chunks_.place(cx, cy)] != nullptr;
+                    });
+    return all;
+}
+
+/// Copies to the cube what it holds of chunks around its own.
+void CubeSearch::fill_cube(std::uint32_t x, std::uint32_t y, ChunksAround around) {
+    for_each_around(around, {x, y, layer_}, chunks_,
                     [&](unsigned bit, std::uint32_t cx, std::uint32_t cy, std::uint32_t layer) {
                         cube_.copy(bit, *there_[layer + 1 - layer_][chunks_.place(cx, cy)]);
                     });

@@ -36,21 +36,26 @@ class CubeSearch {
     struct Found {
         std::uint32_t x, y;
         CubeRows rows;
-        std::size_t first, count; ///< among all places
+        ChunksAround around;          ///< that its cells need for normals
+        std::size_t first, count = 0; ///< among all places; none until it is shaded
     };
     void find(const LayerCandidates& candidates, const Query& query, std::uint64_t cut,
-              const std::stop_token& stop, CellSet& out);
-    void shade(const LayerCandidates& candidates, const Query& query, const std::stop_token& stop);
+              bool shaded, const std::stop_token& stop, CellSet& out);
+    void shade_others(const LayerCandidates& candidates, const Query& query,
+                      const std::stop_token& stop);
+    void shade(Found& found, const Query& query);
     void take_places(Found& found);
     void write(bool shaded, CellSet& out);
 
-    void need(std::uint32_t x, std::uint32_t y, std::uint32_t layer);
+    void need(std::uint32_t x, std::uint32_t y, ChunksAround around);
     void fetch(const LayerCandidates& candidates, std::uint32_t step, const std::stop_token& stop);
-    void fill_cube(std::uint32_t step, std::uint32_t x, std::uint32_t y, ChunksAround around);
+    bool are_there(std::uint32_t x, std::uint32_t y, ChunksAround around) const;
+    void fill_cube(std::uint32_t x, std::uint32_t y, ChunksAround around);
 
     const ChunkStore& store_;
     const ChunkGrid& chunks_;
     std::uint32_t layer_ = 0;
+    std::chrono::nanoseconds shading_{0}; ///< of this layer
     ChunkCube cube_;
     /// By layer (below, this, above) and place: the chunks that are there; those to fetch.
     std::array<std::vector<const Chunk*>, 3> there_;

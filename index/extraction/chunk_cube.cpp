@@ -30,9 +30,10 @@ void copy_rows_with(const Rows& rows, Width width) {
 
 /// Copies rows of so many bytes; the usual widths are compile-time constants.
 void copy_rows_of_width(const Rows& rows, std::size_t width) {
-    const auto with = [&]<std::size_t kWidth>(std::integral_constant<std::size_t, kWidth> constant) {
-        copy_rows_with(rows, constant);
-    };
+    const auto with =
+        [&]<std::size_t kWidth>(std::integral_constant<std::size_t, kWidth> constant) {
+            copy_rows_with(rows, constant);
+        };
     switch (width) {
     case 1: return with(std::integral_constant<std::size_t, 1>());
     case 2: return with(std::integral_constant<std::size_t, 2>());
@@ -49,9 +50,9 @@ void copy_rows_of_width(const Rows& rows, std::size_t width) {
 } // namespace
 
 ChunkCube::ChunkCube(const SeriesInfo& info)
-    : grid_(info.grid), memory_((kMostVertices * kMostVertices * kMostVertices * size_of(info.type) +
-                                 kPadding) /
-                                sizeof(std::uint64_t)) {
+    : grid_(info.grid),
+      memory_((kMostVertices * kMostVertices * kMostVertices * size_of(info.type) + kPadding) /
+              sizeof(std::uint64_t)) {
     values_ = {.grid = info.grid,
                .type = info.type,
                .scaling = info.scaling,
@@ -62,13 +63,17 @@ ChunkCube::ChunkCube(const SeriesInfo& info)
 
 void ChunkCube::begin(std::uint32_t step, const std::array<std::uint32_t, 3>& at) {
     values_.first_step = step;
+    std::array<std::uint32_t, 3> begin{}, end{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::uint32_t first = at[axis] * kChunkEdge, all = grid_.vertices[axis];
         first_[axis] = first > 0 ? kBelow : 0;
-        values_.grid.vertices[axis] =
-            first_[axis] + std::min(kChunkEdge + kAbove, all - first);
+        begin[axis] = first - first_[axis];
+        end[axis] = std::min(first + kChunkEdge + kAbove, all);
         cells_[axis] = std::min(kChunkEdge, all - 1 - first);
+        values_.grid.vertices[axis] = end[axis] - begin[axis];
     }
+    if (grid_.rectilinear()) // else nothing but the numbers of vertices differs
+        values_.grid = grid_.part(begin, end);
 }
 
 void ChunkCube::copy(unsigned bit, const Chunk& chunk) {
@@ -96,16 +101,16 @@ void ChunkCube::copy(unsigned bit, const Chunk& chunk) {
     const std::size_t to_row = values_.grid.vertices[0] * word;
     const std::size_t to_plane = values_.grid.vertices[1] * to_row;
     auto* const out = reinterpret_cast<std::byte*>(memory_.data());
-    copy_rows_of_width({.from = chunk.values.data() + from[2] * from_plane + from[1] * from_row +
-                                from[0] * word,
-                        .to = out + to[2] * to_plane + to[1] * to_row + to[0] * word,
-                        .from_row = from_row,
-                        .from_plane = from_plane,
-                        .to_row = to_row,
-                        .to_plane = to_plane,
-                        .rows = size[1],
-                        .planes = size[2]},
-                       size[0] * word);
+    copy_rows_of_width(
+        {.from = chunk.values.data() + from[2] * from_plane + from[1] * from_row + from[0] * word,
+         .to = out + to[2] * to_plane + to[1] * to_row + to[0] * word,
+         .from_row = from_row,
+         .from_plane = from_plane,
+         .to_row = to_row,
+         .to_plane = to_plane,
+         .rows = size[1],
+         .planes = size[2]},
+        size[0] * word);
 }
 
 } // namespace isochron::index

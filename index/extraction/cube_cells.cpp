@@ -49,18 +49,16 @@ void find_rows(const ChunkCube& cube, T cut, CubeRows& rows) {
                 of_cell(rows[z * kChunkEdge + y], any | any >> 1, all & all >> 1);
             }
     };
-    combine(upper, [&](std::uint16_t& out, std::uint32_t any, std::uint32_t all) HWY_ATTR {
-        out = static_cast<std::uint16_t>(any & ~all & cells);
-    });
+    combine(upper, [&](std::uint16_t& out, std::uint32_t any, std::uint32_t all)
+                       HWY_ATTR { out = static_cast<std::uint16_t>(any & ~all & cells); });
     if (HWY_UNLIKELY(nan)) {
         Planes of_nan{};
         for (std::uint32_t z = 0; z <= nz; ++z)
             for (std::uint32_t y = 0; y <= ny; ++y)
-                of_nan[z][y] = static_cast<std::uint32_t>(
-                    comparer.nan(first + z * plane + y * row, nx + 1));
-        combine(of_nan, [](std::uint16_t& out, std::uint32_t any, std::uint32_t) HWY_ATTR {
-            out = static_cast<std::uint16_t>(out & ~any);
-        });
+                of_nan[z][y] =
+                    static_cast<std::uint32_t>(comparer.nan(first + z * plane + y * row, nx + 1));
+        combine(of_nan, [](std::uint16_t& out, std::uint32_t any, std::uint32_t)
+                            HWY_ATTR { out = static_cast<std::uint16_t>(out & ~any); });
     }
 }
 
@@ -89,8 +87,8 @@ PlaceInChunk* write_places(const CubeRows& rows, PlaceInChunk* out) {
     for (std::size_t first = 0; first < rows.size(); first += kWordBits) {
         std::uint64_t some = 0; // rows with cells: testing each costs more
         for (std::size_t i = 0; i < kWordBits; i += hn::Lanes(of_rows))
-            some |= bits_of(of_rows, hn::Ne(hn::LoadU(of_rows, rows.data() + first + i),
-                                            hn::Zero(of_rows)))
+            some |= bits_of(of_rows,
+                            hn::Ne(hn::LoadU(of_rows, rows.data() + first + i), hn::Zero(of_rows)))
                     << i;
         for (; some; some &= some - 1)
             write_row(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(some));
@@ -134,9 +132,9 @@ CubeRows active_rows(const ChunkCube& cube, std::uint64_t cut, BricksOfChunk bri
     const auto& cells = cube.cells();
     for (std::uint32_t z = 0; z < kChunkEdge; ++z)
         for (std::uint32_t y = 0; y < kChunkEdge; ++y) {
-            const std::uint32_t brick = kChunkBricks[0] * (y / BrickGrid::kCells[1] +
-                                                           kChunkBricks[1] *
-                                                               (z / BrickGrid::kCells[2]));
+            const std::uint32_t brick =
+                kChunkBricks[0] *
+                (y / BrickGrid::kCells[1] + kChunkBricks[1] * (z / BrickGrid::kCells[2]));
             // Rows beyond the chunk's own cells hold nothing of meaning.
             const bool inside = z < cells[2] && y < cells[1];
             if (!inside)
@@ -185,7 +183,8 @@ std::uint64_t cells_of_bricks(BricksOfChunk bricks, const std::array<std::uint32
         std::uint64_t size = 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::uint32_t first = at[axis] * BrickGrid::kCells[axis];
-            size *= first < cells[axis] ? std::min(BrickGrid::kCells[axis], cells[axis] - first) : 0;
+            size *=
+                first < cells[axis] ? std::min(BrickGrid::kCells[axis], cells[axis] - first) : 0;
         }
         count += size;
     }

@@ -44,6 +44,7 @@ void CubeSearch::search(const LayerCandidates& candidates, const Query& query, s
         shade_others(candidates, query, stop);
     std::ranges::sort(found_, {}, [](const Found& it) { return std::tuple(it.y, it.x); });
     write(shaded, out);
+    held_.clear();
     shading = shaded ? shading_ + (Clock::now() - found) : shading_;
 }
 

@@ -16,7 +16,7 @@
 
 namespace isochron::index {
 
-/// For regular grids. Keeps its work space: one for each thread. Throws as ChunkStore does.
+/// Keeps its work space: one for each thread. Throws as ChunkStore does.
 class CubeSearch {
   public:
     /// @param store outlives this
@@ -39,8 +39,8 @@ class CubeSearch {
         ChunksAround around;          ///< that its cells need for normals
         std::size_t first, count = 0; ///< among all places; none until it is shaded
     };
-    void find(const LayerCandidates& candidates, const Query& query, std::uint64_t cut,
-              bool shaded, const std::stop_token& stop, CellSet& out);
+    void find(const LayerCandidates& candidates, const Query& query, std::uint64_t cut, bool shaded,
+              const std::stop_token& stop, CellSet& out);
     void shade_others(const LayerCandidates& candidates, const Query& query,
                       const std::stop_token& stop);
     void shade(Found& found, const Query& query);

@@ -44,8 +44,8 @@ void shade_places(const ChunkCube& cube, const Query& query, std::span<const Pla
     shaders.finish();
 }
 
-void shade_places_of(const ChunkCube& cube, const Query& query,
-                     std::span<const PlaceInChunk> cells, std::span<std::uint32_t> planes) {
+void shade_places_of(const ChunkCube& cube, const Query& query, std::span<const PlaceInChunk> cells,
+                     std::span<std::uint32_t> planes) {
     visit_value_type(cube.values().type, [&]<class T>(std::type_identity<T>) {
         shade_places<T>(cube, query, cells, planes);
     });

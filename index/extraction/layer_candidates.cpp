@@ -34,7 +34,8 @@ constexpr ChunksOfBricks chunks_of_bricks(bool normals) {
     }
     return around;
 }
-constexpr ChunksOfBricks kChunksOfBrick = chunks_of_bricks(false), kWithNormals = chunks_of_bricks(true);
+constexpr ChunksOfBricks kChunksOfBrick = chunks_of_bricks(false),
+                         kWithNormals = chunks_of_bricks(true);
 
 std::uint32_t joined(BricksOfChunk bricks, const ChunksOfBricks& around) {
     std::uint32_t chunks = 0;
@@ -61,8 +62,7 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
     for (std::size_t i = 0; i < places_.size(); ++i) {
         bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
         const auto [x, y] = grid.at(places_[i]);
-        std::uint32_t around =
-            joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick) & ~kOwn;
+        std::uint32_t around = joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick) & ~kOwn;
         for (; around; around &= around - 1) {
             const auto bit = static_cast<std::uint32_t>(std::countr_zero(around));
             // Coordinates plus 1; chunks outside the grid do not exist.

@@ -166,37 +166,30 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
             shade(slab, query, result, stop);
         results.add(layer, std::move(result));
     };
-    const auto work_on_slab = [&](unsigned thread, std::uint32_t layer) {
+    const auto scan_slab = [&](unsigned thread, std::uint32_t layer) {
         StepSlab& slab = this->slab(thread);
         slab.begin(query.step, layer, stop);
         LayerResult result = results.begin();
         const auto begun = Clock::now();
-        if (!by_bricks) {
-            slab.fill_all();
-            scan(slab.cells(), query, result.cells.ids);
-            result.cells.candidates = result.cells.ids.size();
-        } else {
-            LayerCandidates prepared = candidates.take(layer);
-            result.searching = prepared.time();
-            if (slab.fill_candidates(std::move(prepared)))
-                find(slab, result);
-        }
+        slab.fill_all();
+        scan(slab.cells(), query, result.cells.ids);
+        result.cells.candidates = result.cells.ids.size();
         finish(slab, layer, result, begun);
     };
     const auto divided = stored_cut(store_.info().type, store_.info().scaling, query.isovalue);
-    const auto work_on_cubes = [&](unsigned thread, std::uint32_t layer) {
+    const auto search_cubes = [&](unsigned thread, std::uint32_t layer) {
         if (!cubes_[thread])
             cubes_[thread] = std::make_unique<CubeSearch>(store_);
         LayerResult result = results.begin();
         const LayerCandidates prepared = candidates.take(layer);
         const auto begun = Clock::now() - prepared.time();
         if (divided && !prepared.places().empty())
-            cubes_[thread]->search(prepared, query, *divided, shaded, stop, result.cells, result.shading);
+            cubes_[thread]->search(prepared, query, *divided, shaded, stop, result.cells,
+                                   result.shading);
         result.searching = Clock::now() - begun - result.shading;
         results.add(layer, std::move(result));
     };
-    const bool by_cubes = cut && !store_.info().grid.rectilinear();
-    const WorkOfThread work = by_cubes ? WorkOfThread(work_on_cubes) : WorkOfThread(work_on_slab);
+    const WorkOfThread work = cut ? WorkOfThread(search_cubes) : WorkOfThread(scan_slab);
     const auto whole =
         cut && !only && level_ == 0 && !store_.was_worked_on(query.step)
             ? WholeLayers::worth(store_, query.step, *cut, threads(), file_->cache().budget)

@@ -69,7 +69,6 @@ void StepSlab::begin(std::uint32_t step, std::uint32_t layer, std::stop_token st
         std::ranges::fill(of_layer, std::uint8_t{vacant});
     whole_ = false;
     stop_ = std::move(stop);
-    candidates_.reset();
     step_ = step;
     layer_ = layer;
     const std::uint32_t first = layer * kChunkEdge;
@@ -119,34 +118,6 @@ void StepSlab::set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y,
         bricks_[brick] = chunk.bricks[i];
         bricks_[grid.count() + brick] = chunk.bricks[kBricksOfChunk + i];
     }
-}
-
-bool StepSlab::fill_candidates(LayerCandidates candidates) {
-    candidates_ = std::move(candidates);
-    if (candidates_->places().empty())
-        return false;
-    forget_bricks();
-    std::vector<std::uint32_t> own_places;
-    std::vector<ChunkPtr> own;
-    for (std::size_t i = 0; i < candidates_->places().size(); ++i) {
-        const std::uint32_t place = candidates_->places()[i];
-        if (candidates_->bricks(i) == 0)
-            continue;
-        const auto [x, y] = chunks_.at(place);
-        set_bricks(*candidates_->chunk(i), x, y, candidates_->bricks(i));
-        const unsigned reach = candidates_->reach(i);
-        for (unsigned d = 0; d < 8; ++d) {
-            const std::array<std::uint32_t, 3> at{x + (d & 1), y + (d >> 1 & 1), layer_ + (d >> 2)};
-            const auto& n = chunks_.counts();
-            if (reach >> d & 1 && at[0] < n[0] && at[1] < n[1] && at[2] < n[2])
-                need(at[0], at[1], at[2]);
-        }
-        own_places.push_back(place); // already read: copied without another look-up
-        own.push_back(candidates_->chunk(i));
-    }
-    copy(layer_, own_places, own);
-    fill();
-    return !own.empty();
 }
 
 /// Marks for each chunk the sides at which it has cells, then the chunks that these need.
@@ -221,11 +192,8 @@ void StepSlab::fill() {
         for (std::uint32_t place = 0; place < state_[i].size(); ++place)
             if (state_[i][place] == needed)
                 places[i].push_back(place);
-        std::vector<std::uint32_t> others = places[i];
-        if (candidates_)
-            candidates_->keep_unannounced(layer_ + i - 1, others);
-        if (!others.empty()) // announces all of them before waiting for any
-            store_.expect(step_, layer_ + i - 1, others);
+        if (!places[i].empty()) // announces all of them before waiting for any
+            store_.expect(step_, layer_ + i - 1, places[i]);
     }
     for (std::uint32_t i = 0; i < state_.size(); ++i) {
         if (places[i].empty())

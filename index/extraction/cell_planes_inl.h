@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 // Highway's guard: the file is read again for every target.
 #if defined(ISOCHRON_INDEX_CELL_PLANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -307,6 +308,84 @@ class ValueBatch {
     std::int32_t whole_level_; ///< 8 * floor(level + kOffset)
     float rest_of_level_;      ///< 8 * (level + kOffset) - whole_level_
     std::array<std::array<std::int32_t, kBatch>, kWords> words_{};
+};
+
+/// Collects cells, and makes their planes when a batch is full.
+template <class Batch>
+class Shader {
+  public:
+    Shader(Batch batch, const typename Batch::Maker& maker)
+        : batch_(std::move(batch)), maker_(maker) {}
+
+    template <class... Values>
+    HWY_INLINE void add(std::uint32_t& plane, const Values&... values) {
+        batch_.set(size_, values...);
+        planes_[size_] = &plane;
+        if (++size_ == kBatch)
+            finish();
+    }
+
+    void finish() {
+        std::array<std::uint32_t, kBatch> made;
+        for (std::size_t i = 0; i < size_; i += hn::Lanes(typename Batch::Maker::D()))
+            batch_.make(maker_, i, made.data() + i);
+        for (std::size_t i = 0; i < size_; ++i)
+            *planes_[i] = made[i];
+        size_ = 0;
+    }
+
+  private:
+    Batch batch_;
+    typename Batch::Maker maker_;
+    std::array<std::uint32_t*, kBatch> planes_;
+    std::size_t size_ = 0;
+};
+
+/// Least ratio of the spacings for which `float` is precise enough.
+constexpr double kFloatIsEnough = 1e-4;
+
+/// What makes the planes of the cells of a step with values of type T.
+template <class T>
+class Shaders {
+  public:
+    static constexpr bool kSmall = sizeof(T) <= 2;
+    using Fast = ValueBatch<std::conditional_t<kSmall, T, std::uint8_t>>;
+
+    Shaders(const StepValues& values, double isovalue)
+        : Shaders(values, scaled_matrix(values), stored_value(values.scaling, isovalue)) {}
+
+    const bool regular;         ///< the grid
+    const bool float_is_enough; ///< for inner cells: `fast` may be used
+    Shader<Fast> fast;
+
+    HWY_INLINE void add_exact(std::uint32_t& plane, const CellDifferences<T>& of_row,
+                              const Grid& grid, const std::array<std::uint32_t, 3>& cell) {
+        exact_.add(plane, of_row(cell[0]), of_row.slope(cell[0], level_),
+                   regular ? glm::dvec3(1.0) : grid.even_size(cell));
+    }
+    void finish() {
+        fast.finish();
+        exact_.finish();
+    }
+
+  private:
+    struct Matrix {
+        glm::dmat3 matrix;
+        double smallest = 0;
+    };
+    static Matrix scaled_matrix(const StepValues& values) {
+        Matrix scaled;
+        scaled.matrix = scaled_to_one(normal_from_difference(values), scaled.smallest);
+        return scaled;
+    }
+    Shaders(const StepValues& values, const Matrix& scaled, double level)
+        : regular(!values.grid.rectilinear()),
+          float_is_enough(kSmall && scaled.smallest >= kFloatIsEnough && regular),
+          fast(Fast(values.grid, level), {scaled.matrix, values.scaling.slope < 0}), level_(level),
+          exact_({}, {scaled.matrix, values.scaling.slope < 0}) {}
+
+    double level_; ///< isovalue among stored values
+    Shader<DifferenceBatch> exact_;
 };
 
 } // namespace isochron::index::HWY_NAMESPACE

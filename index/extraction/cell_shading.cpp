@@ -23,37 +23,6 @@ HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 namespace {
 
-/// Collects cells, and makes their planes when a batch is full.
-template <class Batch>
-class Shader {
-  public:
-    Shader(Batch batch, const typename Batch::Maker& maker)
-        : batch_(std::move(batch)), maker_(maker) {}
-
-    template <class... Values>
-    HWY_INLINE void add(CellPoint& point, const Values&... values) {
-        batch_.set(size_, values...);
-        points_[size_] = &point;
-        if (++size_ == kBatch)
-            finish();
-    }
-
-    void finish() {
-        std::array<std::uint32_t, kBatch> planes;
-        for (std::size_t i = 0; i < size_; i += hn::Lanes(typename Batch::Maker::D()))
-            batch_.make(maker_, i, planes.data() + i);
-        for (std::size_t i = 0; i < size_; ++i)
-            points_[i]->plane = planes[i];
-        size_ = 0;
-    }
-
-  private:
-    Batch batch_;
-    typename Batch::Maker maker_;
-    std::array<CellPoint*, kBatch> points_;
-    std::size_t size_ = 0;
-};
-
 /// Appends rows many at a time: appending each takes a fifth of the time to shade its cells.
 class RowBuffer {
   public:
@@ -77,25 +46,13 @@ class RowBuffer {
     std::array<CellRow, 256> rows_;
 };
 
-/// Least ratio of the spacings for which `float` is precise enough.
-constexpr double kFloatIsEnough = 1e-4;
-
 template <class T>
 bool shade_values(const StepValues& values, CellSet& set, const std::stop_token& stop) {
-    constexpr bool kSmall = sizeof(T) <= 2;
-    double smallest = 0;
-    const glm::dmat3 matrix = scaled_to_one(normal_from_difference(values), smallest);
-    const double level = stored_value(values.scaling, set.query.isovalue);
-    const bool reversed = values.scaling.slope < 0;
-    Shader<DifferenceBatch> exact({}, {matrix, reversed});
-    using Batch = ValueBatch<std::conditional_t<kSmall, T, std::uint8_t>>;
-    Shader<Batch> fast(Batch(values.grid, level), {matrix, reversed});
+    Shaders<T> shaders(values, set.query.isovalue);
     const auto [width, height, depth] = values.grid.cells();
     const std::size_t row_size = values.grid.vertices[0];
     const std::size_t slice_size = row_size * values.grid.vertices[1];
     const T* const volume = values.step<T>(set.query.step).data();
-    const bool regular = !values.grid.rectilinear();
-    const bool float_is_enough = kSmall && smallest >= kFloatIsEnough && regular;
     CellWalk walk(values.grid);
     RowBuffer rows(set.rows);
     // The current row:
@@ -116,25 +73,23 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
                       static_cast<std::uint32_t>(i)});
             of_row = volume + z * slice_size + y * row_size;
             const bool border = y == 0 || y + 1 == height || z == 0 || z + 1 == depth;
-            inner_width = float_is_enough && !border && width > 2 ? width - 2 : 0;
+            inner_width = shaders.float_is_enough && !border && width > 2 ? width - 2 : 0;
             differences.reset();
         }
         const std::uint32_t x = walk.x();
         points[i] = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
                      static_cast<std::uint16_t>(z), 0, 0};
-        if constexpr (kSmall)
+        if constexpr (Shaders<T>::kSmall)
             if (x - 1u < inner_width) { // false for x = 0, too, as numbers are unsigned
-                fast.add(points[i], of_row + x);
+                shaders.fast.add(points[i].plane, of_row + x);
                 continue;
             }
         if (!differences)
             differences.emplace(values, set.query.step, y, z);
-        exact.add(points[i], (*differences)(x), differences->slope(x, level),
-                  regular ? glm::dvec3(1.0) : values.grid.even_size({x, y, z}));
+        shaders.add_exact(points[i].plane, *differences, values.grid, {x, y, z});
     }
     rows.flush();
-    fast.finish();
-    exact.finish();
+    shaders.finish();
     return true;
 }
 

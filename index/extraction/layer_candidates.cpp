@@ -8,13 +8,13 @@ namespace isochron::index {
 namespace {
 
 /// Sets of the chunks at offsets dx, dy, dz of -1 to 1: bit (dz + 1) * 9 + (dy + 1) * 3 + dx + 1.
-using ChunksAround = std::array<std::uint32_t, kBricksOfChunk>;
-constexpr std::uint32_t kOwnChunk = 1u << 13;
+using ChunksOfBricks = std::array<std::uint32_t, kBricksOfChunk>;
+constexpr std::uint32_t kOwn = 1u << 13;
 
 /// By brick of a chunk: the chunks that hold vertices of its cells, and, for normals, the neighbors
 /// of these along each axis.
-constexpr ChunksAround chunks_around(bool normals) {
-    ChunksAround around{};
+constexpr ChunksOfBricks chunks_of_bricks(bool normals) {
+    ChunksOfBricks around{};
     for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
         const std::array<std::uint32_t, 3> at{i % kChunkBricks[0],
                                               i / kChunkBricks[0] % kChunkBricks[1],
@@ -34,9 +34,10 @@ constexpr ChunksAround chunks_around(bool normals) {
     }
     return around;
 }
-constexpr ChunksAround kChunksOfBrick = chunks_around(false), kWithNormals = chunks_around(true);
+constexpr ChunksOfBricks kChunksOfBrick = chunks_of_bricks(false),
+                         kWithNormals = chunks_of_bricks(true);
 
-std::uint32_t joined(BricksOfChunk bricks, const ChunksAround& around) {
+std::uint32_t joined(BricksOfChunk bricks, const ChunksOfBricks& around) {
     std::uint32_t chunks = 0;
     for (; bricks; bricks &= bricks - 1)
         chunks |= around[static_cast<std::size_t>(std::countr_zero(bricks))];
@@ -61,8 +62,7 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
     for (std::size_t i = 0; i < places_.size(); ++i) {
         bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
         const auto [x, y] = grid.at(places_[i]);
-        std::uint32_t around =
-            joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick) & ~kOwnChunk;
+        std::uint32_t around = joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick) & ~kOwn;
         for (; around; around &= around - 1) {
             const auto bit = static_cast<std::uint32_t>(std::countr_zero(around));
             // Coordinates plus 1; chunks outside the grid do not exist.

@@ -50,6 +50,7 @@ class LayerCandidates {
     /// The bricks that may hold active cells.
     static BricksOfChunk bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut);
 
+    std::uint32_t layer() const { return layer_; }
     /// Ascending.
     const std::vector<std::uint32_t>& places() const { return places_; }
     const ChunkPtr& chunk(std::size_t i) const { return chunks_[i]; }

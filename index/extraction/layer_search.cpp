@@ -11,6 +11,7 @@
 #include "index/system/parallel.h"
 #include "index/system/read_ahead.h"
 #include "index/volume/cell_walk.h"
+#include "index/volume/stored_cut.h"
 
 #include <fmt/format.h>
 
@@ -50,11 +51,18 @@ LayerSearch::LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t leve
     // The slabs of all threads together take at most a quarter of the cache's budget.
     const std::uint64_t room = file_->cache().budget / 4 / StepSlab::bytes(store_.info()) + 1;
     slabs_.resize(std::min<std::uint64_t>(thread_count(0), room));
+    cubes_.resize(slabs_.size());
+}
+
+StepSlab& LayerSearch::slab(unsigned thread) {
+    if (!slabs_[thread])
+        slabs_[thread] = std::make_unique<StepSlab>(store_);
+    return *slabs_[thread];
 }
 
 /// @param places gives the places of a layer whose chunks will be needed
 bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, const Prepare& prepare,
-                                 const Work& work, const std::stop_token& stop) {
+                                 const WorkOfThread& work, const std::stop_token& stop) {
     const std::uint32_t layers = StepSlab::layers(store_.info().grid);
     ReadAhead ahead(layers, [&](std::uint32_t layer) {
         if (stop.stop_requested())
@@ -76,11 +84,7 @@ bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, con
                          }
                          if (item < before)
                              return;
-                         const auto layer = static_cast<std::uint32_t>(item - before);
-                         if (!slabs_[worker])
-                             slabs_[worker] = std::make_unique<StepSlab>(store_);
-                         slabs_[worker]->begin(step, layer, stop);
-                         work(*slabs_[worker], layer);
+                         work(worker, static_cast<std::uint32_t>(item - before));
                      },
                      {});
     } catch (const Stopped&) {
@@ -106,7 +110,11 @@ bool LayerSearch::for_each_layer_of(std::uint32_t step, std::span<const CellId> 
                 found.push_back(place);
         return found;
     };
-    return for_each_layer(step, places, {}, work, stop);
+    const auto work_on_slab = [&](unsigned thread, std::uint32_t layer) {
+        slab(thread).begin(step, layer, stop);
+        work(slab(thread), layer);
+    };
+    return for_each_layer(step, places, {}, work_on_slab, stop);
 }
 
 std::span<const CellId> LayerSearch::of_layer(std::span<const CellId> ids,
@@ -158,21 +166,30 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
             shade(slab, query, result, stop);
         results.add(layer, std::move(result));
     };
-    const auto work = [&](StepSlab& slab, std::uint32_t layer) {
+    const auto scan_slab = [&](unsigned thread, std::uint32_t layer) {
+        StepSlab& slab = this->slab(thread);
+        slab.begin(query.step, layer, stop);
         LayerResult result = results.begin();
         const auto begun = Clock::now();
-        if (!by_bricks) {
-            slab.fill_all();
-            scan(slab.cells(), query, result.cells.ids);
-            result.cells.candidates = result.cells.ids.size();
-        } else {
-            LayerCandidates prepared = candidates.take(layer);
-            result.searching = prepared.time();
-            if (slab.fill_candidates(std::move(prepared)))
-                find(slab, result);
-        }
+        slab.fill_all();
+        scan(slab.cells(), query, result.cells.ids);
+        result.cells.candidates = result.cells.ids.size();
         finish(slab, layer, result, begun);
     };
+    const auto divided = stored_cut(store_.info().type, store_.info().scaling, query.isovalue);
+    const auto search_cubes = [&](unsigned thread, std::uint32_t layer) {
+        if (!cubes_[thread])
+            cubes_[thread] = std::make_unique<CubeSearch>(store_);
+        LayerResult result = results.begin();
+        const LayerCandidates prepared = candidates.take(layer);
+        const auto begun = Clock::now() - prepared.time();
+        if (divided && !prepared.places().empty())
+            cubes_[thread]->search(prepared, query, *divided, shaded, stop, result.cells,
+                                   result.shading);
+        result.searching = Clock::now() - begun - result.shading;
+        results.add(layer, std::move(result));
+    };
+    const WorkOfThread work = cut ? WorkOfThread(search_cubes) : WorkOfThread(scan_slab);
     const auto whole =
         cut && !only && level_ == 0 && !store_.was_worked_on(query.step)
             ? WholeLayers::worth(store_, query.step, *cut, threads(), file_->cache().budget)

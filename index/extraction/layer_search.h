@@ -3,6 +3,7 @@
 #pragma once
 
 #include "index/extraction/cell_set.h"
+#include "index/extraction/cube_search.h"
 #include "index/extraction/layer_results.h"
 #include "index/extraction/mesh_maker.h"
 #include "index/extraction/step_slab.h"
@@ -46,6 +47,8 @@ class LayerSearch {
   private:
     unsigned threads() const { return static_cast<unsigned>(slabs_.size()); }
     using Work = std::function<void(StepSlab& slab, std::uint32_t layer)>;
+    using WorkOfThread = std::function<void(unsigned thread, std::uint32_t layer)>;
+    StepSlab& slab(unsigned thread);
     /// Called for a layer some layers before the work on it; may be empty.
     using Prepare = std::function<void(std::uint32_t layer)>;
     static void shade(StepSlab& slab, const Query& query, LayerResult& result,
@@ -53,7 +56,7 @@ class LayerSearch {
     /// Gives the places of the chunks of a layer, ascending.
     using PlacesOf = std::function<std::vector<std::uint32_t>(std::uint32_t layer)>;
     bool for_each_layer(std::uint32_t step, const PlacesOf& places, const Prepare& prepare,
-                        const Work& work, const std::stop_token& stop);
+                        const WorkOfThread& work, const std::stop_token& stop);
     bool for_each_layer_of(std::uint32_t step, std::span<const CellId> cells, const Work& work,
                            const std::stop_token& stop);
     std::span<const CellId> of_layer(std::span<const CellId> ids, std::uint32_t layer) const;
@@ -61,8 +64,9 @@ class LayerSearch {
     std::shared_ptr<const IndexFile> file_;
     const std::size_t level_;
     const ChunkStore& store_;
-    std::vector<std::unique_ptr<StepSlab>> slabs_; ///< by thread
-    std::vector<MeshMaker> makers_;                ///< by thread
+    std::vector<std::unique_ptr<StepSlab>> slabs_;   ///< by thread
+    std::vector<std::unique_ptr<CubeSearch>> cubes_; ///< by thread
+    std::vector<MeshMaker> makers_;                  ///< by thread
 };
 
 /// The active cells at a level of detail, ascending, with ids in the level's own grid. If these do

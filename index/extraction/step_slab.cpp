@@ -1,6 +1,7 @@
 // Fills slabs with chunks.
 #include "index/extraction/step_slab.h"
 
+#include "index/extraction/chunk_reach.h"
 #include "index/scan/bricks.h"
 #include "index/volume/cell_walk.h"
 
@@ -48,47 +49,6 @@ void copy_rows(const Neighbors& chunks, std::size_t offset, std::size_t width, s
             std::memcpy(to + i * width, chunks.from[i] + offset, width);
 }
 
-/// The position of a cell in its chunk along an axis, by what it needs of the chunks next to it:
-/// nothing; one vertex below, for normals; a vertex two on, for normals; its own upper vertex.
-enum Side : unsigned { nothing, vertex_below, two_vertices_on, next_vertex };
-constexpr unsigned kSides = 4;
-
-/// The side of each cell by its place in the chunk.
-constexpr std::array<std::uint8_t, kChunkEdge> kSide = [] {
-    std::array<std::uint8_t, kChunkEdge> side{};
-    side[0] = vertex_below;
-    side[kChunkEdge - 2] = two_vertices_on;
-    side[kChunkEdge - 1] = next_vertex;
-    return side;
-}();
-
-/// Sets of the chunks at offsets dx, dy, dz: bit (dz + 1) * 9 + (dy + 1) * 3 + dx + 1.
-using Around = std::array<std::uint32_t, kSides * kSides * kSides>;
-
-/// For a cell at each combination of sides (x fastest): the chunks that hold its vertices, and, for
-/// normals, their neighbors along each axis.
-constexpr Around around_of(bool normals) {
-    Around around{};
-    for (unsigned i = 0; i < around.size(); ++i) {
-        const std::array<unsigned, 3> side{i % kSides, i / kSides % kSides, i / kSides / kSides};
-        for (int bit = 0; bit < 27; ++bit) {
-            const std::array<int, 3> d{bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
-            unsigned beyond = 0; // axes along which a neighbor needs it, but not the cell
-            bool reached = true;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const bool own = d[axis] == 0 || (d[axis] == 1 && side[axis] == next_vertex);
-                beyond += own ? 0 : 1;
-                reached = reached && (own || (d[axis] == 1 && side[axis] == two_vertices_on) ||
-                                      (d[axis] == -1 && side[axis] == vertex_below));
-            }
-            if (reached && beyond <= (normals ? 1u : 0u))
-                around[i] |= 1u << bit;
-        }
-    }
-    return around;
-}
-constexpr Around kAround = around_of(false), kAroundWithNormals = around_of(true);
-
 } // namespace
 
 StepSlab::StepSlab(const ChunkStore& store)
@@ -109,7 +69,6 @@ void StepSlab::begin(std::uint32_t step, std::uint32_t layer, std::stop_token st
         std::ranges::fill(of_layer, std::uint8_t{vacant});
     whole_ = false;
     stop_ = std::move(stop);
-    candidates_.reset();
     step_ = step;
     layer_ = layer;
     const std::uint32_t first = layer * kChunkEdge;
@@ -161,34 +120,6 @@ void StepSlab::set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y,
     }
 }
 
-bool StepSlab::fill_candidates(LayerCandidates candidates) {
-    candidates_ = std::move(candidates);
-    if (candidates_->places().empty())
-        return false;
-    forget_bricks();
-    std::vector<std::uint32_t> own_places;
-    std::vector<ChunkPtr> own;
-    for (std::size_t i = 0; i < candidates_->places().size(); ++i) {
-        const std::uint32_t place = candidates_->places()[i];
-        if (candidates_->bricks(i) == 0)
-            continue;
-        const auto [x, y] = chunks_.at(place);
-        set_bricks(*candidates_->chunk(i), x, y, candidates_->bricks(i));
-        const unsigned reach = candidates_->reach(i);
-        for (unsigned d = 0; d < 8; ++d) {
-            const std::array<std::uint32_t, 3> at{x + (d & 1), y + (d >> 1 & 1), layer_ + (d >> 2)};
-            const auto& n = chunks_.counts();
-            if (reach >> d & 1 && at[0] < n[0] && at[1] < n[1] && at[2] < n[2])
-                need(at[0], at[1], at[2]);
-        }
-        own_places.push_back(place); // already read: copied without another look-up
-        own.push_back(candidates_->chunk(i));
-    }
-    copy(layer_, own_places, own);
-    fill();
-    return !own.empty();
-}
-
 /// Marks for each chunk the sides at which it has cells, then the chunks that these need.
 void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
     if (whole_)
@@ -208,21 +139,11 @@ void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
         const std::uint32_t x = walk.x();
         of_row[x / kChunkEdge] |= std::uint64_t{1} << (row_side + kSide[x % kChunkEdge]);
     }
-    const Around& around_side = normals ? kAroundWithNormals : kAround;
-    for (std::uint32_t i = 0; i < sides_.size(); ++i) {
-        std::uint32_t around = 0;
-        for (std::uint64_t sides = sides_[i]; sides; sides &= sides - 1)
-            around |= around_side[static_cast<std::size_t>(std::countr_zero(sides))];
-        for (; around; around &= around - 1) {
-            const auto bit = static_cast<std::uint32_t>(std::countr_zero(around));
-            // Coordinates plus 1; chunks outside the grid do not exist.
-            const std::array<std::uint32_t, 3> at{i % n[0] + bit % 3, i / n[0] + bit / 3 % 3,
-                                                  layer_ + bit / 9};
-            if (at[0] > 0 && at[0] <= n[0] && at[1] > 0 && at[1] <= n[1] && at[2] > 0 &&
-                at[2] <= n[2])
-                need(at[0] - 1, at[1] - 1, at[2] - 1);
-        }
-    }
+    for (std::uint32_t i = 0; i < sides_.size(); ++i)
+        for_each_around(chunks_around(sides_[i], normals), {i % n[0], i / n[0], layer_}, chunks_,
+                        [&](std::uint32_t, std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
+                            need(x, y, layer);
+                        });
     fill();
 }
 
@@ -271,11 +192,8 @@ void StepSlab::fill() {
         for (std::uint32_t place = 0; place < state_[i].size(); ++place)
             if (state_[i][place] == needed)
                 places[i].push_back(place);
-        std::vector<std::uint32_t> others = places[i];
-        if (candidates_)
-            candidates_->keep_unannounced(layer_ + i - 1, others);
-        if (!others.empty()) // announces all of them before waiting for any
-            store_.expect(step_, layer_ + i - 1, others);
+        if (!places[i].empty()) // announces all of them before waiting for any
+            store_.expect(step_, layer_ + i - 1, places[i]);
     }
     for (std::uint32_t i = 0; i < state_.size(); ++i) {
         if (places[i].empty())

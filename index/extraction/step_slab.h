@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -37,14 +36,6 @@ class StepSlab {
     /// Moves to a layer of a step. @param stop when it is set, functions that fill throw Stopped
     void begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop = {});
 
-    /// Fills what a search with bricks needs. The caller should have announced the candidates of
-    /// this layer and of the next ones (ChunkStore::expect).
-    /// @param candidates of this layer; kept until the next `begin`
-    /// @return whether any brick may hold active cells
-    bool fill_candidates(LayerCandidates candidates);
-    /// The bricks of `cells()`, as from `build_bricks`; only those that may hold active cells are
-    /// set.
-    std::span<const std::uint8_t> bricks() const { return bricks_; }
     /// Fills the vertices of cells, and, for normals, their neighbors along each axis.
     /// @param cells of this layer, as ids of `around()`, ascending
     void fill_around(std::span<const CellId> cells, bool normals);
@@ -55,6 +46,9 @@ class StepSlab {
     /// Copies a chunk of this layer to its place. Several threads may do so at once.
     /// @param candidates its bricks that may hold active cells
     void put(const Chunk& chunk, std::uint32_t place, BricksOfChunk candidates);
+    /// The bricks of `cells()`, as from `build_bricks`; only the candidates that have been put are
+    /// set.
+    std::span<const std::uint8_t> bricks() const { return bricks_; }
     /// Copies the planes that this slab needs of the layer next to it.
     void fill_from(const StepSlab& next);
 
@@ -94,7 +88,6 @@ class StepSlab {
     std::vector<const Chunk*> by_column_;            ///< chunks to copy
     bool whole_ = false;                             ///< all chunks are put, or will be
     std::stop_token stop_;
-    std::optional<LayerCandidates> candidates_; ///< have been announced, with what lies around
 };
 
 } // namespace isochron::index

@@ -31,13 +31,21 @@ glm::dvec3 Grid::even_size(const std::array<std::uint32_t, 3>& cell) const {
 }
 
 Grid Grid::planes(std::uint32_t first, std::uint32_t end) const {
+    return part({0, 0, first}, {vertices[0], vertices[1], end});
+}
+
+Grid Grid::part(const std::array<std::uint32_t, 3>& first,
+                const std::array<std::uint32_t, 3>& end) const {
     Grid part = *this;
-    part.vertices[2] = end - first;
-    if (const std::vector<double>& at = positions[2].distances(); !at.empty()) {
-        std::vector<double> distances(at.begin() + first, at.begin() + end);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        part.vertices[axis] = end[axis] - first[axis];
+        const std::vector<double>& at = positions[axis].distances();
+        if (at.empty() || part.vertices[axis] == vertices[axis])
+            continue;
+        std::vector<double> distances(at.begin() + first[axis], at.begin() + end[axis]);
         for (double& distance : distances)
-            distance -= at[first];
-        part.positions[2] = AxisPositions(std::move(distances));
+            distance -= at[first[axis]];
+        part.positions[axis] = AxisPositions(std::move(distances));
     }
     return part;
 }

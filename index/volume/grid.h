@@ -79,6 +79,9 @@ struct Grid {
     /// The part of the grid between some planes of vertices along z, seen for itself: its vertices
     /// count from 0, and so do its distances along z. The origin stays.
     Grid planes(std::uint32_t first, std::uint32_t end) const;
+    /// The same of the part between some planes along each axis.
+    Grid part(const std::array<std::uint32_t, 3>& first,
+              const std::array<std::uint32_t, 3>& end) const;
 
     /// Factors of the differences to the vertices before and behind one, so that their sum is the
     /// slope there per even coordinate: exact for a parabola through the three; at the border

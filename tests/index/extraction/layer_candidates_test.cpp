@@ -1,11 +1,11 @@
 // What a search of a layer reads is announced before, when its candidates are read.
 #include "index/build/index_build.h"
 #include "index/extraction/cell_set.h"
-#include "index/extraction/id_sort.h"
+#include "index/extraction/cube_search.h"
 #include "index/extraction/layer_search.h"
 #include "index/extraction/step_slab.h"
 #include "index/file/index_file.h"
-#include "index/scan/bricks.h"
+#include "index/volume/stored_cut.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -94,20 +94,15 @@ TEST_P(LayerCandidatesTest, NothingIsReadThatWasNotAnnouncedWithTheCandidates) {
             for (std::uint32_t near = layer - std::min(layer, 1u);
                  near < std::min(layer + 2, store.grid().layers()); ++near)
                 store.fetch(0, near, LayerCandidates::places_of(*store.layer(0, near), cut), {});
-            LayerCandidates candidates(store, 0, layer, cut, normals, {});
+            const LayerCandidates candidates(store, 0, layer, cut, normals, {});
             const std::uint64_t announced = source.announcements;
             source.unannounced = 0;
-            StepSlab slab(store);
-            slab.begin(0, layer);
-            std::vector<CellId> ids;
-            if (slab.fill_candidates(std::move(candidates)))
-                test_bricks(slab.cells(), *store.levels(0), slab.bricks(), {0, isovalue}, ids);
-            sort_ids(ids, slab.cells().grid.cell_count());
-            for (CellId& id : ids)
-                id += slab.first_cell() - slab.first_around();
-            if (!ids.empty())
-                slab.fill_around(ids, normals);
-            found += ids.size();
+            CellSet set;
+            std::chrono::nanoseconds shading{0};
+            const auto divided = *stored_cut(store.info().type, store.info().scaling, isovalue);
+            CubeSearch(store).search(candidates, {0, isovalue}, divided, normals, {}, set, shading);
+            found += set.ids.size();
+            EXPECT_EQ(set.points.size(), normals ? set.ids.size() : 0);
             EXPECT_EQ(source.unannounced, 0u)
                 << "of " << source.read << " bytes so far, in layer " << layer;
             EXPECT_EQ(source.announcements, announced) << "announced twice";

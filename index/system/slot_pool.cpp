@@ -14,7 +14,8 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64;
+constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64, kSmallPage = 4096;
+constexpr std::size_t kTogether = 64 << 10; ///< [bytes] of pages allocated at a time
 
 } // namespace
 
@@ -22,14 +23,15 @@ constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64;
 struct alignas(kSlotAlignment) SlotPool::Block {
     std::byte* next = nullptr;  ///< the first free slot; a free slot holds the address of the next
     std::byte* fresh = nullptr; ///< slots from here on have never been used
+    std::byte* there = nullptr; ///< pages from here on have not been allocated
     std::size_t used = 0;
 
     static Block* make() {
         void* const memory = std::aligned_alloc(kBlock, kBlock);
         if (!memory)
             throw std::bad_alloc();
-        ask_for_huge_pages(memory, kBlock);
         auto* const block = new (memory) Block;
+        block->there = reinterpret_cast<std::byte*>(block);
         block->fresh = reinterpret_cast<std::byte*>(block + 1);
         // Under AddressSanitizer, reading an unused slot is an error.
         ASAN_POISON_MEMORY_REGION(block->fresh, block->end() - block->fresh);
@@ -66,15 +68,27 @@ SlotPool::~SlotPool() {
 }
 
 std::byte* SlotPool::take() {
-    const std::scoped_lock lock(mutex_);
-    if (free_.empty()) {
-        free_.push_back(Block::make());
-        ++blocks_;
+    std::byte *slot = nullptr, *begin = nullptr, *end = nullptr;
+    {
+        const std::scoped_lock lock(mutex_);
+        if (free_.empty()) {
+            free_.push_back(Block::make());
+            ++blocks_;
+        }
+        Block* const block = free_.back();
+        slot = block->take(bytes_);
+        if (block->full(bytes_))
+            free_.pop_back();
+        if (slot + bytes_ > block->there) {
+            begin = block->there;
+            const auto more = static_cast<std::size_t>(slot + bytes_ - begin) + kTogether;
+            end = begin + std::min(more / kSmallPage * kSmallPage,
+                                   static_cast<std::size_t>(block->end() - begin));
+            block->there = end;
+        }
     }
-    Block* const block = free_.back();
-    std::byte* const slot = block->take(bytes_);
-    if (block->full(bytes_))
-        free_.pop_back();
+    if (begin)
+        fetch_pages({begin, end});
     return slot;
 }
 

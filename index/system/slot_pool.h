@@ -1,4 +1,4 @@
-// Memory for many objects of the same size, in huge pages.
+// Memory for many objects of the same size, whose pages are allocated many at a time.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace isochron::index {
 
-/// Gives slots of one size from blocks of 2 MiB, each a huge page where the system has one: fresh
-/// memory in small pages costs as much time as decoding into it. A block without used slots is freed,
+/// Gives slots of one size from blocks of 2 MiB. Pages of a block are allocated many at a time,
+/// since fresh memory costs as much time as decoding into it. A block without used slots is freed,
 /// except for one. Thread-safe.
 class SlotPool {
   public:

@@ -58,12 +58,17 @@ constexpr ReachOfSides reach_of_sides(bool normals) {
 inline constexpr ReachOfSides kReach = reach_of_sides(false),
                               kReachWithNormals = reach_of_sides(true);
 
-inline ChunksAround chunks_around(SidesOfCells sides, bool normals) {
-    const ReachOfSides& of_side = normals ? kReachWithNormals : kReach;
+/// All chunks of the bits that are set.
+template <class Bits, std::size_t kBits>
+ChunksAround joined(Bits bits, const std::array<ChunksAround, kBits>& of_bit) {
     ChunksAround around = 0;
-    for (; sides; sides &= sides - 1)
-        around |= of_side[static_cast<std::size_t>(std::countr_zero(sides))];
+    for (; bits; bits &= bits - 1)
+        around |= of_bit[static_cast<std::size_t>(std::countr_zero(bits))];
     return around;
+}
+
+inline ChunksAround chunks_around(SidesOfCells sides, bool normals) {
+    return joined(sides, normals ? kReachWithNormals : kReach);
 }
 
 /// Calls `f(bit, x, y, layer)` for each of the chunks around the chunk at (x, y, layer) that the

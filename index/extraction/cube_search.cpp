@@ -13,14 +13,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The chunks at offsets of 0 and 1, given as LayerCandidates::reach does.
-ChunksAround around_of(unsigned reach) {
-    ChunksAround around = 0;
-    for (unsigned d = 0; d < 8; ++d)
-        around |= (reach >> d & 1u) << (kOwnChunk + (d & 1) + 3 * (d >> 1 & 1) + 9 * (d >> 2));
-    return around;
-}
-
 void stop_if_asked(const std::stop_token& stop) {
     if (stop.stop_requested())
         throw Stopped();
@@ -65,7 +57,7 @@ void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std
         there_[1][places[i]] = candidates.chunk(i).get();
     for (std::size_t i = 0; i < places.size(); ++i) {
         const auto [x, y] = chunks_.at(places[i]);
-        need(x, y, around_of(candidates.reach(i)));
+        need(x, y, candidates.reach(i));
     }
     fetch(candidates, query.step, stop);
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -73,7 +65,7 @@ void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std
             continue;
         stop_if_asked(stop);
         const auto [x, y] = chunks_.at(places[i]);
-        const ChunksAround reach = around_of(candidates.reach(i)) | 1u << kOwnChunk;
+        const ChunksAround reach = candidates.reach(i);
         cube_.begin(query.step, {x, y, layer_});
         fill_cube(x, y, reach);
         out.candidates += cells_of_bricks(candidates.bricks(i), cube_.cells());

@@ -2,14 +2,11 @@
 #include "index/extraction/layer_candidates.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace isochron::index {
 namespace {
 
-/// Sets of the chunks at offsets dx, dy, dz of -1 to 1: bit (dz + 1) * 9 + (dy + 1) * 3 + dx + 1.
-using ChunksOfBricks = std::array<std::uint32_t, kBricksOfChunk>;
-constexpr std::uint32_t kOwn = 1u << 13;
+using ChunksOfBricks = std::array<ChunksAround, kBricksOfChunk>;
 
 /// By brick of a chunk: the chunks that hold vertices of its cells, and, for normals, the neighbors
 /// of these along each axis.
@@ -19,7 +16,7 @@ constexpr ChunksOfBricks chunks_of_bricks(bool normals) {
         const std::array<std::uint32_t, 3> at{i % kChunkBricks[0],
                                               i / kChunkBricks[0] % kChunkBricks[1],
                                               i / kChunkBricks[0] / kChunkBricks[1]};
-        for (int bit = 0; bit < 27; ++bit) {
+        for (int bit = 0; bit < int{kChunksAround}; ++bit) {
             const std::array<int, 3> d{bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
             int below = 0; // axes along which only a neighbor's normal needs it
             bool reached = true;
@@ -37,13 +34,6 @@ constexpr ChunksOfBricks chunks_of_bricks(bool normals) {
 constexpr ChunksOfBricks kChunksOfBrick = chunks_of_bricks(false),
                          kWithNormals = chunks_of_bricks(true);
 
-std::uint32_t joined(BricksOfChunk bricks, const ChunksOfBricks& around) {
-    std::uint32_t chunks = 0;
-    for (; bricks; bricks &= bricks - 1)
-        chunks |= around[static_cast<std::size_t>(std::countr_zero(bricks))];
-    return chunks;
-}
-
 } // namespace
 
 LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
@@ -58,18 +48,14 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
         if (layer + i > 0 && layer + i - 1 < grid.layers())
             tables_[i] = store.layer(step, layer + i - 1);
     chunks_ = store.chunks(step, layer, places_, stop);
-    const auto& n = grid.counts();
     for (std::size_t i = 0; i < places_.size(); ++i) {
         bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
         const auto [x, y] = grid.at(places_[i]);
-        std::uint32_t around = joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick) & ~kOwn;
-        for (; around; around &= around - 1) {
-            const auto bit = static_cast<std::uint32_t>(std::countr_zero(around));
-            // Coordinates plus 1; chunks outside the grid do not exist.
-            const std::array<std::uint32_t, 2> at{x + bit % 3, y + bit / 3 % 3};
-            if (at[0] > 0 && at[0] <= n[0] && at[1] > 0 && at[1] <= n[1] && tables_[bit / 9])
-                around_[bit / 9].push_back(grid.place(at[0] - 1, at[1] - 1));
-        }
+        const ChunksAround around = joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick);
+        for_each_around(around & ~(1u << kOwnChunk), {x, y, layer}, grid,
+                        [&](unsigned bit, std::uint32_t cx, std::uint32_t cy, std::uint32_t) {
+                            around_[bit / 9].push_back(grid.place(cx, cy));
+                        });
     }
     for (std::uint32_t i = 0; i < around_.size(); ++i) {
         std::vector<std::uint32_t>& places = around_[i];
@@ -112,12 +98,8 @@ std::size_t LayerCandidates::count_of(const ChunkLayer& table, const LevelMap::C
     return count;
 }
 
-unsigned LayerCandidates::reach(std::size_t i) const {
-    const std::uint32_t chunks = joined(bricks_[i], kChunksOfBrick);
-    unsigned reach = 0;
-    for (unsigned d = 0; d < 8; ++d)
-        reach |= (chunks >> (13 + (d & 1) + 3 * (d >> 1 & 1) + 9 * (d >> 2)) & 1) << d;
-    return reach;
+ChunksAround LayerCandidates::reach(std::size_t i) const {
+    return joined(bricks_[i], kChunksOfBrick);
 }
 
 void LayerCandidates::keep_unannounced(std::uint32_t layer,

@@ -2,6 +2,7 @@
 // lies around them announced.
 #pragma once
 
+#include "index/extraction/chunk_reach.h"
 #include "index/file/chunk_store.h"
 #include "index/volume/level_map.h"
 
@@ -56,9 +57,8 @@ class LayerCandidates {
     const ChunkPtr& chunk(std::size_t i) const { return chunks_[i]; }
     /// The bricks of a chunk that may hold active cells.
     BricksOfChunk bricks(std::size_t i) const { return bricks_[i]; }
-    /// The chunks at offsets of 0 or 1 that hold vertices of these bricks: bit d is the chunk at
-    /// the offset whose x, y and z are the bits of d.
-    unsigned reach(std::size_t i) const;
+    /// The chunks that hold vertices of the cells of these bricks, the chunk itself included.
+    ChunksAround reach(std::size_t i) const;
     /// Time that it took to read them.
     std::chrono::nanoseconds time() const { return time_; }
     /// Removes what has been announced from the `places` of this layer or of one next to it.

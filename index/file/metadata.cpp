@@ -16,15 +16,6 @@ namespace {
 constexpr std::size_t kMaxDepth = 8;
 constexpr std::array kAnatomies{"none", "ras", "lps", "enu"};
 
-json numbers(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-glm::dvec3 vector_of(const json& value) {
-    const auto v = value.get<std::array<double, 3>>();
-    return {v[0], v[1], v[2]};
-}
-
 /// Limits the depth of JSON, since the parser accepts any depth.
 void check_depth(std::string_view text) {
     std::size_t depth = 0;

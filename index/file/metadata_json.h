@@ -5,8 +5,10 @@
 #include "index/file/index_contents.h"
 
 #include <fmt/format.h>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -84,6 +86,14 @@ void get_optional(const json& j, const char* key, std::optional<T>& value) {
         value = exact_text(j.at(key));
     else
         value = j.at(key).get<T>();
+}
+
+inline json numbers(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+inline glm::dvec3 vector_of(const json& value) {
+    const auto v = value.get<std::array<double, 3>>();
+    return {v[0], v[1], v[2]};
 }
 
 /// How files are read, but not which array and component of them.

@@ -51,7 +51,7 @@ json json_of(const ReadOptions& options) {
     for (const auto& [key, value] :
          {std::pair("spacing", options.spacing), {"origin", options.origin}})
         if (value)
-            j[key] = {value->x, value->y, value->z};
+            j[key] = numbers(*value);
     put_optional(j, "time_step", options.time_step);
     put_optional(j, "length_unit", options.length_unit);
     put_optional(j, "time_unit", options.time_unit);
@@ -63,10 +63,8 @@ ReadOptions read_options_of(const json& j) {
     ReadOptions options;
     get_decoding(j, options);
     for (auto [key, to] : {std::pair("spacing", &options.spacing), {"origin", &options.origin}})
-        if (j.contains(key)) {
-            const auto v = j.at(key).get<std::array<double, 3>>();
-            *to = {v[0], v[1], v[2]};
-        }
+        if (j.contains(key))
+            *to = vector_of(j.at(key));
     get_optional(j, "time_step", options.time_step);
     get_optional(j, "length_unit", options.length_unit);
     get_optional(j, "time_unit", options.time_unit);

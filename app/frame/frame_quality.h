@@ -2,7 +2,7 @@
 //
 //     quality.learn(quality.collect(log));                  // every frame
 //     quality.charge(quality.view());
-//     const Choosing how = Choosing::by_measurement;
+//     const Choosing how = Choosing::with_slices;
 //     if (quality.choose(state, changed, how, footprints, possible, report) || changed) {
 //         quality.begin(log.next());
 //         draw(views, report.footprint);
@@ -24,13 +24,13 @@ namespace isochron::app {
 
 /// What the choice of a footprint depends on: on measured times, or (`by_pace`) only on whether the
 /// picture moves. A fixed-step replay must repeat exactly, so it ignores measurements and draws a
-/// settled picture with the configured footprint, else the best one. With slices, a picture at rest
-/// ends at that footprint, too: it is drawn over several frames.
-enum class Choosing : std::uint8_t { by_measurement, with_slices, by_pace };
+/// settled picture with the configured footprint, else the best one. Live frames are measured; a
+/// picture at rest ends at that footprint, too: it is drawn in slices over several frames.
+enum class Choosing : std::uint8_t { with_slices, by_pace };
 
 /// Frames that change have the frame budget. A picture in which nothing has moved for a while is
-/// drawn in slices, each within that budget. Where slices are not possible, it is drawn at once,
-/// within the larger still budget: a pause that is acceptable at rest. Each budget
+/// drawn in slices, each within that budget. Where the quality or the configuration wants none, it
+/// is drawn at once, within the larger still budget: a pause that is acceptable at rest. Each budget
 /// has its own controller; both learn from all frames.
 class FrameQuality {
   public:

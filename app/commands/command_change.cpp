@@ -68,7 +68,10 @@ void run_change(const ChangeArguments& arguments) {
             refuse_input_as_output({arguments.file}, out);
     if (!arguments.to_step && !arguments.to_isovalue)
         throw UsageError("--to-step or --to-isovalue is missing");
-    const auto file = array_called(open_index_to_show(arguments.file), arguments.array);
+    const auto file = array_called(open_index(arguments.file), arguments.array);
+    if (const index::Grid& grid = file->info().grid; index::has_wide_ids(grid))
+        throw index::Error(fmt::format("{}: {} cells, expected fewer than 2^32 to compare",
+                                       arguments.file.string(), grid.cell_count()));
     const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
     const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),
                                     arguments.to_isovalue.value_or(arguments.isovalue));

@@ -3,6 +3,7 @@
 
 #include "app/text.h"
 #include "index/error.h"
+#include "index/extraction/volume_bricks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,12 +31,16 @@ std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& 
 std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,
                                                            std::uint64_t cache_bytes) {
     auto file = open_index(path, cache_bytes);
-    if (const index::Grid& grid = file->info().grid; index::has_wide_ids(grid))
-        throw index::Error(
-            fmt::format("{}: {} cells, expected fewer than 2^32; isochron query finds "
-                        "those of an isovalue",
-                        path.string(), grid.cell_count()));
+    check_can_be_shown(file->info().grid, path.string());
     return file;
+}
+
+void check_can_be_shown(const index::Grid& grid, const std::string& name) {
+    constexpr std::size_t kMostBricks = std::size_t{1} << 26;
+    if (index::BrickTiling(grid).count() > kMostBricks)
+        throw index::Error(fmt::format("{}: {} vertices, expected at most 2^35 to show; isochron "
+                                       "query finds the active cells of an isovalue",
+                                       name, grid.vertex_count()));
 }
 
 std::vector<std::string> array_names(const index::IndexFile& file) {

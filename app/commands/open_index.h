@@ -17,10 +17,15 @@ namespace isochron::app {
 /// says how to build an index of it
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
                                                    std::uint64_t cache_bytes = 0);
-/// The same for commands whose cell ids have 32 bits.
-/// @throws index::Error also if the grid has 2^32 cells or more
+/// The same for commands that show surfaces.
+/// @throws index::Error also as `check_can_be_shown`
 std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,
                                                            std::uint64_t cache_bytes = 0);
+
+/// @param name of the index
+/// @throws index::Error if the grid has more than 2^35 vertices: pictures need tables of all bricks
+/// of the volume, in memory and on the GPU, which at that size hold 2^26 entries
+void check_can_be_shown(const index::Grid& grid, const std::string& name);
 
 /// One of the arrays of an index. @param name none: the first
 /// @throws index::Error naming its arrays when there is no such array

@@ -107,9 +107,9 @@ bool DetailSearch::color(const Query& query, unsigned level, const CellSet& set,
         return first != nullptr;
     }
     const ChunkStore* const store = source_ ? source_->chunks(level) : nullptr;
-    if (!store || set.ids.empty() || has_wide_ids(store->info().grid))
+    if (!store || set.ids.empty())
         return true;
-    return searcher(level).color_cells(query, *source_, set.ids, colors, stop);
+    return searcher(level).color_cells(set, *source_, colors, stop);
 }
 
 /// Finds the whole levels, the coarsest first, until there are too many cells or the next level

@@ -17,7 +17,9 @@ class Extracting {
   public:
     Extracting(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
                Shading shading)
-        : file_(std::move(file)), method_(method), shading_(shading),
+        : file_(std::move(file)), method_(method),
+          // By wide ids a renderer cannot tell where cells are.
+          shading_(has_wide_ids(file_->info().grid) ? Shading::cells : shading),
           values_(file_->info().type, file_->info().scaling, file_->stats().low,
                   file_->stats().high),
           gatherer_(file_->info().grid, values_), colors_(file_, method), details_(file_) {}
@@ -110,7 +112,7 @@ class Extracting {
         if (result.cells() == 0) // avoids loading the step, which may decode a file
             return true;
         for (const CellSet& surface : result.surfaces)
-            gatherer_.need(surface.ids);
+            gatherer_.need(surface);
         std::optional<LoadedStep> whole;
         const std::uint32_t step = result.query.step;
         if (by_chunks_) {

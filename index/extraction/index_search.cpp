@@ -96,11 +96,11 @@ class IndexSearch {
     bool add_mesh(CellSet& set, const std::stop_token& stop) {
         const std::uint64_t room = set.query.mesh_room;
         if (shading_ == Shading::none || set.ids.empty() ||
-            least_mesh_bytes(set.ids.size()) > room || has_wide_ids(file_->info().grid))
+            least_mesh_bytes(set.ids.size()) > room)
             return true;
         const auto started = Clock::now();
         CellMesh mesh;
-        if (!(by_chunks_ ? layers_.make_mesh(set.query, set.ids, mesh, stop)
+        if (!(by_chunks_ ? layers_.make_mesh(set, mesh, stop)
                          : make_mesh(makers_, whole(set.query.step, stop).values, set.query,
                                      set.ids, mesh, stop)))
             return false;

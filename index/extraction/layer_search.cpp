@@ -93,15 +93,15 @@ bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, con
     return !stop.stop_requested();
 }
 
-/// @param cells ascending; their chunks will be needed
-bool LayerSearch::for_each_layer_of(std::uint32_t step, std::span<const CellId> cells,
-                                    const Work& work, const std::stop_token& stop) {
+/// @param cells whose chunks will be needed
+bool LayerSearch::for_each_layer_of(std::uint32_t step, const Cells& cells, const Work& work,
+                                    const std::stop_token& stop) {
     std::vector<std::uint8_t> needed(store_.grid().chunks_of_layer());
     const auto places = [&](std::uint32_t layer) {
         std::ranges::fill(needed, std::uint8_t{0});
         CellWalk walk(store_.info().grid);
         for (const CellId id : of_layer(cells, layer)) {
-            walk.to(id);
+            walk.to(id - first_of(layer)); // as wide ids wrap, from one layer to the next
             needed[store_.grid().place(walk.x() / kChunkEdge, walk.y() / kChunkEdge)] = 1;
         }
         std::vector<std::uint32_t> found;
@@ -117,12 +117,24 @@ bool LayerSearch::for_each_layer_of(std::uint32_t step, std::span<const CellId> 
     return for_each_layer(step, places, {}, work_on_slab, stop);
 }
 
-std::span<const CellId> LayerSearch::of_layer(std::span<const CellId> ids,
-                                              std::uint32_t layer) const {
+/// The id of a layer's first cell.
+CellId LayerSearch::first_of(std::uint32_t layer) const {
     const auto n = store_.info().grid.cells();
-    const std::uint64_t cells = std::uint64_t{n[0]} * n[1] * kChunkEdge;
-    const auto first = std::ranges::lower_bound(ids, layer * cells);
-    const auto last = std::ranges::lower_bound(first, ids.end(), (layer + 1) * cells);
+    return n[0] * n[1] * kChunkEdge * layer;
+}
+
+std::span<const CellId> LayerSearch::of_layer(const Cells& cells, std::uint32_t layer) const {
+    const Grid& grid = store_.info().grid;
+    if (has_wide_ids(grid)) { // which are ascending within each layer only
+        const auto layer_of = [](const CellPoint& point) { return point.z / kChunkEdge; };
+        const auto found = std::ranges::equal_range(cells.points, layer, {}, layer_of);
+        return cells.ids.subspan(static_cast<std::size_t>(found.begin() - cells.points.begin()),
+                                 found.size());
+    }
+    const auto n = grid.cells();
+    const std::uint64_t of_layer = std::uint64_t{n[0]} * n[1] * kChunkEdge;
+    const auto first = std::ranges::lower_bound(cells.ids, layer * of_layer);
+    const auto last = std::ranges::lower_bound(first, cells.ids.end(), (layer + 1) * of_layer);
     return {first, last};
 }
 
@@ -226,9 +238,9 @@ bool LayerSearch::keep_active(const Query& query, std::vector<CellId>& ids,
                               const std::stop_token& stop) {
     std::vector<std::vector<CellId>> kept(StepSlab::layers(store_.info().grid));
     const bool finished = for_each_layer_of(
-        query.step, ids,
+        query.step, {ids},
         [&](StepSlab& slab, std::uint32_t layer) {
-            kept[layer] = counted_from(slab.first_around(), of_layer(ids, layer));
+            kept[layer] = counted_from(slab.first_around(), of_layer({ids}, layer));
             slab.fill_around(kept[layer], false);
             index::keep_active(slab.around(), query, kept[layer]);
             for (CellId& id : kept[layer])
@@ -245,10 +257,10 @@ bool LayerSearch::shade_cells(CellSet& set, const std::stop_token& stop) {
     CellSet shaded;
     LayerResults results(shaded, StepSlab::layers(store_.info().grid));
     const bool finished = for_each_layer_of(
-        set.query.step, set.ids,
+        set.query.step, {set.ids},
         [&](StepSlab& slab, std::uint32_t layer) {
             LayerResult result = results.begin();
-            const auto ids = of_layer(set.ids, layer);
+            const auto ids = of_layer({set.ids}, layer);
             result.cells.ids = counted_from(slab.first_around(), ids);
             result.first = slab.first_around();
             result.first_plane = slab.first_plane();
@@ -262,21 +274,21 @@ bool LayerSearch::shade_cells(CellSet& set, const std::stop_token& stop) {
     return finished;
 }
 
-bool LayerSearch::make_mesh(const Query& query, std::span<const CellId> ids, CellMesh& mesh,
-                            const std::stop_token& stop) {
+bool LayerSearch::make_mesh(const CellSet& set, CellMesh& mesh, const std::stop_token& stop) {
+    const Cells cells{set.ids, set.points};
     std::vector<MeshPart> parts(StepSlab::layers(store_.info().grid));
     makers_.resize(slabs_.size());
     const bool finished = for_each_layer_of(
-        query.step, ids,
+        set.query.step, cells,
         [&](StepSlab& slab, std::uint32_t layer) {
             const std::vector<CellId> local =
-                counted_from(slab.first_around(), of_layer(ids, layer));
+                counted_from(slab.first_around(), of_layer(cells, layer));
             if (local.empty())
                 return;
             const auto worker = std::ranges::find(slabs_, &slab, &std::unique_ptr<StepSlab>::get);
             MeshMaker& maker = makers_[static_cast<std::size_t>(worker - slabs_.begin())];
             slab.fill_around(local, true);
-            maker.make(slab.around(), query, local, parts[layer], slab.first_plane(), stop);
+            maker.make(slab.around(), set.query, local, parts[layer], slab.first_plane(), stop);
         },
         stop);
     if (finished)
@@ -284,24 +296,24 @@ bool LayerSearch::make_mesh(const Query& query, std::span<const CellId> ids, Cel
     return finished;
 }
 
-bool LayerSearch::color_cells(const Query& query, const ColorSource& source,
-                              std::span<const CellId> cells, std::span<std::uint16_t> out,
-                              const std::stop_token& stop) {
+bool LayerSearch::color_cells(const CellSet& set, const ColorSource& source,
+                              std::span<std::uint16_t> out, const std::stop_token& stop) {
     const ColorArray& array = source.array();
+    const Cells cells{set.ids, set.points};
     return for_each_layer_of(
-        query.step, cells,
+        set.query.step, cells,
         [&](StepSlab& slab, std::uint32_t layer) {
             const auto ids = of_layer(cells, layer);
             if (ids.empty())
                 return;
             const std::vector<CellId> local = counted_from(slab.first_around(), ids);
             StepSlab colors(*source.chunks(level_));
-            colors.begin(query.step, layer, stop);
+            colors.begin(set.query.step, layer, stop);
             slab.fill_around(local, false);
             colors.fill_around(local, false);
-            const auto first = static_cast<std::size_t>(ids.data() - cells.data());
-            index::color_cells(slab.around(), colors.around(), query, local, array.low, array.high,
-                               out.subspan(first, ids.size()), stop);
+            const auto first = static_cast<std::size_t>(ids.data() - cells.ids.data());
+            index::color_cells(slab.around(), colors.around(), set.query, local, array.low,
+                               array.high, out.subspan(first, ids.size()), stop);
         },
         stop);
 }

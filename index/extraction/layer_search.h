@@ -37,12 +37,11 @@ class LayerSearch {
     /// @param ids ascending
     bool keep_active(const Query& query, std::vector<CellId>& ids, const std::stop_token& stop);
     bool shade_cells(CellSet& set, const std::stop_token& stop);
-    /// @param ids active cells, ascending
-    bool make_mesh(const Query& query, std::span<const CellId> ids, CellMesh& mesh,
-                   const std::stop_token& stop);
-    /// @param source has chunks at this level
-    bool color_cells(const Query& query, const ColorSource& source, std::span<const CellId> cells,
-                     std::span<std::uint16_t> out, const std::stop_token& stop);
+    /// @param set in the order of `search`; with points, if the grid has wide ids
+    bool make_mesh(const CellSet& set, CellMesh& mesh, const std::stop_token& stop);
+    /// @param set as above @param source has chunks at this level
+    bool color_cells(const CellSet& set, const ColorSource& source, std::span<std::uint16_t> out,
+                     const std::stop_token& stop);
 
   private:
     unsigned threads() const { return static_cast<unsigned>(slabs_.size()); }
@@ -57,9 +56,15 @@ class LayerSearch {
     using PlacesOf = std::function<std::vector<std::uint32_t>(std::uint32_t layer)>;
     bool for_each_layer(std::uint32_t step, const PlacesOf& places, const Prepare& prepare,
                         const WorkOfThread& work, const std::stop_token& stop);
-    bool for_each_layer_of(std::uint32_t step, std::span<const CellId> cells, const Work& work,
+    /// Cells in the order of `search`, with points where ids are wide.
+    struct Cells {
+        std::span<const CellId> ids;
+        std::span<const CellPoint> points = {};
+    };
+    bool for_each_layer_of(std::uint32_t step, const Cells& cells, const Work& work,
                            const std::stop_token& stop);
-    std::span<const CellId> of_layer(std::span<const CellId> ids, std::uint32_t layer) const;
+    CellId first_of(std::uint32_t layer) const;
+    std::span<const CellId> of_layer(const Cells& cells, std::uint32_t layer) const;
 
     std::shared_ptr<const IndexFile> file_;
     const std::size_t level_;

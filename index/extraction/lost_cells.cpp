@@ -181,6 +181,7 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
     all.query = query;
     if (!search_.search(all, true, true, stop, only))
         return false;
+    found.cells.query = query;
     found.cells.candidates = all.candidates;
     found.cells.search_time = all.search_time;
     found.cells.shading_time = all.shading_time;

@@ -30,12 +30,12 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
         const auto& cells = surfaces[i].ids;
         if (cells.empty())
             continue;
-        out.resize(rank + cells.size());
+        out.resize(rank + cells.size(), kNoColor);
         const auto part = std::span(out).subspan(rank);
         if (source) {
-            if (!color_by_value(query.surface(i), *source, cells, step, part, stop))
+            if (!color_by_value(surfaces[i], *source, step, part, stop))
                 return false;
-        } else {
+        } else if (!has_wide_ids(file_->info().grid)) {
             const FirstCrossings* first = crossings(query.isovalues[i], stop);
             if (!first)
                 return false;
@@ -46,14 +46,14 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
     return true;
 }
 
-bool SurfaceColors::color_by_value(const Query& query, const ColorSource& source,
-                                   std::span<const CellId> cells, const StepValues* step,
-                                   std::span<std::uint16_t> out, const std::stop_token& stop) {
+bool SurfaceColors::color_by_value(const CellSet& set, const ColorSource& source,
+                                   const StepValues* step, std::span<std::uint16_t> out,
+                                   const std::stop_token& stop) {
     if (!step)
-        return layers_.color_cells(query, source, cells, out, stop);
+        return layers_.color_cells(set, source, out, stop);
     const ColorArray& array = source.array();
-    const LoadedStep colors = source.load(query.step, stop);
-    return color_cells(*step, colors.values, query, cells, array.low, array.high, out, stop);
+    const LoadedStep colors = source.load(set.query.step, stop);
+    return color_cells(*step, colors.values, set.query, set.ids, array.low, array.high, out, stop);
 }
 
 void SurfaceColors::forget_all_but(const SurfacesQuery& query) {

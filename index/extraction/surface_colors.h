@@ -14,7 +14,8 @@ namespace isochron::index {
 
 /// Colors the cells of one query after the other. For the first crossings of an isovalue it
 /// searches the whole series once and keeps the result, two bytes for each cell of the grid, until
-/// a query does not need it. Not thread-safe.
+/// a query does not need it; cells of a grid with wide ids are too many for that, and get kNoColor.
+/// Not thread-safe.
 class SurfaceColors {
   public:
     /// @param method of the searches, none: the cheapest; the file must have that tier
@@ -28,8 +29,7 @@ class SurfaceColors {
               const StepValues* step, std::vector<std::uint16_t>& out, const std::stop_token& stop);
 
   private:
-    bool color_by_value(const Query& query, const ColorSource& source,
-                        std::span<const CellId> cells, const StepValues* step,
+    bool color_by_value(const CellSet& set, const ColorSource& source, const StepValues* step,
                         std::span<std::uint16_t> out, const std::stop_token& stop);
     void forget_all_but(const SurfacesQuery& query);
     const FirstCrossings* crossings(double isovalue, const std::stop_token& stop);

@@ -41,20 +41,33 @@ BrickGatherer::BrickGatherer(const Grid& grid, const BrickValues& values)
     : grid_(grid), tiling_(grid), values_(values), needed_(tiling_.count()),
       row_inner_(tiling_.bricks[0]), row_outer_(tiling_.bricks[0]) {}
 
-void BrickGatherer::need(std::span<const CellId> cells) {
-    const auto& n = grid_.vertices;
+void BrickGatherer::need(const CellSet& set) {
+    if (has_wide_ids(grid_))
+        return mark(set.points.size(), [&](std::size_t i) -> std::array<std::uint32_t, 3> {
+            const CellPoint& point = set.points[i];
+            return {point.x, point.y, point.z};
+        });
     CellWalk walk(grid_);
+    mark(set.ids.size(), [&](std::size_t i) -> std::array<std::uint32_t, 3> {
+        walk.to(set.ids[i]);
+        return {walk.x(), walk.y(), walk.z()};
+    });
+}
+
+/// Marks the bricks of cells whose places ascend from row to row.
+template <class PlaceOf>
+void BrickGatherer::mark(std::size_t cells, PlaceOf&& place_of) {
     std::uint32_t y = 0, z = 0;
-    for (const CellId id : cells) {
-        const bool new_row = walk.to(id);
-        if (new_row && id != cells.front())
+    for (std::size_t i = 0; i < cells; ++i) {
+        const auto [at_x, at_y, at_z] = place_of(i);
+        if (i > 0 && (at_y != y || at_z != z))
             mark_row(y, z);
-        y = walk.y(), z = walk.z();
-        const auto near_x = inner(walk.x()), wide_x = outer(walk.x(), n[0]);
+        y = at_y, z = at_z;
+        const auto near_x = inner(at_x), wide_x = outer(at_x, grid_.vertices[0]);
         row_inner_[near_x[0]] = row_inner_[near_x[1]] = 1;
         row_outer_[wide_x[0]] = row_outer_[wide_x[1]] = 1;
     }
-    if (!cells.empty())
+    if (cells > 0)
         mark_row(y, z);
 }
 

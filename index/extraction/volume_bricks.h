@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/extraction/brick_values.h"
+#include "index/extraction/cell_set.h"
 #include "index/file/chunk_store.h"
 #include "index/volume/step_values.h"
 
@@ -57,8 +58,8 @@ class BrickGatherer {
 
     /// The result of `gather` if nothing is marked.
     VolumeBricks none() const;
-    /// Marks the bricks that these cells need. @param cells ascending
-    void need(std::span<const CellId> cells);
+    /// Marks the bricks that a set's cells need. @param set with points, if the grid has wide ids
+    void need(const CellSet& set);
     /// Copies the bricks that have been marked since the last call, then clears the marks.
     /// @return false when it was stopped and the bricks are incomplete
     bool gather(const StepValues& step, std::uint32_t number, const BrickLevels& levels,
@@ -70,6 +71,8 @@ class BrickGatherer {
 
   private:
     struct Box;
+    template <class PlaceOf>
+    void mark(std::size_t cells, PlaceOf&& place_of);
     void mark_row(std::uint32_t y, std::uint32_t z);
     std::array<std::uint32_t, 3> at(BrickId brick) const;
     void take_marked(VolumeBricks& bricks);

@@ -44,7 +44,7 @@ class MeshPassTest : public GlTest {
             index::CellMesh mesh;
             EXPECT_TRUE(make_mesh(makers, field_.view(), cells.query, cells.ids, mesh));
             cells.mesh = std::make_shared<const index::CellMesh>(std::move(mesh));
-            gatherer.need(cells.ids);
+            gatherer.need(cells);
             set->surfaces.push_back(std::move(cells));
         }
         const index::BrickLevels levels = values.levels(isovalues);

@@ -314,11 +314,12 @@ std::optional<std::uint64_t> DetailSearch::count(const SurfacesQuery& query,
         return std::nullopt;
     std::uint64_t cells = 0;
     for (const double isovalue : query.isovalues) {
-        CellSet set;
-        set.query = {query.step, isovalue};
-        if (std::isfinite(isovalue) && !searcher(0).search(set, by_bricks_, false, stop))
+        if (!std::isfinite(isovalue))
+            continue;
+        const auto of_surface = searcher(0).count({query.step, isovalue}, by_bricks_, stop);
+        if (!of_surface)
             return std::nullopt;
-        cells += set.ids.size();
+        cells += *of_surface;
     }
     searchers_[0].reset();
     return cells;

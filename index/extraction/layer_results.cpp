@@ -33,12 +33,16 @@ std::span<T> appended(std::vector<T>& to, const std::vector<T>& more) {
 } // namespace
 
 LayerResults::LayerResults(CellSet& set, std::uint32_t layers)
-    : set_(set), waiting_(layers), came_(layers) {
-    set_.ids.clear();
-    set_.points.clear();
-    set_.rows.clear();
-    set_.candidates = 0;
+    : LayerResults(layers) {
+    set_ = &set;
+    set.ids.clear();
+    set.points.clear();
+    set.rows.clear();
+    set.candidates = 0;
 }
+
+LayerResults::LayerResults(std::uint32_t layers)
+    : set_(nullptr), waiting_(layers), came_(layers) {}
 
 LayerResult LayerResults::begin() {
     const std::scoped_lock lock(mutex_);
@@ -59,21 +63,9 @@ void LayerResults::add(std::uint32_t layer, LayerResult result) {
 
 void LayerResults::append(LayerResult& result) {
     CellSet& from = result.cells;
-    const double done = (next_ + 1.0) / static_cast<double>(came_.size());
-    const auto before = static_cast<std::uint32_t>(set_.ids.size());
-    const auto plane = result.first_plane;
-    make_room(set_.ids, from.ids.size(), done);
-    make_room(set_.points, from.points.size(), done);
-    make_room(set_.rows, from.rows.size(), done);
-    for (CellId& id : appended(set_.ids, from.ids))
-        id += result.first;
-    for (CellPoint& point : appended(set_.points, from.points))
-        point.z = static_cast<std::uint16_t>(point.z + plane);
-    for (CellRow& row : appended(set_.rows, from.rows)) {
-        row.z = static_cast<std::uint16_t>(row.z + plane);
-        row.begin += before;
-    }
-    set_.candidates += from.candidates;
+    cells += from.ids.size();
+    if (set_)
+        keep(result);
     searching += result.searching;
     shading += result.shading;
     from.ids.clear();
@@ -82,6 +74,25 @@ void LayerResults::append(LayerResult& result) {
     from.candidates = 0;
     result.searching = result.shading = {};
     free_.push_back(std::move(result));
+}
+
+void LayerResults::keep(const LayerResult& result) {
+    const CellSet& from = result.cells;
+    const double done = (next_ + 1.0) / static_cast<double>(came_.size());
+    const auto before = static_cast<std::uint32_t>(set_->ids.size());
+    const auto plane = result.first_plane;
+    make_room(set_->ids, from.ids.size(), done);
+    make_room(set_->points, from.points.size(), done);
+    make_room(set_->rows, from.rows.size(), done);
+    for (CellId& id : appended(set_->ids, from.ids))
+        id += result.first;
+    for (CellPoint& point : appended(set_->points, from.points))
+        point.z = static_cast<std::uint16_t>(point.z + plane);
+    for (CellRow& row : appended(set_->rows, from.rows)) {
+        row.z = static_cast<std::uint16_t>(row.z + plane);
+        row.begin += before;
+    }
+    set_->candidates += from.candidates;
 }
 
 } // namespace isochron::index

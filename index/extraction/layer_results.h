@@ -25,18 +25,22 @@ class LayerResults {
   public:
     /// @param set gets the cells; outlives this
     LayerResults(CellSet& set, std::uint32_t layers);
+    /// Counts cells and does not keep them.
+    explicit LayerResults(std::uint32_t layers);
 
     /// An empty result, to be filled for a layer.
     LayerResult begin();
     void add(std::uint32_t layer, LayerResult result);
 
-    /// Times of all layers together; complete once all have been added.
+    /// Of all layers together; complete once all have been added.
     std::chrono::nanoseconds searching{0}, shading{0};
+    std::uint64_t cells = 0;
 
   private:
     void append(LayerResult& result);
+    void keep(const LayerResult& result);
 
-    CellSet& set_;
+    CellSet* set_; ///< null to count only
     std::mutex mutex_;
     std::vector<LayerResult> waiting_;
     std::vector<bool> came_; ///< by layer

@@ -140,14 +140,35 @@ std::span<const CellId> LayerSearch::of_layer(const Cells& cells, std::uint32_t 
 
 bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop,
                          const ChunkFilter& only) {
-    const Query& query = set.query;
+    const auto started = Clock::now();
+    LayerResults results(set, StepSlab::layers(store_.info().grid));
+    if (!run(set.query, by_bricks, shaded, stop, only, results))
+        return false;
+    // Search and shading ran in parallel: the elapsed time is divided by their shares.
+    const auto passed = std::chrono::duration<double>(Clock::now() - started);
+    const auto both =
+        std::max<double>(1, static_cast<double>((results.searching + results.shading).count()));
+    set.search_time = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        passed * (static_cast<double>(results.searching.count()) / both));
+    set.shading_time =
+        std::chrono::duration_cast<std::chrono::nanoseconds>(passed) - set.search_time;
+    return true;
+}
+
+std::optional<std::uint64_t> LayerSearch::count(const Query& query, bool by_bricks,
+                                                const std::stop_token& stop) {
+    LayerResults results(StepSlab::layers(store_.info().grid));
+    return run(query, by_bricks, false, stop, {}, results) ? std::optional(results.cells)
+                                                           : std::nullopt;
+}
+
+bool LayerSearch::run(const Query& query, bool by_bricks, bool shaded, const std::stop_token& stop,
+                      const ChunkFilter& only, LayerResults& results) {
     const LevelMapPtr levels = by_bricks ? store_.levels(query.step) : nullptr;
     const auto cut = levels ? levels->cut(store_.info().scaling, query.isovalue) : std::nullopt;
     if (levels && !cut)
         return true;
-    const auto started = Clock::now();
     const std::uint32_t layers = StepSlab::layers(store_.info().grid);
-    LayerResults results(set, layers);
     const auto places = [&](std::uint32_t layer) {
         if (cut)
             return LayerCandidates::places_of(*store_.layer(query.step, layer), *cut, layer, only);
@@ -223,14 +244,6 @@ bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::s
     } else if (!for_each_layer(query.step, places, prepare, work, stop)) {
         return false;
     }
-    // Search and shading ran in parallel: the elapsed time is divided by their shares.
-    const auto passed = std::chrono::duration<double>(Clock::now() - started);
-    const auto both =
-        std::max<double>(1, static_cast<double>((results.searching + results.shading).count()));
-    set.search_time = std::chrono::duration_cast<std::chrono::nanoseconds>(
-        passed * (static_cast<double>(results.searching.count()) / both));
-    set.shading_time =
-        std::chrono::duration_cast<std::chrono::nanoseconds>(passed) - set.search_time;
     return true;
 }
 

@@ -34,6 +34,9 @@ class LayerSearch {
     /// @param only with bricks: search these chunks alone
     bool search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop,
                 const ChunkFilter& only = {});
+    /// The number of active cells, none of which is kept; empty when stopped.
+    std::optional<std::uint64_t> count(const Query& query, bool by_bricks,
+                                       const std::stop_token& stop);
     /// @param ids ascending
     bool keep_active(const Query& query, std::vector<CellId>& ids, const std::stop_token& stop);
     bool shade_cells(CellSet& set, const std::stop_token& stop);
@@ -44,6 +47,8 @@ class LayerSearch {
                      const std::stop_token& stop);
 
   private:
+    bool run(const Query& query, bool by_bricks, bool shaded, const std::stop_token& stop,
+             const ChunkFilter& only, LayerResults& results);
     unsigned threads() const { return static_cast<unsigned>(slabs_.size()); }
     using Work = std::function<void(StepSlab& slab, std::uint32_t layer)>;
     using WorkOfThread = std::function<void(unsigned thread, std::uint32_t layer)>;

@@ -21,16 +21,20 @@ namespace isochron::index {
 
 using ChunkAt = std::array<std::uint32_t, 3>;
 
-/// One u8 step of chunks that hold one value each: 200 in a few, 100 in all others.
+/// One u8 step of chunks that hold one value each: 200 in a few, 100 in all others. Its levels of
+/// detail hold 100 alone.
 class HugeIndex final : public ByteSource {
   public:
     HugeIndex(const Grid& grid, std::set<ChunkAt> high)
-        : grid_(grid), chunks_(grid), high_(std::move(high)) {
+        : grid_(grid), chunks_(grid), grids_(detail_grids(grid)), high_(std::move(high)) {
         for (const bool reaches : {false, true})
             for (const bool is_high : {false, true})
                 records_.push_back(record(reaches, is_high ? 200 : 100));
-        add_tables();
-        add_sections();
+        for (const Grid& each : grids_) {
+            begins_.push_back(records_end_);
+            records_end_ += align_up(ChunkGrid(each).count() * kRecord, kPartAlignment);
+        }
+        add_sections(tables());
     }
 
     static std::uint8_t value(const std::set<ChunkAt>& high, std::uint32_t x, std::uint32_t y,
@@ -63,7 +67,7 @@ class HugeIndex final : public ByteSource {
     static constexpr std::size_t kRecord = sizeof(RecordChecksum) + sizeof(ChunkBricks) + 2;
     using Record = std::array<std::byte, kRecord>;
 
-    std::uint64_t tail_begin() const { return kDataBegin + chunks_.count() * kRecord; }
+    std::uint64_t tail_begin() const { return records_end_; }
 
     std::byte at(std::uint64_t offset) const {
         if (offset >= tail_begin())
@@ -72,7 +76,12 @@ class HugeIndex final : public ByteSource {
             return header_[offset];
         if (offset < kDataBegin)
             return std::byte{0};
+        const std::uint64_t begin = *std::prev(std::ranges::upper_bound(begins_, offset));
+        if (begin > kDataBegin) // of a level
+            return records_[0][(offset - begin) % kRecord];
         const std::uint64_t number = (offset - kDataBegin) / kRecord;
+        if (number >= chunks_.count())
+            return std::byte{0};
         const auto layer = static_cast<std::uint32_t>(number / chunks_.chunks_of_layer());
         const auto [x, y] =
             chunks_.at(static_cast<std::uint32_t>(number % chunks_.chunks_of_layer()));
@@ -100,15 +109,26 @@ class HugeIndex final : public ByteSource {
         return bytes;
     }
 
-    void add_tables() {
-        const std::uint32_t count = chunks_.chunks_of_layer();
+    /// Adds the tables of all levels. @return where they are
+    std::vector<StepEntry> tables() {
+        std::vector<StepEntry> levels;
+        for (std::size_t level = 0; level < grids_.size(); ++level) {
+            const std::uint64_t begin = begins_[level], before = size() - begin;
+            add_tables(ChunkGrid(grids_[level]), level == 0);
+            levels.push_back({begin, size() - begin, before});
+        }
+        return levels;
+    }
+
+    void add_tables(const ChunkGrid& chunks, bool of_volume) {
+        const std::uint32_t count = chunks.chunks_of_layer();
         std::vector<std::byte> table(layer_table_bytes(count));
-        for (std::uint32_t layer = 0; layer < chunks_.layers(); ++layer) {
+        for (std::uint32_t layer = 0; layer < chunks.layers(); ++layer) {
             LayerHead head{0, std::uint64_t{layer} * count * kRecord};
             std::memcpy(table.data(), &head, sizeof head);
             for (std::uint32_t place = 0; place < count; ++place) {
-                const auto [x, y] = chunks_.at(place);
-                const std::size_t is = kind(x, y, layer);
+                const auto [x, y] = chunks.at(place);
+                const std::size_t is = of_volume ? kind(x, y, layer) : 0;
                 const auto own = static_cast<std::uint8_t>(is & 1 ? 200 : 100);
                 const ChunkEntry entry{kRecord, is & 2 ? std::uint8_t{100} : own,
                                        is & 2 ? std::uint8_t{200} : own};
@@ -121,7 +141,7 @@ class HugeIndex final : public ByteSource {
         }
     }
 
-    void add_sections() {
+    void add_sections(const std::vector<StepEntry>& steps) {
         Metadata metadata;
         metadata.info.array = "huge";
         metadata.info.grid = grid_;
@@ -133,14 +153,6 @@ class HugeIndex final : public ByteSource {
         const std::array<std::uint8_t, 2> values{100, 200};
         counts.add(ValueType::u8, {}, std::as_bytes(std::span(values)));
         set_counts(metadata, counts);
-        const std::uint64_t records = chunks_.count() * kRecord;
-        std::vector<StepEntry> steps{{kDataBegin, records + tail_.size(), records}};
-        const std::vector<Grid> grids = detail_grids(grid_);
-        for (std::size_t level = 1; level < grids.size(); ++level) { // no test reads these
-            const ChunkGrid coarse(grids[level]);
-            steps.push_back(
-                {kDataBegin, layer_table_bytes(coarse.chunks_of_layer()) * coarse.layers(), 0});
-        }
         const std::array<std::uint64_t, 2> checksums{};
         const std::string text = to_json(metadata);
         FileHeader header;
@@ -160,8 +172,12 @@ class HugeIndex final : public ByteSource {
 
     Grid grid_;
     ChunkGrid chunks_;
+    std::vector<Grid> grids_; ///< of all levels
     std::set<ChunkAt> high_;
     std::vector<Record> records_; ///< by kind
+    std::vector<std::uint64_t> begins_; ///< of each level's records, which are all of one kind but
+                                        ///< those of level 0
+    std::uint64_t records_end_ = kDataBegin;
     std::vector<std::byte> tail_; ///< tables and sections
     HeaderSlot header_{};
     std::string name_ = "huge";

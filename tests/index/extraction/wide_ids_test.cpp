@@ -1,8 +1,11 @@
 // Active cells of a step of 2^32 cells, of an index that is nowhere as a whole.
 #include "index/build/index_build.h"
 #include "index/error.h"
+#include "index/extraction/cell_colors.h"
+#include "index/extraction/extraction.h"
 #include "index/extraction/index_search.h"
 #include "index/extraction/layer_search.h"
+#include "index/file/color_source.h"
 #include "tests/support/huge_index.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_folder.h"
@@ -65,6 +68,84 @@ TEST(WideIds, OfAStepOf2To32CellsAreAllFoundInTheirPlaces) {
     EXPECT_EQ(wide_ids_of(*found, grid), expected);
     EXPECT_EQ(wide_ids_of(search_level(file, 0, query), grid), expected);
     EXPECT_TRUE(search_in(file)({0, 250}, {})->ids.empty());
+}
+
+/// Chunks near the corner from which a volume starts, before and behind where ids of 32 bits begin
+/// anew in a grid of 2049^3 vertices.
+const std::set<ChunkAt> kBeforeAndBehind{{1, 1, 1},  {2, 2, 1},   {1, 2, 62},  {1, 1, 63},
+                                         {2, 1, 64}, {2, 2, 100}, {1, 2, 126}, {2, 2, 126}};
+
+std::shared_ptr<const IndexFile> step_of(std::uint32_t width, std::uint32_t height) {
+    Grid grid;
+    grid.vertices = {width, height, 2049};
+    return IndexFile::open(std::make_unique<HugeIndex>(grid, kBeforeAndBehind));
+}
+
+/// Places of volume bricks, which have other numbers in other grids.
+std::vector<std::array<std::uint32_t, 3>> places_of(const VolumeBricks& bricks, const Grid& grid) {
+    const auto tiles = BrickTiling(grid).bricks;
+    std::vector<std::array<std::uint32_t, 3>> places;
+    for (const BrickId id : bricks.ids)
+        places.push_back({id % tiles[0], id / tiles[0] % tiles[1], id / tiles[0] / tiles[1]});
+    return places;
+}
+
+TEST(WideIds, AreExtractedAsTheSameCellsOfAGridWithoutThem) {
+    const auto wide = step_of(2049, 2049), narrow = step_of(65, 65);
+    const Grid &wide_grid = wide->info().grid, &narrow_grid = narrow->info().grid;
+    ASSERT_TRUE(has_wide_ids(wide_grid));
+    ASSERT_FALSE(has_wide_ids(narrow_grid));
+    SurfacesQuery query;
+    query.isovalues = {150, 120};
+    query.mesh_room = std::uint64_t{1} << 30;
+    const ExtractionPtr found = extract_from(wide, std::nullopt, Shading::none)(query, {});
+    const ExtractionPtr expected = extract_from(narrow, std::nullopt, Shading::cells)(query, {});
+    ASSERT_EQ(found->surfaces.size(), 2u);
+    EXPECT_TRUE(found->shaded()) << "renderers cannot tell places by these ids";
+    for (std::size_t i = 0; i < 2; ++i) {
+        const CellSet &cells = found->surfaces[i], &same = expected->surfaces[i];
+        ASSERT_GT(same.points.size(), 4000u);
+        EXPECT_FALSE(std::ranges::is_sorted(cells.ids));
+        const auto bytes = [](const CellSet& set) {
+            const auto all = std::as_bytes(std::span(set.points));
+            return std::vector<std::byte>(all.begin(), all.end());
+        };
+        EXPECT_EQ(bytes(cells), bytes(same));
+        ASSERT_TRUE(cells.mesh && same.mesh);
+        EXPECT_EQ(*cells.mesh, *same.mesh);
+    }
+    EXPECT_EQ(places_of(found->bricks, wide_grid), places_of(expected->bricks, narrow_grid));
+    EXPECT_EQ(found->bricks.bytes, expected->bricks.bytes);
+    EXPECT_EQ(found->volume_cells, expected->volume_cells);
+}
+
+TEST(WideIds, OfFirstCrossingsHaveNoColor) {
+    SurfacesQuery query;
+    query.isovalues = {150};
+    query.coloring = CellColoring::first_crossing;
+    const ExtractionPtr found = extract_from(step_of(2049, 2049))(query, {});
+    ASSERT_GT(found->cells(), 4000u);
+    EXPECT_EQ(found->colors, std::vector<std::uint16_t>(found->cells(), kNoColor));
+}
+
+TEST(WideIds, OfASurfaceAreColoredAsTheSameCellsOfAGridWithoutThem) {
+    const auto colors = [](const std::shared_ptr<const IndexFile>& file) {
+        const CellSetPtr set = search_in(file)({0, 150}, {});
+        std::vector<std::uint16_t> out(set->ids.size(), kNoColor);
+        const ColorSource by_own_values(*file, 0);
+        EXPECT_TRUE(LayerSearch(file).color_cells(*set, by_own_values, out, {}));
+        return out;
+    };
+    const auto found = colors(step_of(2049, 2049));
+    EXPECT_EQ(found, colors(step_of(65, 65)));
+    EXPECT_EQ(std::ranges::count(found, kNoColor), 0);
+}
+
+TEST(WideIds, AreCountedWithoutBeingKept) {
+    const auto file = step_of(2049, 2049);
+    const Query query{0, 150};
+    EXPECT_EQ(LayerSearch(file).count(query, true, {}), search_in(file)(query, {})->ids.size());
+    EXPECT_EQ(LayerSearch(file).count({0, 250}, true, {}), 0u);
 }
 
 TEST(WideIds, WhatTellsCellsApartBy32BitsRefusesThemBeforeAnythingIsRead) {

@@ -95,8 +95,7 @@ class IndexSearch {
     /// Adds a mesh if one is asked for and possible. @return false when stopped
     bool add_mesh(CellSet& set, const std::stop_token& stop) {
         const std::uint64_t room = set.query.mesh_room;
-        if (shading_ == Shading::none || set.ids.empty() ||
-            least_mesh_bytes(set.ids.size()) > room)
+        if (shading_ == Shading::none || set.ids.empty() || least_mesh_bytes(set.ids.size()) > room)
             return true;
         const auto started = Clock::now();
         CellMesh mesh;

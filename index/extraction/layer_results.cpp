@@ -32,8 +32,7 @@ std::span<T> appended(std::vector<T>& to, const std::vector<T>& more) {
 
 } // namespace
 
-LayerResults::LayerResults(CellSet& set, std::uint32_t layers)
-    : LayerResults(layers) {
+LayerResults::LayerResults(CellSet& set, std::uint32_t layers) : LayerResults(layers) {
     set_ = &set;
     set.ids.clear();
     set.points.clear();
@@ -41,8 +40,7 @@ LayerResults::LayerResults(CellSet& set, std::uint32_t layers)
     set.candidates = 0;
 }
 
-LayerResults::LayerResults(std::uint32_t layers)
-    : set_(nullptr), waiting_(layers), came_(layers) {}
+LayerResults::LayerResults(std::uint32_t layers) : set_(nullptr), waiting_(layers), came_(layers) {}
 
 LayerResult LayerResults::begin() {
     const std::scoped_lock lock(mutex_);

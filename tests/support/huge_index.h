@@ -174,7 +174,7 @@ class HugeIndex final : public ByteSource {
     ChunkGrid chunks_;
     std::vector<Grid> grids_; ///< of all levels
     std::set<ChunkAt> high_;
-    std::vector<Record> records_; ///< by kind
+    std::vector<Record> records_;       ///< by kind
     std::vector<std::uint64_t> begins_; ///< of each level's records, which are all of one kind but
                                         ///< those of level 0
     std::uint64_t records_end_ = kDataBegin;

@@ -1,4 +1,6 @@
 // The commands as a user runs them: their output, their exit status, and the files that they leave.
+#include "app/commands/open_index.h"
+#include "index/error.h"
 #include "interaction/recording/recording.h"
 #include "tests/app/commands/command_line.h"
 #include "tests/support/huge_index.h"
@@ -245,6 +247,21 @@ TEST_F(CommandLine, HelpOfEveryCommandNamesItsOptions) {
         EXPECT_EQ(result.status, 0);
         for (const std::string& option : options)
             EXPECT_THAT(result.out, HasSubstr(option)) << command;
+    }
+}
+
+TEST(GridsToShow, MayHave2To35VerticesAndNotMore) {
+    index::Grid grid;
+    grid.vertices = {4096, 4096, 2048};
+    EXPECT_NO_THROW(check_can_be_shown(grid, "a"));
+    grid.vertices = {4096, 4096, 2049};
+    try {
+        check_can_be_shown(grid, "large.isochron");
+        ADD_FAILURE() << "not refused";
+    } catch (const index::Error& error) {
+        EXPECT_STREQ(error.what(),
+                     "large.isochron: 34376515584 vertices, expected at most 2^35 to show; "
+                     "isochron query finds the active cells of an isovalue");
     }
 }
 

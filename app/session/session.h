@@ -27,7 +27,6 @@
 #include "interaction/controls.h"
 
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -293,7 +292,7 @@ class Session {
     bool shows_slices_ = false;                      ///< slices that are whole may be shown
     bool slices_whole_ = false;                      ///< those of the last frame are, or are shown
     bool rests_ = false;                             ///< the set for pictures at rest may be drawn
-    std::uint64_t cells_at_first_ = std::numeric_limits<std::uint32_t>::max(); ///< of a set at rest
+    std::uint64_t cells_at_first_ = 0;               ///< of the first set for this picture at rest
     bool all_at_rest_ = false; ///< all cells are wanted for this picture at rest
     bool mesh_wanted_ = false; ///< by the last frame's choice of quality
     bool recording_ = false;

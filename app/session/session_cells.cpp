@@ -139,6 +139,7 @@ void Session::choose_set(Picture& now, Waiting waiting, FrameReport& report) {
     }
     if (same != drawn_) {
         constant_since_ = report.time;
+        cells_at_first_ = 0;
         all_at_rest_ = false;
     }
     rests_ = waiting != Waiting::never || captures_.wanted() > 0 ||
@@ -197,7 +198,9 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
                                            const FrameReport& report) {
     const auto fewest = static_cast<double>(moving);
     const double fit = quality_.cells_that_fit(interaction::Pace::settled).value_or(fewest);
-    cells_at_first_ = std::bit_floor(static_cast<std::uint64_t>(std::max(fit, fewest)));
+    // A time that was measured late, or while others worked, takes back nothing of this picture.
+    cells_at_first_ = std::max(cells_at_first_,
+                               std::bit_floor(static_cast<std::uint64_t>(std::max(fit, fewest))));
     index::DetailQuery last = details_.at_rest();
     const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
     const bool kept = captures_.wanted() > 0;

@@ -261,6 +261,7 @@ void Session::warm_up() {
     audience.viewers =
         viewer_poses(config_.installation, {}, state_.eye_separation, parallel_center());
     audience.stereo = state_.stereo;
+    scene_.set_near_fade(config_.comfort, audience.viewers);
     scene_.look(state_, audience.viewers.front().head, std::nullopt);
     outputs_.draw(audience,
                   [this](const ScenePlace&, std::span<const render::View> views) {

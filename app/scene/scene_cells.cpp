@@ -57,7 +57,8 @@ void Scene::warm_up(std::span<const render::View> views,
             glm::translate(glm::mat4(1.0f), -0.5f * far.extent);
         for (const render::Footprint footprint : footprints)
             for (const float opacity : {1.0f, 0.5f}) {
-                if (opacity < 1 && !render::has_layers(footprint))
+                if ((opacity < 1 && !render::has_layers(footprint)) ||
+                    (size > 1 && footprint == render::Footprint::surface)) // the same at any size
                     continue;
                 render::CellAppearance appearance = appearance_;
                 appearance.surfaces[0].opacity = opacity;

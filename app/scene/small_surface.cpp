@@ -1,4 +1,4 @@
-// A surface of a few cells, with all that any footprint needs.
+// A surface in one cell, with all that any footprint needs.
 #include "app/scene/small_surface.h"
 
 #include "index/extraction/brick_values.h"
@@ -32,8 +32,7 @@ index::ExtractionPtr small_surface(const index::Grid& grid) {
     result->query.isovalues = {kIsovalue};
     index::CellSet& surface = result->surfaces.emplace_back();
     surface.query = result->query.surface(0);
-    for (index::CellId cell = 9; cell < 18; ++cell)
-        surface.ids.push_back(cell);
+    surface.ids = {13};
     shade_cells(values, surface);
     auto mesh = std::make_shared<index::CellMesh>();
     index::MeshMaker().make(values, surface.query, surface.ids, *mesh);

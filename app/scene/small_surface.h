@@ -1,4 +1,4 @@
-// A surface of a few cells, with all that any footprint needs: to be drawn before there are data.
+// A surface in one cell, with all that any footprint needs: to be drawn before there are data.
 #pragma once
 
 #include "index/extraction/extraction.h"
@@ -9,8 +9,8 @@ namespace isochron::app {
 /// A grid of 4^3 vertices. @param rectilinear whether it has positions of its own
 index::Grid small_grid(bool rectilinear);
 
-/// A plane through nine cells of this grid, across its third axis: with points, normals, a mesh and
-/// the volume around them.
+/// A plane through the cell in the middle of this grid, across its third axis: with its point, a
+/// mesh and the volume around it.
 index::ExtractionPtr small_surface(const index::Grid& grid);
 
 } // namespace isochron::app

@@ -243,6 +243,41 @@ TEST_P(SessionDetail, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
     EXPECT_GT(most, 3 * kFew);
 }
 
+TEST_P(SessionDetail, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheSame) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 2;
+    const bool stalls = false;
+    const render::Gl gl(context_->loader());
+    const index::Extract real =
+        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+    std::atomic<bool> all_found = false;
+    Session session(config, large_, *context_,
+                    [&](const index::SurfacesQuery& query, std::stop_token stop) {
+                        index::ExtractionPtr set = real(query, stop);
+                        if (set && query.detail.at_rest && !set->coarse())
+                            all_found = true;
+                        return set;
+                    });
+    session.share_frames(std::make_unique<KnownTimes>(stalls));
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, false, first);
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        return report.in_slices && report.cells > 15'000 && report.coarsest > 0;
+    })) << "the first set at rest, of 18,524 cells";
+    report = frame(session, false);
+    ASSERT_NE(report.footprint, report.in_slices) << "a piece in each frame";
+    ASSERT_TRUE(test_support::eventually([&] { return all_found.load(); }));
+    int coarse = 0; // pictures in slices
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        coarse += report.redrawn && report.reason == QualityReason::in_slices && report.coarsest > 0;
+        return report.final && report.coarsest == 0;
+    }));
+    EXPECT_EQ(coarse, 1);
+}
+
 TEST_P(SessionDetail, AnythingThatMayStillMoveHasTheBudgetOfAFrame) {
     Session session(config_with(1e-6), file_, *context_);
     FrameReport report = frame(session, false);

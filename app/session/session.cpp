@@ -1,7 +1,6 @@
 // One session: brings data, search, devices and displays together, frame by frame.
 #include "app/session/session.h"
 
-#include "app/frame/stop_watch.h"
 #include "app/session/start_state.h"
 #include "interaction/device_reading.h"
 #include "interaction/navigator.h"
@@ -384,6 +383,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_.present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
+    measure_unseen(now, whole, report);
     input_ = input;
     if (captures(report))
         outputs_.take_screenshots(note());

@@ -18,6 +18,7 @@
 #include "app/frame/history.h"
 #include "app/frame/late_latch.h"
 #include "app/frame/slice_pace.h"
+#include "app/frame/stop_watch.h"
 #include "app/output/outputs.h"
 #include "app/panel/operator_panel.h"
 #include "app/panel/panel_in_room.h"
@@ -170,12 +171,12 @@ class Session {
 
     /// A picture that is drawn over several frames, and how far it has come.
     struct Slices {
-        Slices(const Picture& wanted, Milliseconds each_frame)
-            : picture(wanted), pace(each_frame) {}
+        explicit Slices(const Picture& wanted) : picture(wanted) {}
         Picture picture;
         SlicePace pace;
         Outputs::SlicePlace place;
-        std::size_t done = 0; ///< units of work done at `place`
+        std::size_t done = 0;     ///< units of work done at `place`
+        Milliseconds prepared{0}; ///< of the time: spent on what serves other views, too
         bool whole = false;
     };
 
@@ -230,8 +231,10 @@ class Session {
     bool only_gets_finer(const Picture& now, Waiting waiting) const;
     void rest_in_slices(Picture& now, Waiting waiting, FrameReport& report);
     void draw_slices(const Picture& now, const Outputs::Overlay& overlay, FrameReport& report);
-    bool draw_slice(const ScenePlace& place, std::span<const render::View> views, std::size_t work,
-                    std::size_t& done);
+    void draw_pieces(Slices& slices);
+    bool draw_slice(Slices& slices, const ScenePlace& place, std::span<const render::View> views,
+                    std::size_t work, std::size_t& done);
+    void measure_unseen(const Picture& now, const StopWatch& frame, const FrameReport& report);
     void draw_views(const ScenePlace& place, std::span<const render::View> views,
                     const Picture& picture, const SceneSlice& slice = {});
     std::vector<interaction::DeviceKind> devices_at_hand() const;
@@ -269,6 +272,7 @@ class Session {
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     std::optional<Picture> drawn_;        ///< last picture
     std::optional<Slices> slices_;        ///< the next one, if it is made in slices
+    std::optional<Slices> unseen_;        ///< one that is made only to measure it
     Aids over_;                           ///< drawn over the last picture, if they are
     OperatorPanel panel_;
     PanelInRoom room_panel_;

@@ -98,10 +98,9 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
                   choice.footprint <= render::Footprint::mesh;
     if (how == Choosing::with_slices && !still)
         unseen_ = steady_.worth_measuring(with_mesh);
-    if (unseen_ && !available.has(*unseen_)) {
-        wants_mesh_ = true;
+    wants_mesh_ |= unseen_ == render::Footprint::mesh;
+    if (unseen_ && !available.has(*unseen_))
         unseen_.reset();
-    }
     // What a mesh or slices may still change is not final.
     ends_in_slices_ = in_the_end && *in_the_end != choice.footprint;
     const bool slices_come = ends_in_slices_ && report.time - swayed_since_ < kNeverStill;

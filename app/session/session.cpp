@@ -253,23 +253,6 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
 }
 
-void Session::warm_up() {
-    if (outputs_.headset())
-        return;
-    Audience audience;
-    audience.viewers =
-        viewer_poses(config_.installation, {}, state_.eye_separation, parallel_center());
-    audience.stereo = state_.stereo;
-    scene_.set_near_fade(config_.comfort, audience.viewers);
-    scene_.look(state_, audience.viewers.front().head, std::nullopt);
-    outputs_.draw(audience,
-                  [this](const ScenePlace&, std::span<const render::View> views) {
-                      scene_.warm_up(views, state_.room_from_physical);
-                  },
-                  {});
-    outputs_.gl().Finish();
-}
-
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
                         FrameReport& report) {
     const Outputs::Overlay panel = frames_->leads()

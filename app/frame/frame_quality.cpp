@@ -75,6 +75,7 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
         swayed_since_ = report.time;
     input.in_slices = in_the_end;
     const bool slices = still && in_the_end;
+    unseen_.reset();
     if (slices) {
         input.settled.reset();
         if (resting_ && resting_->input == input && resting_->possible == possible) {
@@ -95,6 +96,11 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     // A trial of the exact surface comes first where both are next.
     wants_mesh_ = with_all.footprint == render::Footprint::mesh &&
                   choice.footprint <= render::Footprint::mesh;
+    if (how == Choosing::with_slices && !still)
+        unseen_ = steady_.worth_measuring(with_mesh);
+    wants_mesh_ |= unseen_ == render::Footprint::mesh;
+    if (unseen_ && !available.has(*unseen_))
+        unseen_.reset();
     // What a mesh or slices may still change is not final.
     ends_in_slices_ = in_the_end && *in_the_end != choice.footprint;
     const bool slices_come = ends_in_slices_ && report.time - swayed_since_ < kNeverStill;
@@ -125,6 +131,13 @@ std::optional<render::Footprint> FrameQuality::sliced(const QualityInput& input,
         input.pace != interaction::Pace::settled || input.load.cells <= 0)
         return std::nullopt;
     return input.available.best(settled_.value_or(render::kBestFootprint));
+}
+
+Milliseconds FrameQuality::left_of_frame(Milliseconds taken) const {
+    constexpr double kShare = 0.8; // as frames take now more and now less
+    constexpr Milliseconds kLeast{2};
+    const Milliseconds left = kShare * steady_.budget() - taken;
+    return left >= kLeast ? left : Milliseconds(0);
 }
 
 Milliseconds FrameQuality::slice_budget() const {

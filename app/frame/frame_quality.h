@@ -74,8 +74,11 @@ class FrameQuality {
     /// Whether the picture of the last choice ends at another footprint, made in slices.
     bool ends_in_slices() const { return ends_in_slices_; }
 
-    /// Whether the last choice would have been a mesh if there had been one.
+    /// Whether the last choice would have been a mesh, or `unseen`, if there had been one.
     bool wants_mesh() const { return wants_mesh_; }
+    /// After a choice: the footprint to measure where nobody sees it, in the time that frames leave,
+    /// and to tell `learn_slices` of. Empty: none.
+    std::optional<render::Footprint> unseen() const { return unseen_; }
 
     /// Call before drawing the frame. @param frame its number in the log
     void begin(std::uint64_t frame);
@@ -84,6 +87,8 @@ class FrameQuality {
     /// @param processor time to give the commands, including the upload
     void end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor);
 
+    /// Time that a frame may spend on what nobody sees; 0: none. @param taken by the frame itself
+    Milliseconds left_of_frame(Milliseconds taken) const;
     /// Time that a frame may spend on slices.
     Milliseconds slice_budget() const;
     /// Learns from a picture that was made in slices, of the last frame's views.
@@ -111,6 +116,7 @@ class FrameQuality {
     interaction::Seconds changed_at_{0};
     interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last
     std::optional<Resting> resting_;       ///< while slices are made or shown
+    std::optional<render::Footprint> unseen_;
     DrawMeter meter_;
     DrawLoad view_; ///< of one cell in all views of the frame drawn last
     DrawLoad charged_;

@@ -84,7 +84,24 @@ void QualityController::measured_in_slices(Footprint footprint, const DrawLoad& 
                                            Milliseconds cost) {
     if (load.cells <= 0)
         return;
-    learn(of(footprint), load, cost);
+    Candidate& candidate = of(footprint);
+    candidate.outdated |= candidate.age >= kLongestWait;
+    learn(candidate, load, cost);
+}
+
+std::optional<Footprint> QualityController::worth_measuring(const QualityInput& input) const {
+    if (input.mode != QualityMode::automatic || input.by_pace || input.load.cells <= 0 ||
+        !of(Footprint::quad).cost.predict(input.load))
+        return std::nullopt;
+    for (Footprint to = input.available.best(); to > current_;
+         to = next_coarser(to, input.available)) {
+        const Candidate& candidate = of(to);
+        const bool unknown = !candidate.known && !candidate.failed;
+        if (render::has_layers(to) && (unknown || candidate.age >= kLongestWait) &&
+            !bearable(to, input))
+            return to;
+    }
+    return std::nullopt;
 }
 
 void QualityController::learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
@@ -230,10 +247,8 @@ bool QualityController::bearable(Footprint footprint, const QualityInput& input)
         most = std::min(most, *earlier);
     if (input.pace == Pace::moving)
         return most <= kRoom * budget_;
-    // What comes in slices anyway would only be shown, taken away and shown again.
-    if (footprint == input.in_slices)
-        return most <= budget_;
-    return most <= std::max(budget_, input.in_slices ? kDearestBesideSlices : kDearestTrial);
+    // Where the exact picture comes in slices, no frame need be long.
+    return most <= (input.in_slices ? budget_ : std::max(budget_, kDearestTrial));
 }
 
 /// Whether the load has grown so much that the next frame is expected over the budget.

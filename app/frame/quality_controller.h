@@ -75,11 +75,12 @@ struct QualityChoice {
 /// - after a wait: 16 frames after the first failure, twice as many after each further one, times
 ///   the budgets that a failed trial took (at most 8), at most 2048 frames. The wait starts anew at
 ///   16 frames once the footprint has lasted 256 frames.
-/// A footprint is not tried if it may take longer than `kDearestTrial` (while moving: than the
-/// budget; beside slices: see `kDearestBesideSlices`), judged by its earlier times at other loads,
-/// or by a multiple of the time of quads. If quads get faster, so do its earlier times, as other
-/// programs may have slowed both down. If it failed by less than three budgets, its times are
-/// halved every 2048 frames, so that it is tried again.
+/// A footprint is not tried if it may take longer than `kDearestTrial` (while moving, and beside
+/// slices: than the budget), judged by its earlier times at other loads, or by a multiple of the
+/// time of quads. If quads get faster, so do its earlier times, as other programs may have slowed
+/// both down. If it failed by less than three budgets, its times are halved every 2048 frames, so
+/// that it is tried again. What is not tried because of that multiple alone is worth to be measured
+/// where no frame gets longer by it, see `worth_measuring`; again after 2048 frames.
 /// So one load causes few frames over the budget, at least 16 frames lie between a step down and a
 /// step up, and a footprint that fits is back after at most 2048 settled frames.
 class QualityController {
@@ -88,8 +89,6 @@ class QualityController {
     /// Longest expected time of a frame that is drawn to measure a footprint; the budget if that is
     /// longer.
     static constexpr Milliseconds kDearestTrial{400};
-    /// The same where a picture at rest is made in slices, since no frame need be long there.
-    static constexpr Milliseconds kDearestBesideSlices{100};
 
     explicit QualityController(Milliseconds budget) : budget_(budget) {}
 
@@ -98,6 +97,10 @@ class QualityController {
     /// sorting): it counts only if the footprint is known and the frame is within the budget.
     void measured(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 
+    /// The best footprint that may fit, but is not tried, as its time is only guessed, or was
+    /// measured long ago. Empty: there is none. Not splats, which are put in order for each view:
+    /// a picture of theirs cannot be made while the view changes.
+    std::optional<render::Footprint> worth_measuring(const QualityInput& input) const;
     /// Adds the cost of a picture that was made in slices, which tells about whole frames, too.
     void measured_in_slices(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 

@@ -9,7 +9,8 @@ namespace isochron::app {
 /// the piece before only.
 constexpr double kPiece = 0.25;
 
-void SlicePace::begin_frame() {
+void SlicePace::begin_frame(Milliseconds each) {
+    each_ = each;
     spent_ = Milliseconds(0);
     begun_ = false;
 }

@@ -14,10 +14,8 @@ class SlicePace {
   public:
     static constexpr std::size_t kFirst = 1024, kLeast = 256; ///< units of work
 
-    /// @param each time that a frame may take
-    explicit SlicePace(Milliseconds each) : each_(each) {}
-
-    void begin_frame();
+    /// @param each time that this frame may take
+    void begin_frame(Milliseconds each);
     /// Work of the next piece in this frame; 0: the frame has had its time.
     std::size_t next() const;
     /// Adds the time of a piece. @param work 0: the time was spent on something else
@@ -27,7 +25,7 @@ class SlicePace {
     Milliseconds whole() const { return whole_; }
 
   private:
-    Milliseconds each_, spent_{0}, whole_{0};
+    Milliseconds each_{0}, spent_{0}, whole_{0};
     Milliseconds of_one_{0};    ///< time of a unit of work, in the last piece
     std::size_t last_ = kFirst; ///< work of the last piece
     bool begun_ = false;        ///< this frame has had a piece

@@ -19,6 +19,8 @@ inline Milliseconds processor_time() {
 
 class StopWatch {
   public:
+    /// The same as `lap` would return, which goes on.
+    Milliseconds time() const { return Clock::now() - last_; }
     /// Time since the last lap, or since the start.
     Milliseconds lap() {
         const auto now = Clock::now();

@@ -128,7 +128,7 @@ class Scene {
     void draw(std::span<const render::View> views,
               const interaction::Similarity& room_from_physical, render::Footprint footprint,
               const std::optional<interaction::Pose>& wand, const SceneSlice& slice = {});
-    /// Draws a cell in each way in which moving pictures draw cells, and what stands beside them.
+    /// Draws a cell in each way in which cells are drawn, and what stands beside them.
     void warm_up(std::span<const render::View> views,
                  const interaction::Similarity& room_from_physical);
     /// Work of drawing the cells into so many views, in the units of `SceneSlice::cells`.

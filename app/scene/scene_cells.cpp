@@ -1,12 +1,12 @@
 // The sets of cells that a scene holds: for moving pictures, and for pictures at rest.
 #include "app/scene/scene.h"
 
-#include "index/extraction/cell_plane.h"
+#include "app/scene/small_surface.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
-#include <cstdint>
+#include <vector>
 
 namespace isochron::app {
 
@@ -31,19 +31,40 @@ void Scene::prepare_for_rest() {
 void Scene::warm_up(std::span<const render::View> views,
                     const interaction::Similarity& room_from_physical) {
     draw(views, room_from_physical, render::Footprint::quad, std::nullopt);
-    const auto far = render::Placement::of(info_.grid, matrix(room_from_physical));
-    const glm::vec3 middle = glm::floor(0.5f * far.extent);
-    render::Placement near = far; // as large as on a way through the volume
-    near.room_from_index =
-        glm::translate(far.room_from_index, middle) *
-        glm::scale(glm::mat4(1.0f), glm::vec3(std::max(0.7f * far.extent.x, 1.0f))) *
-        glm::translate(glm::mat4(1.0f), -middle - 0.5f);
-    const auto at = [&](int axis) { return static_cast<std::uint16_t>(middle[axis]); };
-    const index::CellPoint cell{at(0), at(1), at(2), 0, index::pack({{0.0, 0.0, 1.0}, 0.0})};
-    const auto one = render::CellBuffers::of_points(gl_, std::span(&cell, 1), info_.grid);
-    for (const render::Placement& placement : {far, near})
-        for (const auto footprint : {render::Footprint::quad, render::Footprint::gaussian})
-            cell_pass_.draw(views, placement, one, footprint, appearance_);
+    const index::Grid grid = small_grid(info_.grid.rectilinear());
+    render::CellBuffers cells(gl_, grid, 2 * render::StagingRing::kUnit);
+    const index::ExtractionPtr surface = small_surface(grid);
+    while (cells.shown() != surface || cells.wants_volume())
+        cells.upload(surface, upload_bytes_);
+    cells.compute_corners();
+    std::vector<render::Footprint> footprints{render::Footprint::quad, render::Footprint::gaussian};
+    if (mesh_room_ > 0)
+        footprints.push_back(render::Footprint::mesh);
+    footprints.push_back(render::Footprint::surface);
+    // In the middle of the volume: as small as its voxels, of many pixels, and as large as on a way
+    // through it.
+    const auto whole = render::Placement::of(info_.grid, matrix(room_from_physical));
+    const glm::vec3 middle = glm::floor(0.5f * whole.extent);
+    render::Placement far = render::Placement::of(grid, matrix(room_from_physical));
+    far.room_from_index = whole.room_from_index;
+    constexpr float kManyPixels = 0.045f; // [m] a voxel in the middle
+    for (const float size : {1.0f, std::max(kManyPixels / whole.spacing().x, 1.0f),
+                             std::max(0.7f * whole.extent.x, 1.0f)}) {
+        render::Placement placement = far;
+        placement.room_from_index =
+            glm::translate(far.room_from_index, middle) *
+            glm::scale(glm::mat4(1.0f), glm::vec3(size)) *
+            glm::translate(glm::mat4(1.0f), -0.5f * far.extent);
+        for (const render::Footprint footprint : footprints)
+            for (const float opacity : {1.0f, 0.5f}) {
+                if ((opacity < 1 && !render::has_layers(footprint)) ||
+                    (size > 1 && footprint == render::Footprint::surface)) // the same at any size
+                    continue;
+                render::CellAppearance appearance = appearance_;
+                appearance.surfaces[0].opacity = opacity;
+                cell_pass_.draw(views, placement, cells, footprint, appearance);
+            }
+    }
 }
 
 void Scene::upload(const index::ExtractionPtr& newest, render::SendVolume volume, Use use) {

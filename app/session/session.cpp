@@ -1,7 +1,6 @@
 // One session: brings data, search, devices and displays together, frame by frame.
 #include "app/session/session.h"
 
-#include "app/frame/stop_watch.h"
 #include "app/session/start_state.h"
 #include "interaction/device_reading.h"
 #include "interaction/navigator.h"
@@ -254,22 +253,6 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
 }
 
-void Session::warm_up() {
-    if (outputs_.headset())
-        return;
-    Audience audience;
-    audience.viewers =
-        viewer_poses(config_.installation, {}, state_.eye_separation, parallel_center());
-    audience.stereo = state_.stereo;
-    scene_.look(state_, audience.viewers.front().head, std::nullopt);
-    outputs_.draw(audience,
-                  [this](const ScenePlace&, std::span<const render::View> views) {
-                      scene_.warm_up(views, state_.room_from_physical);
-                  },
-                  {});
-    outputs_.gl().Finish();
-}
-
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
                         FrameReport& report) {
     const Outputs::Overlay panel = frames_->leads()
@@ -383,6 +366,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_.present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
+    measure_unseen(now, whole, report);
     input_ = input;
     if (captures(report))
         outputs_.take_screenshots(note());

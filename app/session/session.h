@@ -18,6 +18,7 @@
 #include "app/frame/history.h"
 #include "app/frame/late_latch.h"
 #include "app/frame/slice_pace.h"
+#include "app/frame/stop_watch.h"
 #include "app/output/outputs.h"
 #include "app/panel/operator_panel.h"
 #include "app/panel/panel_in_room.h"
@@ -27,7 +28,6 @@
 #include "interaction/controls.h"
 
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -171,12 +171,12 @@ class Session {
 
     /// A picture that is drawn over several frames, and how far it has come.
     struct Slices {
-        Slices(const Picture& wanted, Milliseconds each_frame)
-            : picture(wanted), pace(each_frame) {}
+        explicit Slices(const Picture& wanted) : picture(wanted) {}
         Picture picture;
         SlicePace pace;
         Outputs::SlicePlace place;
-        std::size_t done = 0; ///< units of work done at `place`
+        std::size_t done = 0;     ///< units of work done at `place`
+        Milliseconds prepared{0}; ///< of the time: spent on what serves other views, too
         bool whole = false;
     };
 
@@ -215,8 +215,8 @@ class Session {
     void choose_set(Picture& now, Waiting waiting, FrameReport& report);
     index::DetailQuery wanted_detail(Waiting waiting, const FrameReport& report);
     index::DetailQuery detail_for_live(Waiting waiting, const FrameReport& report);
-    index::DetailQuery detail_at_rest(Waiting waiting, std::uint64_t moving,
-                                      const FrameReport& report);
+    index::DetailQuery detail_at_rest(Waiting waiting, std::uint64_t moving);
+    bool waits_its_turn(const index::ExtractionPtr& set) const;
     bool comes_late(const index::ExtractionPtr& set) const;
     bool is_half_sent() const;
     bool set_comes() const;
@@ -231,8 +231,10 @@ class Session {
     bool only_gets_finer(const Picture& now, Waiting waiting) const;
     void rest_in_slices(Picture& now, Waiting waiting, FrameReport& report);
     void draw_slices(const Picture& now, const Outputs::Overlay& overlay, FrameReport& report);
-    bool draw_slice(const ScenePlace& place, std::span<const render::View> views, std::size_t work,
-                    std::size_t& done);
+    void draw_pieces(Slices& slices);
+    bool draw_slice(Slices& slices, const ScenePlace& place, std::span<const render::View> views,
+                    std::size_t work, std::size_t& done);
+    void measure_unseen(const Picture& now, const StopWatch& frame, const FrameReport& report);
     void draw_views(const ScenePlace& place, std::span<const render::View> views,
                     const Picture& picture, const SceneSlice& slice = {});
     std::vector<interaction::DeviceKind> devices_at_hand() const;
@@ -270,6 +272,7 @@ class Session {
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     std::optional<Picture> drawn_;        ///< last picture
     std::optional<Slices> slices_;        ///< the next one, if it is made in slices
+    std::optional<Slices> unseen_;        ///< one that is made only to measure it
     Aids over_;                           ///< drawn over the last picture, if they are
     OperatorPanel panel_;
     PanelInRoom room_panel_;
@@ -293,7 +296,7 @@ class Session {
     bool shows_slices_ = false;                      ///< slices that are whole may be shown
     bool slices_whole_ = false;                      ///< those of the last frame are, or are shown
     bool rests_ = false;                             ///< the set for pictures at rest may be drawn
-    std::uint64_t cells_at_first_ = std::numeric_limits<std::uint32_t>::max(); ///< of a set at rest
+    std::uint64_t cells_at_first_ = 0;               ///< of the first set for this picture at rest
     bool all_at_rest_ = false; ///< all cells are wanted for this picture at rest
     bool mesh_wanted_ = false; ///< by the last frame's choice of quality
     bool recording_ = false;

@@ -39,7 +39,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     CellsInFrame cells = frames_->cells(extractor_, scene_.shown(), waiting);
     const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
     const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
-    if (cells.show)
+    if (cells.show && !waits_its_turn(*cells.show))
         scene_.upload(*cells.show, volume, use_of(*cells.show));
     // A replay uploads all cells that were asked for in one frame, whatever the upload budget.
     while (waiting == Waiting::for_cells && *cells.show &&
@@ -91,6 +91,16 @@ bool Session::is_half_sent() const {
            !scene_.is_complete(Scene::Use::at_rest);
 }
 
+/// Whether a set takes so much longer to draw than the one at rest that is still being drawn in
+/// slices that this one is to be seen first.
+bool Session::waits_its_turn(const index::ExtractionPtr& set) const {
+    constexpr std::size_t kManyMore = 8;
+    const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
+    return set && resting && all_at_rest_ && set != resting && set->query.detail.at_rest &&
+           resting->query.of_cells() == set->query.of_cells() && drawn_ &&
+           drawn_->cells != resting && set->cells() > kManyMore * resting->cells();
+}
+
 /// Whether a set that was asked for is not on the GPU yet.
 bool Session::set_comes() const {
     if (extractor_.busy())
@@ -139,6 +149,7 @@ void Session::choose_set(Picture& now, Waiting waiting, FrameReport& report) {
     }
     if (same != drawn_) {
         constant_since_ = report.time;
+        cells_at_first_ = 0;
         all_at_rest_ = false;
     }
     rests_ = waiting != Waiting::never || captures_.wanted() > 0 ||
@@ -187,17 +198,18 @@ index::DetailQuery Session::detail_for_live(Waiting waiting, const FrameReport& 
                                 moving.most_cells >= detail_.most_cells / 2;
         return on_its_way ? detail_ : moving;
     }
-    return detail_at_rest(waiting, moving.most_cells, report);
+    return detail_at_rest(waiting, moving.most_cells);
 }
 
 /// First as many cells as quads would show in the pause that a picture at rest may take, so that it
-/// gets better soon; then, where slices draw them, all.
+/// gets better soon; then, where slices draw them, all, which are looked for meanwhile.
 /// @param moving cells of moving pictures
-index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving,
-                                           const FrameReport& report) {
+index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving) {
     const auto fewest = static_cast<double>(moving);
     const double fit = quality_.cells_that_fit(interaction::Pace::settled).value_or(fewest);
-    cells_at_first_ = std::bit_floor(static_cast<std::uint64_t>(std::max(fit, fewest)));
+    // A time that was measured late, or while others worked, takes back nothing of this picture.
+    cells_at_first_ = std::max(cells_at_first_,
+                               std::bit_floor(static_cast<std::uint64_t>(std::max(fit, fewest))));
     index::DetailQuery last = details_.at_rest();
     const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
     const bool kept = captures_.wanted() > 0;
@@ -209,8 +221,7 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
         return last;
     if (detail_.at_rest && set_comes())
         return detail_; // asking for another one now would bring the two in turn
-    all_at_rest_ |= serves && may_be_sliced(waiting) && drawn_ && drawn_->cells == resting &&
-                    (report.final || drawn_->footprint == report.in_slices);
+    all_at_rest_ |= serves && may_be_sliced(waiting);
     if (all_at_rest_)
         return last;
     const index::DetailQuery first = details_.at_first_rest(cells_at_first_);

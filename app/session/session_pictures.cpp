@@ -30,6 +30,26 @@ void Session::draw_views(const ScenePlace& place, std::span<const render::View> 
                 aids ? picture.audience.wand : std::nullopt, slice);
 }
 
+void Session::warm_up() {
+    if (outputs_.headset())
+        return;
+    Audience audience;
+    audience.viewers =
+        viewer_poses(config_.installation, {}, state_.eye_separation, parallel_center());
+    audience.stereo = state_.stereo;
+    scene_.set_near_fade(config_.comfort, audience.viewers);
+    scene_.look(state_, audience.viewers.front().head, std::nullopt);
+    outputs_.draw(audience,
+                  [this](const ScenePlace&, std::span<const render::View> views) {
+                      scene_.warm_up(views, state_.room_from_physical);
+                  },
+                  {});
+    Outputs::SlicePlace place; // what is drawn over several frames has a place of its own
+    const auto nothing = [](const ScenePlace&, std::span<const render::View>) { return true; };
+    for (bool whole = false; !whole;)
+        whole = outputs_.draw_slice(place, nothing);
+}
+
 /// Where mouse and keyboard play the wand, it points while the cursor does.
 Session::Aids Session::aids(const interaction::InputState& input) const {
     const bool points =

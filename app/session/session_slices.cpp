@@ -1,7 +1,6 @@
-// The exact picture at rest, which is drawn over several frames beside the one that is shown.
+// Pictures that are drawn over several frames beside the one that is shown: the exact one at rest,
+// and those that only tell what a footprint would cost.
 #include "app/session/session.h"
-
-#include "app/frame/stop_watch.h"
 
 #include <algorithm>
 #include <utility>
@@ -54,24 +53,12 @@ void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
     Picture wanted = now;
     wanted.footprint = *report.in_slices;
     if (!slices_ || slices_->picture != wanted)
-        slices_.emplace(wanted, quality_.slice_budget());
-    SlicePace& pace = slices_->pace;
-    pace.begin_frame();
-    StopWatch watch;
-    while (const std::size_t work = slices_->whole ? 0 : pace.next()) {
-        std::size_t done = scene_.prepare_slices(wanted.footprint, work);
-        if (done > 0) {
-            outputs_.gl().Finish(); // so that its time is known
-            pace.took(done, watch.lap());
-            continue;
-        }
-        slices_->whole = outputs_.draw_slice(
-            slices_->place, [&](const ScenePlace& place, std::span<const render::View> views) {
-                return draw_slice(place, views, work, done);
-            });
-        pace.took(done, watch.lap());
+        slices_.emplace(wanted);
+    if (!slices_->whole) {
+        slices_->pace.begin_frame(quality_.slice_budget());
+        draw_pieces(*slices_);
         if (slices_->whole)
-            quality_.learn_slices(wanted.footprint, report.cells, pace.whole());
+            quality_.learn_slices(wanted.footprint, report.cells, slices_->pace.whole());
     }
     slices_whole_ = slices_->whole;
     if (!slices_whole_ || !shows_slices_)
@@ -83,23 +70,77 @@ void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
     report.redrawn = true;
 }
 
+/// Draws pieces of a picture while this frame has time for them, or until it is whole.
+void Session::draw_pieces(Slices& slices) {
+    StopWatch watch;
+    while (const std::size_t work = slices.whole ? 0 : slices.pace.next()) {
+        std::size_t done = scene_.prepare_slices(slices.picture.footprint, work);
+        if (done > 0) {
+            outputs_.gl().Finish(); // so that its time is known
+            const Milliseconds time = watch.lap();
+            slices.prepared += time;
+            slices.pace.took(done, time);
+            continue;
+        }
+        slices.whole = outputs_.draw_slice(
+            slices.place, [&](const ScenePlace& place, std::span<const render::View> views) {
+                return draw_slice(slices, place, views, work, done);
+            });
+        slices.pace.took(done, watch.lap());
+    }
+}
+
 /// Draws the next of: what comes before the cells of a viewport, some of the cells, what comes
 /// after them. @param done work that was done, of at most `work` @return whether it was the last
-bool Session::draw_slice(const ScenePlace& place, std::span<const render::View> views,
-                         std::size_t work, std::size_t& done) {
-    SceneSlice slice{.begins = slices_->place.begins, .cells = {slices_->done, 0}, .ends = false};
-    const std::size_t all = scene_.work(views.size(), slices_->picture.footprint);
+bool Session::draw_slice(Slices& slices, const ScenePlace& place,
+                         std::span<const render::View> views, std::size_t work, std::size_t& done) {
+    SceneSlice slice{.begins = slices.place.begins, .cells = {slices.done, 0}, .ends = false};
+    const std::size_t all = scene_.work(views.size(), slices.picture.footprint);
     if (slice.begins) {
-        slices_->done = 0;
-    } else if (slices_->done < all) {
-        done = std::min(work, all - slices_->done);
+        slices.done = 0;
+    } else if (slices.done < all) {
+        done = std::min(work, all - slices.done);
         slice.cells.count = done;
-        slices_->done += done;
+        slices.done += done;
     } else {
         slice.ends = true;
     }
-    draw_views(place, views, slices_->picture, slice);
+    draw_views(place, views, slices.picture, slice);
     return slice.ends;
+}
+
+/// A footprint that might serve moving pictures is drawn where nobody sees it, to find out its
+/// time: in the time that frames leave, each piece for the views of its own frame. Where light
+/// shines through, every view needs an order of its own: then it is not done.
+/// @param frame began with the frame, which is on show now
+void Session::measure_unseen(const Picture& now, const StopWatch& frame,
+                             const FrameReport& report) {
+    const std::optional<render::Footprint> footprint = quality_.unseen();
+    const bool opaque =
+        std::ranges::all_of(now.isosurfaces, [](const interaction::Isosurface& surface) {
+            return surface.opacity >= 1.0f;
+        });
+    if (!footprint || !opaque || !frames_->alone() || !outputs_.want(now.audience) ||
+        now.cells != scene_.shown()) {
+        unseen_.reset();
+        return;
+    }
+    if (!unseen_ || unseen_->picture.cells != now.cells ||
+        unseen_->picture.footprint != *footprint || unseen_->picture.windows != now.windows)
+        unseen_.emplace(now);
+    unseen_->picture = now;
+    unseen_->picture.footprint = *footprint;
+    outputs_.gl().Finish(); // so that the frame's own time is known
+    const Milliseconds left = quality_.left_of_frame(frame.time());
+    if (!(left.count() > 0))
+        return;
+    slices_.reset(); // they are drawn in the same place
+    unseen_->pace.begin_frame(left);
+    draw_pieces(*unseen_);
+    if (!unseen_->whole)
+        return;
+    quality_.learn_slices(*footprint, report.cells, unseen_->pace.whole() - unseen_->prepared);
+    unseen_.reset();
 }
 
 } // namespace isochron::app

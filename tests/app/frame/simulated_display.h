@@ -3,6 +3,7 @@
 
 #include "app/frame/quality_controller.h"
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -26,6 +27,9 @@ class SimulatedDisplay {
     Cost cost;
     int latency = 0;   ///< frames until a measurement is there
     bool still = true; ///< nothing moves: only what changes is drawn
+    /// Footprints that are worth it are drawn unseen, in the time that frames leave.
+    bool measures_unseen = false;
+    int measured_unseen = 0; ///< how often
     QualityInput input = settled_input();
     QualityController controller;
     std::vector<Frame> frames;
@@ -59,6 +63,8 @@ class SimulatedDisplay {
             now.cost = cost(picture.footprint, input.load);
             under_way_.push_back({number_ + latency + 1, picture.footprint, input.load, now.cost});
         }
+        if (measures_unseen)
+            draw_unseen(now.cost);
         ++number_;
         frames.push_back(now);
         return frames.back();
@@ -96,7 +102,23 @@ class SimulatedDisplay {
         DrawLoad load;
         double cost;
     };
+    void draw_unseen(double taken) {
+        const auto footprint = controller.worth_measuring(input);
+        if (footprint != unseen_)
+            unseen_spent_ = 0;
+        unseen_ = footprint;
+        unseen_spent_ += std::max(0.8 * budget() - taken, 0.0);
+        const double whole = footprint ? cost(*footprint, input.load) : 0;
+        if (!footprint || unseen_spent_ < whole)
+            return;
+        controller.measured_in_slices(*footprint, input.load, Milliseconds(whole));
+        ++measured_unseen;
+        unseen_.reset();
+    }
+
     int number_ = 0;
+    std::optional<render::Footprint> unseen_;
+    double unseen_spent_ = 0; ///< ms
     std::optional<Picture> shown_;
     std::deque<Sample> under_way_;
 };

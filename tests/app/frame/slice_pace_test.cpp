@@ -16,11 +16,11 @@ namespace {
 /// Frames until so much work is done. @return the time of each [ms]
 std::vector<double> frames_of(std::size_t work, Milliseconds each,
                               const std::function<double(std::size_t, std::size_t)>& cost) {
-    SlicePace pace(each);
+    SlicePace pace;
     std::vector<double> frames;
     double whole = 0;
     for (std::size_t done = 0; done < work;) {
-        pace.begin_frame();
+        pace.begin_frame(each);
         double spent = 0;
         while (std::size_t piece = pace.next()) {
             piece = std::min(piece, work - done);
@@ -79,11 +79,11 @@ TEST(SlicePace, WorkThatBecomesDearIsNoticedAfterOnePiece) {
 }
 
 TEST(SlicePace, OtherWorkCountsForTheFrameOnly) {
-    SlicePace pace(Milliseconds(10));
-    pace.begin_frame();
+    SlicePace pace;
+    pace.begin_frame(Milliseconds(10));
     pace.took(0, Milliseconds(30));
     EXPECT_EQ(pace.next(), 0u) << "the frame has had its time";
-    pace.begin_frame();
+    pace.begin_frame(Milliseconds(10));
     EXPECT_EQ(pace.next(), SlicePace::kFirst);
 }
 

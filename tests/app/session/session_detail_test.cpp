@@ -200,6 +200,84 @@ TEST_P(SessionDetail, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfT
     }
 }
 
+/// Frames of a session in which quads take a known time for each cell, or suddenly much longer.
+class KnownTimes final : public FramesAlone {
+  public:
+    explicit KnownTimes(const bool& stalls) : stalls_(stalls) {}
+    std::vector<DrawSample> samples(std::vector<DrawSample>) override {
+        constexpr double kOfCell = 1.5 / 20'000 / 2; // ms, in two views
+        const double slower = stalls_ ? 1000 : 1;
+        std::vector<DrawSample> all(1);
+        all[0].load = {2e4, 1 << 15};
+        all[0].processor = Milliseconds(slower * kOfCell * all[0].load.cells);
+        return all;
+    }
+
+  private:
+    const bool& stalls_;
+};
+
+TEST_P(SessionDetail, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 2; // three quarters of it hold 20,000 cells
+    bool stalls = false;
+    Session session(config, large_, *context_);
+    session.share_frames(std::make_unique<KnownTimes>(stalls));
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, false, first);
+    std::uint64_t most = 0;
+    int coarse = 0; // pictures in slices
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        if (!report.redrawn || report.reason != QualityReason::in_slices)
+            return report.final && report.cells > 0;
+        EXPECT_GE(report.cells, most);
+        most = report.cells;
+        coarse += report.coarsest > 0;
+        stalls = coarse > 0;
+        return false;
+    }));
+    EXPECT_EQ(coarse, 1);
+    EXPECT_EQ(report.coarsest, 0u);
+    EXPECT_GT(most, 3 * kFew);
+}
+
+TEST_P(SessionDetail, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheSame) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 2;
+    const bool stalls = false;
+    const render::Gl gl(context_->loader());
+    const index::Extract real =
+        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+    std::atomic<bool> all_found = false;
+    Session session(config, large_, *context_,
+                    [&](const index::SurfacesQuery& query, std::stop_token stop) {
+                        index::ExtractionPtr set = real(query, stop);
+                        if (set && query.detail.at_rest && !set->coarse())
+                            all_found = true;
+                        return set;
+                    });
+    session.share_frames(std::make_unique<KnownTimes>(stalls));
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, false, first);
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        return report.in_slices && report.cells > 15'000 && report.coarsest > 0;
+    })) << "the first set at rest, of 18,524 cells";
+    report = frame(session, false);
+    ASSERT_NE(report.footprint, report.in_slices) << "a piece in each frame";
+    ASSERT_TRUE(test_support::eventually([&] { return all_found.load(); }));
+    int coarse = 0; // pictures in slices
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        coarse += report.redrawn && report.reason == QualityReason::in_slices && report.coarsest > 0;
+        return report.final && report.coarsest == 0;
+    }));
+    EXPECT_EQ(coarse, 1);
+}
+
 TEST_P(SessionDetail, AnythingThatMayStillMoveHasTheBudgetOfAFrame) {
     Session session(config_with(1e-6), file_, *context_);
     FrameReport report = frame(session, false);

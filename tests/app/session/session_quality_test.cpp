@@ -129,6 +129,58 @@ TEST_P(SessionQuality, APictureAtRestMayTakeItsTimeButNotOneThatSways) {
     EXPECT_EQ(report.budget, Milliseconds(kNothing));
 }
 
+/// Frames of a session in which quads take a known time, and nothing else is told.
+class QuadsTake final : public FramesAlone {
+  public:
+    explicit QuadsTake(double ms) : time_(ms) {}
+    std::vector<DrawSample> samples(std::vector<DrawSample> mine) override {
+        std::erase_if(mine, [](const DrawSample& sample) {
+            return sample.footprint != Footprint::quad || sample.load.cells <= 0;
+        });
+        for (DrawSample& sample : mine) {
+            sample.processor = Milliseconds(time_);
+            sample.gpu.reset();
+        }
+        return mine;
+    }
+
+  private:
+    double time_;
+};
+
+TEST_P(SessionQuality, AHeadThatSwaysEndsAtTheExactSurfaceThoughItIsGuessedTooDear) {
+    Config config = config_with(kPlenty);
+    config.still_budget_ms = kPlenty;
+    Session session(config, file_, *context_);
+    session.share_frames(std::make_unique<QuadsTake>(0.3 * kPlenty)); // which twelve times exceed
+    start(session);
+    FrameReport report;
+    const auto sways = [&] {
+        for (int i = 0; i < 20; ++i, ++frame_) {
+            interaction::InputState input = head_at_rest(now().count());
+            input.devices[0].pose->position.x = 1e-5f * static_cast<float>(frame_ / 2 % 2);
+            report = session.frame(input, {}, Waiting::never);
+            EXPECT_FALSE(report.in_slices);
+        }
+        return report.footprint == Footprint::surface;
+    };
+    EXPECT_TRUE(test_support::eventually(sways));
+    EXPECT_EQ(report.pace, interaction::Pace::settled);
+    EXPECT_EQ(frames_with(session, Footprint::gaussian), 0) << "which may take too long";
+    sways();
+    EXPECT_EQ(report.footprint, Footprint::surface);
+    // What is drawn unseen leaves nothing in what is shown.
+    Session whole(config, file_, *context_);
+    for (int i = 0; i < 60; ++i) {
+        interaction::InputState input = head_at_rest(i / kRate);
+        input.devices[0].pose->position.x = 1e-5f * static_cast<float>((frame_ - 1) / 2 % 2);
+        whole.frame(input, {}, Waiting::for_cells);
+    }
+    ASSERT_EQ(whole.log().frames().back().footprint, Footprint::surface);
+    EXPECT_TRUE(session.outputs().display().read_window().rgba ==
+                whole.outputs().display().read_window().rgba);
+}
+
 TEST_P(SessionQuality, TimesOfTheGpuReachTheReport) {
     Session session(config_with(kPlenty), file_, *context_);
     start(session);

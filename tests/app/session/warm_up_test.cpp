@@ -1,4 +1,4 @@
-// Warming up: what moving pictures and splats are drawn with has been used before the first frame.
+// Warming up: what cells are drawn with has been used before the first frame.
 #include "tests/support/context_in_between.h"
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
@@ -31,39 +31,48 @@ INSTANTIATE_TEST_SUITE_P(, WarmUp,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
                          context_name);
 
-TEST_P(WarmUp, UsesEveryProgramThatQuadsAndSplatsNeedFromFarAndFromWithin) {
-    Config config = small_config();
-    config.quality = interaction::QualityMode::paper; // quads, and splats at rest
-    config.mesh_megabytes = 0;
-    programs.used.clear();
-    Session session(config, file_, noting_);
-    session.warm_up();
-    EXPECT_TRUE(session.log().frames().empty()) << "nobody sees it";
-    const std::set<GLuint> warm = programs.used;
-    int number = 0;
-    const auto is_drawn = [&](render::Footprint footprint, float way, bool moves) {
-        return test_support::eventually([&] {
-            bool drawn = false;
-            for (int i = 0; i < 30; ++i) {
-                interaction::InputState input = head_at_rest(number++ / 60.0);
-                input.devices[0].pose->position.z = -way - (moves && i % 2 ? 0.02f : 0.0f);
-                interaction::Commands commands;
-                if (number == 1)
-                    commands.isovalue = 2.0;
-                const FrameReport& report = session.frame(input, commands, Waiting::never);
-                drawn |= report.redrawn && report.cells > 0 && report.footprint == footprint;
-            }
-            return drawn;
-        });
+TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
+    const auto expect_warm = [&](render::Footprint settled, float opacity) {
+        SCOPED_TRACE(testing::Message() << render::name_of(settled) << ", opacity " << opacity);
+        Config config = small_config();
+        config.settled_footprint = settled;
+        config.frame_budget_ms = 1e-6; // quads in motion
+        config.still_budget_ms = 0;    // no slices
+        programs.used.clear();
+        Session session(config, file_, noting_);
+        session.warm_up();
+        EXPECT_TRUE(session.log().frames().empty()) << "nobody sees it";
+        const std::set<GLuint> warm = programs.used;
+        int number = 0;
+        const auto is_drawn = [&](render::Footprint footprint, float way, bool moves) {
+            return test_support::eventually([&] {
+                bool drawn = false;
+                for (int i = 0; i < 30; ++i) {
+                    interaction::InputState input = head_at_rest(number++ / 60.0);
+                    input.devices[0].pose->position.z = -way - (moves && i % 2 ? 0.02f : 0.0f);
+                    interaction::Commands commands;
+                    if (number == 1)
+                        commands.isosurfaces = {{{2.0, {0.9f, 0.3f, 0.2f}, opacity}}};
+                    const FrameReport& report = session.frame(input, commands, Waiting::never);
+                    drawn |= report.redrawn && report.cells > 0 && report.footprint == footprint;
+                }
+                return drawn;
+            });
+        };
+        for (const float way : {0.0f, 0.7f, 3.0f}) { // ahead is the volume
+            // The head moves until cells are there, however late they come.
+            ASSERT_TRUE(is_drawn(render::Footprint::quad, way, true));
+            ASSERT_TRUE(is_drawn(settled, way, false));
+        }
+        for (const GLuint program : programs.used)
+            EXPECT_TRUE(warm.contains(program)) << program;
+        EXPECT_GT(warm.size(), 4u);
     };
-    for (const float way : {0.0f, 3.0f}) { // ahead is the volume
-        // The head moves until cells are there, however late they come.
-        ASSERT_TRUE(is_drawn(render::Footprint::quad, way, true));
-        ASSERT_TRUE(is_drawn(render::Footprint::gaussian, way, false));
-    }
-    for (const GLuint program : programs.used)
-        EXPECT_TRUE(warm.contains(program)) << program;
-    EXPECT_GT(warm.size(), 4u);
+    expect_warm(render::Footprint::gaussian, 1.0f);
+    expect_warm(render::Footprint::mesh, 1.0f);
+    expect_warm(render::Footprint::mesh, 0.4f);
+    expect_warm(render::Footprint::surface, 1.0f);
+    expect_warm(render::Footprint::surface, 0.4f);
 }
 
 } // namespace

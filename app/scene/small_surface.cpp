@@ -41,7 +41,7 @@ index::ExtractionPtr small_surface(const index::Grid& grid) {
     const index::BrickLevels levels = held.levels(result->query.isovalues);
     result->levels = levels.units;
     index::BrickGatherer gatherer(grid, held);
-    gatherer.need(surface.ids);
+    gatherer.need(surface);
     gatherer.gather(values, 0, levels, result->bricks);
     return result;
 }

@@ -198,6 +198,7 @@ MessageBytes encoded(const FrameAnswer& answer) {
                      {"view", load_json(answer.view)},
                      {"surface_limit", answer.surface_limit},
                      {"slices_whole", answer.slices_whole},
+                     {"slices_took", answer.slices_took.count()},
                      {"samples", std::move(samples)}});
 }
 
@@ -210,10 +211,13 @@ FrameAnswer decode_answer(std::span<const std::byte> bytes) {
                        .view = load_from(members.at("view")),
                        .surface_limit = count(members, "surface_limit"),
                        .slices_whole = boolean(members.at("slices_whole"), "slices_whole"),
+                       .slices_took =
+                           Milliseconds(number(members.at("slices_took"), "slices_took")),
                        .samples = {}};
     for (const json& sample : interaction::list(members.at("samples"), "samples", 0, kMostSamples))
         answer.samples.push_back(sample_from(sample));
-    members.done({"cells", "close", "failure", "view", "surface_limit", "slices_whole", "samples"});
+    members.done({"cells", "close", "failure", "view", "surface_limit", "slices_whole",
+                  "slices_took", "samples"});
     return answer;
 }
 

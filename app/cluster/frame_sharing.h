@@ -66,6 +66,8 @@ class FrameSharing {
     virtual std::uint64_t surface_limit() const = 0;
     /// Whether a picture in slices may be shown once it is whole here: it is whole everywhere.
     virtual bool slices_are_whole() const = 0;
+    /// The time of that picture in the process that took longest.
+    virtual Milliseconds slices_took(Milliseconds mine) const = 0;
     /// @param mine used on rank 0 @return rank 0's choice, with which all processes draw
     virtual FrameChoice agree(const FrameChoice& mine) = 0;
 

@@ -24,6 +24,7 @@ class FramesAlone : public FrameSharing {
     DrawLoad largest(const DrawLoad& mine) const override { return mine; }
     std::uint64_t surface_limit() const override;
     bool slices_are_whole() const override { return true; }
+    Milliseconds slices_took(Milliseconds mine) const override { return mine; }
     FrameChoice agree(const FrameChoice& mine) override { return mine; }
     void swap_barrier(const std::function<FrameAnswer()>&) override {}
     bool close_wanted() const override { return false; }

@@ -59,6 +59,10 @@ bool SharedFrames::slices_are_whole() const {
     return !answers_.empty() && std::ranges::all_of(answers_, &FrameAnswer::slices_whole);
 }
 
+Milliseconds SharedFrames::slices_took(Milliseconds) const {
+    return std::ranges::max(answers_, {}, &FrameAnswer::slices_took).slices_took;
+}
+
 FrameChoice SharedFrames::agree(const FrameChoice& mine) {
     if (!leads())
         return decode_choice(cluster_.hear());

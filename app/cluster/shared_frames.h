@@ -45,6 +45,7 @@ class SharedFrames final : public FrameSharing {
     std::uint64_t surface_limit() const override;
     /// By the answers to the last frame.
     bool slices_are_whole() const override;
+    Milliseconds slices_took(Milliseconds mine) const override;
     FrameChoice agree(const FrameChoice& mine) override;
 
     /// @param mine cells and samples are filled in here

@@ -148,7 +148,7 @@ Milliseconds FrameQuality::slice_budget() const {
 
 void FrameQuality::learn_slices(render::Footprint footprint, std::uint64_t cells,
                                 Milliseconds time) {
-    const DrawLoad load{static_cast<double>(cells) * view_.cells, view_.pixels};
+    const DrawLoad load{static_cast<double>(cells) * charged_.cells, charged_.pixels};
     for (QualityController* controller : {&steady_, &still_})
         controller->measured_in_slices(footprint, load, time);
 }

@@ -91,7 +91,7 @@ class FrameQuality {
     Milliseconds left_of_frame(Milliseconds taken) const;
     /// Time that a frame may spend on slices.
     Milliseconds slice_budget() const;
-    /// Learns from a picture that was made in slices, of the last frame's views.
+    /// Learns from a picture that was made in slices, of the views that were charged.
     void learn_slices(render::Footprint footprint, std::uint64_t cells, Milliseconds time);
 
     /// Number of refreshes that the display missed in the time between two frames.

@@ -305,6 +305,8 @@ FrameAnswer Session::answer() const {
     answer.view = quality_.view();
     answer.surface_limit = scene_.surface_limit();
     answer.slices_whole = slices_whole_;
+    if (slices_ && slices_->whole)
+        answer.slices_took = slices_->pace.whole();
     return answer;
 }
 

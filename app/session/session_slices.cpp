@@ -57,12 +57,12 @@ void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
     if (!slices_->whole) {
         slices_->pace.begin_frame(quality_.slice_budget());
         draw_pieces(*slices_);
-        if (slices_->whole)
-            quality_.learn_slices(wanted.footprint, report.cells, slices_->pace.whole());
     }
     slices_whole_ = slices_->whole;
     if (!slices_whole_ || !shows_slices_)
         return outputs_.draw_again(now.audience, overlay);
+    quality_.learn_slices(wanted.footprint, report.cells,
+                          frames_->slices_took(slices_->pace.whole()));
     outputs_.show_slices(overlay);
     drawn_ = std::move(wanted);
     slices_.reset();

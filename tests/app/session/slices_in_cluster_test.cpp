@@ -28,6 +28,9 @@ class InTurn final : public FramesAlone {
     bool slices_are_whole() const override {
         return std::ranges::all_of(told_.answers, &FrameAnswer::slices_whole);
     }
+    Milliseconds slices_took(Milliseconds) const override {
+        return std::ranges::max(told_.answers, {}, &FrameAnswer::slices_took).slices_took;
+    }
     FrameChoice agree(const FrameChoice& mine) override {
         return rank_ == 0 ? told_.choice = mine : told_.choice;
     }
@@ -119,6 +122,22 @@ TEST_P(SlicesInCluster, AreShownByAllInTheFrameAfterTheLastOneHasThem) {
                     Waiting::for_cells);
     EXPECT_EQ(picture(first_), picture(whole));
     EXPECT_EQ(picture(second_), picture(whole));
+}
+
+TEST_P(SlicesInCluster, TellAllWhatTheyTookWhereTheyTookLongest) {
+    ASSERT_TRUE(rests_until(begun));
+    while (!told_.answers[0].slices_whole || !told_.answers[1].slices_whole) {
+        frame();
+        ASSERT_LT(frame_, 5000);
+    }
+    for (const FrameAnswer& answer : told_.answers)
+        EXPECT_GT(answer.slices_took.count(), 0);
+    told_.answers[1].slices_took = Milliseconds(12345);
+    ASSERT_EQ(frame().footprint, Footprint::surface);
+    const FrameReport report = frame();
+    ASSERT_TRUE(report.expected && last(second_).expected);
+    EXPECT_NEAR(report.expected->count(), 12345, 1);
+    EXPECT_NEAR(last(second_).expected->count(), 12345, 1);
 }
 
 TEST_P(SlicesInCluster, WaitForTheSlowestAndAreGivenUpByAllForInput) {

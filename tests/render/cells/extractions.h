@@ -64,7 +64,7 @@ class Extractions {
         const index::BrickLevels levels = bricks_.levels(made->query.isovalues);
         made->levels = levels.units;
         for (const index::CellSet& surface : made->surfaces)
-            gatherer_.need(surface.ids);
+            gatherer_.need(surface);
         gatherer_.gather(values_, made->query.step, levels, made->bricks);
         return made;
     }

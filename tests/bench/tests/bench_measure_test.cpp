@@ -158,7 +158,7 @@ TEST(Timing, RunsEveryOperationAtEveryStepInTurn) {
     EXPECT_GE(seconds[0], 0.006);
     int quick = 0;
     time_in_turn({[&](std::uint32_t) { ++quick; }}, 1, 3);
-    EXPECT_GT(quick, 100);
+    EXPECT_GT(quick, 3 * 3) << "more often than a slow one; how often depends on the clock's cost";
 }
 
 TEST(Timing, SweepsForwardsAndBackwards) {

@@ -38,6 +38,8 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
         config.settled_footprint = settled;
         config.frame_budget_ms = 1e-6; // quads in motion
         config.still_budget_ms = 0;    // no slices
+        if (settled == render::Footprint::mesh)
+            config.drawn_by = render::DrawnBy::processor; // else there are no meshes
         programs.used.clear();
         Session session(config, file_, noting_);
         session.warm_up();

@@ -51,10 +51,9 @@ void Scene::warm_up(std::span<const render::View> views,
     for (const float size : {1.0f, std::max(kManyPixels / whole.spacing().x, 1.0f),
                              std::max(0.7f * whole.extent.x, 1.0f)}) {
         render::Placement placement = far;
-        placement.room_from_index =
-            glm::translate(far.room_from_index, middle) *
-            glm::scale(glm::mat4(1.0f), glm::vec3(size)) *
-            glm::translate(glm::mat4(1.0f), -0.5f * far.extent);
+        placement.room_from_index = glm::translate(far.room_from_index, middle) *
+                                    glm::scale(glm::mat4(1.0f), glm::vec3(size)) *
+                                    glm::translate(glm::mat4(1.0f), -0.5f * far.extent);
         for (const render::Footprint footprint : footprints)
             for (const float opacity : {1.0f, 0.5f}) {
                 if ((opacity < 1 && !render::has_layers(footprint)) ||

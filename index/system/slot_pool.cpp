@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+#include <span>
 
 #include <sanitizer/asan_interface.h>
 
@@ -16,6 +18,8 @@ namespace {
 
 constexpr std::size_t kBlock = 2 << 20, kSlotAlignment = 64, kSmallPage = 4096;
 constexpr std::size_t kTogether = 64 << 10; ///< [bytes] of pages allocated at a time
+/// Blocks of a pool whose pages are allocated as slots are taken: a small pool needs no more.
+constexpr std::size_t kGradual = 2;
 
 } // namespace
 
@@ -26,10 +30,31 @@ struct alignas(kSlotAlignment) SlotPool::Block {
     std::byte* there = nullptr; ///< pages from here on have not been allocated
     std::size_t used = 0;
 
-    static Block* make() {
+    static Block* make() { return begin(memory()); }
+    /// A block with all its pages.
+    static Block* make_whole(PageChoice& choice) {
+        void* const memory = Block::memory();
+        const Pages pages = choice.next();
+        const auto started = std::chrono::steady_clock::now();
+        const std::span bytes(static_cast<std::byte*>(memory), kBlock);
+        if (pages == Pages::huge)
+            ask_for_huge_pages(memory, kBlock);
+        else
+            fetch_pages(bytes);
+        for (std::size_t at = 0; at < kBlock; at += kSmallPage)
+            bytes[at] = std::byte{0}; // a virtual machine may wait here once more
+        choice.took(pages, std::chrono::steady_clock::now() - started);
+        Block* const block = begin(memory);
+        block->there = block->end();
+        return block;
+    }
+    static void* memory() {
         void* const memory = std::aligned_alloc(kBlock, kBlock);
         if (!memory)
             throw std::bad_alloc();
+        return memory;
+    }
+    static Block* begin(void* memory) {
         auto* const block = new (memory) Block;
         block->there = reinterpret_cast<std::byte*>(block);
         block->fresh = reinterpret_cast<std::byte*>(block + 1);
@@ -55,8 +80,8 @@ struct alignas(kSlotAlignment) SlotPool::Block {
     }
 };
 
-SlotPool::SlotPool(std::size_t bytes)
-    : bytes_((bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment) {
+SlotPool::SlotPool(std::size_t bytes, PageChoice& choice)
+    : bytes_((bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment), choice_(choice) {
     assert(bytes > 0 && bytes <= kBlock / 2);
 }
 
@@ -70,9 +95,17 @@ SlotPool::~SlotPool() {
 std::byte* SlotPool::take() {
     std::byte *slot = nullptr, *begin = nullptr, *end = nullptr;
     {
-        const std::scoped_lock lock(mutex_);
+        std::unique_lock lock(mutex_);
         if (free_.empty()) {
-            free_.push_back(Block::make());
+            Block* made = nullptr;
+            if (blocks_ < kGradual) {
+                made = Block::make();
+            } else { // takes time, in which other threads give slots back, or make blocks, too
+                lock.unlock();
+                made = Block::make_whole(choice_);
+                lock.lock();
+            }
+            free_.push_back(made);
             ++blocks_;
         }
         Block* const block = free_.back();

@@ -1,6 +1,8 @@
 // Memory for many objects of the same size, whose pages are allocated many at a time.
 #pragma once
 
+#include "index/system/page_choice.h"
+
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -9,12 +11,14 @@
 namespace isochron::index {
 
 /// Gives slots of one size from blocks of 2 MiB. Pages of a block are allocated many at a time,
-/// since fresh memory costs as much time as decoding into it. A block without used slots is freed,
-/// except for one. Thread-safe.
+/// since fresh memory costs as much time as decoding into it; from the third block on all at once, in
+/// the kind of pages that takes less time here. A block without used slots is freed, except for one.
+/// Thread-safe.
 class SlotPool {
   public:
     /// @param bytes of a slot, at most 1 MiB
-    explicit SlotPool(std::size_t bytes);
+    /// @param choice outlives this
+    explicit SlotPool(std::size_t bytes, PageChoice& choice = PageChoice::of_process());
     ~SlotPool(); ///< all slots have been given back
     SlotPool(const SlotPool&) = delete;
     SlotPool& operator=(const SlotPool&) = delete;
@@ -31,6 +35,7 @@ class SlotPool {
     struct Block;
 
     const std::size_t bytes_;
+    PageChoice& choice_;
     mutable std::mutex mutex_;
     std::vector<Block*> free_; ///< blocks that have a free slot
     std::size_t blocks_ = 0;

@@ -146,10 +146,14 @@ struct Cost {
 
 Cost cost_of_index(const fs::path& path, const Query& query, index::CellSetPtr& found) {
     forget(path);
+    found = nullptr; // the scan's cells are not freed in its time either
+    std::shared_ptr<const index::IndexFile> file; // is closed after the clock has stopped
     const std::uint64_t before = bytes_from_disk();
     Cost cost;
-    cost.seconds =
-        seconds_of([&] { found = index::search_in(index::IndexFile::open(path))(query, {}); });
+    cost.seconds = seconds_of([&] {
+        file = index::IndexFile::open(path);
+        found = index::search_in(file)(query, {});
+    });
     cost.bytes = bytes_from_disk() - before;
     return cost;
 }

@@ -19,7 +19,6 @@ namespace {
 
 using Rgb = std::array<int, 3>;
 
-
 Installation two_windows() {
     Installation installation;
     installation.windows.resize(2);

@@ -272,7 +272,8 @@ TEST_P(SessionDetail, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTh
     int coarse = 0; // pictures in slices
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        coarse += report.redrawn && report.reason == QualityReason::in_slices && report.coarsest > 0;
+        coarse +=
+            report.redrawn && report.reason == QualityReason::in_slices && report.coarsest > 0;
         return report.final && report.coarsest == 0;
     }));
     EXPECT_EQ(coarse, 1);

@@ -51,7 +51,8 @@ TEST(RawSeries, OfOneStepAFileCanBeReadByManyAtOnce) {
     ASSERT_TRUE(other);
     EXPECT_EQ(other->info().sources, series->info().sources);
     for (const std::size_t step : {3, 0, 2, 1}) {
-        EXPECT_EQ(values_of<std::uint8_t>(*other, step), std::vector<std::uint8_t>(8, "abcd"[step]));
+        EXPECT_EQ(values_of<std::uint8_t>(*other, step),
+                  std::vector<std::uint8_t>(8, "abcd"[step]));
         EXPECT_EQ(values_of<std::uint8_t>(*series, 3 - step),
                   std::vector<std::uint8_t>(8, "dcba"[step]));
         EXPECT_EQ(other->state(step), series->state(step));

@@ -63,19 +63,35 @@ TEST(SlotPool, UsesMemoryAgainAndKeepsNoMoreThanABlockOfWhatIsFree) {
     }
 }
 
+TEST(SlotPool, MeasuresBlocksOnlyWhereThereAreMany) {
+    PageChoice choice;
+    SlotPool pool(4096, choice);
+    std::vector<std::byte*> slots;
+    const auto grow_to = [&](std::size_t mib) {
+        while (pool.bytes() < mib << 20)
+            slots.push_back(pool.take());
+    };
+    grow_to(4);
+    EXPECT_EQ(choice.next(), Pages::small); // none has been measured
+    grow_to(6);
+    EXPECT_EQ(choice.next(), Pages::huge); // which is to be tried next
+    for (std::byte* slot : slots)
+        pool.give_back(slot);
+}
+
 TEST(SlotPool, ServesManyThreads) {
-    SlotPool pool(1000);
+    SlotPool pool(10'000);
     std::vector<std::jthread> threads;
     for (int t = 0; t < 4; ++t)
         threads.emplace_back([&pool, t] {
             for (int round = 0; round < 50; ++round) {
-                std::vector<std::byte*> slots(100);
+                std::vector<std::byte*> slots(200); // of all threads: some blocks
                 for (std::byte*& slot : slots) {
                     slot = pool.take();
-                    std::memset(slot, t, 1000);
+                    std::memset(slot, t, 10'000);
                 }
                 for (std::byte* slot : slots) {
-                    EXPECT_EQ(slot[999], static_cast<std::byte>(t));
+                    EXPECT_EQ(slot[9'999], static_cast<std::byte>(t));
                     pool.give_back(slot);
                 }
             }

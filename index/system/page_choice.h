@@ -1,0 +1,38 @@
+// Which pages new memory is to have: small ones or huge ones, whichever the system gives in less time.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <mutex>
+#include <optional>
+
+namespace isochron::index {
+
+enum class Pages : unsigned char { small, huge };
+
+/// Chooses by the time that blocks of memory took before, from being asked for until all their pages
+/// had been touched. On a physical machine huge pages take a fraction of the time. In a virtual
+/// machine they may take as much as small ones, or many times as much: its host may have taken back
+/// the free ones. Which of these it is shows only by trying: each kind once, then the faster one, and
+/// the other one from time to time, the less often the more often it lost. Thread-safe.
+class PageChoice {
+  public:
+    /// Blocks between two trials of the slower kind, at first.
+    static constexpr unsigned kBetweenTrials = 32;
+
+    /// The choice for all blocks of this process.
+    static PageChoice& of_process();
+
+    /// The pages that the next block shall have.
+    Pages next();
+    /// Tells how long a block of the usual size took.
+    void took(Pages pages, std::chrono::nanoseconds time);
+
+  private:
+    std::mutex mutex_;
+    std::array<std::optional<std::chrono::nanoseconds>, 2> times_; ///< of late, by kind
+    Pages better_ = Pages::small;
+    unsigned between_ = kBetweenTrials, until_trial_ = kBetweenTrials;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,58 @@
+// The choice of pages: the faster kind, found by trying both, and found anew when times change.
+#include "index/system/page_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace isochron::index {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Takes blocks from a machine with these times. @return how many had each kind of pages
+std::array<unsigned, 2> taken(PageChoice& choice, unsigned blocks, std::chrono::nanoseconds small,
+                              std::chrono::nanoseconds huge) {
+    std::array<unsigned, 2> counts{};
+    for (unsigned i = 0; i < blocks; ++i) {
+        const Pages pages = choice.next();
+        ++counts[static_cast<std::size_t>(pages)];
+        choice.took(pages, pages == Pages::small ? small : huge);
+    }
+    return counts;
+}
+
+TEST(PageChoice, TriesEachKindOnceAndThenTakesTheFasterOne) {
+    PageChoice huge_is_faster, small_is_faster;
+    EXPECT_EQ(taken(huge_is_faster, 30, 400us, 60us), (std::array{1u, 29u}));
+    EXPECT_EQ(taken(small_is_faster, 30, 400us, 5ms), (std::array{29u, 1u}));
+}
+
+TEST(PageChoice, TriesTheSlowerOneLessAndLess) {
+    PageChoice choice;
+    const unsigned first = PageChoice::kBetweenTrials;
+    EXPECT_EQ(taken(choice, first + 2, 400us, 5ms)[1], 2u);
+    EXPECT_EQ(taken(choice, 2 * first - 1, 400us, 5ms)[1], 0u);
+    EXPECT_EQ(taken(choice, 1, 400us, 5ms)[1], 1u);
+    EXPECT_LE(taken(choice, 1000 * first, 400us, 5ms)[1], 10u);
+}
+
+TEST(PageChoice, FollowsTimesThatChange) {
+    PageChoice choice;
+    taken(choice, 10, 400us, 60us);
+    // Huge pages have become slow: the next block shows it.
+    EXPECT_LE(taken(choice, 30, 400us, 5ms)[1], 2u);
+    // They are fast again, which a trial shows.
+    EXPECT_GE(taken(choice, 3 * PageChoice::kBetweenTrials, 400us, 60us)[1],
+              PageChoice::kBetweenTrials);
+}
+
+TEST(PageChoice, OneSlowBlockAmongFastOnesIsForgotten) {
+    PageChoice choice;
+    taken(choice, 10, 400us, 60us);
+    choice.took(Pages::huge, 600us); // (60 + 600) / 2 is less than 400
+    EXPECT_EQ(choice.next(), Pages::huge);
+}
+
+} // namespace
+} // namespace isochron::index

@@ -217,6 +217,7 @@ class Session {
     index::DetailQuery detail_for_live(Waiting waiting, const FrameReport& report);
     index::DetailQuery detail_at_rest(Waiting waiting, std::uint64_t moving);
     bool waits_its_turn(const index::ExtractionPtr& set) const;
+    bool comes_too_late(const index::ExtractionPtr& set, Waiting waiting) const;
     bool comes_late(const index::ExtractionPtr& set) const;
     bool is_half_sent() const;
     bool set_comes() const;

@@ -39,7 +39,7 @@ void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
     CellsInFrame cells = frames_->cells(extractor_, scene_.shown(), waiting);
     const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
     const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
-    if (cells.show && !waits_its_turn(*cells.show))
+    if (cells.show && !waits_its_turn(*cells.show) && !comes_too_late(*cells.show, waiting))
         scene_.upload(*cells.show, volume, use_of(*cells.show));
     // A replay uploads all cells that were asked for in one frame, whatever the upload budget.
     while (waiting == Waiting::for_cells && *cells.show &&
@@ -99,6 +99,15 @@ bool Session::waits_its_turn(const index::ExtractionPtr& set) const {
     return set && resting && all_at_rest_ && set != resting && set->query.detail.at_rest &&
            resting->query.of_cells() == set->query.of_cells() && drawn_ &&
            drawn_->cells != resting && set->cells() > kManyMore * resting->cells();
+}
+
+/// Whether a set for moving pictures, asked for before the picture came to rest, has fewer cells than
+/// the one that is there: a picture at rest only gets better.
+bool Session::comes_too_late(const index::ExtractionPtr& set, Waiting waiting) const {
+    const index::ExtractionPtr& moving = scene_.held(Scene::Use::always);
+    return waiting == Waiting::never && rests_ && set && moving && !set->query.detail.at_rest &&
+           set->query.of_cells() == moving->query.of_cells() &&
+           set->query.detail.most_cells < moving->query.detail.most_cells;
 }
 
 /// Whether a set that was asked for is not on the GPU yet.
@@ -198,7 +207,7 @@ index::DetailQuery Session::detail_for_live(Waiting waiting, const FrameReport& 
                                 moving.most_cells >= detail_.most_cells / 2;
         return on_its_way ? detail_ : moving;
     }
-    return detail_at_rest(waiting, moving.most_cells);
+    return detail_at_rest(waiting, std::max(moving.most_cells, held->query.detail.most_cells));
 }
 
 /// First as many cells as quads would show in the pause that a picture at rest may take, so that it

@@ -1,17 +1,12 @@
 // Levels of detail in a session: what moves or sways is shown a set that fits, what rests all
 // cells.
+#include "tests/app/session/large_session.h"
 #include "tests/support/context_in_between.h"
-#include "tests/support/eventually.h"
-#include "tests/support/memory_series.h"
-#include "tests/support/session_fixture.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 namespace isochron::app {
@@ -51,38 +46,6 @@ void* with_little_room(std::string_view name, void* found) {
     return found;
 }
 
-constexpr std::uint64_t kFew = 1 << 14; ///< cells: less than a third of those of `large_`
-
-class SessionDetail : public SessionTest {
-  protected:
-    SessionDetail()
-        : waves_({97, 97, 97}, 1, index::ValueType::f32, [](double x, double y, double z, double) {
-              return std::sin(x / 3) + std::sin(y / 3) + std::sin(z / 3);
-          }) {
-        index::MemorySeries series(waves_.view());
-        build_index(series, folder_.path() / "waves.isochron", {});
-        large_ = index::IndexFile::open(folder_.path() / "waves.isochron");
-    }
-    static Config config_with(double budget_ms) {
-        Config config = small_config();
-        config.frame_budget_ms = budget_ms;
-        config.still_budget_ms = 10'000;
-        return config;
-    }
-    /// A head at rest, or one that sways too slowly to be moving.
-    FrameReport frame(Session& session, bool sways, const interaction::Commands& commands = {}) {
-        interaction::InputState input = head_at_rest(frame_ / 60.0);
-        if (sways)
-            input.devices[0].pose->position.x = 1e-5f * static_cast<float>(frame_ / 2 % 2);
-        ++frame_;
-        return session.frame(input, commands, Waiting::never);
-    }
-
-    index::TestField waves_;
-    std::shared_ptr<const index::IndexFile> large_;
-    int frame_ = 0;
-};
-
 TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) {
     Session session(config_with(1e-6), large_, *context_); // no number of cells fits
     interaction::Commands first;
@@ -115,168 +78,6 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
     EXPECT_GT(report.coarsest, 0u) << "in the frame in which it moves";
     EXPECT_LE(report.cells, 2 * kFew);
     EXPECT_EQ(report.volume_cells, all) << "it is known";
-}
-
-TEST_P(SessionDetail, SlicesBeginAnewWhereAFinerSetComes) {
-    Config config = config_with(1e-6);
-    config.still_budget_ms = 1e-6; // a piece in each frame
-    const render::Gl gl(context_->loader());
-    const auto second_picture = [&](bool in_the_midst) {
-        std::atomic<bool> wait = true, found = false;
-        const index::Extract real =
-            index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
-        const index::Extract extract = [&](const index::SurfacesQuery& query,
-                                           std::stop_token stop) -> index::ExtractionPtr {
-            while (query.detail.at_rest && wait && !stop.stop_requested())
-                std::this_thread::yield();
-            if (!query.detail.at_rest)
-                return real(query, stop);
-            index::SurfacesQuery same = query; // whatever was measured
-            same.detail = {20'000, true, {}};
-            const index::ExtractionPtr set = real(same, stop);
-            if (!set)
-                return nullptr;
-            auto asked = std::make_shared<index::Extraction>(*set);
-            asked->query = query;
-            found = true;
-            return asked;
-        };
-        Session session(config, large_, *context_, extract);
-        interaction::Commands first;
-        first.isovalue = 0.1;
-        FrameReport report = frame(session, false, first);
-        const auto made = [&] {
-            return report.in_slices && report.cells > 0 && report.footprint == *report.in_slices;
-        };
-        EXPECT_TRUE(test_support::eventually([&] {
-            report = frame(session, false);
-            return in_the_midst ? report.in_slices && !made() : made();
-        }));
-        for (int i = 0; i < 12; ++i) // until some cells are drawn, and not only put in order
-            report = frame(session, false);
-        EXPECT_NE(made(), in_the_midst);
-        const std::uint64_t cells = report.cells;
-        wait = false;
-        EXPECT_TRUE(test_support::eventually([&] { return found.load(); }));
-        EXPECT_TRUE(test_support::eventually([&] {
-            report = frame(session, false);
-            return report.cells != cells && made();
-        }));
-        return session.outputs().display().read_window().rgba;
-    };
-    EXPECT_TRUE(second_picture(true) == second_picture(false));
-}
-
-TEST_P(SessionDetail, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThemSoon) {
-    Config config = config_with(1e-6);
-    config.still_budget_ms = 2;
-    Session session(config, large_, *context_);
-    interaction::Commands first;
-    first.isovalue = 0.1;
-    FrameReport report = frame(session, false, first);
-    for (int rest = 0; rest < 2; ++rest) {
-        SCOPED_TRACE(rest);
-        std::uint64_t most = 0; // cells of pictures that came before
-        int coarse = 0;
-        ASSERT_TRUE(test_support::eventually([&] {
-            const auto ends = [&] { return report.final && report.cells > 0; };
-            for (int i = 0; i < 50 && !ends(); ++i) { // the worker may take its time
-                report = frame(session, false);
-                if (!report.redrawn || report.reason != QualityReason::in_slices)
-                    continue;
-                EXPECT_GE(report.cells, most) << "it only gets better";
-                most = report.cells;
-                coarse += report.coarsest > 0;
-            }
-            return ends();
-        }));
-        EXPECT_EQ(report.coarsest, 0u);
-        EXPECT_GT(report.cells, 3 * kFew);
-        EXPECT_EQ(report.footprint, render::Footprint::surface);
-        EXPECT_GT(coarse, 0) << "all cells take long";
-        for (int i = 0; i < 3; ++i)
-            report = frame(session, true);
-        EXPECT_GT(report.coarsest, 0u);
-    }
-}
-
-/// Frames of a session in which quads take a known time for each cell, or suddenly much longer.
-class KnownTimes final : public FramesAlone {
-  public:
-    explicit KnownTimes(const bool& stalls) : stalls_(stalls) {}
-    std::vector<DrawSample> samples(std::vector<DrawSample>) override {
-        constexpr double kOfCell = 1.5 / 20'000 / 2; // ms, in two views
-        const double slower = stalls_ ? 1000 : 1;
-        std::vector<DrawSample> all(1);
-        all[0].load = {2e4, 1 << 15};
-        all[0].processor = Milliseconds(slower * kOfCell * all[0].load.cells);
-        return all;
-    }
-
-  private:
-    const bool& stalls_;
-};
-
-TEST_P(SessionDetail, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
-    Config config = config_with(1e-6);
-    config.still_budget_ms = 2; // three quarters of it hold 20,000 cells
-    bool stalls = false;
-    Session session(config, large_, *context_);
-    session.share_frames(std::make_unique<KnownTimes>(stalls));
-    interaction::Commands first;
-    first.isovalue = 0.1;
-    FrameReport report = frame(session, false, first);
-    std::uint64_t most = 0;
-    int coarse = 0; // pictures in slices
-    ASSERT_TRUE(test_support::eventually([&] {
-        report = frame(session, false);
-        if (!report.redrawn || report.reason != QualityReason::in_slices)
-            return report.final && report.cells > 0;
-        EXPECT_GE(report.cells, most);
-        most = report.cells;
-        coarse += report.coarsest > 0;
-        stalls = coarse > 0;
-        return false;
-    }));
-    EXPECT_EQ(coarse, 1);
-    EXPECT_EQ(report.coarsest, 0u);
-    EXPECT_GT(most, 3 * kFew);
-}
-
-TEST_P(SessionDetail, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheSame) {
-    Config config = config_with(1e-6);
-    config.still_budget_ms = 2;
-    const bool stalls = false;
-    const render::Gl gl(context_->loader());
-    const index::Extract real =
-        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
-    std::atomic<bool> all_found = false;
-    Session session(config, large_, *context_,
-                    [&](const index::SurfacesQuery& query, std::stop_token stop) {
-                        index::ExtractionPtr set = real(query, stop);
-                        if (set && query.detail.at_rest && !set->coarse())
-                            all_found = true;
-                        return set;
-                    });
-    session.share_frames(std::make_unique<KnownTimes>(stalls));
-    interaction::Commands first;
-    first.isovalue = 0.1;
-    FrameReport report = frame(session, false, first);
-    ASSERT_TRUE(test_support::eventually([&] {
-        report = frame(session, false);
-        return report.in_slices && report.cells > 15'000 && report.coarsest > 0;
-    })) << "the first set at rest, of 18,524 cells";
-    report = frame(session, false);
-    ASSERT_NE(report.footprint, report.in_slices) << "a piece in each frame";
-    ASSERT_TRUE(test_support::eventually([&] { return all_found.load(); }));
-    int coarse = 0; // pictures in slices
-    ASSERT_TRUE(test_support::eventually([&] {
-        report = frame(session, false);
-        coarse +=
-            report.redrawn && report.reason == QualityReason::in_slices && report.coarsest > 0;
-        return report.final && report.coarsest == 0;
-    }));
-    EXPECT_EQ(coarse, 1);
 }
 
 TEST_P(SessionDetail, AnythingThatMayStillMoveHasTheBudgetOfAFrame) {

@@ -1,0 +1,240 @@
+// What a picture at rest comes to: all cells, from pictures that only get better.
+#include "tests/app/session/large_session.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <stop_token>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using SessionRest = SessionDetail;
+
+/// Frames of a session in which quads take a known time for each cell, or suddenly much longer.
+class KnownTimes final : public FramesAlone {
+  public:
+    explicit KnownTimes(const std::atomic<bool>& stalls) : stalls_(stalls) {}
+    std::vector<DrawSample> samples(std::vector<DrawSample>) override {
+        constexpr double kOfCell = 1.5 / 20'000 / 2; // ms, in two views
+        const double slower = stalls_ ? 1000 : 1;
+        std::vector<DrawSample> all(1);
+        all[0].load = {2e4, 1 << 15};
+        all[0].processor = Milliseconds(slower * kOfCell * all[0].load.cells);
+        return all;
+    }
+
+  private:
+    const std::atomic<bool>& stalls_;
+};
+
+TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 1e-6; // a piece in each frame
+    const render::Gl gl(context_->loader());
+    const auto second_picture = [&](bool in_the_midst) {
+        std::atomic<bool> wait = true, found = false;
+        const index::Extract real =
+            index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+        const index::Extract extract = [&](const index::SurfacesQuery& query,
+                                           std::stop_token stop) -> index::ExtractionPtr {
+            while (query.detail.at_rest && wait && !stop.stop_requested())
+                std::this_thread::yield();
+            if (!query.detail.at_rest)
+                return real(query, stop);
+            index::SurfacesQuery same = query; // whatever was measured
+            same.detail = {20'000, true, {}};
+            const index::ExtractionPtr set = real(same, stop);
+            if (!set)
+                return nullptr;
+            auto asked = std::make_shared<index::Extraction>(*set);
+            asked->query = query;
+            found = true;
+            return asked;
+        };
+        Session session(config, large_, *context_, extract);
+        interaction::Commands first;
+        first.isovalue = 0.1;
+        FrameReport report = frame(session, false, first);
+        const auto made = [&] {
+            return report.in_slices && report.cells > 0 && report.footprint == *report.in_slices;
+        };
+        EXPECT_TRUE(test_support::eventually([&] {
+            report = frame(session, false);
+            return in_the_midst ? report.in_slices && !made() : made();
+        }));
+        for (int i = 0; i < 12; ++i) // until some cells are drawn, and not only put in order
+            report = frame(session, false);
+        EXPECT_NE(made(), in_the_midst);
+        const std::uint64_t cells = report.cells;
+        wait = false;
+        EXPECT_TRUE(test_support::eventually([&] { return found.load(); }));
+        EXPECT_TRUE(test_support::eventually([&] {
+            report = frame(session, false);
+            return report.cells != cells && made();
+        }));
+        return session.outputs().display().read_window().rgba;
+    };
+    EXPECT_TRUE(second_picture(true) == second_picture(false));
+}
+
+TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThemSoon) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 2;
+    Session session(config, large_, *context_);
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, false, first);
+    for (int rest = 0; rest < 2; ++rest) {
+        SCOPED_TRACE(rest);
+        std::uint64_t most = 0; // cells of pictures that came before
+        int coarse = 0;
+        ASSERT_TRUE(test_support::eventually([&] {
+            const auto ends = [&] { return report.final && report.cells > 0; };
+            for (int i = 0; i < 50 && !ends(); ++i) { // the worker may take its time
+                report = frame(session, false);
+                if (!report.redrawn || report.reason != QualityReason::in_slices)
+                    continue;
+                EXPECT_GE(report.cells, most) << "it only gets better";
+                most = report.cells;
+                coarse += report.coarsest > 0;
+            }
+            return ends();
+        }));
+        EXPECT_EQ(report.coarsest, 0u);
+        EXPECT_GT(report.cells, 3 * kFew);
+        EXPECT_EQ(report.footprint, render::Footprint::surface);
+        EXPECT_GT(coarse, 0) << "all cells take long";
+        for (int i = 0; i < 3; ++i)
+            report = frame(session, true);
+        EXPECT_GT(report.coarsest, 0u);
+    }
+}
+
+TEST_P(SessionRest, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 2; // three quarters of it hold 20,000 cells
+    std::atomic<bool> stalls = false;
+    Session session(config, large_, *context_);
+    session.share_frames(std::make_unique<KnownTimes>(stalls));
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, false, first);
+    std::uint64_t most = 0;
+    int coarse = 0; // pictures in slices
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        if (!report.redrawn || report.reason != QualityReason::in_slices)
+            return report.final && report.cells > 0;
+        EXPECT_GE(report.cells, most);
+        most = report.cells;
+        coarse += report.coarsest > 0;
+        stalls = coarse > 0;
+        return false;
+    }));
+    EXPECT_EQ(coarse, 1);
+    EXPECT_EQ(report.coarsest, 0u);
+    EXPECT_GT(most, 3 * kFew);
+}
+
+TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheSame) {
+    Config config = config_with(1e-6);
+    config.still_budget_ms = 2;
+    std::atomic<bool> stalls = false;
+    const render::Gl gl(context_->loader());
+    const index::Extract real =
+        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+    std::atomic<bool> all_found = false;
+    Session session(config, large_, *context_,
+                    [&](const index::SurfacesQuery& query, std::stop_token stop) {
+                        index::ExtractionPtr set = real(query, stop);
+                        if (set && query.detail.at_rest && !set->coarse())
+                            all_found = true;
+                        return set;
+                    });
+    session.share_frames(std::make_unique<KnownTimes>(stalls));
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, false, first);
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        return report.in_slices && report.cells > 15'000 && report.coarsest > 0;
+    })) << "the first set at rest, of 18,524 cells";
+    report = frame(session, false);
+    ASSERT_NE(report.footprint, report.in_slices) << "a piece in each frame";
+    ASSERT_TRUE(test_support::eventually([&] { return all_found.load(); }));
+    int coarse = 0; // pictures in slices
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        coarse +=
+            report.redrawn && report.reason == QualityReason::in_slices && report.coarsest > 0;
+        return report.final && report.coarsest == 0;
+    }));
+    EXPECT_EQ(coarse, 1);
+}
+
+TEST_P(SessionRest, ASetForMotionThatComesWhenThePictureRestsTakesNoCellsBack) {
+    const render::Gl gl(context_->loader());
+    const index::Extract real =
+        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+    std::atomic<bool> stalls = false, hold = false, held = false, found = false, rest_waits = true;
+    std::atomic<std::uint64_t> most_of_last = 0;
+    // One that has just been found when it is no longer wanted cannot be stopped.
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+        while (query.detail.at_rest && found && rest_waits && !stop.stop_requested())
+            std::this_thread::yield();
+        const std::uint64_t most = query.detail.most_cells;
+        if (query.detail.at_rest || most >= most_of_last.exchange(most) || !hold)
+            return real(query, std::move(stop));
+        held = true;
+        hold.wait(true);
+        found = true;
+        return real(query, {});
+    };
+    Session session(config_with(4), large_, *context_, extract);
+    const auto let_go = [&] {
+        hold = false;
+        hold.notify_all();
+    };
+    const std::shared_ptr<void> at_last(nullptr, [&](void*) { let_go(); });
+    session.share_frames(std::make_unique<KnownTimes>(stalls)); // 40,000 cells fit
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, true, first);
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, true);
+        return report.cells > 3 * kFew / 2;
+    }));
+    hold = stalls = true;
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, true);
+        return held.load();
+    })) << "a smaller set is asked for";
+    for (int i = 0; i < 20; ++i)
+        report = frame(session, false);
+    const std::uint64_t many = report.cells;
+    EXPECT_GT(many, 3 * kFew / 2);
+    let_go();
+    ASSERT_TRUE(test_support::eventually([&] { return found.load(); }));
+    for (int i = 0; i < 30; ++i)
+        EXPECT_EQ(frame(session, false).cells, many) << i;
+    rest_waits = false;
+    std::uint64_t most = many;
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        EXPECT_GE(report.cells, most);
+        most = report.cells;
+        return report.final && report.coarsest == 0;
+    }));
+    EXPECT_GT(most, many);
+}
+
+INSTANTIATE_TEST_SUITE_P(Contexts, SessionRest,
+                         testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
+                         context_name);
+
+} // namespace
+} // namespace isochron::app

@@ -13,11 +13,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void stop_if_asked(const std::stop_token& stop) {
-    if (stop.stop_requested())
-        throw Stopped();
-}
-
 } // namespace
 
 CubeSearch::CubeSearch(const ChunkStore& store)

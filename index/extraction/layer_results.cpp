@@ -23,17 +23,22 @@ void make_room(std::vector<T>& values, std::size_t more, double done) {
                        (values.capacity() - values.size()) * sizeof(T));
 }
 
-/// @return the appended values in `to`
-template <class T>
-std::span<T> appended(std::vector<T>& to, const std::vector<T>& more) {
-    to.insert(to.end(), more.begin(), more.end());
-    return std::span(to).last(more.size());
+/// Appends values, some at a time until it is asked to stop, and calls `f` for each where it is.
+template <class T, class F>
+void append_each(std::vector<T>& to, const std::vector<T>& more, const std::stop_token& stop,
+                 const F& f) {
+    constexpr std::size_t kTogether = 1 << 15;
+    for (std::size_t i = 0; i < more.size() && !stop.stop_requested(); i += kTogether) {
+        const auto some = std::span(more).subspan(i, std::min(kTogether, more.size() - i));
+        to.insert(to.end(), some.begin(), some.end());
+        std::ranges::for_each(std::span(to).last(some.size()), f);
+    }
 }
 
 } // namespace
 
-LayerResults::LayerResults(CellSet& set, std::uint32_t layers) : LayerResults(layers) {
-    set_ = &set;
+LayerResults::LayerResults(CellSet& set, std::uint32_t layers, std::stop_token stop)
+    : set_(&set), stop_(std::move(stop)), waiting_(layers), came_(layers) {
     set.ids.clear();
     set.points.clear();
     set.rows.clear();
@@ -82,14 +87,13 @@ void LayerResults::keep(const LayerResult& result) {
     make_room(set_->ids, from.ids.size(), done);
     make_room(set_->points, from.points.size(), done);
     make_room(set_->rows, from.rows.size(), done);
-    for (CellId& id : appended(set_->ids, from.ids))
-        id += result.first;
-    for (CellPoint& point : appended(set_->points, from.points))
-        point.z = static_cast<std::uint16_t>(point.z + plane);
-    for (CellRow& row : appended(set_->rows, from.rows)) {
+    append_each(set_->ids, from.ids, stop_, [&](CellId& id) { id += result.first; });
+    append_each(set_->points, from.points, stop_,
+                [&](CellPoint& point) { point.z = static_cast<std::uint16_t>(point.z + plane); });
+    append_each(set_->rows, from.rows, stop_, [&](CellRow& row) {
         row.z = static_cast<std::uint16_t>(row.z + plane);
         row.begin += before;
-    }
+    });
     set_->candidates += from.candidates;
 }
 

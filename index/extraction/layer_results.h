@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <stop_token>
 #include <vector>
 
 namespace isochron::index {
@@ -24,7 +25,8 @@ struct LayerResult {
 class LayerResults {
   public:
     /// @param set gets the cells; outlives this
-    LayerResults(CellSet& set, std::uint32_t layers);
+    /// @param stop once it is requested, cells are no longer kept
+    LayerResults(CellSet& set, std::uint32_t layers, std::stop_token stop);
     /// Counts cells and does not keep them.
     explicit LayerResults(std::uint32_t layers);
 
@@ -41,6 +43,7 @@ class LayerResults {
     void keep(const LayerResult& result);
 
     CellSet* set_; ///< null to count only
+    const std::stop_token stop_;
     std::mutex mutex_;
     std::vector<LayerResult> waiting_;
     std::vector<bool> came_; ///< by layer

@@ -65,8 +65,7 @@ bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, con
                                  const WorkOfThread& work, const std::stop_token& stop) {
     const std::uint32_t layers = StepSlab::layers(store_.info().grid);
     ReadAhead ahead(layers, [&](std::uint32_t layer) {
-        if (stop.stop_requested())
-            throw Stopped();
+        stop_if_asked(stop);
         return store_.fetch(step, layer, places(layer), stop);
     });
     const unsigned threads = this->threads();
@@ -75,8 +74,7 @@ bool LayerSearch::for_each_layer(std::uint32_t step, const PlacesOf& places, con
     try {
         parallel_for(std::size_t{layers} + before, threads,
                      [&](std::size_t item, unsigned worker) {
-                         if (stop.stop_requested())
-                             throw Stopped();
+                         stop_if_asked(stop);
                          if (item < layers) {
                              ahead.reach(static_cast<std::uint32_t>(item));
                              if (prepare)
@@ -141,7 +139,7 @@ std::span<const CellId> LayerSearch::of_layer(const Cells& cells, std::uint32_t 
 bool LayerSearch::search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop,
                          const ChunkFilter& only) {
     const auto started = Clock::now();
-    LayerResults results(set, StepSlab::layers(store_.info().grid));
+    LayerResults results(set, StepSlab::layers(store_.info().grid), stop);
     if (!run(set.query, by_bricks, shaded, stop, only, results))
         return false;
     // Search and shading ran in parallel: the elapsed time is divided by their shares.
@@ -186,6 +184,7 @@ bool LayerSearch::run(const Query& query, bool by_bricks, bool shaded, const std
     const auto find = [&](StepSlab& slab, LayerResult& result) {
         result.cells.candidates =
             test_bricks(slab.cells(), *levels, slab.bricks(), query, result.cells.ids);
+        stop_if_asked(stop);
         sort_ids(result.cells.ids, slab.cells().grid.cell_count());
     };
     const auto finish = [&](StepSlab& slab, std::uint32_t layer, LayerResult& result,
@@ -194,6 +193,7 @@ bool LayerSearch::run(const Query& query, bool by_bricks, bool shaded, const std
         result.first_plane = slab.first_plane();
         for (CellId& id : result.cells.ids)
             id += slab.first_cell() - slab.first_around();
+        stop_if_asked(stop);
         result.searching += Clock::now() - begun;
         if (shaded && !result.cells.ids.empty())
             shade(slab, query, result, stop);
@@ -268,7 +268,7 @@ bool LayerSearch::keep_active(const Query& query, std::vector<CellId>& ids,
 
 bool LayerSearch::shade_cells(CellSet& set, const std::stop_token& stop) {
     CellSet shaded;
-    LayerResults results(shaded, StepSlab::layers(store_.info().grid));
+    LayerResults results(shaded, StepSlab::layers(store_.info().grid), stop);
     const bool finished = for_each_layer_of(
         set.query.step, {set.ids},
         [&](StepSlab& slab, std::uint32_t layer) {

@@ -84,8 +84,7 @@ void WholeLayers::run(RecordStream& stream, const Work& work, const std::stop_to
         const auto begun = std::chrono::steady_clock::now();
         decode(piece, *of_piece);
         for (const std::uint32_t layer : finish(piece, std::chrono::steady_clock::now() - begun)) {
-            if (stop.stop_requested())
-                throw Stopped();
+            stop_if_asked(stop);
             for (const std::uint32_t near : {layer - 1, layer + 1})
                 if (near >= decoded_.first && near < decoded_.end) // false for 0 - 1, too
                     slab(layer).fill_from(slab(near));

@@ -170,8 +170,7 @@ void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint
                               const std::stop_token& stop, F&& f) const {
     thread_local std::vector<std::byte> bytes;
     for (const RecordRun& run : runs_of(table, places)) {
-        if (stop.stop_requested())
-            throw Stopped();
+        stop_if_asked(stop);
         bytes.resize(std::max<std::size_t>(bytes.size(), run.end - run.begin));
         source_.read(run.begin, std::span(bytes).first(run.end - run.begin));
         for (std::size_t i = run.first; i <= run.last; ++i) {
@@ -245,8 +244,7 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
             source_.expect(array_.steps[step].offset, array_.steps[step].bytes);
         else
             ahead.emplace(grid_.layers(), [&](std::uint32_t layer) {
-                if (stop.stop_requested())
-                    throw Stopped();
+                stop_if_asked(stop);
                 return fetch(step, layer, places, stop);
             });
         const auto take = [&](std::size_t at, unsigned) {

@@ -41,6 +41,11 @@ using StepTilesPtr = std::shared_ptr<const StepTiles>;
 
 /// Thrown by a read that was asked to stop.
 struct Stopped {};
+/// @throws Stopped if it is requested
+inline void stop_if_asked(const std::stop_token& stop) {
+    if (stop.stop_requested())
+        throw Stopped();
+}
 
 /// Thread-safe. Functions that read the file throw Error if it is damaged or cannot be read.
 class ChunkStore {

@@ -45,8 +45,7 @@ void RecordStream::run(const std::stop_token& quit, std::uint32_t step, std::uin
         for (std::uint32_t layer = first; layer < end; ++layer) {
             const ChunkLayerPtr table = store_.layer(step, layer);
             for (std::uint32_t place = 0; place < table->low.size(); place = piece.end) {
-                if (stop_.stop_requested())
-                    throw Stopped();
+                stop_if_asked(stop_);
                 piece.layer = layer;
                 piece.first = place;
                 piece.end = end_of_piece(*table, place);

@@ -37,8 +37,7 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       points_(gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole),
       message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       styles_(gl, "colored cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
-      corner_values_(gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none),
-      corner_gradients_(gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none),
+      corner_values_(corner_values_array(gl)), corner_gradients_(corner_gradients_array(gl)),
       mesh_(gl), surroundings_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
@@ -363,6 +362,20 @@ std::size_t CellBuffers::compute_corners(std::size_t most) {
                                {corners_done_, count});
     corners_done_ += count;
     return count;
+}
+
+void CellBuffers::write_corners(DrawPart slots, const DeviceArray& values,
+                                const DeviceArray& gradients) const {
+    assert(has_volume());
+    compute_->fill_corners(*shown_, *bricks_, points_, values, gradients, slots, slots.first);
+}
+
+DeviceArray CellBuffers::corner_values_array(const Gl& gl) {
+    return {gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none};
+}
+
+DeviceArray CellBuffers::corner_gradients_array(const Gl& gl) {
+    return {gl, "cells", GL_RGBA32UI, 4 * kWord, 4, DeviceArray::Storage::none};
 }
 
 } // namespace isochron::render

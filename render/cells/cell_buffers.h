@@ -120,6 +120,12 @@ class CellBuffers {
     void compute_corners() { compute_corners(std::numeric_limits<std::size_t>::max()); }
     /// The same in pieces, of at most so many cells. @return how many cells it was; 0: none is left
     std::size_t compute_corners(std::size_t most);
+    /// The same of some slots, into arrays of the caller, the first of them at their beginning.
+    /// @param slots in use; the set's volume is on the GPU
+    void write_corners(DrawPart slots, const DeviceArray& values,
+                       const DeviceArray& gradients) const;
+    static DeviceArray corner_values_array(const Gl& gl);
+    static DeviceArray corner_gradients_array(const Gl& gl);
     /// Most cells that these textures can hold: fewer than can be drawn without them.
     std::size_t corner_limit() const { return corner_gradients_.limit(); }
     /// GL_TEXTURE_BUFFER by slot, two RGBA32F texels each: the values at the cell's vertices minus

@@ -163,14 +163,15 @@ void CellCompute::fill_planes(const index::Extraction& set, const BrickPool& bri
 
 void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& bricks,
                                const DeviceArray& points, const DeviceArray& values,
-                               const DeviceArray& gradients, DrawPart cells) const {
+                               const DeviceArray& gradients, DrawPart cells,
+                               std::size_t first) const {
     use_volume(set, bricks);
     bind(0, points);
     run(corners_, cells, {}, [&](std::size_t begin, std::size_t end) {
         const std::size_t count =
             std::max(end - begin, std::size_t{1}); // a range must not be empty
-        bind(1, values, begin, count);
-        bind(2, gradients, begin, count);
+        bind(1, values, begin - first, count);
+        bind(2, gradients, begin - first, count);
     });
 }
 

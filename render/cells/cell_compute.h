@@ -41,9 +41,10 @@ class CellCompute {
                      const DeviceArray& points) const;
 
     /// Writes values and gradients at the vertices of some cells, by slot.
+    /// @param first slot at the beginning of these two arrays
     void fill_corners(const index::Extraction& set, const BrickPool& bricks,
                       const DeviceArray& points, const DeviceArray& values,
-                      const DeviceArray& gradients, DrawPart cells) const;
+                      const DeviceArray& gradients, DrawPart cells, std::size_t first = 0) const;
 
   private:
     void use_volume(const index::Extraction& set, const BrickPool& bricks) const;

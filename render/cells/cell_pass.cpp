@@ -33,6 +33,22 @@ std::size_t ordering_work(const CellBuffers& cells) {
     return (cells.size() + kOrdered - 1) / kOrdered;
 }
 
+/// Whether only as many cells are drawn at once as a window of corners holds.
+bool comes_in_windows(Footprint footprint, bool blended) {
+    return footprint == Footprint::surface && !blended;
+}
+
+/// Calls `f` for pieces of a part that can be drawn at once.
+template <class F>
+void for_each_piece(DrawPart part, Footprint footprint, bool blended, const F& f) {
+    const std::size_t most =
+        comes_in_windows(footprint, blended) ? CornerWindow::kCells : part.count;
+    for (std::size_t count = 0; part.count > 0; part.first += count, part.count -= count) {
+        count = std::min(part.count, most);
+        f(DrawPart{part.first, count});
+    }
+}
+
 } // namespace
 
 CellPass::Programs CellPass::programs(std::string_view fragment_shader,
@@ -62,8 +78,8 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
       largest_point_(Limits(gl).largest_point),
       quad_programs_(footprint_programs("cell_quad.frag", Footprint::quad)),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", Footprint::gaussian)),
-      mesh_(gl, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude), quads_(gl),
-      sequences_(gl), frame_(gl) {
+      mesh_(gl, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude), corners_(gl),
+      quads_(gl), sequences_(gl), frame_(gl) {
     if (shapes.shape == CellShape::voxel)
         quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
     const float falloff = gaussian_falloff();
@@ -91,10 +107,16 @@ void CellPass::draw(std::span<const View> views, const Placement& placement,
         const std::size_t at_once = views_at_once(footprint);
         const std::size_t work = work_of(cells, footprint, layer);
         for (std::size_t first = 0; first < views.size(); first += at_once, before += work)
-            if (const DrawPart cut = part.among(before, work); cut.count > 0)
-                draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)),
-                             placement, cells, footprint, layer, appearance, cut);
+            for_each_piece(
+                part.among(before, work), footprint, layer.blended, [&](const DrawPart& piece) {
+                    draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)),
+                                 placement, cells, footprint, layer, appearance, piece);
+                });
     }
+}
+
+bool CellPass::needs_corners(const CellBuffers& cells, const CellAppearance& appearance) {
+    return std::ranges::any_of(layers_of(cells, Footprint::surface, appearance), &Layer::blended);
 }
 
 std::size_t CellPass::work(std::size_t views, const CellBuffers& cells, Footprint footprint,
@@ -172,7 +194,9 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     part = put_in_order(views, placement, cells, footprint, layer, appearance, part);
     if (part.count == 0)
         return;
-    const bool blended = layer.blended;
+    const bool blended = layer.blended, in_windows = comes_in_windows(footprint, blended);
+    if (in_windows)
+        corners_.show(cells, part);
     FrameBlock frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended, placement,
                                 cells.surroundings(), cells.slots().largest > 0);
     CellSequence sequence{.cells = cells.size()};
@@ -190,7 +214,7 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
         gl_->BindTextureUnit(2, cells.texture());
     if (is_ordered(footprint, blended) && !has_layers(footprint))
         sequence = sequence.part(part.first, part.first + part.count, cells.size());
-    frame.order_begin = sequence.begin;
+    frame.order_begin = in_windows ? static_cast<std::int32_t>(part.first) : sequence.begin;
     frame.order_step = sequence.step;
     // Meshes have a color of their own in each pixel: the target converts these faster to display
     // values than the shader.
@@ -216,8 +240,12 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     } else {
         gl_->Disable(GL_BLEND);
     }
-    if (footprint == Footprint::surface)
-        surface_.draw(quads_, cells, blended, views.size(), part);
+    if (in_windows)
+        surface_.draw(quads_, corners_.values_texture(), corners_.gradients_texture(), false,
+                      views.size(), {0, part.count});
+    else if (footprint == Footprint::surface)
+        surface_.draw(quads_, cells.corner_values_texture(), cells.corner_gradients_texture(), true,
+                      views.size(), part);
     else if (footprint == Footprint::mesh)
         draw_mesh(views.front(), placement, cells, layer, appearance, frame, part);
     else

@@ -5,6 +5,7 @@
 #include "render/cells/cell_appearance.h"
 #include "render/cells/cell_buffers.h"
 #include "render/cells/cell_sequence.h"
+#include "render/cells/corner_window.h"
 #include "render/cells/draw_part.h"
 #include "render/cells/footprints.h"
 #include "render/cells/frame_block.h"
@@ -35,8 +36,8 @@ class CellPass {
     /// Draws the cells into the views' viewports of the bound framebuffer, two views in one pass if
     /// the driver can; does nothing without cells. Quads and opaque surfaces test and write depth.
     /// Splats and translucent surfaces only test depth, and blend over the target with
-    /// pre-multiplied alpha. Exact surfaces need `CellBuffers::compute_corners` before, and meshes
-    /// need `CellBuffers::has_mesh`.
+    /// pre-multiplied alpha. Exact surfaces need the cells' volume on the GPU, and where one
+    /// `needs_corners`, `CellBuffers::compute_corners` before; meshes need `CellBuffers::has_mesh`.
     /// Leaves depth test, depth writes and GL_FRAMEBUFFER_SRGB on, blending and culling off, and
     /// the viewport undefined.
     /// @param part of the work: drawn one after the other, all parts give the same picture as the
@@ -47,6 +48,9 @@ class CellPass {
               Footprint footprint, const CellAppearance& appearance = {}) {
         draw(std::span(&view, 1), placement, cells, footprint, appearance);
     }
+    /// Whether the exact surface of these cells is drawn in an order, as where light shines through,
+    /// so that the corners of all cells are wanted at a time.
+    static bool needs_corners(const CellBuffers& cells, const CellAppearance& appearance);
 
     /// Work of drawing these cells into so many views, of which `draw` can do a part: cells of the
     /// exact surface, triangles of a mesh. Quads and splats are first put in order, which counts as
@@ -136,6 +140,7 @@ class CellPass {
     FootprintPrograms quad_programs_, gaussian_programs_;
     MeshPass mesh_;
     SurfacePass surface_;
+    CornerWindow corners_; ///< of opaque surfaces
     QuadIndices quads_;
     CellSequences sequences_;
     Buffer frame_;

@@ -21,15 +21,14 @@ SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once, const std::string
                                          (each_sample ? "#define EACH_SAMPLE\n" : ""));
 }
 
-void SurfacePass::draw(const QuadIndices& quads, const CellBuffers& cells, bool blended,
+void SurfacePass::draw(const QuadIndices& quads, GLuint values, GLuint gradients, bool blended,
                        std::size_t views, DrawPart part) const {
-    gl_->BindTextureUnit(3, cells.corner_values_texture());
-    gl_->BindTextureUnit(4, cells.corner_gradients_texture());
+    gl_->BindTextureUnit(3, values);
+    gl_->BindTextureUnit(4, gradients);
     GLint samples = 0;
     gl_->GetIntegerv(GL_SAMPLES, &samples); // of the target
     gl_->UseProgram(programs_[samples > 1][blended][views - 1]->name());
-    const DrawPart cut = part.among(0, cells.size());
-    quads.draw(cut.count, static_cast<int>(views), cut.first);
+    quads.draw(part.count, static_cast<int>(views), part.first);
 }
 
 } // namespace isochron::render

@@ -24,11 +24,12 @@ class SurfacePass {
     /// In a multisampled target every sample has its own ray: the edges of the surface are found
     /// only by rays, not by edges of triangles.
     /// @param blended several layers within a cell are blended from far to near, pre-multiplied
-    /// @param cells after `CellBuffers::compute_corners`
+    /// @param values, gradients textures as `CellBuffers` has them; where cells have no order, from
+    /// the first one that is drawn on
     /// @param views 1 or 2
     /// @param part of the cells, in the order in which they are drawn
-    void draw(const QuadIndices& quads, const CellBuffers& cells, bool blended, std::size_t views,
-              DrawPart part) const;
+    void draw(const QuadIndices& quads, GLuint values, GLuint gradients, bool blended,
+              std::size_t views, DrawPart part) const;
 
   private:
     /// [blended][views - 1]

@@ -7,7 +7,7 @@ layout(binding = 2) uniform usamplerBuffer order_of_other_eye;
 // pixel (x, and y from bit 16 on), and its size [pixel], 0 if that is not known
 uvec3 in_order(int n) {
     if (order_step == 0)
-        return uvec3(n, 0, 0);
+        return uvec3(order_begin + n, 0, 0);
     int at = order_begin + n * order_step;
     return EYE_INDEX == 0 ? texelFetch(order, at).xyz : texelFetch(order_of_other_eye, at).xyz;
 }

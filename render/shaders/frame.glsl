@@ -32,7 +32,7 @@ layout(std140, binding = 0) uniform Frame {
     bool linear_light;  // written colors are linear light; else display values
     float radius;       // of the footprint, in voxels
     int order_begin;    // the n-th cell drawn is in slot order[order_begin + n * order_step],
-    int order_step;     // or in slot n where the step is 0
+    int order_step;     // or in slot order_begin + n where the step is 0
     bool blended;
     int drawn_surfaces; // a bit for each
     bool soft_near_eye; // fade what comes so near that it would veil the whole view

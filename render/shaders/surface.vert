@@ -36,10 +36,10 @@ vec3 unpack_gradient(uvec2 words) {
     return dot(g, g) < 1e30 ? g : vec3(0);
 }
 
-void set_gradient(int slot) {
+void set_gradient(int corners) {
     vec3 sum[4], difference[4]; // of the two corners along x
     for (int i = 0; i < 4; ++i) {
-        uvec4 words = texelFetch(corner_gradients, 4 * slot + i);
+        uvec4 words = texelFetch(corner_gradients, 4 * corners + i);
         vec3 first = unpack_gradient(words.xy), second = unpack_gradient(words.zw);
         sum[i] = first + second;
         difference[i] = second - first;
@@ -162,7 +162,8 @@ vec4 corner_around(Slab slab, vec3 cell_center, vec3 voxel, vec2 corner) {
 
 void main() {
     start_eye();
-    int slot = slot_in_order(gl_VertexID >> 2);
+    int number = gl_VertexID >> 2, slot = slot_in_order(number);
+    int corners = order_step == 0 ? number : slot; // of all slots, or from the first one drawn
     uvec3 cell = texelFetch(cells, slot).xyz;
     ivec3 place = ivec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu);
     vec3 of_cell = cell_size(place);
@@ -179,13 +180,13 @@ void main() {
 #endif
     base = vec4(base_color(style), surfaces[style & 7u].a);
 
-    vec4 low = texelFetch(corner_values, 2 * slot), high = texelFetch(corner_values, 2 * slot + 1);
+    vec4 low = texelFetch(corner_values, 2 * corners), high = texelFetch(corner_values, 2 * corners + 1);
     vec4 size = max(abs(low), abs(high));
     float largest = max(max(size.x, size.y), max(size.z, size.w));
     low /= largest;
     high /= largest;
     set_value(low, high);
-    set_gradient(slot);
+    set_gradient(corners);
 
     vec2 x = extent(vec4(low.xz, high.xz), vec4(low.yw, high.yw));
     vec2 y = extent(vec4(low.xy, high.xy), vec4(low.zw, high.zw));

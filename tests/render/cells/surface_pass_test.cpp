@@ -153,6 +153,34 @@ TEST_P(SurfacePasses, ATransparentSurfaceShowsEveryLayerFarToNear) {
                             [](float depth) { return depth == 1.0f; })); // blends, hides nothing
 }
 
+TEST_P(SurfacePasses, MoreCellsThanHaveCornersAtATimeAreAllWhereTheyBelong) {
+    const TestField sheet({400, 300, 2}, 1, ValueType::u8, index::white_noise(random_));
+    const VertexField field(sheet.view(), {0, 0.01});
+    const Placement placement = placed_at_origin(sheet.view().grid);
+    CellBuffers cells(gl_, field.values().grid);
+    const index::ExtractionPtr active = Extractions(field.values()).active(0, {0.01});
+    ASSERT_GT(active->cells(), CornerWindow::kCells);
+    cells.upload(active, std::numeric_limits<std::size_t>::max());
+    View view = perspective_view({0.1f, 0.05f, 1.2f});
+    view.size = {640, 480};
+    const SurfacePicture picture = draw(field, placement, view);
+    const Agreement agreement = compare(picture, field, view, placement);
+    EXPECT_GT(agreement.hit, 40'000);
+    EXPECT_LE(agreement.hit_by_one, 1e-3 * agreement.hit);
+    EXPECT_LE(Agreement::percentile(agreement.depth_errors, 0.99), 0.02);
+    CellPass pass(gl_);
+    const auto drawn = [&](std::size_t together) {
+        const RenderTarget target(gl_, view.size);
+        target.bind();
+        target.clear(glm::vec4(0.0f));
+        for (std::size_t first = 0; first < cells.size(); first += together)
+            pass.draw(std::span(&view, 1), placement, cells, Footprint::surface, {},
+                      {first, together});
+        return target.read().rgba;
+    };
+    EXPECT_TRUE(drawn(cells.size()) == drawn(9'999));
+}
+
 TEST_P(SurfacePasses, AnOpaqueSurfaceIsSeenThroughAnotherThatSharesItsCells) {
     // Two levels of a slope, 0.4 voxels apart in the same layer of cells.
     const TestField slope({12, 12, 12}, 1, ValueType::f32,

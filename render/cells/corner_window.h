@@ -1,0 +1,36 @@
+// Values and gradients at the vertices of some cells, which are about to be drawn.
+#pragma once
+
+#include "render/cells/cell_buffers.h"
+#include "render/cells/draw_part.h"
+#include "render/gl/device_array.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace isochron::render {
+
+/// What `CellBuffers::compute_corners` computes, for a range of slots at a time in the same memory:
+/// memory for all cells of a large set takes longer to get than a frame may.
+class CornerWindow {
+  public:
+    static constexpr std::size_t kCells = 1 << 16; ///< most cells at a time: 6 MiB
+
+    explicit CornerWindow(const Gl& gl);
+
+    /// Computes the data of these slots, unless they are there.
+    /// @param part at most `kCells`, all of them in use; the cells' volume is on the GPU
+    void show(const CellBuffers& cells, DrawPart part);
+
+    /// As `CellBuffers` has them, counted from the first slot of the range.
+    GLuint values_texture() const { return values_.texture(); }
+    GLuint gradients_texture() const { return gradients_.texture(); }
+
+  private:
+    const Gl* gl_;
+    DeviceArray values_, gradients_;
+    std::uint64_t version_ = 0; ///< of the cells
+    DrawPart shown_{0, 0};
+};
+
+} // namespace isochron::render

@@ -68,7 +68,10 @@ void BrickPool::forget() {
 std::uint32_t BrickPool::take_slot() {
     if (free_.empty()) {
         const std::size_t before = held_.size();
-        values_.reserve(std::max(before + 1, kFirstCapacity), DeviceArray::Contents::kept);
+        // Of a first set all are missing: growing step by step would copy them again and again.
+        const std::size_t wanted = shown_.empty() ? bricks_->ids.size() : before + 1;
+        values_.reserve(std::max({before + 1, wanted, kFirstCapacity}),
+                        DeviceArray::Contents::kept);
         held_.resize(values_.capacity());
         for (std::size_t slot = held_.size(); slot-- > before;)
             free_.push_back(static_cast<std::uint32_t>(slot));

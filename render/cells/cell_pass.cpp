@@ -38,11 +38,9 @@ bool comes_in_windows(Footprint footprint, bool blended) {
     return footprint == Footprint::surface && !blended;
 }
 
-/// Calls `f` for pieces of a part that can be drawn at once.
+/// Calls `f` for pieces of a part.
 template <class F>
-void for_each_piece(DrawPart part, Footprint footprint, bool blended, const F& f) {
-    const std::size_t most =
-        comes_in_windows(footprint, blended) ? CornerWindow::kCells : part.count;
+void for_each_piece(DrawPart part, std::size_t most, const F& f) {
     for (std::size_t count = 0; part.count > 0; part.first += count, part.count -= count) {
         count = std::min(part.count, most);
         f(DrawPart{part.first, count});
@@ -106,12 +104,13 @@ void CellPass::draw(std::span<const View> views, const Placement& placement,
     for (const Layer& layer : layers_of(cells, footprint, appearance)) {
         const std::size_t at_once = views_at_once(footprint);
         const std::size_t work = work_of(cells, footprint, layer);
+        const std::size_t most =
+            comes_in_windows(footprint, layer.blended) ? corners_.most() : work;
         for (std::size_t first = 0; first < views.size(); first += at_once, before += work)
-            for_each_piece(
-                part.among(before, work), footprint, layer.blended, [&](const DrawPart& piece) {
-                    draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)),
-                                 placement, cells, footprint, layer, appearance, piece);
-                });
+            for_each_piece(part.among(before, work), most, [&](const DrawPart& piece) {
+                draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)),
+                             placement, cells, footprint, layer, appearance, piece);
+            });
     }
 }
 

@@ -18,8 +18,11 @@ class CornerWindow {
 
     explicit CornerWindow(const Gl& gl);
 
+    /// Most cells at a time: `kCells`, or fewer where the GL cannot hold as many.
+    std::size_t most() const { return most_; }
+
     /// Computes the data of these slots, unless they are there.
-    /// @param part at most `kCells`, all of them in use; the cells' volume is on the GPU
+    /// @param part at most `most()`, all of them in use; the cells' volume is on the GPU
     void show(const CellBuffers& cells, DrawPart part);
 
     /// As `CellBuffers` has them, counted from the first slot of the range.
@@ -29,6 +32,7 @@ class CornerWindow {
   private:
     const Gl* gl_;
     DeviceArray values_, gradients_;
+    std::size_t most_;
     std::uint64_t version_ = 0; ///< of the cells
     DrawPart shown_{0, 0};
 };

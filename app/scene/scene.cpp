@@ -234,7 +234,7 @@ void Scene::draw(std::span<const render::View> views,
     const bool depth = writes_depth(footprint);
     if (!depth && slice.begins)
         draw_among_cells(views, placement, room_from_physical, wand);
-    if (needs_corners(footprint))
+    if (render::CellPass::needs_corners(drawn(), footprint, appearance_))
         (draws_resting_ ? *resting_ : cells_).compute_corners();
     if (appearance_.near_fade && !views.empty()) // all views are of one viewer
         appearance_.near_fade->between_eyes = head_of(views.front());
@@ -255,16 +255,11 @@ std::size_t Scene::work(std::size_t views, render::Footprint footprint) const {
 std::size_t Scene::prepare_slices(render::Footprint footprint, std::size_t most) {
     // The corners of so many cells are computed in about the time in which one of them is drawn.
     constexpr std::size_t kCorners = 8;
-    if (!needs_corners(footprints().best(footprint)))
+    if (!render::CellPass::needs_corners(drawn(), footprints().best(footprint), appearance_))
         return 0;
     const std::size_t cells =
         (draws_resting_ ? *resting_ : cells_).compute_corners(kCorners * most);
     return (cells + kCorners - 1) / kCorners;
-}
-
-bool Scene::needs_corners(render::Footprint footprint) const {
-    return footprint == render::Footprint::surface &&
-           render::CellPass::needs_corners(drawn(), appearance_);
 }
 
 /// Whether the cells write depth, so that they hide things behind them that are drawn later.

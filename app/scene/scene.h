@@ -147,7 +147,6 @@ class Scene {
     const render::CellBuffers& drawn() const { return draws_resting_ ? *resting_ : cells_; }
     void draw_ray(const render::View& view, const interaction::Similarity& room_from_physical,
                   const interaction::Pose& wand);
-    bool needs_corners(render::Footprint footprint) const;
     bool writes_depth(render::Footprint footprint) const;
     render::BoxLines box_in(const render::View& view, const render::Placement& placement) const;
     void draw_among_cells(std::span<const render::View> views, const render::Placement& placement,

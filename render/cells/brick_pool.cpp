@@ -69,8 +69,8 @@ std::uint32_t BrickPool::take_slot() {
     if (free_.empty()) {
         const std::size_t before = held_.size();
         // Of a first set all are missing: growing step by step would copy them again and again.
-        const std::size_t wanted = shown_.empty() ? bricks_->ids.size() : before + 1;
-        values_.reserve(std::max({before + 1, wanted, kFirstCapacity}),
+        const std::size_t first_set = shown_.empty() ? bricks_->ids.size() : 0;
+        values_.reserve(std::max({before + 1, first_set, kFirstCapacity}),
                         DeviceArray::Contents::kept);
         held_.resize(values_.capacity());
         for (std::size_t slot = held_.size(); slot-- > before;)

@@ -114,8 +114,10 @@ void CellPass::draw(std::span<const View> views, const Placement& placement,
     }
 }
 
-bool CellPass::needs_corners(const CellBuffers& cells, const CellAppearance& appearance) {
-    return std::ranges::any_of(layers_of(cells, Footprint::surface, appearance), &Layer::blended);
+bool CellPass::needs_corners(const CellBuffers& cells, Footprint footprint,
+                             const CellAppearance& appearance) {
+    return footprint == Footprint::surface &&
+           std::ranges::any_of(layers_of(cells, footprint, appearance), &Layer::blended);
 }
 
 std::size_t CellPass::work(std::size_t views, const CellBuffers& cells, Footprint footprint,

@@ -48,9 +48,10 @@ class CellPass {
               Footprint footprint, const CellAppearance& appearance = {}) {
         draw(std::span(&view, 1), placement, cells, footprint, appearance);
     }
-    /// Whether the exact surface of these cells is drawn in an order, as where light shines through,
+    /// Whether these cells are drawn as an exact surface in an order, as where light shines through,
     /// so that the corners of all cells are wanted at a time.
-    static bool needs_corners(const CellBuffers& cells, const CellAppearance& appearance);
+    static bool needs_corners(const CellBuffers& cells, Footprint footprint,
+                              const CellAppearance& appearance);
 
     /// Work of drawing these cells into so many views, of which `draw` can do a part: cells of the
     /// exact surface, triangles of a mesh. Quads and splats are first put in order, which counts as

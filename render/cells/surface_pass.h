@@ -1,7 +1,6 @@
 // Draws the exact trilinear isosurface of a set of cells, by casting rays into each cell.
 #pragma once
 
-#include "render/cells/cell_buffers.h"
 #include "render/cells/draw_part.h"
 #include "render/gl/quad_indices.h"
 

@@ -100,11 +100,9 @@ class AgreementView {
         look_.linear_light = !render::draws_in_software(gl); // as in a session
     }
 
-    Image draw(render::CellPass& pass, render::CellBuffers& cells, Footprint footprint) {
+    Image draw(render::CellPass& pass, const render::CellBuffers& cells, Footprint footprint) {
         target_.bind();
         target_.clear({0, 0, 0, 0});
-        if (footprint == Footprint::surface)
-            cells.compute_corners();
         pass.draw(camera_.views, camera_.placement, cells, footprint, look_);
         return target_.read();
     }

@@ -156,8 +156,6 @@ class Bench {
     void draw(render::CellPass& pass, Footprint footprint) {
         target_.bind();
         target_.clear(kBackground);
-        if (footprint == Footprint::surface)
-            cells_.compute_corners();
         pass.draw(swaying_.next(), camera_.placement, cells_, footprint, look_);
         gl_.Finish();
     }

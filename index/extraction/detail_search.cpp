@@ -2,6 +2,7 @@
 #include "index/extraction/detail_search.h"
 
 #include "index/extraction/cell_colors.h"
+#include "index/extraction/cell_joiner.h"
 #include "index/extraction/coarse_planes.h"
 #include "index/extraction/lost_cells.h"
 
@@ -277,30 +278,34 @@ bool DetailSearch::add_lost(const SurfacesQuery& query, unsigned finest, DetailC
         if (!lost.find(set.query, set.points, result.levels, found, stop) ||
             !color(set.query, finest, found.cells, of_surface[i].colors, stop))
             return false;
-        for (const CellPoint& point : found.cells.points)
-            of_surface[i].points.push_back(centered(point, finest));
-        of_surface[i].points.insert(of_surface[i].points.end(), found.chunks.begin(),
-                                    found.chunks.end());
-        of_surface[i].colors.resize(of_surface[i].points.size(), kNoColor);
+        std::vector<CellPoint>& points = of_surface[i].points;
+        points = std::move(found.cells.points);
+        for (CellPoint& point : points)
+            point = centered(point, finest);
+        points.insert(points.end(), found.chunks.begin(), found.chunks.end());
+        of_surface[i].colors.resize(points.size(), kNoColor);
         set.candidates += found.cells.candidates;
         set.search_time += found.cells.search_time;
         set.shading_time += found.cells.shading_time;
     }
     searchers_[finest].reset(); // its work space is the largest
-    unsigned level = finest;
+    std::vector<CellJoiner> joiners;
+    for (JoinedCells& surface : of_surface)
+        joiners.emplace_back(std::move(surface), stop);
     const auto cells = [&] {
         std::size_t all = 0;
-        for (const JoinedCells& surface : of_surface)
-            all += count_joined(surface.points, level);
+        for (const CellJoiner& joiner : joiners)
+            all += joiner.cells();
         return all;
     };
-    while (cells() > query.detail.most_cells / kPartOfLost && level < regions_.coarsest())
-        ++level;
-    for (const JoinedCells& surface : of_surface)
-        for (const CellPoint& point : surface.points)
-            result.coarsest = std::max({result.coarsest, level, level_of_center(point.x)});
-    for (std::size_t i = 0; i < of_surface.size(); ++i) {
-        const JoinedCells more = joined(of_surface[i].points, of_surface[i].colors, level);
+    for (unsigned level = 0;
+         level < regions_.coarsest() && cells() > query.detail.most_cells / kPartOfLost; ++level)
+        for (CellJoiner& joiner : joiners)
+            joiner.rise();
+    for (std::size_t i = 0; i < joiners.size(); ++i) {
+        const JoinedCells more = joiners[i].join();
+        for (const CellPoint& point : more.points)
+            result.coarsest = std::max(result.coarsest, level_of_center(point.x));
         std::vector<CellPoint>& points = result.surfaces[i].points;
         points.insert(points.end(), more.points.begin(), more.points.end());
         colors_[i].insert(colors_[i].end(), more.colors.begin(), more.colors.end());

@@ -1,7 +1,5 @@
-// Finds active cells where a coarser level draws none, and joins them to larger ones.
+// Finds active cells where a coarser level draws none.
 #include "index/extraction/lost_cells.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -83,30 +81,6 @@ class HoldsDrawn {
     std::vector<std::uint64_t> bits_;
 };
 
-/// A cell of a level, as one number, and the position in a list of a smaller cell in it.
-using Member = std::pair<std::uint64_t, std::uint32_t>;
-constexpr unsigned kBitsOfPlace = 16;
-
-/// The cells that are smaller than those of a level, by the cell in which they lie.
-std::vector<Member> small_cells(std::span<const CellPoint> points, unsigned level) {
-    std::vector<Member> members;
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const CellPoint& point = points[i];
-        if (level_of_center(point.x) >= level)
-            continue;
-        std::uint64_t cell = 0;
-        for (const std::uint32_t at : {point.z, point.y, point.x})
-            cell = cell << kBitsOfPlace | low_vertex(at) >> level;
-        members.emplace_back(cell, i);
-    }
-    std::ranges::sort(members);
-    return members;
-}
-
-bool same_cell(const Member& a, const Member& b) {
-    return a.first == b.first;
-}
-
 } // namespace
 
 bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
@@ -177,66 +151,25 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
         return !stop.stop_requested();
     }
 
-    CellSet all;
-    all.query = query;
-    if (!search_.search(all, true, true, stop, only))
+    CellSet& cells_found = found.cells;
+    if (!search_.search(cells_found, true, true, stop, only))
         return false;
-    found.cells.query = query;
-    found.cells.candidates = all.candidates;
-    found.cells.search_time = all.search_time;
-    found.cells.shading_time = all.shading_time;
-    for (std::size_t i = 0; i < all.points.size(); ++i) {
-        const Place cell = place_of(all.points[i]);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < cells_found.points.size(); ++i) {
+        const Place cell = place_of(cells_found.points[i]);
         const unsigned level = level_at(cell);
         if (level <= finest_)
             continue;
         const unsigned down = level - finest_;
         if (drawn_in[level]->at({cell[0] >> down, cell[1] >> down, cell[2] >> down}))
             continue;
-        found.cells.ids.push_back(all.ids[i]);
-        found.cells.points.push_back(all.points[i]);
+        cells_found.ids[kept] = cells_found.ids[i];
+        cells_found.points[kept++] = cells_found.points[i];
     }
+    cells_found.ids.resize(kept);
+    cells_found.points.resize(kept);
+    cells_found.rows.clear(); // they are those of all
     return true;
-}
-
-JoinedCells joined(std::span<const CellPoint> points, std::span<const std::uint16_t> colors,
-                   unsigned level) {
-    JoinedCells made;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (level_of_center(points[i].x) >= level) {
-            made.points.push_back(points[i]);
-            made.colors.push_back(colors[i]);
-        }
-    const auto middle_of = [level](std::uint64_t cell) {
-        constexpr std::uint64_t kMask = (1u << kBitsOfPlace) - 1;
-        return static_cast<std::uint16_t>(
-            doubled_center(static_cast<std::uint32_t>(cell & kMask), level));
-    };
-    const std::vector<Member> members = small_cells(points, level);
-    for (auto first = members.begin(); first != members.end();) {
-        const auto last = std::find_if_not(
-            first, members.end(), [&](const Member& other) { return same_cell(*first, other); });
-        const auto size = last - first;
-        glm::dvec3 sum(0.0);
-        for (const auto& [cell, i] : std::span(first, last))
-            sum += unpack_plane(points[i].plane).normal;
-        const double length = glm::length(sum);
-        const bool one_sided = length >= 0.5 * static_cast<double>(size);
-        const std::uint64_t cell = first->first;
-        made.points.push_back({middle_of(cell), middle_of(cell >> kBitsOfPlace),
-                               middle_of(cell >> 2 * kBitsOfPlace), 0,
-                               one_sided ? pack({sum / length, 0.0}) : 0});
-        made.colors.push_back(colors[first[size / 2].second]);
-        first = last;
-    }
-    return made;
-}
-
-std::size_t count_joined(std::span<const CellPoint> points, unsigned level) {
-    std::vector<Member> members = small_cells(points, level);
-    const std::size_t large = points.size() - members.size();
-    const auto repeated = std::ranges::unique(members, same_cell);
-    return large + members.size() - repeated.size();
 }
 
 } // namespace isochron::index

@@ -50,20 +50,4 @@ class LostCells {
     std::size_t most_chunks_;
 };
 
-/// The result of `joined`: cells and their colors.
-struct JoinedCells {
-    std::vector<CellPoint> points;
-    std::vector<std::uint16_t> colors;
-};
-
-/// Joins the cells that are smaller than those of a level: all that lie in the same cell of the
-/// level are replaced by that cell. Its plane has the direction of the sum of their normals, and no
-/// offset. If this sum is shorter than half their number, they surround something: then the cell
-/// gets no plane and is drawn as a ball. Its color is that of the middle one of them.
-/// @param points at places of mixed levels
-JoinedCells joined(std::span<const CellPoint> points, std::span<const std::uint16_t> colors,
-                   unsigned level);
-/// The number of cells that `joined` makes.
-std::size_t count_joined(std::span<const CellPoint> points, unsigned level);
-
 } // namespace isochron::index

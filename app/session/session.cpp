@@ -198,8 +198,12 @@ void Session::learn_costs() {
 
 /// Takes over rank 0's choice. @return whether rank 0 wants this frame measured
 bool Session::agree(bool measure, const index::DetailQuery& detail, FrameReport& report) {
-    // More cells than a frame can draw come in slices alone, which may begin some frames later.
-    const bool fits = report.expected && *report.expected <= report.budget;
+    // More cells than a frame can draw come in slices alone, which may begin some frames later; also
+    // far more than those that were drawn, of which the time is not known well.
+    constexpr std::size_t kFarMore = 4;
+    const bool near =
+        !drawn_ || !drawn_->cells || report.cells <= kFarMore * drawn_->cells->cells();
+    const bool fits = near && report.expected && *report.expected <= report.budget;
     const FrameChoice choice = frames_->agree({report.footprint, report.reason, report.final,
                                                measure, quality_.wants_mesh(), detail,
                                                report.in_slices, frames_->slices_are_whole(),

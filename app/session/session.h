@@ -215,7 +215,8 @@ class Session {
     void choose_set(Picture& now, Waiting waiting, FrameReport& report);
     index::DetailQuery wanted_detail(Waiting waiting, const FrameReport& report);
     index::DetailQuery detail_for_live(Waiting waiting, const FrameReport& report);
-    index::DetailQuery detail_at_rest(Waiting waiting, std::uint64_t moving);
+    index::DetailQuery detail_at_rest(Waiting waiting, std::uint64_t moving,
+                                      interaction::Seconds rested);
     bool waits_its_turn(const index::ExtractionPtr& set) const;
     bool comes_too_late(const index::ExtractionPtr& set, Waiting waiting) const;
     bool comes_late(const index::ExtractionPtr& set) const;

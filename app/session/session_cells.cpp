@@ -207,22 +207,31 @@ index::DetailQuery Session::detail_for_live(Waiting waiting, const FrameReport& 
                                 moving.most_cells >= detail_.most_cells / 2;
         return on_its_way ? detail_ : moving;
     }
-    return detail_at_rest(waiting, std::max(moving.most_cells, held->query.detail.most_cells));
+    return detail_at_rest(waiting, std::max(moving.most_cells, held->query.detail.most_cells),
+                          report.time - constant_since_);
 }
 
 /// First as many cells as quads would show in the pause that a picture at rest may take, so that it
 /// gets better soon; then, where slices draw them, all, which are looked for meanwhile.
 /// @param moving cells of moving pictures
-index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving) {
-    const auto fewest = static_cast<double>(moving);
-    const double fit = quality_.cells_that_fit(interaction::Pace::settled).value_or(fewest);
-    // A time that was measured late, or while others worked, takes back nothing of this picture.
-    cells_at_first_ = std::max(cells_at_first_,
-                               std::bit_floor(static_cast<std::uint64_t>(std::max(fit, fewest))));
-    index::DetailQuery last = details_.at_rest();
+index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving,
+                                           interaction::Seconds rested) {
+    constexpr interaction::Seconds kUntilMeasured{0.5};
+    // Costs are predicted well only near what has been drawn.
+    constexpr std::uint64_t kFarthest = 8, kManyMore = 4;
     const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
-    const bool kept = captures_.wanted() > 0;
     const bool shows = resting && resting->query.of_cells() == surfaces();
+    const bool seen = shows && drawn_ && drawn_->cells == resting;
+    const std::uint64_t drawn =
+        (seen ? resting : scene_.held(Scene::Use::always))->query.detail.most_cells;
+    const auto fit = quality_.cells_that_fit(interaction::Pace::settled);
+    // A time that was measured late, or while others worked, takes back nothing of this picture.
+    cells_at_first_ =
+        std::max(cells_at_first_, std::bit_floor(static_cast<std::uint64_t>(
+                                      std::clamp(fit.value_or(0), static_cast<double>(moving),
+                                                 static_cast<double>(kFarthest * drawn)))));
+    index::DetailQuery last = details_.at_rest();
+    const bool kept = captures_.wanted() > 0;
     const bool serves = shows && (kept || all_at_rest_ || !comes_late(resting));
     if (serves && (resting->query.detail == last || !resting->coarse()))
         return resting->query.detail;
@@ -230,7 +239,14 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
         return last;
     if (detail_.at_rest && set_comes())
         return detail_; // asking for another one now would bring the two in turn
-    all_at_rest_ |= serves && may_be_sliced(waiting);
+    if (!fit && !shows && rested < kUntilMeasured)
+        return scene_.held(Scene::Use::always)->query.detail;
+    // Of many more cells than before, some are seen soon.
+    const bool grows = serves && cells_at_first_ >= kManyMore * resting->query.detail.most_cells &&
+                       2 * resting->cells() >= resting->query.detail.most_cells;
+    if (grows && !seen)
+        return resting->query.detail; // it is being drawn
+    all_at_rest_ |= serves && !grows && may_be_sliced(waiting);
     if (all_at_rest_)
         return last;
     const index::DetailQuery first = details_.at_first_rest(cells_at_first_);

@@ -140,6 +140,59 @@ TEST_P(SessionRest, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
     EXPECT_GT(most, 3 * kFew);
 }
 
+TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
+    Config config = config_with(1e-6); // moving pictures have as few as there may be
+    config.still_budget_ms = 1000;     // would hold all
+    std::atomic<bool> stalls = false;
+    Session session(config, large_, *context_);
+    session.share_frames(std::make_unique<KnownTimes>(stalls));
+    interaction::Commands first;
+    first.isovalue = 0.1;
+    FrameReport report = frame(session, true, first);
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, true);
+        return report.cells > 0 && report.cells < 2 * DetailChoice::kFewest;
+    }));
+    const std::uint64_t moving = report.cells;
+    std::uint64_t most = moving;
+    int coarse = 0; // sets of more
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        if (report.cells > most && report.coarsest > 0) {
+            EXPECT_LE(report.cells, 12 * moving);
+            most = report.cells;
+            ++coarse;
+        }
+        return report.final && report.coarsest == 0;
+    }));
+    EXPECT_EQ(coarse, 1);
+    EXPECT_GT(report.cells, 12 * moving);
+}
+
+TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpectedToFit) {
+    std::atomic<bool> stalls = false;
+    std::uint64_t far = 0; // such cells: sets for motion may come between
+    for (int i = 0; i < 20 && far == 0; ++i) {
+        Session session(config_with(20), large_, *context_);
+        session.share_frames(std::make_unique<KnownTimes>(stalls)); // of 14 ms for all
+        interaction::Commands first;
+        first.isovalue = 0.1;
+        FrameReport report = frame(session, false, first);
+        std::uint64_t last = 0; // cells that were drawn
+        ASSERT_TRUE(test_support::eventually([&] {
+            report = frame(session, false);
+            if (report.redrawn && last > 0 && report.cells > 4 * last) {
+                EXPECT_EQ(report.reason, QualityReason::in_slices)
+                    << report.cells << " after " << last;
+                far = report.cells;
+            }
+            last = report.redrawn ? report.cells : last;
+            return report.final && report.cells > 0 && report.coarsest == 0;
+        }));
+    }
+    EXPECT_GT(far, 0u);
+}
+
 TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheSame) {
     Config config = config_with(1e-6);
     config.still_budget_ms = 2;

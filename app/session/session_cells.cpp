@@ -17,6 +17,10 @@ Scene::Use use_of(const index::ExtractionPtr& set) {
 void Session::request_cells(Waiting waiting) {
     index::SurfacesQuery query = surfaces();
     query.mesh_room = mesh_wanted_ ? config_.mesh_room() : 0;
+    // Nothing is chosen before the first frame, which does not ask for all cells of a large volume.
+    if (waiting == Waiting::never && config_.level_of_detail && !details_.small() &&
+        detail_.most_cells == 0)
+        detail_.most_cells = DetailChoice::kAtFirst;
     query.detail = detail_;
     index::Request request{frames_->ask(query, waiting), std::nullopt};
     const auto steps = static_cast<std::uint32_t>(this->steps());

@@ -34,7 +34,7 @@ std::size_t rounded_to_units(std::size_t bytes) {
 CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t staging_bytes)
     : gl_(&gl), grid_(grid), axes_(std::make_unique<AxisTable>(gl, grid)),
       ring_(gl, rounded_to_units(staging_bytes), passes_fences(gl) ? Fences::pass : Fences::never),
-      points_(gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole),
+      points_(points_array(gl)), next_points_(points_array(gl)),
       message_(gl, "changed cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       styles_(gl, "colored cells", GL_R32UI, kWord, 1, DeviceArray::Storage::whole),
       corner_values_(corner_values_array(gl)), corner_gradients_(corner_gradients_array(gl)),
@@ -208,7 +208,7 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
 
 /// Sends more of the arriving set. @return whether all of it is on the GPU
 bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
-    merged_ = merged_ || (ranked_ ? ranked_->copy(kIdsLookedAt) : plan_->merge(kIdsLookedAt));
+    merged_ = merged_ || (ranked_ ? send_points(bytes, sent) : plan_->merge(kIdsLookedAt));
     if (!merged_)
         return false;
     if (sending_bricks_ && !send_bricks(bytes, sent))
@@ -216,6 +216,21 @@ bool CellBuffers::send_on(std::size_t bytes, std::size_t& sent) {
     if (sending_mesh_ && !send_mesh(bytes, sent))
         return false;
     return ranked_ || (send_message(bytes, sent) && send_styles(bytes, sent));
+}
+
+/// Sends points where the shown ones are not. @return whether all are on the GPU
+bool CellBuffers::send_points(std::size_t bytes, std::size_t& sent) {
+    const std::size_t all = arriving_->cells(), first = ranked_->given();
+    const std::size_t most = std::min(kIdsLookedAt, (bytes - sent) / sizeof(index::CellPoint));
+    next_points_.reserve(all, DeviceArray::Contents::dropped);
+    const std::span<const index::CellPoint> points = ranked_->next(most);
+    gl_->NamedBufferSubData(next_points_.buffer(),
+                            static_cast<GLintptr>(first * sizeof(index::CellPoint)),
+                            static_cast<GLsizeiptr>(points.size_bytes()), points.data());
+    count_.ids += points.size();
+    count_.id_bytes += points.size_bytes();
+    sent += points.size_bytes();
+    return ranked_->given() == all;
 }
 
 /// @return whether all bricks are on the GPU
@@ -302,12 +317,12 @@ bool CellBuffers::send_styles(std::size_t bytes, std::size_t& sent) {
 }
 
 void CellBuffers::show() {
-    const std::size_t cells = arriving_->cells();
-    points_.reserve(cells, DeviceArray::Contents::kept);
     if (sending_bricks_)
         compute_->enter_pages(*bricks_);
-    count_.whole_ids += cells;
-    slots_ = std::make_shared<const Slots>(ranked_ ? write_points() : place_cells());
+    count_.whole_ids += arriving_->cells();
+    if (ranked_)
+        std::swap(points_, next_points_);
+    slots_ = std::make_shared<const Slots>(ranked_ ? ranked_->take() : place_cells());
     if (sending_bricks_)
         bricks_->show();
     ++count_.sets;
@@ -325,18 +340,9 @@ void CellBuffers::show() {
     }
 }
 
-/// Writes the points of the arriving set to the GPU. @return their slots
-Slots CellBuffers::write_points() {
-    const std::span<const index::CellPoint> points = ranked_->points();
-    gl_->NamedBufferSubData(points_.buffer(), 0, static_cast<GLsizeiptr>(points.size_bytes()),
-                            points.data());
-    count_.ids += points.size();
-    count_.id_bytes += points.size_bytes();
-    return ranked_->take();
-}
-
 /// Applies the message of the arriving set. @return the new slots
 Slots CellBuffers::place_cells() {
+    points_.reserve(arriving_->cells(), DeviceArray::Contents::kept);
     compute_->place_cells(*plan_, *arriving_, message_, points_);
     if (!arriving_->colors.empty() || (shown_ && !shown_->colors.empty()))
         compute_->set_styles(*arriving_, styles_, points_);
@@ -368,6 +374,10 @@ void CellBuffers::write_corners(DrawPart slots, const DeviceArray& values,
                                 const DeviceArray& gradients) const {
     assert(has_volume());
     compute_->fill_corners(*shown_, *bricks_, points_, values, gradients, slots, slots.first);
+}
+
+DeviceArray CellBuffers::points_array(const Gl& gl) {
+    return {gl, "cells", GL_RGB32UI, sizeof(index::CellPoint), 1, DeviceArray::Storage::whole};
 }
 
 DeviceArray CellBuffers::corner_values_array(const Gl& gl) {

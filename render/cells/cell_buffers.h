@@ -150,13 +150,14 @@ class CellBuffers {
                  std::size_t& sent);
     bool begin(index::ExtractionPtr set, SendVolume volume);
     bool make_room_for(const index::VolumeBricks& bricks);
+    static DeviceArray points_array(const Gl& gl);
     bool send_on(std::size_t bytes, std::size_t& sent);
+    bool send_points(std::size_t bytes, std::size_t& sent);
     bool send_mesh(std::size_t bytes, std::size_t& sent);
     bool send_bricks(std::size_t bytes, std::size_t& sent);
     void send_volume_of_shown(std::size_t bytes, std::size_t& sent);
     bool send_message(std::size_t bytes, std::size_t& sent);
     bool send_styles(std::size_t bytes, std::size_t& sent);
-    Slots write_points();
     Slots place_cells();
     void show();
 
@@ -164,7 +165,8 @@ class CellBuffers {
     index::Grid grid_;
     std::unique_ptr<const AxisTable> axes_;
     StagingRing ring_;
-    DeviceArray points_, message_, styles_, corner_values_, corner_gradients_;
+    DeviceArray points_, next_points_; ///< the latter for a set that comes with its points
+    DeviceArray message_, styles_, corner_values_, corner_gradients_;
     MeshBuffers mesh_;
     Surroundings surroundings_;
     std::optional<BrickPool> bricks_;                  ///< made when the type is known

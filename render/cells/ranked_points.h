@@ -1,4 +1,4 @@
-// The points of a set that comes with its normals: sent to the GPU as a whole, in order of rank.
+// The points of a set that comes with its normals: all are sent to the GPU, in order of rank.
 #pragma once
 
 #include "index/extraction/extraction.h"
@@ -18,17 +18,18 @@ class RankedPoints {
     /// @param set lives as long as this
     explicit RankedPoints(const index::Extraction& set);
 
-    /// Copies at most `cells` points. @return true when all are copied
-    bool copy(std::size_t cells);
+    /// The next points, at most so many (at least 1), with their styles; valid until the next call.
+    std::span<const index::CellPoint> next(std::size_t most);
+    /// Number of points that `next` gave so far.
+    std::size_t given() const { return slots_.places.size(); }
 
-    // Once all are copied:
-    std::span<const index::CellPoint> points() const { return points_; } ///< with their styles
+    /// Once all points are given.
     Slots take() { return std::move(slots_); }
 
   private:
     const index::Extraction* set_;
-    std::size_t surface_ = 0, at_ = 0; ///< next cell to copy
-    std::vector<index::CellPoint> points_;
+    std::size_t surface_ = 0, at_ = 0; ///< next cell
+    std::vector<index::CellPoint> given_;
     Slots slots_;
 };
 

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <set>
 #include <span>
@@ -88,7 +87,7 @@ class TextStore final : public index::ZarrStore {
         const std::string& value = values_.at(key);
         if (at > value.size() || into.size() > value.size() - at)
             throw index::Error("store: truncated");
-        std::memcpy(into.data(), value.data() + at, into.size());
+        std::ranges::copy(std::as_bytes(std::span(value)).subspan(at, into.size()), into.begin());
     }
     std::vector<std::string> names(const std::string& group) const override {
         const std::string prefix = group.empty() ? "" : group + "/";

@@ -1,9 +1,11 @@
-// Points that come with a set, copied in portions.
+// Points that come with a set, given in portions.
 #include "render/cells/ranked_points.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 namespace isochron::render {
 namespace {
@@ -28,14 +30,15 @@ TEST(RankedPoints, AreAllOfTheSetInPortionsOfAnySize) {
         const index::Extraction set = random_set(random, turn % 2);
         const std::size_t portion = 1 + random() % 70;
         RankedPoints ranked(set);
-        std::size_t copied = 0;
-        while (!ranked.copy(portion)) {
-            copied += portion;
-            ASSERT_EQ(ranked.points().size(), copied) << "as much as may be, and not more";
+        std::vector<index::CellPoint> points;
+        while (ranked.given() < set.cells()) {
+            const auto part = ranked.next(portion);
+            ASSERT_EQ(part.size(), std::min(portion, set.cells() - points.size()))
+                << "as many as may be, and not more";
+            points.insert(points.end(), part.begin(), part.end());
+            ASSERT_EQ(ranked.given(), points.size());
         }
-        ASSERT_LE(ranked.points().size(), copied + portion);
-        ASSERT_EQ(ranked.points().size(), set.cells());
-        const std::vector<index::CellPoint> points(ranked.points().begin(), ranked.points().end());
+        ASSERT_TRUE(ranked.next(portion).empty());
         const Slots slots = ranked.take();
         std::size_t rank = 0;
         for (unsigned surface = 0; surface < set.surfaces.size(); ++surface)

@@ -1,6 +1,6 @@
 // Joins small cells to larger ones, as many levels of detail up as it takes until they are few.
 //
-//     CellJoiner joiner(std::move(points), std::move(colors), stop);
+//     CellJoiner joiner(std::move(cells), stop);
 //     while (joiner.cells() > most)
 //         joiner.rise();
 //     const JoinedCells few = joiner.join();

@@ -17,6 +17,7 @@
 #include "app/session/session.h"
 #include "app/session/session_file.h"
 #include "index/build/level_choice.h"
+#include "index/extraction/cell_joiner.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
@@ -83,6 +84,10 @@ namespace {
 void level_choice_example(ValueType type, std::size_t step, std::span<const std::byte> stored,
                           const LevelChooser& other) {
 #include "index/build/level_choice.example"
+}
+
+void cell_joiner_example(JoinedCells cells, const std::stop_token& stop, std::size_t most) {
+#include "index/extraction/cell_joiner.example"
 }
 
 void cell_ray_example(const ExtractionPtr& shown, const Grid& grid, glm::dvec3 wand,

@@ -215,14 +215,15 @@ index::DetailQuery Session::detail_for_live(Waiting waiting, const FrameReport& 
                           report.time - constant_since_);
 }
 
-/// First as many cells as quads would show in the pause that a picture at rest may take, so that it
-/// gets better soon; then, where slices draw them, all, which are looked for meanwhile.
+/// First as many cells as quads would show in the pause that a picture at rest may take, in steps,
+/// so that it gets better soon; then, where slices draw them, all, which are looked for meanwhile.
 /// @param moving cells of moving pictures
+/// @param rested time for which the picture has been the same
 index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving,
                                            interaction::Seconds rested) {
     constexpr interaction::Seconds kUntilMeasured{0.5};
     // Costs are predicted well only near what has been drawn.
-    constexpr std::uint64_t kFarthest = 8, kManyMore = 4;
+    constexpr std::uint64_t kFarthest = 8, kWorthASet = 4;
     const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
     const bool shows = resting && resting->query.of_cells() == surfaces();
     const bool seen = shows && drawn_ && drawn_->cells == resting;
@@ -230,10 +231,9 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
         (seen ? resting : scene_.held(Scene::Use::always))->query.detail.most_cells;
     const auto fit = quality_.cells_that_fit(interaction::Pace::settled);
     // A time that was measured late, or while others worked, takes back nothing of this picture.
-    cells_at_first_ =
-        std::max(cells_at_first_, std::bit_floor(static_cast<std::uint64_t>(
-                                      std::clamp(fit.value_or(0), static_cast<double>(moving),
-                                                 static_cast<double>(kFarthest * drawn)))));
+    const double most = std::min(fit.value_or(0), static_cast<double>(kFarthest * drawn));
+    cells_at_first_ = std::max(cells_at_first_,
+                               std::bit_floor(std::max(moving, static_cast<std::uint64_t>(most))));
     index::DetailQuery last = details_.at_rest();
     const bool kept = captures_.wanted() > 0;
     const bool serves = shows && (kept || all_at_rest_ || !comes_late(resting));
@@ -246,7 +246,7 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
     if (!fit && !shows && rested < kUntilMeasured)
         return scene_.held(Scene::Use::always)->query.detail;
     // Of many more cells than before, some are seen soon.
-    const bool grows = serves && cells_at_first_ >= kManyMore * resting->query.detail.most_cells &&
+    const bool grows = serves && cells_at_first_ >= kWorthASet * resting->query.detail.most_cells &&
                        2 * resting->cells() >= resting->query.detail.most_cells;
     if (grows && !seen)
         return resting->query.detail; // it is being drawn

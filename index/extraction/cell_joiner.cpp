@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace isochron::index {
@@ -22,7 +21,8 @@ constexpr std::uint64_t kPlace = (1u << kBitsOfPlace) - 1;
 constexpr std::uint64_t kHalved = (kPlace >> 1) * (1 | (std::uint64_t{1} << kBitsOfPlace) |
                                                    (std::uint64_t{1} << 2 * kBitsOfPlace));
 
-/// The cell of a level in which a smaller one lies.
+/// The cell of a level in which a smaller one lies: its doubled center lies within that cell's doubled
+/// ends.
 std::uint64_t parent_of(const CellPoint& point, unsigned level) {
     std::uint64_t cell = 0;
     for (const std::uint32_t at : {point.z, point.y, point.x})

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <optional>
-#include <utility>
 
 namespace isochron::index {
 namespace {

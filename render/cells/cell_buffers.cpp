@@ -320,9 +320,7 @@ void CellBuffers::show() {
     if (sending_bricks_)
         compute_->enter_pages(*bricks_);
     count_.whole_ids += arriving_->cells();
-    if (ranked_)
-        std::swap(points_, next_points_);
-    slots_ = std::make_shared<const Slots>(ranked_ ? ranked_->take() : place_cells());
+    slots_ = std::make_shared<const Slots>(ranked_ ? take_points() : place_cells());
     if (sending_bricks_)
         bricks_->show();
     ++count_.sets;
@@ -338,6 +336,12 @@ void CellBuffers::show() {
         mesh_.show();
         mesh_version_ = version_;
     }
+}
+
+/// Turns to the points of the arriving set. @return their slots
+Slots CellBuffers::take_points() {
+    std::swap(points_, next_points_);
+    return ranked_->take();
 }
 
 /// Applies the message of the arriving set. @return the new slots

@@ -158,6 +158,7 @@ class CellBuffers {
     void send_volume_of_shown(std::size_t bytes, std::size_t& sent);
     bool send_message(std::size_t bytes, std::size_t& sent);
     bool send_styles(std::size_t bytes, std::size_t& sent);
+    Slots take_points();
     Slots place_cells();
     void show();
 

@@ -18,7 +18,7 @@ class RankedPoints {
     /// @param set lives as long as this
     explicit RankedPoints(const index::Extraction& set);
 
-    /// The next points, at most so many (at least 1), with their styles; valid until the next call.
+    /// The next points, at most so many, with their styles; valid until the next call.
     std::span<const index::CellPoint> next(std::size_t most);
     /// Number of points that `next` gave so far.
     std::size_t given() const { return slots_.places.size(); }

@@ -37,6 +37,12 @@ class SessionDetail : public SessionTest {
         ++frame_;
         return session.frame(input, commands, Waiting::never);
     }
+    /// The same, as the first frame, which asks for a surface of 181,157 cells.
+    FrameReport first_frame(Session& session, bool sways) {
+        interaction::Commands first;
+        first.isovalue = 0.1;
+        return frame(session, sways, first);
+    }
 
     index::TestField waves_;
     std::shared_ptr<const index::IndexFile> large_;

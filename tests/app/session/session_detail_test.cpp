@@ -48,9 +48,7 @@ void* with_little_room(std::string_view name, void* found) {
 
 TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) {
     Session session(config_with(1e-6), large_, *context_); // no number of cells fits
-    interaction::Commands first;
-    first.isovalue = 0.1;
-    FrameReport report = frame(session, true, first);
+    FrameReport report = first_frame(session, true);
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, true);
         return report.coarsest > 0 && report.pace == interaction::Pace::settled &&

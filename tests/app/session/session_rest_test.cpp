@@ -14,10 +14,12 @@ namespace {
 
 using SessionRest = SessionDetail;
 
+const std::atomic<bool> kNever = false;
+
 /// Frames of a session in which quads take a known time for each cell, or suddenly much longer.
 class KnownTimes final : public FramesAlone {
   public:
-    explicit KnownTimes(const std::atomic<bool>& stalls) : stalls_(stalls) {}
+    explicit KnownTimes(const std::atomic<bool>& stalls = kNever) : stalls_(stalls) {}
     std::vector<DrawSample> samples(std::vector<DrawSample>) override {
         constexpr double kOfCell = 1.5 / 20'000 / 2; // ms, in two views
         const double slower = stalls_ ? 1000 : 1;
@@ -56,9 +58,7 @@ TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
             return asked;
         };
         Session session(config, large_, *context_, extract);
-        interaction::Commands first;
-        first.isovalue = 0.1;
-        FrameReport report = frame(session, false, first);
+        FrameReport report = first_frame(session, false);
         const auto made = [&] {
             return report.in_slices && report.cells > 0 && report.footprint == *report.in_slices;
         };
@@ -85,9 +85,7 @@ TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThe
     Config config = config_with(1e-6);
     config.still_budget_ms = 2;
     Session session(config, large_, *context_);
-    interaction::Commands first;
-    first.isovalue = 0.1;
-    FrameReport report = frame(session, false, first);
+    FrameReport report = first_frame(session, false);
     for (int rest = 0; rest < 2; ++rest) {
         SCOPED_TRACE(rest);
         std::uint64_t most = 0; // cells of pictures that came before
@@ -120,9 +118,7 @@ TEST_P(SessionRest, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
     std::atomic<bool> stalls = false;
     Session session(config, large_, *context_);
     session.share_frames(std::make_unique<KnownTimes>(stalls));
-    interaction::Commands first;
-    first.isovalue = 0.1;
-    FrameReport report = frame(session, false, first);
+    FrameReport report = first_frame(session, false);
     std::uint64_t most = 0;
     int coarse = 0; // pictures in slices
     ASSERT_TRUE(test_support::eventually([&] {
@@ -155,12 +151,9 @@ TEST_P(SessionRest, TheFirstFrameDoesNotAskForAllCells) {
 TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
     Config config = config_with(1e-6); // moving pictures have as few as there may be
     config.still_budget_ms = 1000;     // would hold all
-    std::atomic<bool> stalls = false;
     Session session(config, large_, *context_);
-    session.share_frames(std::make_unique<KnownTimes>(stalls));
-    interaction::Commands first;
-    first.isovalue = 0.1;
-    FrameReport report = frame(session, true, first);
+    session.share_frames(std::make_unique<KnownTimes>());
+    FrameReport report = first_frame(session, true);
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, true);
         return report.cells > 0 && report.cells < 2 * DetailChoice::kFewest;
@@ -182,14 +175,11 @@ TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
 }
 
 TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpectedToFit) {
-    std::atomic<bool> stalls = false;
     std::uint64_t far = 0; // such cells: sets for motion may come between
     for (int i = 0; i < 20 && far == 0; ++i) {
         Session session(config_with(20), large_, *context_);
-        session.share_frames(std::make_unique<KnownTimes>(stalls)); // of 14 ms for all
-        interaction::Commands first;
-        first.isovalue = 0.1;
-        FrameReport report = frame(session, false, first);
+        session.share_frames(std::make_unique<KnownTimes>()); // of 14 ms for all
+        FrameReport report = first_frame(session, false);
         std::uint64_t last = 0; // cells that were drawn
         ASSERT_TRUE(test_support::eventually([&] {
             report = frame(session, false);
@@ -208,7 +198,6 @@ TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpect
 TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheSame) {
     Config config = config_with(1e-6);
     config.still_budget_ms = 2;
-    std::atomic<bool> stalls = false;
     const render::Gl gl(context_->loader());
     const index::Extract real =
         index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
@@ -220,10 +209,8 @@ TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheS
                             all_found = true;
                         return set;
                     });
-    session.share_frames(std::make_unique<KnownTimes>(stalls));
-    interaction::Commands first;
-    first.isovalue = 0.1;
-    FrameReport report = frame(session, false, first);
+    session.share_frames(std::make_unique<KnownTimes>());
+    FrameReport report = first_frame(session, false);
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
         return report.in_slices && report.cells > 15'000 && report.coarsest > 0;
@@ -246,63 +233,54 @@ TEST_P(SessionRest, ASetForMotionThatComesWhenThePictureRestsTakesNoCellsBack) {
     const index::Extract real =
         index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
     constexpr std::uint64_t kMany = 3 * kFew / 2;
-    std::uint64_t many = 0;
-    for (int i = 0; i < 20 && many <= kMany; ++i) { // a small set that was kept may come before it
-        std::atomic<bool> stalls = false, hold = false, held = false, rest_waits = true;
-        std::atomic<std::uint64_t> late = 0; // cells
-        // One that has just been found when it is no longer wanted cannot be stopped.
-        const index::Extract extract = [&](const index::SurfacesQuery& query,
-                                           std::stop_token stop) {
-            while (query.detail.at_rest && late > 0 && rest_waits && !stop.stop_requested())
-                std::this_thread::yield();
-            if (query.detail.at_rest || query.detail.most_cells >= kMany || !hold)
-                return real(query, std::move(stop));
-            held = true;
-            hold.wait(true);
-            const index::ExtractionPtr set = real(query, {});
-            late = set->cells();
-            return set;
-        };
-        Session session(config_with(4), large_, *context_, extract);
-        const auto let_go = [&] {
-            hold = false;
-            hold.notify_all();
-        };
-        const std::shared_ptr<void> at_last(nullptr, [&](void*) { let_go(); });
-        session.share_frames(std::make_unique<KnownTimes>(stalls)); // 40,000 cells fit
-        interaction::Commands first;
-        first.isovalue = 0.1;
-        FrameReport report = frame(session, true, first);
-        ASSERT_TRUE(test_support::eventually([&] {
-            report = frame(session, true);
-            return report.cells > kMany;
-        }));
-        hold = stalls = true;
-        ASSERT_TRUE(test_support::eventually([&] {
-            report = frame(session, true);
-            return held.load();
-        })) << "a smaller set is asked for";
-        for (int i = 0; i < 20; ++i)
-            report = frame(session, false);
-        many = report.cells;
-        if (many <= kMany)
-            continue;
-        let_go();
-        ASSERT_TRUE(test_support::eventually([&] { return late > 0; }));
-        EXPECT_LT(late, many);
-        for (int i = 0; i < 30; ++i)
-            EXPECT_EQ(frame(session, false).cells, many) << i;
-        rest_waits = false;
-        std::uint64_t most = many;
-        ASSERT_TRUE(test_support::eventually([&] {
-            report = frame(session, false);
-            EXPECT_GE(report.cells, most);
-            most = report.cells;
-            return report.final && report.coarsest == 0;
-        }));
-        EXPECT_GT(most, many);
-    }
-    EXPECT_GT(many, kMany);
+    std::atomic<bool> stalls = false, hold = false, held = false, rest_waits = true;
+    std::atomic<std::uint64_t> late = 0; // cells
+    // One that has just been found when it is no longer wanted cannot be stopped.
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+        while (query.detail.at_rest && late > 0 && rest_waits && !stop.stop_requested())
+            std::this_thread::yield();
+        if (query.detail.at_rest || query.detail.most_cells >= kMany || !hold)
+            return real(query, std::move(stop));
+        held = true;
+        hold.wait(true);
+        const index::ExtractionPtr set = real(query, {});
+        late = set->cells();
+        return set;
+    };
+    Session session(config_with(4), large_, *context_, extract);
+    const auto let_go = [&] {
+        hold = false;
+        hold.notify_all();
+    };
+    const std::shared_ptr<void> at_last(nullptr, [&](void*) { let_go(); });
+    session.share_frames(std::make_unique<KnownTimes>(stalls)); // 40,000 cells fit
+    FrameReport report = first_frame(session, true);
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, true);
+        return report.cells > kMany;
+    }));
+    hold = stalls = true;
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, true);
+        return held.load();
+    })) << "a smaller set is asked for";
+    for (int i = 0; i < 20; ++i)
+        report = frame(session, false);
+    const std::uint64_t many = report.cells;
+    let_go();
+    ASSERT_TRUE(test_support::eventually([&] { return late > 0; }));
+    EXPECT_LT(late, many);
+    for (int i = 0; i < 30; ++i)
+        EXPECT_EQ(frame(session, false).cells, many) << i;
+    rest_waits = false;
+    std::uint64_t most = many;
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        EXPECT_GE(report.cells, most);
+        most = report.cells;
+        return report.final && report.coarsest == 0;
+    }));
+    EXPECT_GT(most, many);
 }
 
 INSTANTIATE_TEST_SUITE_P(Contexts, SessionRest,

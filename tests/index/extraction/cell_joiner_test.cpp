@@ -11,6 +11,7 @@
 #include <array>
 #include <map>
 #include <random>
+#include <tuple>
 #include <vector>
 
 namespace isochron::index {

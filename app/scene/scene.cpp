@@ -219,9 +219,10 @@ void Scene::draw_mark(const render::View& view, const interaction::Similarity& r
                     render::TextPass::Depth::none);
 }
 
-void Scene::draw(std::span<const render::View> views,
-                 const interaction::Similarity& room_from_physical, render::Footprint footprint,
-                 const std::optional<interaction::Pose>& wand, const SceneSlice& slice) {
+std::size_t Scene::draw(std::span<const render::View> views,
+                        const interaction::Similarity& room_from_physical,
+                        render::Footprint footprint, const std::optional<interaction::Pose>& wand,
+                        const SceneSlice& slice) {
     const auto placement = render::Placement::of(info_.grid, matrix(room_from_physical));
     // Rank 0 may have chosen a footprint that these cells do not have here yet.
     footprint = footprints().best(footprint);
@@ -238,14 +239,16 @@ void Scene::draw(std::span<const render::View> views,
         (draws_resting_ ? *resting_ : cells_).compute_corners();
     if (appearance_.near_fade && !views.empty()) // all views are of one viewer
         appearance_.near_fade->between_eyes = head_of(views.front());
-    cell_pass_.draw(views, placement, drawn(), footprint, appearance_, slice.cells);
+    const std::size_t done =
+        cell_pass_.draw(views, placement, drawn(), footprint, appearance_, slice.cells);
     if (!slice.ends)
-        return;
+        return done;
     if (depth)
         draw_among_cells(views, placement, room_from_physical, wand);
     draw_before_cells(views, placement);
     for (const render::View& view : views)
         draw_over_cells(view, room_from_physical);
+    return done;
 }
 
 std::size_t Scene::work(std::size_t views, render::Footprint footprint) const {

@@ -125,9 +125,11 @@ class Scene {
     /// Draws into the views' viewports of the bound framebuffer; the cells of two views in one pass
     /// if the driver can.
     /// @param wand drawn as a ray; empty: none
-    void draw(std::span<const render::View> views,
-              const interaction::Similarity& room_from_physical, render::Footprint footprint,
-              const std::optional<interaction::Pose>& wand, const SceneSlice& slice = {});
+    /// @return work of the slice that is done, after which the next one begins: see
+    /// `render::CellPass::draw`
+    std::size_t draw(std::span<const render::View> views,
+                     const interaction::Similarity& room_from_physical, render::Footprint footprint,
+                     const std::optional<interaction::Pose>& wand, const SceneSlice& slice = {});
     /// Draws a cell in each way in which cells are drawn, and what stands beside them.
     void warm_up(std::span<const render::View> views,
                  const interaction::Similarity& room_from_physical);

@@ -237,8 +237,8 @@ class Session {
     bool draw_slice(Slices& slices, const ScenePlace& place, std::span<const render::View> views,
                     std::size_t work, std::size_t& done);
     void measure_unseen(const Picture& now, const StopWatch& frame, const FrameReport& report);
-    void draw_views(const ScenePlace& place, std::span<const render::View> views,
-                    const Picture& picture, const SceneSlice& slice = {});
+    std::size_t draw_views(const ScenePlace& place, std::span<const render::View> views,
+                           const Picture& picture, const SceneSlice& slice = {});
     std::vector<interaction::DeviceKind> devices_at_hand() const;
     OperatorPanel::Model panel_models(const FrameReport& report) const;
     glm::ivec2 panel_places() const;

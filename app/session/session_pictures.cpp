@@ -16,8 +16,8 @@ bool Session::in_windows(const FrameReport& report) {
     return !in_headset_ || report.time - *in_headset_ > kMoment;
 }
 
-void Session::draw_views(const ScenePlace& place, std::span<const render::View> views,
-                         const Picture& picture, const SceneSlice& slice) {
+std::size_t Session::draw_views(const ScenePlace& place, std::span<const render::View> views,
+                                const Picture& picture, const SceneSlice& slice) {
     const bool aids = !place.kept || config_.picture_ray;
     scene_.set_pointed(aids ? picture.pointed : std::nullopt);
     scene_.set_orientation(place.kept ? config_.picture_caption
@@ -26,8 +26,8 @@ void Session::draw_views(const ScenePlace& place, std::span<const render::View> 
         place.kept && config_.picture_caption && scene_.shown()
             ? caption_text(scene_.shown()->query, file_->array(scene_.shown()->query.array).info())
             : std::string());
-    scene_.draw(views, picture.room_from_physical, picture.footprint,
-                aids ? picture.audience.wand : std::nullopt, slice);
+    return scene_.draw(views, picture.room_from_physical, picture.footprint,
+                       aids ? picture.audience.wand : std::nullopt, slice);
 }
 
 void Session::warm_up() {

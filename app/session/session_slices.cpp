@@ -99,13 +99,11 @@ bool Session::draw_slice(Slices& slices, const ScenePlace& place,
     if (slice.begins) {
         slices.done = 0;
     } else if (slices.done < all) {
-        done = std::min(work, all - slices.done);
-        slice.cells.count = done;
-        slices.done += done;
+        slice.cells.count = done = std::min(work, all - slices.done);
     } else {
         slice.ends = true;
     }
-    draw_views(place, views, slices.picture, slice);
+    slices.done += draw_views(place, views, slices.picture, slice);
     return slice.ends;
 }
 

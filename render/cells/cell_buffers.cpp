@@ -75,7 +75,7 @@ void CellBuffers::prepare(index::ValueType held) {
     compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, message_, points_);
     compute_->set_styles(none, styles_, points_);
     compute_->fill_planes(none, *bricks_, points_);
-    compute_->fill_corners(none, *bricks_, points_, corner_values_, corner_gradients_, {0, 0});
+    compute_->fill_corners(none, *bricks_, points_, {0, 0}, {corner_values_, corner_gradients_});
 }
 
 /// Makes ready for values of this type; drops bricks of another.
@@ -368,16 +368,15 @@ std::size_t CellBuffers::compute_corners(std::size_t most) {
     }
     const std::size_t count = std::min(most, cells - corners_done_);
     if (count > 0)
-        compute_->fill_corners(*shown_, *bricks_, points_, corner_values_, corner_gradients_,
-                               {corners_done_, count});
+        compute_->fill_corners(*shown_, *bricks_, points_, {corners_done_, count},
+                               {corner_values_, corner_gradients_});
     corners_done_ += count;
     return count;
 }
 
-void CellBuffers::write_corners(DrawPart slots, const DeviceArray& values,
-                                const DeviceArray& gradients) const {
+void CellBuffers::write_corners(DrawPart cells, const CellCompute::Corners& to) const {
     assert(has_volume());
-    compute_->fill_corners(*shown_, *bricks_, points_, values, gradients, slots, slots.first);
+    compute_->fill_corners(*shown_, *bricks_, points_, cells, to);
 }
 
 DeviceArray CellBuffers::points_array(const Gl& gl) {

@@ -120,10 +120,9 @@ class CellBuffers {
     void compute_corners() { compute_corners(std::numeric_limits<std::size_t>::max()); }
     /// The same in pieces, of at most so many cells. @return how many cells it was; 0: none is left
     std::size_t compute_corners(std::size_t most);
-    /// The same of some slots, into arrays of the caller, the first of them at their beginning.
-    /// @param slots in use; the set's volume is on the GPU
-    void write_corners(DrawPart slots, const DeviceArray& values,
-                       const DeviceArray& gradients) const;
+    /// The same of some cells, into arrays of the caller.
+    /// @param cells slots in use, or numbers in the list; the set's volume is on the GPU
+    void write_corners(DrawPart cells, const CellCompute::Corners& to) const;
     static DeviceArray corner_values_array(const Gl& gl);
     static DeviceArray corner_gradients_array(const Gl& gl);
     /// Most cells that these textures can hold: fewer than can be drawn without them.

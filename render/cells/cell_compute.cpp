@@ -162,16 +162,15 @@ void CellCompute::fill_planes(const index::Extraction& set, const BrickPool& bri
 }
 
 void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& bricks,
-                               const DeviceArray& points, const DeviceArray& values,
-                               const DeviceArray& gradients, DrawPart cells,
-                               std::size_t first) const {
+                               const DeviceArray& points, DrawPart cells, const Corners& to) const {
     use_volume(set, bricks);
     bind(0, points);
-    run(corners_, cells, {}, [&](std::size_t begin, std::size_t end) {
+    gl_->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, to.list != 0 ? to.list : points.buffer());
+    run(corners_, cells, {.whole = to.list == 0}, [&](std::size_t begin, std::size_t end) {
         const std::size_t count =
             std::max(end - begin, std::size_t{1}); // a range must not be empty
-        bind(1, values, begin - first, count);
-        bind(2, gradients, begin - first, count);
+        bind(1, to.values, begin - to.first, count);
+        bind(2, to.gradients, begin - to.first, count);
     });
 }
 

@@ -40,11 +40,16 @@ class CellCompute {
     void fill_planes(const index::Extraction& set, const BrickPool& bricks,
                      const DeviceArray& points) const;
 
-    /// Writes values and gradients at the vertices of some cells, by slot.
-    /// @param first slot at the beginning of these two arrays
+    /// Values and gradients at the vertices of cells, by slot or by number.
+    struct Corners {
+        const DeviceArray& values;
+        const DeviceArray& gradients;
+        std::size_t first = 0; ///< slot or number at the beginning of both
+        GLuint list = 0;       ///< buffer of slots by number; 0: by slot
+    };
+    /// Writes these of some cells.
     void fill_corners(const index::Extraction& set, const BrickPool& bricks,
-                      const DeviceArray& points, const DeviceArray& values,
-                      const DeviceArray& gradients, DrawPart cells, std::size_t first = 0) const;
+                      const DeviceArray& points, DrawPart cells, const Corners& to) const;
 
   private:
     void use_volume(const index::Extraction& set, const BrickPool& bricks) const;

@@ -26,16 +26,20 @@ namespace {
 constexpr GLuint kColorMapUnit = 7;     ///< of appearance.glsl
 constexpr GLuint kSurroundingsUnit = 9; ///< of surroundings.glsl
 
-/// Cells that are put in order in about the time in which one is drawn.
-constexpr std::size_t kOrdered = 8;
-
-std::size_t ordering_work(const CellBuffers& cells) {
-    return (cells.size() + kOrdered - 1) / kOrdered;
-}
-
 /// Whether only as many cells are drawn at once as a window of corners holds.
 bool comes_in_windows(Footprint footprint, bool blended) {
     return footprint == Footprint::surface && !blended;
+}
+
+/// Cells that are put in order in about the time in which one is drawn.
+std::size_t ordered_with_one(Footprint footprint, bool blended) {
+    constexpr std::size_t kSorted = 128; // an opaque surface's are only sorted
+    return comes_in_windows(footprint, blended) ? kSorted : 8;
+}
+
+std::size_t ordering_work(const CellBuffers& cells, Footprint footprint, bool blended) {
+    const std::size_t together = ordered_with_one(footprint, blended);
+    return (cells.size() + together - 1) / together;
 }
 
 /// Calls `f` for pieces of a part.
@@ -77,7 +81,7 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
       quad_programs_(footprint_programs("cell_quad.frag", Footprint::quad)),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", Footprint::gaussian)),
       mesh_(gl, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude), corners_(gl),
-      quads_(gl), sequences_(gl), frame_(gl) {
+      in_sight_(gl), quads_(gl), sequences_(gl), frame_(gl) {
     if (shapes.shape == CellShape::voxel)
         quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
     const float falloff = gaussian_falloff();
@@ -94,24 +98,36 @@ float CellPass::gaussian_falloff() const {
     return -0.5f * sigmas * sigmas * std::numbers::log2e_v<float>;
 }
 
-void CellPass::draw(std::span<const View> views, const Placement& placement,
-                    const CellBuffers& cells, Footprint footprint, const CellAppearance& appearance,
-                    DrawPart part) {
+std::size_t CellPass::draw(std::span<const View> views, const Placement& placement,
+                           const CellBuffers& cells, Footprint footprint,
+                           const CellAppearance& appearance, DrawPart part) {
     if (cells.size() == 0)
-        return;
+        return 0;
     assert(footprint != Footprint::mesh || cells.has_mesh());
-    std::size_t before = 0;
+    std::size_t before = 0, end = part.first;
     for (const Layer& layer : layers_of(cells, footprint, appearance)) {
         const std::size_t at_once = views_at_once(footprint);
         const std::size_t work = work_of(cells, footprint, layer);
-        const std::size_t most =
-            comes_in_windows(footprint, layer.blended) ? corners_.most() : work;
-        for (std::size_t first = 0; first < views.size(); first += at_once, before += work)
-            for_each_piece(part.among(before, work), most, [&](const DrawPart& piece) {
-                draw_at_once(views.subspan(first, std::min(at_once, views.size() - first)),
-                             placement, cells, footprint, layer, appearance, piece);
-            });
+        const bool in_windows = comes_in_windows(footprint, layer.blended);
+        for (std::size_t first = 0; first < views.size(); first += at_once, before += work) {
+            const Drawing drawing{views.subspan(first, std::min(at_once, views.size() - first)),
+                                  placement,
+                                  cells,
+                                  footprint,
+                                  layer,
+                                  appearance};
+            const DrawPart mine = part.among(before, work);
+            if (mine.count == 0)
+                continue;
+            end = before + mine.first + mine.count;
+            if (in_windows && seen_only_)
+                end = before + draw_in_sight(drawing, mine);
+            else
+                for_each_piece(mine, in_windows ? corners_.most() : work,
+                               [&](const DrawPart& piece) { draw_at_once(drawing, piece); });
+        }
     }
+    return end - part.first;
 }
 
 bool CellPass::needs_corners(const CellBuffers& cells, Footprint footprint,
@@ -136,14 +152,20 @@ std::size_t CellPass::views_at_once(Footprint footprint) const {
     return apart ? 1 : 2;
 }
 
+/// Whether its cells' order needs no texture: of what is in sight, or of triangles.
+bool CellPass::wants_order_only(Footprint footprint, bool blended) {
+    return footprint == Footprint::mesh || comes_in_windows(footprint, blended);
+}
+
 bool CellPass::is_ordered(Footprint footprint, bool blended) const {
-    return blended || (seen_only_ && footprint == Footprint::quad);
+    return blended ||
+           (seen_only_ && (footprint == Footprint::quad || footprint == Footprint::surface));
 }
 
 std::size_t CellPass::work_of(const CellBuffers& cells, Footprint footprint,
                               const Layer& layer) const {
     if (is_ordered(footprint, layer.blended))
-        return ordering_work(cells) + cells.size();
+        return ordering_work(cells, footprint, layer.blended) + cells.size();
     if (!has_layers(footprint))
         return 1;
     return footprint == Footprint::mesh && !layer.blended
@@ -151,29 +173,26 @@ std::size_t CellPass::work_of(const CellBuffers& cells, Footprint footprint,
                : cells.size();
 }
 
-DrawPart CellPass::put_in_order(std::span<const View> views, const Placement& placement,
-                                const CellBuffers& cells, Footprint footprint, const Layer& layer,
-                                const CellAppearance& appearance, DrawPart part) {
+DrawPart CellPass::put_in_order(const Drawing& drawing, DrawPart part) {
+    const auto& [views, placement, cells, footprint, layer, appearance] = drawing;
     if (!is_ordered(footprint, layer.blended))
         return part;
-    const std::size_t all = ordering_work(cells);
-    const DrawPart ordering = part.among(0, all), drawing = part.among(all, cells.size());
+    const std::size_t all = ordering_work(cells, footprint, layer.blended);
+    const DrawPart ordering = part.among(0, all), left = part.among(all, cells.size());
     const std::size_t done = (ordering.first + ordering.count) * views.size();
-    for (std::size_t i = 0; drawing.count == 0 && i < views.size(); ++i) { // one after the other
+    for (std::size_t i = 0; left.count == 0 && i < views.size(); ++i) { // one after the other
         if (done <= i * all)
             break;
         const std::size_t to = std::min(done - i * all, all);
-        if (footprint == Footprint::mesh) { // wants no texture with the order
+        if (wants_order_only(footprint, layer.blended)) {
             const TraversalKey key = key_of(views[i], placement);
             OrderCache& orders = sequences_.orders();
             orders.advance(cells, key, orders.work(cells, key) * to / all);
         } else {
-            sequences_.find(
-                sequence_wanted(views[i], placement, cells, footprint, layer.blended, appearance),
-                to, all);
+            sequences_.find(sequence_wanted(drawing, i), to, all);
         }
     }
-    return drawing;
+    return left;
 }
 
 std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footprint footprint,
@@ -189,34 +208,75 @@ std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footp
     return layers;
 }
 
-void CellPass::draw_at_once(std::span<const View> views, const Placement& placement,
-                            const CellBuffers& cells, Footprint footprint, const Layer& layer,
-                            const CellAppearance& appearance, DrawPart part) {
-    part = put_in_order(views, placement, cells, footprint, layer, appearance, part);
+void CellPass::draw_at_once(const Drawing& drawing, DrawPart part) {
+    const auto& [views, placement, cells, footprint, layer, appearance] = drawing;
+    part = put_in_order(drawing, part);
     if (part.count == 0)
         return;
-    const bool blended = layer.blended, in_windows = comes_in_windows(footprint, blended);
-    if (in_windows)
+    if (comes_in_windows(footprint, layer.blended)) {
         corners_.show(cells, part);
+        const CellSequence window{part.count, 0, static_cast<int>(part.first), 0};
+        return draw_cells(drawing, {window, window}, {0, part.count}, false);
+    }
+    std::array<CellSequence, 2> sequences;
+    sequences.fill({.cells = cells.size()});
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (!is_ordered(footprint, layer.blended) || wants_order_only(footprint, layer.blended))
+            break;
+        sequences[i] = sequences_.find(sequence_wanted(drawing, i));
+        if (!has_layers(footprint))
+            sequences[i] = sequences[i].part(part.first, part.first + part.count, cells.size());
+    }
+    draw_cells(drawing, sequences, part, true);
+}
+
+/// Draws an opaque surface, nearest cells first, without those that nearer ones hide.
+/// @return the work that is done then
+std::size_t CellPass::draw_in_sight(const Drawing& drawing, DrawPart part) {
+    const CellBuffers& cells = drawing.cells;
+    Drawing first = drawing; // whose order serves for both
+    first.views = drawing.views.first(1);
+    const std::size_t end = part.first + part.count;
+    part = put_in_order(first, part);
+    if (part.count == 0)
+        return end;
+    const std::span<const std::uint32_t> order =
+        sequences_.orders().order(cells, key_of(first.views[0], drawing.placement));
+    in_sight_.begin({drawing.views, drawing.placement, cells, drawing.layer.surfaces, all_cells_},
+                    part.first);
+    const bool few = cells.size() <= corners_.most();
+    auto effort = static_cast<double>(part.count);
+    while (effort > 0 && in_sight_.passed() < order.size()) {
+        const std::size_t found = in_sight_.next(order, corners_.most(), effort).size();
+        if (found == 0)
+            continue;
+        if (few)
+            corners_.show(cells, {0, cells.size()}); // computed once for the set
+        else
+            corners_.show(cells, in_sight_.buffer(), found);
+        const CellSequence sequence{found, in_sight_.texture(), 0, 1};
+        draw_cells(drawing, {sequence, sequence}, {0, found}, few);
+    }
+    return ordering_work(cells, drawing.footprint, false) + in_sight_.passed();
+}
+
+void CellPass::draw_cells(const Drawing& drawing, const std::array<CellSequence, 2>& sequences,
+                          DrawPart part, bool corners_by_slot) {
+    const auto& [views, placement, cells, footprint, layer, appearance] = drawing;
+    const bool blended = layer.blended;
     FrameBlock frame = frame_of(appearance, shapes_, footprint, layer.surfaces, blended, placement,
                                 cells.surroundings(), cells.slots().largest > 0);
-    CellSequence sequence{.cells = cells.size()};
     for (std::size_t i = 0; i < views.size(); ++i) {
         frame.eyes[i] = eye_block(views[i], placement, appearance);
         set_viewport(*gl_, views[i], static_cast<GLuint>(i));
-        if (is_ordered(footprint, blended) && footprint != Footprint::mesh) // which sorts triangles
-            sequence = sequences_.find(
-                sequence_wanted(views[i], placement, cells, footprint, blended, appearance));
-        // The shader needs a texture of this type bound even if it reads no sequence.
-        gl_->BindTextureUnit(static_cast<GLuint>(1 + i),
-                             sequence.texture != 0 ? sequence.texture : cells.texture());
     }
-    if (views.size() == 1)
-        gl_->BindTextureUnit(2, cells.texture());
-    if (is_ordered(footprint, blended) && !has_layers(footprint))
-        sequence = sequence.part(part.first, part.first + part.count, cells.size());
-    frame.order_begin = in_windows ? static_cast<std::int32_t>(part.first) : sequence.begin;
-    frame.order_step = sequence.step;
+    // The shader needs a texture of this type bound even if it reads no sequence.
+    for (std::size_t i = 0; i < sequences.size(); ++i)
+        gl_->BindTextureUnit(static_cast<GLuint>(1 + i),
+                             sequences[i].texture != 0 ? sequences[i].texture : cells.texture());
+    frame.order_begin = sequences[0].begin;
+    frame.order_step = sequences[0].step;
+    frame.corners_by_slot = corners_by_slot;
     // Meshes have a color of their own in each pixel: the target converts these faster to display
     // values than the shader.
     if (footprint == Footprint::mesh && !blended)
@@ -241,16 +301,16 @@ void CellPass::draw_at_once(std::span<const View> views, const Placement& placem
     } else {
         gl_->Disable(GL_BLEND);
     }
-    if (in_windows)
+    if (footprint == Footprint::surface && !blended)
         surface_.draw(quads_, corners_.values_texture(), corners_.gradients_texture(), false,
-                      views.size(), {0, part.count});
+                      views.size(), part);
     else if (footprint == Footprint::surface)
         surface_.draw(quads_, cells.corner_values_texture(), cells.corner_gradients_texture(), true,
                       views.size(), part);
     else if (footprint == Footprint::mesh)
-        draw_mesh(views.front(), placement, cells, layer, appearance, frame, part);
+        draw_mesh(drawing, frame, part);
     else
-        draw_footprints(sequence.cells, static_cast<int>(views.size()), footprint,
+        draw_footprints(sequences[0].cells, static_cast<int>(views.size()), footprint,
                         form_of(views, placement, footprint, cells));
     gl_->Enable(GL_FRAMEBUFFER_SRGB);
     gl_->Disable(GL_BLEND);
@@ -279,67 +339,18 @@ CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& p
     return form;
 }
 
-SequenceWanted CellPass::sequence_wanted(const View& view, const Placement& placement,
-                                         const CellBuffers& cells, Footprint footprint,
-                                         bool blended, const CellAppearance& appearance) const {
+SequenceWanted CellPass::sequence_wanted(const Drawing& drawing, std::size_t eye) const {
+    const auto& [views, placement, cells, footprint, layer, appearance] = drawing;
     // Splats are not culled in linear light: there, even a contribution below a step of the
     // display's values shows in dark places.
     const bool leaves_out =
         seen_only_ && !all_cells_ && !has_layers(footprint) &&
-        !(blended && appearance.linear_light) && hides_what_is_behind(appearance, placement) &&
+        !(layer.blended && appearance.linear_light) &&
+        hides_what_is_behind(appearance, placement) &&
         (shapes_.shape == CellShape::voxel || cells.slots().planes.size() == cells.size());
     const SplatShape shape{shapes_.shape, shapes_.radius_of(footprint),
                            footprint == Footprint::quad};
-    return {view, placement, cells, shape, gaussian_falloff(), blended, leaves_out};
-}
-
-/// The largest voxel that can be in a view.
-CellPass::VoxelInView CellPass::largest_voxel(const View& view, const Placement& placement,
-                                              const CellBuffers& cells) {
-    const glm::vec3 spacing = placement.spacing() * cells.axes().largest();
-    const float voxel = std::max({spacing.x, spacing.y, spacing.z});
-    const glm::vec2 scale = 0.5f * glm::vec2(view.size) *
-                            glm::vec2(glm::length(glm::vec3(view.clip_from_eye[0])),
-                                      glm::length(glm::vec3(view.clip_from_eye[1])));
-    const float at_one_meter = voxel * std::max(scale.x, scale.y);
-    if (view.is_parallel())
-        return {at_one_meter, 0.0f};
-    const glm::vec3 eye(glm::inverse(placement.room_from_index) *
-                        glm::vec4(view.eye_in_room(), 1.0f));
-    const glm::vec3 beside = eye - glm::clamp(eye, glm::vec3(0.0f), placement.extent);
-    const float distance = glm::length(glm::mat3(placement.room_from_index) * beside);
-    return {at_one_meter / distance, voxel / distance}; // infinite from within
-}
-
-void CellPass::draw_mesh(const View& view, const Placement& placement, const CellBuffers& cells,
-                         const Layer& layer, const CellAppearance& appearance,
-                         const FrameBlock& frame, DrawPart part) {
-    CellAppearance opaque = appearance;
-    for (SurfaceAppearance& surface : opaque.surfaces)
-        surface.opacity = 1.0f;
-    const VoxelInView largest = largest_voxel(view, placement, cells);
-    constexpr float kFewPixels = 8.0f; // so that light within a triangle is seen to be straight
-    // Highlights are off by at most 2 % if the ways from a triangle to the eye are those in between
-    // the ways from its vertices.
-    constexpr float kEven = 0.05f, kLeastShininess = 4.0f; // see mesh.frag
-    const bool even = largest.angle * largest.angle * appearance.shininess <= kEven &&
-                      appearance.shininess >= kLeastShininess;
-    const bool small = largest.pixels <= kFewPixels;
-    const MeshPass::Look look{.surfaces = layer.surfaces,
-                              .colors = frame.surfaces,
-                              .colored = appearance.values.has_value(),
-                              .near = !hides_what_is_behind(opaque, placement) || (!small && !even),
-                              .small = small};
-    if (layer.blended)
-        mesh_.draw_blended(cells, look,
-                           sequences_.orders()
-                               .order(cells, key_of(view, placement))
-                               .subspan(part.first, part.count));
-    else
-        mesh_.draw(
-            cells, look,
-            near_planes_first(frame.eyes[0].eye_in_index, placement.extent, placement.spacing()),
-            part);
+    return {views[eye], placement, cells, shape, gaussian_falloff(), layer.blended, leaves_out};
 }
 
 void CellPass::draw_footprints(std::size_t cells, int views, Footprint footprint, Form form) {

@@ -5,6 +5,7 @@
 #include "render/cells/cell_appearance.h"
 #include "render/cells/cell_buffers.h"
 #include "render/cells/cell_sequence.h"
+#include "render/cells/cells_in_sight.h"
 #include "render/cells/corner_window.h"
 #include "render/cells/draw_part.h"
 #include "render/cells/footprints.h"
@@ -42,8 +43,11 @@ class CellPass {
     /// the viewport undefined.
     /// @param part of the work: drawn one after the other, all parts give the same picture as the
     /// whole, to the bit
-    void draw(std::span<const View> views, const Placement& placement, const CellBuffers& cells,
-              Footprint footprint, const CellAppearance& appearance = {}, DrawPart part = {});
+    /// @return work that is done, after which the next part begins: more than the part's where
+    /// cells take no time because others hide them
+    std::size_t draw(std::span<const View> views, const Placement& placement,
+                     const CellBuffers& cells, Footprint footprint,
+                     const CellAppearance& appearance = {}, DrawPart part = {});
     void draw(const View& view, const Placement& placement, const CellBuffers& cells,
               Footprint footprint, const CellAppearance& appearance = {}) {
         draw(std::span(&view, 1), placement, cells, footprint, appearance);
@@ -54,8 +58,8 @@ class CellPass {
                               const CellAppearance& appearance);
 
     /// Work of drawing these cells into so many views, of which `draw` can do a part: cells of the
-    /// exact surface, triangles of a mesh. Quads and splats are first put in order, which counts as
-    /// a little work for each.
+    /// exact surface, triangles of a mesh. Most are first put in order, which counts as a little
+    /// work for each.
     std::size_t work(std::size_t views, const CellBuffers& cells, Footprint footprint,
                      const CellAppearance& appearance) const;
 
@@ -63,8 +67,8 @@ class CellPass {
     bool draws_two_views_at_once() const { return two_views_at_once_; }
     /// For comparisons: uses two passes even if the driver can draw two views in one.
     void draw_views_apart() { two_views_at_once_ = false; }
-    /// For comparisons: also draws occluded and out-of-view quads and splats on software GL, which
-    /// are culled otherwise.
+    /// For comparisons: also draws occluded and out-of-view cells on software GL, which are culled
+    /// otherwise.
     void draw_hidden_cells() { all_cells_ = true; }
     /// For comparisons: draws quads even where points would show the same faster.
     void draw_without_points() { largest_point_ = 0.0f; }
@@ -100,32 +104,37 @@ class CellPass {
     /// Views that are drawn in one pass, at most.
     std::size_t views_at_once(Footprint footprint) const;
     std::size_t work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer) const;
-    /// Draws one or two views in one pass; two need `Programs::two`.
-    void draw_at_once(std::span<const View> views, const Placement& placement,
-                      const CellBuffers& cells, Footprint footprint, const Layer& layer,
-                      const CellAppearance& appearance, DrawPart part);
+    /// Surfaces that are drawn into one or two views in one pass; two need `Programs::two`.
+    struct Drawing {
+        std::span<const View> views;
+        const Placement& placement;
+        const CellBuffers& cells;
+        Footprint footprint;
+        Layer layer;
+        const CellAppearance& appearance;
+    };
+    void draw_at_once(const Drawing& drawing, DrawPart part);
+    std::size_t draw_in_sight(const Drawing& drawing, DrawPart part);
+    /// Sets all state and draws. @param sequences by view
+    void draw_cells(const Drawing& drawing, const std::array<CellSequence, 2>& sequences,
+                    DrawPart part, bool corners_by_slot);
     /// The fastest form that shows the same picture in all views.
     Form form_of(std::span<const View> views, const Placement& placement, Footprint footprint,
                  const CellBuffers& cells) const;
     /// Whether its cells are drawn in an order, or any will do.
     bool is_ordered(Footprint footprint, bool blended) const;
-    SequenceWanted sequence_wanted(const View& view, const Placement& placement,
-                                   const CellBuffers& cells, Footprint footprint, bool blended,
-                                   const CellAppearance& appearance) const;
+    static bool wants_order_only(Footprint footprint, bool blended);
+    SequenceWanted sequence_wanted(const Drawing& drawing, std::size_t eye) const;
     /// Goes on with putting quads and splats in order. @return the part of the work that is left to
     /// draw
-    DrawPart put_in_order(std::span<const View> views, const Placement& placement,
-                          const CellBuffers& cells, Footprint footprint, const Layer& layer,
-                          const CellAppearance& appearance, DrawPart part);
+    DrawPart put_in_order(const Drawing& drawing, DrawPart part);
     struct VoxelInView {
         float pixels; ///< along it
         float angle;  ///< its length as a part of its distance
     };
     static VoxelInView largest_voxel(const View& view, const Placement& placement,
                                      const CellBuffers& cells);
-    void draw_mesh(const View& view, const Placement& placement, const CellBuffers& cells,
-                   const Layer& layer, const CellAppearance& appearance, const FrameBlock& frame,
-                   DrawPart part);
+    void draw_mesh(const Drawing& drawing, const FrameBlock& frame, DrawPart part);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
     float gaussian_falloff() const;
 
@@ -133,15 +142,16 @@ class CellPass {
     FootprintShapes shapes_;
     std::string grid_prelude_;
     bool two_views_at_once_;
-    /// Whether to cull occluded cells, and draw quads nearest first: on software GL this saves far
-    /// more time than it takes. A GPU is faster with all quads in any order.
+    /// Whether to cull occluded cells, and draw quads and opaque surfaces nearest first: on software
+    /// GL this saves far more time than it takes. A GPU is faster with all cells in any order.
     bool seen_only_;
     bool all_cells_ = false; ///< no culling, but still nearest first
     float largest_point_;    ///< pixels; 0: draw no points
     FootprintPrograms quad_programs_, gaussian_programs_;
     MeshPass mesh_;
     SurfacePass surface_;
-    CornerWindow corners_; ///< of opaque surfaces
+    CornerWindow corners_;  ///< of opaque surfaces
+    CellsInSight in_sight_; ///< the same
     QuadIndices quads_;
     CellSequences sequences_;
     Buffer frame_;

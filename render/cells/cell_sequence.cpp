@@ -11,16 +11,6 @@ namespace {
 /// Of five equal parts of the work, those that sorting takes where cells are left out then.
 constexpr std::size_t kSorting = 2, kAllParts = 5;
 
-bool is_same(const View& a, const View& b) {
-    return a.clip_from_eye == b.clip_from_eye && a.eye_from_room == b.eye_from_room &&
-           a.size == b.size && a.corner == b.corner;
-}
-
-bool is_same(const Placement& a, const Placement& b) {
-    return a.room_from_index == b.room_from_index && a.room_from_physical == b.room_from_physical &&
-           a.extent == b.extent && a.rectilinear == b.rectilinear;
-}
-
 } // namespace
 
 CellSequence CellSequence::part(std::size_t first, std::size_t end, std::size_t of) const {
@@ -32,8 +22,8 @@ CellSequences::CellSequences(const Gl& gl)
     : gl_(&gl), orders_(gl), slots_(gl), texture_(gl, GL_TEXTURE_BUFFER) {}
 
 bool CellSequences::Seen::of(const SequenceWanted& wanted) const {
-    return version == wanted.cells.version() && blended == wanted.blended &&
-           is_same(view, wanted.view) && is_same(placement, wanted.placement);
+    return version == wanted.cells.version() && blended == wanted.blended && view == wanted.view &&
+           placement == wanted.placement;
 }
 
 std::optional<CellSequence> CellSequences::find(const SequenceWanted& wanted, std::size_t to,

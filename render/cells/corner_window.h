@@ -10,8 +10,8 @@
 
 namespace isochron::render {
 
-/// What `CellBuffers::compute_corners` computes, for a range of slots at a time in the same memory:
-/// memory for all cells of a large set takes longer to get than a frame may.
+/// What `CellBuffers::compute_corners` computes, for some cells at a time in the same memory: memory
+/// for all cells of a large set takes longer to get than a frame may.
 class CornerWindow {
   public:
     static constexpr std::size_t kCells = 1 << 16; ///< most cells at a time: 6 MiB
@@ -25,15 +25,22 @@ class CornerWindow {
     /// @param part at most `most()`, all of them in use; the cells' volume is on the GPU
     void show(const CellBuffers& cells, DrawPart part);
 
-    /// As `CellBuffers` has them, counted from the first slot of the range.
+    /// Computes the data of the slots in a list.
+    /// @param list buffer of their numbers @param count of them, at most `most()`
+    void show(const CellBuffers& cells, GLuint list, std::size_t count);
+
+    /// As `CellBuffers` has them, counted from the first slot of the range, or by number in the
+    /// list.
     GLuint values_texture() const { return values_.texture(); }
     GLuint gradients_texture() const { return gradients_.texture(); }
 
   private:
+    void write(const CellBuffers& cells, DrawPart part, std::size_t first, GLuint list);
+
     const Gl* gl_;
     DeviceArray values_, gradients_;
     std::size_t most_;
-    std::uint64_t version_ = 0; ///< of the cells
+    std::uint64_t version_ = 0; ///< of the cells; 0 for those in a list
     DrawPart shown_{0, 0};
 };
 

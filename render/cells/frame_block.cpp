@@ -121,6 +121,8 @@ FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, F
         .soft_near_eye = gaussian,
         .color_ratio = look.values ? look.values->ratio : 0.0f,
         .mixed_levels = mixed_levels,
+        .corners_by_slot = true,
+        .padding = {},
         .index_from_normal = {},
         .surroundings = glm::vec4(glm::vec3(around.per_voxel()),
                                   around.size() == glm::ivec3(0) ? 0.0f : look.occlusion),

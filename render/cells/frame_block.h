@@ -52,12 +52,14 @@ struct FrameBlock {
     std::int32_t soft_near_eye;
     float color_ratio;
     std::int32_t mixed_levels;
+    std::int32_t corners_by_slot;
+    std::array<std::int32_t, 3> padding;
     std::array<glm::vec4, 3> index_from_normal; ///< rows
     glm::vec4 surroundings;                     ///< see frame.glsl
     glm::vec4 surroundings_size;
     glm::vec4 extent;
 };
-static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 13) * 16);
+static_assert(sizeof(FrameBlock) == 2 * (3 * 64 + 11 * 16) + (index::kMostSurfaces + 14) * 16);
 static_assert(sizeof(FrameBlock) <= kUniformBlockBytes);
 
 EyeBlock eye_block(const View& view, const Placement& placement, const CellAppearance& appearance);

@@ -21,6 +21,8 @@ struct Placement {
     glm::vec3 extent{1.0f};             ///< the volume spans [0, extent] in even coordinates
     std::optional<index::Grid> rectilinear = {}; ///< the grid, if rectilinear
 
+    bool operator==(const Placement&) const = default;
+
     /// Mean size of the voxels in the room [m].
     glm::vec3 spacing() const {
         const glm::mat3 axes(room_from_index);

@@ -13,6 +13,7 @@ struct View {
     glm::ivec2 size{0};            ///< of the viewport, pixels
     glm::ivec2 corner{0};          ///< lower left of the viewport in the target, pixels
 
+    bool operator==(const View&) const = default;
     bool is_parallel() const { return clip_from_eye[3][3] == 1.0f; } ///< orthographic
     glm::vec3 eye_in_room() const { return glm::vec3(glm::inverse(eye_from_room)[3]); }
 };

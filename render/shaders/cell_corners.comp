@@ -10,6 +10,7 @@
 
 layout(std430, binding = 1) writeonly buffer Values { vec4 corner_values[]; };       // 2 per cell
 layout(std430, binding = 2) writeonly buffer Gradients { uvec4 corner_gradients[]; }; // 4 per cell
+layout(std430, binding = 3) readonly buffer List { uint listed[]; }; // slots
 
 // The gradient towards lower values, in physical space, from differences along the axes; as halves,
 // the last of which is 0.
@@ -27,14 +28,15 @@ void write_row(uint texel, vec2 x, vec2 y, vec2 z) {
 }
 
 void main() {
-    uint slot = my_work();
-    if (slot >= work.y)
+    uint item = my_work();
+    if (item >= work.y)
         return;
+    uint slot = whole ? item : listed[item];
     ivec3 cell = cell_of(slot);
     uint surface = surface_of(slot);
     float level = levels[surface >> 2][surface & 3u];
     read_around(cell);
-    uint to = slot - work.x;
+    uint to = item - work.x;
     corner_values[2u * to] = vec4(row_11.yz, row_21.yz) - level;
     corner_values[2u * to + 1u] = vec4(row_12.yz, row_22.yz) - level;
     // Differences at the two vertices of a row, for each of the four rows.

@@ -163,7 +163,7 @@ vec4 corner_around(Slab slab, vec3 cell_center, vec3 voxel, vec2 corner) {
 void main() {
     start_eye();
     int number = gl_VertexID >> 2, slot = slot_in_order(number);
-    int corners = order_step == 0 ? number : slot; // of all slots, or from the first one drawn
+    int corners = corners_by_slot ? slot : number;
     uvec3 cell = texelFetch(cells, slot).xyz;
     ivec3 place = ivec3(cell.x & 0xffffu, cell.x >> 16, cell.y & 0xffffu);
     vec3 of_cell = cell_size(place);

@@ -55,9 +55,9 @@ SurfacePicture SurfaceTest::draw(CellPass& pass, const VertexField& field,
     gl_.NamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
     gl_.NamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
     constexpr glm::vec4 kNothing(0.0f);
-    constexpr float kFar = 1.0f;
+    constexpr float kFarDepth = 1.0f;
     gl_.ClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0, &kNothing.x);
-    gl_.ClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, &kFar);
+    gl_.ClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, &kFarDepth);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
 
     CellBuffers cells(gl_, field.values().grid);

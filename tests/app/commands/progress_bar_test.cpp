@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <poll.h>
 #include <pty.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -15,6 +17,21 @@ namespace isochron::app {
 namespace {
 
 using testing::HasSubstr;
+
+/// What a terminal shows up to the end of its n-th line, or what came within ten seconds: a
+/// terminal passes on what is written to it piece by piece.
+std::string lines(int terminal, std::ptrdiff_t n) {
+    std::string shown;
+    std::array<char, 4096> bytes{};
+    pollfd ready{terminal, POLLIN, 0};
+    while (std::ranges::count(shown, '\n') < n && ::poll(&ready, 1, 10'000) == 1) {
+        const ssize_t size = ::read(terminal, bytes.data(), bytes.size());
+        if (size <= 0)
+            break;
+        shown.append(bytes.data(), static_cast<std::size_t>(size));
+    }
+    return shown;
+}
 
 TEST(ProgressBar, IsRedrawnInPlaceOnATerminal) {
     int ours = -1, theirs = -1;
@@ -27,10 +44,7 @@ TEST(ProgressBar, IsRedrawnInPlaceOnATerminal) {
         progress("reading", 0.501); // still 50 %: not drawn again
         progress("writing", 1);
     }
-    std::array<char, 4096> bytes{};
-    const ssize_t size = ::read(ours, bytes.data(), bytes.size());
-    ASSERT_GT(size, 0);
-    const std::string shown(bytes.data(), static_cast<std::size_t>(size));
+    const std::string shown = lines(ours, 2);
     EXPECT_THAT(shown, HasSubstr("reading          [############            ]  50 %"));
     EXPECT_EQ(shown.find("reading"), shown.rfind("reading"));
     EXPECT_THAT(shown, HasSubstr("writing          [########################] 100 %"));

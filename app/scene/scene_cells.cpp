@@ -41,6 +41,7 @@ void Scene::warm_up(std::span<const render::View> views,
     if (mesh_room_ > 0)
         footprints.push_back(render::Footprint::mesh);
     footprints.push_back(render::Footprint::surface);
+    const render::Texture map = render::color_map_texture(gl_, {glm::vec3(1.0f)}, false);
     // In the middle of the volume: as small as its voxels, of many pixels, and as large as on a way
     // through it.
     const auto whole = render::Placement::of(info_.grid, matrix(room_from_physical));
@@ -61,6 +62,11 @@ void Scene::warm_up(std::span<const render::View> views,
                     continue;
                 render::CellAppearance appearance = appearance_;
                 appearance.surfaces[0].opacity = opacity;
+                appearance.values.reset();
+                cell_pass_.draw(views, placement, cells, footprint, appearance);
+                if (footprint != render::Footprint::mesh) // has other shaders for colors by value
+                    continue;
+                appearance.values = {.map = map.name()};
                 cell_pass_.draw(views, placement, cells, footprint, appearance);
             }
     }

@@ -42,16 +42,12 @@ AxisTable::AxisTable(const Gl& gl, const index::Grid& grid) : gl_(&gl) {
             smallest_ = std::min(smallest_, size);
         }
     }
-    buffer_.emplace(gl);
-    texture_.emplace(gl, GL_TEXTURE_BUFFER);
-    gl.NamedBufferData(buffer_->name(), static_cast<GLsizeiptr>(texels.size() * sizeof(glm::vec4)),
-                       texels.data(), GL_STATIC_DRAW);
-    gl.TextureBuffer(texture_->name(), GL_RGBA32F, buffer_->name());
+    texels_.emplace(gl).set(GL_RGBA32F, sizeof(texels[0]), std::as_bytes(std::span(texels)));
 }
 
 void AxisTable::bind() const {
-    if (texture_)
-        gl_->BindTextureUnit(kUnit, texture_->name());
+    if (texels_)
+        gl_->BindTextureUnit(kUnit, texels_->texture());
 }
 
 } // namespace isochron::render

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/volume/grid.h"
-#include "render/gl/gl_objects.h"
+#include "render/gl/buffer_texture.h"
 
 #include <glm/vec3.hpp>
 
@@ -18,7 +18,7 @@ class AxisTable {
   public:
     AxisTable(const Gl& gl, const index::Grid& grid);
 
-    bool uneven() const { return texture_.has_value(); }
+    bool uneven() const { return texels_.has_value(); }
     /// Binds the table, if there is one, where cell_place.glsl expects it.
     void bind() const;
     /// The largest sides that a cell has, in even coordinates; 1 on a regular grid.
@@ -31,8 +31,7 @@ class AxisTable {
     const Gl* gl_;
     glm::vec3 largest_{1.0f};
     float smallest_ = 1.0f;
-    std::optional<Buffer> buffer_;
-    std::optional<Texture> texture_;
+    std::optional<BufferTexture> texels_;
 };
 
 } // namespace isochron::render

@@ -48,10 +48,9 @@ std::optional<BoxBounds> BoxProjection::bounds(const glm::vec3& middle,
         return BoxBounds{glm::vec2(0.0f), size_, -std::numeric_limits<float>::infinity()};
     const float over_w = 1.0f / w, over_least = 1.0f / least;
     const glm::vec2 seen = over_w * glm::vec2(glm::dot(x_, at), glm::dot(y_, at));
-    const glm::vec2 around =
-        over_least * glm::vec2(reach(glm::vec3(x_ - seen.x * w_), box),
-                               reach(glm::vec3(y_ - seen.y * w_), box)) +
-        kPixels;
+    const glm::vec2 around = over_least * glm::vec2(reach(glm::vec3(x_ - seen.x * w_), box),
+                                                    reach(glm::vec3(y_ - seen.y * w_), box)) +
+                             kPixels;
     const glm::vec2 low = center_ + seen - around, high = center_ + seen + around;
     if (high.x < 0.0f || high.y < 0.0f || low.x > size_.x || low.y > size_.y)
         return std::nullopt;

@@ -81,7 +81,11 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
       quad_programs_(footprint_programs("cell_quad.frag", Footprint::quad)),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", Footprint::gaussian)),
       mesh_(gl, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude), corners_(gl),
-      in_sight_(gl), quads_(gl), sequences_(gl), frame_(gl) {
+      in_sight_(gl), quads_(gl), sequences_(gl), frame_(gl), no_colors_(gl, GL_TEXTURE_1D) {
+    gl.TextureStorage1D(no_colors_.name(), 1, GL_RGB16F, 1);
+    gl.TextureParameteri(no_colors_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(no_colors_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TextureParameteri(no_colors_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     if (shapes.shape == CellShape::voxel)
         quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
     const float falloff = gaussian_falloff();
@@ -286,8 +290,9 @@ void CellPass::draw_cells(const Drawing& drawing, const std::array<CellSequence,
     gl_->BindTextureUnit(0, cells.texture());
     gl_->BindTextureUnit(kSurroundingsUnit, cells.surroundings().texture());
     cells.axes().bind();
-    if (appearance.values)
-        gl_->BindTextureUnit(kColorMapUnit, appearance.values->map);
+    // Where there is no map, a texture of the same kind: llvmpipe compiles shaders anew for others.
+    gl_->BindTextureUnit(kColorMapUnit,
+                         appearance.values ? appearance.values->map : no_colors_.name());
     // Without linear light the shader writes display values, which the target must not convert.
     if (!frame.linear_light)
         gl_->Disable(GL_FRAMEBUFFER_SRGB);

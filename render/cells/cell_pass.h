@@ -155,6 +155,7 @@ class CellPass {
     QuadIndices quads_;
     CellSequences sequences_;
     Buffer frame_;
+    Texture no_colors_; ///< in place of a color map
 };
 
 } // namespace isochron::render

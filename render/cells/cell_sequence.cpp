@@ -18,8 +18,7 @@ CellSequence CellSequence::part(std::size_t first, std::size_t end, std::size_t 
     return {to - from, texture, begin + static_cast<int>(from) * step, step};
 }
 
-CellSequences::CellSequences(const Gl& gl)
-    : gl_(&gl), orders_(gl), slots_(gl), texture_(gl, GL_TEXTURE_BUFFER) {}
+CellSequences::CellSequences(const Gl& gl) : orders_(gl), slots_(gl) {}
 
 bool CellSequences::Seen::of(const SequenceWanted& wanted) const {
     return version == wanted.cells.version() && blended == wanted.blended && view == wanted.view &&
@@ -30,7 +29,7 @@ std::optional<CellSequence> CellSequences::find(const SequenceWanted& wanted, st
                                                 std::size_t of) {
     const auto& cells = wanted.cells;
     if (wanted.leaves_out && seen_ && seen_->complete && seen_->of(wanted))
-        return CellSequence{seen_->cells, texture_.name(), 0, 1};
+        return CellSequence{seen_->cells, slots_.texture(), 0, 1};
     const TraversalKey key = key_of(wanted.view, wanted.placement);
     const std::size_t sorting = wanted.leaves_out ? kSorting : kAllParts;
     const std::size_t sorted = std::min(kAllParts * to, sorting * of);
@@ -41,7 +40,7 @@ std::optional<CellSequence> CellSequences::find(const SequenceWanted& wanted, st
     }
     if (wanted.leaves_out) {
         look(wanted, kAllParts * to - sorted, kAllParts * of - sorted);
-        return seen_->complete ? std::optional(CellSequence{seen_->cells, texture_.name(), 0, 1})
+        return seen_->complete ? std::optional(CellSequence{seen_->cells, slots_.texture(), 0, 1})
                                : std::nullopt;
     }
     if (to < of)
@@ -74,17 +73,13 @@ void CellSequences::look(const SequenceWanted& wanted, std::size_t to, std::size
         return;
     const std::span<const PixelSquare> parts = finder.parts();
     if (parts.empty()) {
-        gl_->NamedBufferData(slots_.name(), static_cast<GLsizeiptr>(seen.size_bytes()), seen.data(),
-                             GL_STREAM_DRAW);
+        slots_.set(GL_R32UI, sizeof(seen[0]), std::as_bytes(seen));
     } else {
         texels_.clear();
         for (std::size_t i = 0; i < seen.size(); ++i)
             texels_.push_back({seen[i], parts[i].corner, parts[i].size});
-        gl_->NamedBufferData(slots_.name(),
-                             static_cast<GLsizeiptr>(texels_.size() * sizeof(texels_[0])),
-                             texels_.data(), GL_STREAM_DRAW);
+        slots_.set(GL_RGB32UI, sizeof(texels_[0]), std::as_bytes(std::span(texels_)));
     }
-    gl_->TextureBuffer(texture_.name(), parts.empty() ? GL_R32UI : GL_RGB32UI, slots_.name());
     seen_->cells = seen.size();
     seen_->complete = true;
 }

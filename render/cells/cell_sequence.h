@@ -6,6 +6,7 @@
 #include "render/cells/placement.h"
 #include "render/cells/quad_culling.h"
 #include "render/cells/splat_culling.h"
+#include "render/gl/buffer_texture.h"
 #include "render/gl/view.h"
 
 #include <array>
@@ -65,14 +66,12 @@ class CellSequences {
     void begin(const SequenceWanted& wanted);
     void look(const SequenceWanted& wanted, std::size_t to, std::size_t of);
 
-    const Gl* gl_;
     OrderCache orders_;
     SeenCells seen_cells_;
     SeenSplats seen_splats_;
     std::optional<Seen> seen_;
     std::vector<std::array<std::uint32_t, 3>> texels_; ///< see cell_order.glsl
-    Buffer slots_;
-    Texture texture_;
+    BufferTexture slots_;
 };
 
 } // namespace isochron::render

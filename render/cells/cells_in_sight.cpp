@@ -13,7 +13,7 @@ constexpr std::size_t kUnread = 1 << 14;
 
 } // namespace
 
-CellsInSight::CellsInSight(const Gl& gl) : gl_(&gl), buffer_(gl), texture_(gl, GL_TEXTURE_BUFFER) {}
+CellsInSight::CellsInSight(const Gl& gl) : gl_(&gl), texels_(gl) {}
 
 void CellsInSight::begin(const SightWanted& wanted, std::size_t first) {
     GLint framebuffer = 0;
@@ -63,8 +63,8 @@ bool CellsInSight::is_in_sight(const CellPlace& place) const {
     return false;
 }
 
-std::span<const std::uint32_t>
-CellsInSight::next(std::span<const std::uint32_t> back_to_front, std::size_t most, double& effort) {
+std::span<const std::uint32_t> CellsInSight::next(std::span<const std::uint32_t> back_to_front,
+                                                  std::size_t most, double& effort) {
     if (unread_ >= kUnread) {
         for (std::size_t i = 0; i < views_.size(); ++i)
             depths_[i].read(*gl_, views_[i]);
@@ -80,10 +80,7 @@ CellsInSight::next(std::span<const std::uint32_t> back_to_front, std::size_t mos
             found_.push_back(slot);
     }
     unread_ += found_.size();
-    // Use fresh storage: the GL may still draw with what was found before.
-    gl_->NamedBufferData(buffer_.name(), static_cast<GLsizeiptr>(std::span(found_).size_bytes()),
-                         found_.data(), GL_STREAM_DRAW);
-    gl_->TextureBuffer(texture_.name(), GL_R32UI, buffer_.name());
+    texels_.set(GL_R32UI, sizeof(found_[0]), std::as_bytes(std::span(found_)));
     return found_;
 }
 

@@ -6,7 +6,7 @@
 #include "render/cells/cell_buffers.h"
 #include "render/cells/drawn_depths.h"
 #include "render/cells/placement.h"
-#include "render/gl/gl_objects.h"
+#include "render/gl/buffer_texture.h"
 #include "render/gl/view.h"
 
 #include <array>
@@ -49,8 +49,8 @@ class CellsInSight {
     /// Number of cells that came before, found or not.
     std::size_t passed() const { return passed_; }
     /// What was found last, as a GL_TEXTURE_BUFFER of R32UI texels; and its buffer.
-    GLuint texture() const { return texture_.name(); }
-    GLuint buffer() const { return buffer_.name(); }
+    GLuint texture() const { return texels_.texture(); }
+    GLuint buffer() const { return texels_.buffer(); }
 
     static constexpr double kHidden = 1.0 / 24.0;
 
@@ -58,8 +58,7 @@ class CellsInSight {
     bool is_in_sight(const CellPlace& place) const;
 
     const Gl* gl_;
-    Buffer buffer_;
-    Texture texture_;
+    BufferTexture texels_; ///< what was found
     // The picture:
     std::uint64_t version_ = 0; ///< of the cells
     GLint framebuffer_ = 0;
@@ -68,7 +67,7 @@ class CellsInSight {
     std::int32_t surfaces_ = 0;
     bool all_cells_ = false;
     std::size_t passed_ = 0;
-    std::size_t unread_ = 0; ///< cells that are drawn since depths were read
+    std::size_t unread_ = 0;                 ///< cells that are drawn since depths were read
     std::vector<BoxProjection> projections_; ///< by view, as are depths
     std::vector<DrawnDepths> depths_;
     std::array<AxisPlaces, 3> axes_; ///< of a rectilinear grid

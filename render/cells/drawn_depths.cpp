@@ -32,8 +32,8 @@ void DrawnDepths::read(const Gl& gl, const View& view) {
     largest_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0.0f);
     for (int y = 0; y < view.size.y; ++y) {
         const float* const pixels = depths_.data() + static_cast<std::size_t>(y) * width;
-        float* const tiles =
-            largest_.data() + static_cast<std::size_t>(y >> kBits) * static_cast<std::size_t>(columns_);
+        float* const tiles = largest_.data() + static_cast<std::size_t>(y >> kBits) *
+                                                   static_cast<std::size_t>(columns_);
         for (int x = 0; x < view.size.x; ++x)
             tiles[x >> kBits] = std::max(tiles[x >> kBits], pixels[x]);
     }

@@ -126,7 +126,7 @@ FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, F
         .index_from_normal = {},
         .surroundings = glm::vec4(glm::vec3(around.per_voxel()),
                                   around.size() == glm::ivec3(0) ? 0.0f : look.occlusion),
-        .surroundings_size = glm::vec4(glm::max(around.size(), 1), around.surfaces()),
+        .surroundings_size = glm::vec4(glm::max(around.size(), 1), 0),
         .extent = glm::vec4(placement.extent, 0.0f),
     };
     const glm::mat3 rows = glm::transpose(placement.index_from_normal());

@@ -18,8 +18,7 @@ constexpr GLint kFirstVertices = 1; ///< of mesh.vert
 constexpr std::size_t kMostSorted = 1 << 18;
 
 MeshPass::MeshPass(const Gl& gl, const std::string& grid_prelude)
-    : gl_(&gl), vertex_array_(gl), styles_(gl), near_first_(gl), order_(gl),
-      styles_texture_(gl, GL_TEXTURE_BUFFER) {
+    : gl_(&gl), vertex_array_(gl), styles_(gl), near_first_(gl), order_(gl) {
     for (const Kind kind : {Kind::plain, Kind::styled, Kind::blended})
         for (const Way way : {Way::plain, Way::near, Way::small})
             if (kind != Kind::blended || way == Way::near) // what blends is asked how near it is
@@ -129,9 +128,7 @@ void MeshPass::send_styles(const CellBuffers& cells, bool sorted) {
         for (const std::uint32_t triangle : near_triangles_.numbers)
             styles.push_back(style_of_triangle_[triangle]);
     const std::span<const std::uint16_t> sent = sorted ? styles : style_of_triangle_;
-    gl_->NamedBufferData(styles_.name(), static_cast<GLsizeiptr>(sent.size_bytes()), sent.data(),
-                         GL_STREAM_DRAW);
-    gl_->TextureBuffer(styles_texture_.name(), GL_R16UI, styles_.name());
+    styles_.set(GL_R16UI, sizeof(sent[0]), std::as_bytes(sent));
 }
 
 void MeshPass::draw(const CellBuffers& cells, const Look& look, PlaneOrder order, DrawPart part) {
@@ -140,7 +137,7 @@ void MeshPass::draw(const CellBuffers& cells, const Look& look, PlaneOrder order
         put_near_first(cells, order);
     if (look.colored) {
         send_styles(cells, sorted);
-        gl_->BindTextureUnit(kStylesUnit, styles_texture_.name());
+        gl_->BindTextureUnit(kStylesUnit, styles_.texture());
     }
     const GLuint of_look = program(look.colored ? Kind::styled : Kind::plain, look);
     gl_->UseProgram(of_look);
@@ -193,11 +190,9 @@ void MeshPass::draw_blended(const CellBuffers& cells, const Look& look,
         return;
     gl_->NamedBufferData(order_.name(), static_cast<GLsizeiptr>(std::span(indices).size_bytes()),
                          indices.data(), GL_STREAM_DRAW);
-    gl_->NamedBufferData(styles_.name(), static_cast<GLsizeiptr>(std::span(styles).size_bytes()),
-                         styles.data(), GL_STREAM_DRAW);
-    gl_->TextureBuffer(styles_texture_.name(), GL_R16UI, styles_.name());
+    styles_.set(GL_R16UI, sizeof(styles[0]), std::as_bytes(std::span(styles)));
     styles_version_ = 0; // of no set
-    gl_->BindTextureUnit(kStylesUnit, styles_texture_.name());
+    gl_->BindTextureUnit(kStylesUnit, styles_.texture());
     const GLuint of_look = program(Kind::blended, look);
     gl_->ProgramUniform1i(of_look, 0, 0);
     tell_surfaces(of_look, cells);

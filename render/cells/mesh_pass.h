@@ -4,6 +4,7 @@
 #include "render/cells/cell_buffers.h"
 #include "render/cells/draw_part.h"
 #include "render/cells/mesh_order.h"
+#include "render/gl/buffer_texture.h"
 
 #include <glm/vec4.hpp>
 #include <string>
@@ -59,8 +60,8 @@ class MeshPass {
     const Gl* gl_;
     std::array<std::array<std::optional<Program>, 3>, 3> programs_; ///< [kind][way]
     VertexArray vertex_array_;
-    Buffer styles_, near_first_, order_; ///< styles by triangle; vertex indices, also to be blended
-    Texture styles_texture_;
+    BufferTexture styles_;                         ///< by triangle
+    Buffer near_first_, order_;                    ///< vertex indices, also to be blended
     std::vector<std::uint16_t> style_of_triangle_; ///< of the set with cells_version_
     std::vector<std::uint32_t> first_of_cell_;     ///< first triangle of each cell, by slot
     OrderedTriangles near_triangles_;              ///< in `near_first_`

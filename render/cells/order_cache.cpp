@@ -52,13 +52,11 @@ OrderCache::Entry& OrderCache::entry(const CellBuffers& cells, const TraversalKe
 GLuint OrderCache::texture(const CellBuffers& cells, const TraversalKey& key) {
     Entry& wanted = entry(cells, key);
     if (!wanted.sent) {
-        // Use fresh storage: the GPU may still draw with the replaced order.
-        gl_->NamedBufferData(wanted.buffer.name(), wanted.order.size() * sizeof(wanted.order[0]),
-                             wanted.order.data(), GL_STREAM_DRAW);
-        gl_->TextureBuffer(wanted.texture.name(), GL_R32UI, wanted.buffer.name());
+        wanted.texels.set(GL_R32UI, sizeof(wanted.order[0]),
+                          std::as_bytes(std::span(wanted.order)));
         wanted.sent = true;
     }
-    return wanted.texture.name();
+    return wanted.texels.texture();
 }
 
 } // namespace isochron::render

@@ -3,6 +3,7 @@
 
 #include "render/cells/cell_buffers.h"
 #include "render/cells/traversal_order.h"
+#include "render/gl/buffer_texture.h"
 
 #include <array>
 #include <cstddef>
@@ -36,9 +37,8 @@ class OrderCache {
 
   private:
     struct Entry {
-        explicit Entry(const Gl& gl) : buffer(gl), texture(gl, GL_TEXTURE_BUFFER) {}
-        Buffer buffer;
-        Texture texture;
+        explicit Entry(const Gl& gl) : texels(gl) {}
+        BufferTexture texels; ///< the order
         std::uint64_t version = 0;
         TraversalKey key;
         std::vector<std::uint32_t> order;

@@ -2,11 +2,22 @@
 #include "render/cells/surroundings.h"
 
 #include <array>
+#include <bit>
 
 namespace isochron::render {
 namespace {
 
-Texture field_texture(const Gl& gl, const glm::ivec3& size) {
+/// Places in the texture along an axis, of which some may have no use: llvmpipe compiles shaders
+/// anew for powers of two, as for buffer textures (see texel_storage).
+int along_texture(int places) {
+    while (std::has_single_bit(static_cast<unsigned>(places)))
+        ++places;
+    return places;
+}
+
+Texture field_texture(const Gl& gl, const glm::ivec3& places) {
+    const glm::ivec3 size(along_texture(places.x), along_texture(places.y),
+                          along_texture(places.z));
     Texture texture(gl, GL_TEXTURE_3D);
     gl.TextureStorage3D(texture.name(), 1, GL_R8, size.x, size.y, size.z);
     gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -39,9 +50,9 @@ std::size_t Surroundings::show(const index::SurroundingField& field) {
         return 0;
     }
     per_voxel_ = 1.0f / static_cast<float>(field.stride);
-    surfaces_ = static_cast<int>(field.shares.size() /
-                                 (std::size_t{field.size[0]} * field.size[1] * field.size[2]));
-    const glm::ivec3 whole(size_.x, size_.y, size_.z * surfaces_);
+    const int surfaces = static_cast<int>(
+        field.shares.size() / (std::size_t{field.size[0]} * field.size[1] * field.size[2]));
+    const glm::ivec3 whole(size_.x, size_.y, size_.z * surfaces);
     if (whole != held_)
         texture_.emplace(field_texture(*gl_, whole));
     held_ = whole;

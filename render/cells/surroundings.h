@@ -20,8 +20,7 @@ class Surroundings {
     std::size_t show(const index::SurroundingField& field);
 
     GLuint texture() const { return texture_->name(); }
-    glm::ivec3 size() const { return size_; } ///< places of a surface; 0: there is no field
-    int surfaces() const { return surfaces_; }
+    glm::ivec3 size() const { return size_; }      ///< places of a surface; 0: there is no field
     float per_voxel() const { return per_voxel_; } ///< places
 
   private:
@@ -29,7 +28,6 @@ class Surroundings {
     std::optional<Texture> texture_;
     glm::ivec3 held_{0};
     glm::ivec3 size_{0};
-    int surfaces_ = 1;
     float per_voxel_ = 1.0f;
 };
 

@@ -1,6 +1,7 @@
 // A growing array on the GPU.
 #include "render/gl/device_array.h"
 
+#include "render/gl/buffer_texture.h"
 #include "render/gl/gl_memory.h"
 #include "render/gl/limits.h"
 
@@ -30,7 +31,9 @@ void DeviceArray::reserve(std::size_t elements, Contents contents) {
     // Grow by at least half, so that slowly growing sets rarely need a new buffer.
     const std::size_t capacity = std::min(std::max(elements, capacity_ + capacity_ / 2), limit_);
     Buffer larger(*gl_);
-    gl_->NamedBufferData(larger.name(), static_cast<GLsizeiptr>(capacity * element_bytes()),
+    gl_->NamedBufferData(larger.name(),
+                         static_cast<GLsizeiptr>(
+                             texel_storage(capacity * element_bytes(), limit_ * element_bytes())),
                          nullptr, GL_DYNAMIC_COPY);
     expect_memory(*gl_, fmt::format("{} {}", elements, what_));
     if (contents == Contents::kept)

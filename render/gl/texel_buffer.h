@@ -1,7 +1,7 @@
 // A buffer texture with the data of one draw: a few numbers for each line, character or triangle.
 #pragma once
 
-#include "render/gl/gl_objects.h"
+#include "render/gl/buffer_texture.h"
 
 #include <cstddef>
 #include <span>
@@ -18,14 +18,12 @@ class TexelBuffer {
     /// Replaces the contents. @throws Error when they are too large for the driver's buffer
     /// textures
     void set(std::span<const std::byte> bytes);
-    GLuint texture() const { return texture_.name(); }
+    GLuint texture() const { return texels_.texture(); }
 
   private:
-    const Gl* gl_;
     const char* what_;
     std::size_t element_bytes_, limit_;
-    Buffer buffer_;
-    Texture texture_;
+    BufferTexture texels_;
 };
 
 } // namespace isochron::render

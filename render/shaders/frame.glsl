@@ -41,7 +41,7 @@ layout(std140, binding = 0) uniform Frame {
     bool corners_by_slot; // surface.vert: corners are there for all slots, else for the cells drawn
     vec4 index_from_normal[3]; // rows: planes' normals from physical to index space
     vec4 surroundings;      // places of the field of surroundings per voxel; w: how much they darken
-    vec4 surroundings_size; // its places along x, y and z of a surface, and of how many
+    vec4 surroundings_size; // its places along x, y and z of a surface
     vec4 volume_extent;           // of the volume in index space, xyz
 };
 

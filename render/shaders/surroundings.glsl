@@ -28,7 +28,7 @@ float unshadowed(vec3 at, vec3 toward_eye, vec3 size, vec3 normal, uint surface)
     vec3 places = surroundings_size.xyz;
     vec3 place = clamp(at * surroundings.xyz + n, vec3(0), places - 1.0) + 0.5;
     place.z += float(surface) * places.z;
-    float share = textureLod(surroundings_field, place / (places * vec3(1, 1, surroundings_size.w)), 0.0).x;
+    float share = textureLod(surroundings_field, place / vec3(textureSize(surroundings_field, 0)), 0.0).x;
     float behind = outside ? share : 1.0 - share;
     return 1.0 - surroundings.w * clamp(kSteepness * (behind - kPlane), 0.0, kDarkest);
 }

@@ -14,14 +14,15 @@
 
 namespace isochron::app {
 
-/// A sphere that moves along x: 32^3 vertices, f32, values 16 minus the distance from the center.
+/// A sphere that moves along x: f32, values 16 minus the distance from the center.
 class MovingSphere final : public index::VolumeSeries {
   public:
-    explicit MovingSphere(std::size_t steps) {
+    /// @param edge vertices along each axis
+    explicit MovingSphere(std::size_t steps, std::uint32_t edge = 32) {
         info_.array = std::string("distance");
         info_.length_unit = std::string("mm");
         info_.time_unit = std::string("s");
-        info_.grid.vertices = {32, 32, 32};
+        info_.grid.vertices = {edge, edge, edge};
         for (std::size_t t = 0; t < steps; ++t)
             info_.times.push_back(0.5 * static_cast<double>(t));
         info_.sources = {"made in memory"};
@@ -29,9 +30,10 @@ class MovingSphere final : public index::VolumeSeries {
     const index::SeriesInfo& info() const override { return info_; }
     void read(std::size_t step, std::span<std::byte> out) override {
         std::size_t at = 0;
-        for (int z = 0; z < 32; ++z)
-            for (int y = 0; y < 32; ++y)
-                for (int x = 0; x < 32; ++x) {
+        const int edge = static_cast<int>(info_.grid.vertices[0]);
+        for (int z = 0; z < edge; ++z)
+            for (int y = 0; y < edge; ++y)
+                for (int x = 0; x < edge; ++x) {
                     const double t = static_cast<double>(step);
                     const double dx = x - (12.0 + t), dy = y - 15.5, dz = z - 15.5;
                     const auto value =

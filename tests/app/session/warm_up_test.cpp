@@ -1,4 +1,5 @@
 // Warming up: what cells are drawn with has been used before the first frame.
+#include "tests/support/compilations.h"
 #include "tests/support/context_in_between.h"
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
@@ -75,6 +76,45 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
     expect_warm(render::Footprint::mesh, 0.4f);
     expect_warm(render::Footprint::surface, 1.0f);
     expect_warm(render::Footprint::surface, 0.4f);
+}
+
+TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {
+    MovingSphere series(6, 33); // unlike the small surface of the warm-up, of no power of two
+    build_index(series, folder_.path() / "odd.isochron", {});
+    const auto file = index::IndexFile::open(folder_.path() / "odd.isochron");
+    const auto compiled_after_warm_up = [&](render::Footprint settled) {
+        Config config = small_config();
+        config.settled_footprint = settled;
+        config.frame_budget_ms = 1e-6; // quads in motion
+        config.still_budget_ms = 0;    // no slices
+        config.drawn_by = render::DrawnBy::processor;
+        Session session(config, file, noting_);
+        session.warm_up();
+        const int warm = test_support::compilations();
+        EXPECT_GT(warm, 0);
+        int number = 0;
+        const auto expect_shown = [&](interaction::Commands commands) {
+            EXPECT_TRUE(test_support::eventually([&] {
+                const FrameReport& report = session.frame(
+                    head_at_rest(number++ / 60.0), std::exchange(commands, {}), Waiting::never);
+                return report.redrawn && report.cells > 0 && report.footprint == settled &&
+                       report.shown == report.asked;
+            }));
+        };
+        interaction::Commands commands;
+        for (const double isovalue : {2.0, 3.0, 8.5, 15.2}) { // thousands of cells to eight
+            commands.isosurfaces = {{{isovalue, {0.9f, 0.3f, 0.2f}, 1.0f}}};
+            expect_shown(commands);
+        }
+        commands.coloring.emplace().by = interaction::ColorBy::first_crossing;
+        commands.step = 2; // a new set, with its colors
+        expect_shown(commands);
+        return test_support::compilations() - warm;
+    };
+    compiled_after_warm_up(render::Footprint::gaussian); // what is not of cells is kept for later
+    for (const render::Footprint footprint :
+         {render::Footprint::gaussian, render::Footprint::mesh, render::Footprint::surface})
+        EXPECT_EQ(compiled_after_warm_up(footprint), 0) << render::name_of(footprint);
 }
 
 } // namespace

@@ -97,7 +97,7 @@ void Scene::look(const ExplorerState& state, const interaction::Pose& head,
         return a.map == b.map && a.colors == b.colors && a.use == b.use;
     };
     if (scale && (!scale_ || !same_colors(*scale_, *scale)))
-        map_.emplace(render::color_map_texture(gl_, colors_of(*scale), scale->use.bands > 0));
+        map_.emplace(render::color_map_texture(gl_, colors_of(*scale)));
     scale_ = scale;
     appearance_.values.reset();
     if (scale) {
@@ -105,8 +105,10 @@ void Scene::look(const ExplorerState& state, const interaction::Pose& head,
             const double half = scale->whole[1] / 2 - scale->whole[0] / 2;
             return half > 0 ? static_cast<float>((value / 2 - scale->whole[0] / 2) / half) : 0.0f;
         };
-        appearance_.values = {
-            .map = map_->name(), .low = share(scale->range[0]), .high = share(scale->range[1])};
+        appearance_.values = {.map = map_->name(),
+                              .low = share(scale->range[0]),
+                              .high = share(scale->range[1]),
+                              .bands = scale->use.bands > 0};
         if (scale->logarithmic)
             appearance_.values->ratio = static_cast<float>(scale->range[1] / scale->range[0]);
     }

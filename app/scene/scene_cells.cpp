@@ -41,7 +41,7 @@ void Scene::warm_up(std::span<const render::View> views,
     if (mesh_room_ > 0)
         footprints.push_back(render::Footprint::mesh);
     footprints.push_back(render::Footprint::surface);
-    const render::Texture map = render::color_map_texture(gl_, {glm::vec3(1.0f)}, false);
+    const render::Texture map = render::color_map_texture(gl_, {glm::vec3(1.0f)});
     // In the middle of the volume: as small as its voxels, of many pixels, and as large as on a way
     // through it.
     const auto whole = render::Placement::of(info_.grid, matrix(room_from_physical));

@@ -28,6 +28,7 @@ struct ValueColors {
     float low = 0.0f, high = 1.0f; ///< ends of the map, as fractions of the whole range
     /// The value at the high end over that at the low end where the map goes by logarithms, else 0.
     float ratio = 0.0f;
+    bool bands = false;                   ///< colors do not flow into each other
     glm::vec3 no_value{0.5f, 0.5f, 0.5f}; ///< sRGB, where there is none
 };
 

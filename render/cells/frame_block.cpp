@@ -121,6 +121,7 @@ FrameBlock frame_of(const CellAppearance& look, const FootprintShapes& shapes, F
         .soft_near_eye = gaussian,
         .color_ratio = look.values ? look.values->ratio : 0.0f,
         .mixed_levels = mixed_levels,
+        .color_bands = look.values && look.values->bands,
         .corners_by_slot = true,
         .padding = {},
         .index_from_normal = {},

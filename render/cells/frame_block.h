@@ -52,8 +52,9 @@ struct FrameBlock {
     std::int32_t soft_near_eye;
     float color_ratio;
     std::int32_t mixed_levels;
+    std::int32_t color_bands;
     std::int32_t corners_by_slot;
-    std::array<std::int32_t, 3> padding;
+    std::array<std::int32_t, 2> padding;
     std::array<glm::vec4, 3> index_from_normal; ///< rows
     glm::vec4 surroundings;                     ///< see frame.glsl
     glm::vec4 surroundings_size;

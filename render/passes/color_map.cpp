@@ -180,15 +180,14 @@ std::vector<glm::vec3> used(const std::vector<glm::vec3>& map, const ColorMapUse
     return parts;
 }
 
-Texture color_map_texture(const Gl& gl, const std::vector<glm::vec3>& colors, bool bands) {
+Texture color_map_texture(const Gl& gl, const std::vector<glm::vec3>& colors) {
     Texture texture(gl, GL_TEXTURE_1D);
     const auto size = static_cast<GLsizei>(colors.size());
-    const GLint filter = bands ? GL_NEAREST : GL_LINEAR;
     gl.TextureStorage1D(texture.name(), 1, GL_RGB16F, size);
     gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     gl.TextureSubImage1D(texture.name(), 0, 0, size, GL_RGB, GL_FLOAT, colors.data());
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, filter);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, filter);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl.TextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     return texture;
 }

@@ -50,9 +50,10 @@ struct ColorMapUse {
 };
 std::vector<glm::vec3> used(const std::vector<glm::vec3>& map, const ColorMapUse& use);
 
-/// Colors as GL_TEXTURE_1D, between which it interpolates unless they are bands.
+/// Colors as GL_TEXTURE_1D, between which it interpolates. Where they are bands, shaders look in the
+/// middle of texels: llvmpipe would compile them once more for a texture that does not interpolate.
 /// @param colors kColorMapSize of them
-Texture color_map_texture(const Gl& gl, const std::vector<glm::vec3>& colors, bool bands = false);
+Texture color_map_texture(const Gl& gl, const std::vector<glm::vec3>& colors);
 
 /// Colors for up to eight surfaces that can be told apart with the common kinds of color blindness:
 /// the set of M. Okabe and K. Ito, "Color Universal Design", 2002 (jfly.uni-koeln.de/color), with

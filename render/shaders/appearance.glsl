@@ -19,7 +19,10 @@ vec3 base_color(uint style) {
     if (color_ratio > 0.0)
         at = log2(1.0 + at * (color_ratio - 1.0)) / log2(color_ratio);
     float size = float(textureSize(color_map, 0));
-    return textureLod(color_map, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
+    float texel = at * (size - 1.0);
+    if (color_bands)
+        texel = floor(texel + 0.5);
+    return textureLod(color_map, (texel + 0.5) / size, 0.0).rgb;
 }
 
 vec3 written(vec3 light) {

@@ -38,6 +38,7 @@ layout(std140, binding = 0) uniform Frame {
     bool soft_near_eye; // fade what comes so near that it would veil the whole view
     float color_ratio;  // of the values at the map's ends where it goes by logarithms, else 0
     bool mixed_levels;  // cells are of several levels of detail: see cell_box.glsl
+    bool color_bands;   // the map has bands, whose colors do not flow into each other
     bool corners_by_slot; // surface.vert: corners are there for all slots, else for the cells drawn
     vec4 index_from_normal[3]; // rows: planes' normals from physical to index space
     vec4 surroundings;      // places of the field of surroundings per voxel; w: how much they darken

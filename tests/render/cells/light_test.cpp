@@ -171,6 +171,19 @@ TEST_P(Lights, TakeTheirColorFromTheMapAtTheValue) {
     expect(8190, colors.back());
 }
 
+TEST_P(Lights, OfBandsDoNotFlowIntoEachOther) {
+    const auto bands = used(color_map(ColorMap::inferno), {.bands = 2});
+    const Texture map = color_map_texture(gl_, bands);
+    look_.values = ValueColors{.map = map.name(), .bands = true};
+    for (const unsigned coordinate : {0u, 4000u, 4094u, 4096u, 4100u, 8190u}) {
+        const Image image = wall(Footprint::quad, std::uint16_t(coordinate << 3 | 3));
+        const glm::vec3 shown =
+            255.0f * srgb_from_linear(coordinate < 4095 ? bands.front() : bands.back());
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(image.at(32, 32)[channel], shown[channel], 3) << coordinate;
+    }
+}
+
 TEST_P(Lights, OfTheKeyStandStillInTheRoomWhileTheHeadTurns) {
     look_.head_light = 0;
     look_.key_light = 1;

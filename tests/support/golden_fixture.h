@@ -30,8 +30,9 @@ constexpr double kBox = 31.0;                                    ///< side of th
 /// Both contexts must give the same pictures: the same rasterizer draws in both, with the same
 /// bytes.
 /// With another processor's instructions (SSE4.1 instead of AVX2) single channels round to the next
-/// value. But no outline moves, which would change a pixel by a hundred or more.
-constexpr ImageTolerance kTolerance{.maximum = 12, .mean = 0.01};
+/// value, and a GPU (NVIDIA's) rounds by up to 2 in 0.025 on average. But no outline moves, which
+/// would change a pixel by a hundred or more.
+constexpr ImageTolerance kTolerance{.maximum = 12, .mean = 0.04};
 
 /// A placement that is rotated so that no edge of the box hides another.
 inline interaction::Similarity place_at(glm::dvec3 center, double scale) {

@@ -2,6 +2,7 @@
 #include "tests/support/session_fixture.h"
 
 #include "app/session/pattern_show.h"
+#include "render/gl/driver.h"
 #include "render/gl/srgb.h"
 #include "stereo/image_file.h"
 #include "stereo/windows.h"
@@ -135,9 +136,11 @@ TEST_P(KeptPicturesTest, AreWhatACaptureWrites) {
 
 TEST_P(KeptPicturesTest, OfMoreSamplesThanThereAreAreRefusedAtTheStart) {
     const auto small = context();
+    if (render::max_samples(render::Gl(small->loader())) >= 64)
+        GTEST_SKIP() << "there are as many as can be asked for";
     try {
         Session session(config_with(1, 64), file_, *small);
-        FAIL() << "this GL has 64 samples?";
+        FAIL() << "no error";
     } catch (const render::Error& error) {
         EXPECT_NE(std::string(error.what()).find("rendering.picture_samples"), std::string::npos);
         EXPECT_NE(std::string(error.what()).find("64"), std::string::npos);

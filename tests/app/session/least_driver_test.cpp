@@ -43,7 +43,7 @@ class LeastDriver : public GoldenPictures {
 /// Where points are a pixel at most, quads stand for them, which round a little otherwise. Of
 /// ellipses, which end between pixels, one pixel in a thousand may lie on the other side of an
 /// edge.
-constexpr ImageTolerance kEllipses{.maximum = 160, .mean = 0.05, .strays = 0.001};
+constexpr ImageTolerance kEllipses{.maximum = 160, .mean = 0.08, .strays = 0.001};
 constexpr ImageTolerance kSame{.maximum = 0, .mean = 0.0};
 
 TEST_P(LeastDriver, DrawsEveryFootprintAsAnyOther) {

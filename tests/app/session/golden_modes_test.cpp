@@ -65,13 +65,13 @@ class GoldenModes : public GoldenPictures {
         case StereoMode::right: {
             const Eye only = eyes_of(mode).front();
             expect_view(session, window, only);
-            EXPECT_TRUE(images_match(window, golden(only), kTolerance, name));
+            EXPECT_TRUE(images_match(window, golden(only), tolerance_, name));
             break;
         }
         case StereoMode::quadbuffer:
-            EXPECT_TRUE(images_match(window, golden(first), kTolerance, name));
+            EXPECT_TRUE(images_match(window, golden(first), tolerance_, name));
             EXPECT_TRUE(images_match(session.outputs().display().read_right_buffer(),
-                                     golden(second), kTolerance, name + "_right"));
+                                     golden(second), tolerance_, name + "_right"));
             break;
         case StereoMode::side_by_side:
             expect_view(session, part_of(window, {0, 0}, half_width), first);
@@ -85,7 +85,7 @@ class GoldenModes : public GoldenPictures {
         default:
             EXPECT_TRUE(images_match(window,
                                      interleaved(upright(mode), golden(first), golden(second)),
-                                     kTolerance, name));
+                                     tolerance_, name));
         }
     }
 };
@@ -122,7 +122,7 @@ TEST_P(GoldenModes, EveryStereoMode) {
         expect_window(session, mode, name);
         if (has_picture(mode)) {
             EXPECT_TRUE(
-                matches_golden(session.outputs().display().read_window(), name, kTolerance));
+                matches_golden(session.outputs().display().read_window(), name, tolerance_));
         }
     }
 }

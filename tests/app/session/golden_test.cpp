@@ -51,7 +51,7 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
         for (const auto& [eye, picture] : pictures) {
             const std::string name = std::string(one.name) + "_" + std::string(name_of(eye));
             SCOPED_TRACE(name);
-            EXPECT_TRUE(matches_golden(picture, name, kTolerance));
+            EXPECT_TRUE(matches_golden(picture, name, tolerance_));
             const PinholeEye pinhole = before_window(session, eye, kPicture);
             const Coverage actual = warm_part(picture);
             const Coverage expected = expected_part(pinhole, kPlacement, kOuterRadius);
@@ -74,7 +74,7 @@ TEST_P(GoldenPictures, ThePapersModeEndsAtSplats) {
     ASSERT_EQ(settle(session, commands), Footprint::gaussian);
     for (const Eye eye : {Eye::left, Eye::right})
         EXPECT_TRUE(matches_golden(session.outputs().display().read_eye(eye),
-                                   "gaussian_" + std::string(name_of(eye)), kTolerance));
+                                   "gaussian_" + std::string(name_of(eye)), tolerance_));
 }
 
 /// Of the inner one of two surfaces: the outer, which is warm, and the background have less blue.
@@ -99,7 +99,7 @@ TEST_P(GoldenPictures, TwoSurfacesThatLetLightThroughToEitherEye) {
         const std::string name = "two_surfaces_" + std::string(name_of(eye));
         SCOPED_TRACE(name);
         const Image picture = session.outputs().display().read_eye(eye);
-        EXPECT_TRUE(matches_golden(picture, name, kTolerance));
+        EXPECT_TRUE(matches_golden(picture, name, tolerance_));
         const PinholeEye pinhole = before_window(session, eye, kPicture);
         const auto part = [&](bool (*belongs)(const std::uint8_t*)) {
             return test_support::coverage(kAboveLegend,
@@ -124,7 +124,7 @@ TEST_P(GoldenPictures, AxesWithNumbersToEitherEye) {
         const std::string name = "axes_" + std::string(name_of(eye));
         SCOPED_TRACE(name);
         const Image picture = session.outputs().display().read_eye(eye);
-        EXPECT_TRUE(matches_golden(picture, name, kTolerance));
+        EXPECT_TRUE(matches_golden(picture, name, tolerance_));
         EXPECT_EQ(expect_box(picture, before_window(session, eye, kLarger), placement),
                   12 * kPerEdge);
     }
@@ -154,7 +154,7 @@ TEST_P(GoldenPictures, EveryWallOfACaveToEitherEye) {
             const std::string name = "cave_" + window.name + "_" + std::string(name_of(eye));
             SCOPED_TRACE(name);
             const Image picture = session.outputs().display(wall).read_eye(eye);
-            EXPECT_TRUE(matches_golden(picture, name, kTolerance));
+            EXPECT_TRUE(matches_golden(picture, name, tolerance_));
             const PinholeEye pinhole(window.viewports.front().screen, head, eye,
                                      session.state().eye_separation, kWall);
             expect_sphere(warm_part(picture), expected_part(pinhole, placement, kOuterRadius), 0.0);

@@ -90,7 +90,7 @@ TEST_F(HeadsetSession, EachCantedEyeIsShownTheSphereWhereItStands) {
         const std::string name = "headset_" + std::string(name_of(eye));
         SCOPED_TRACE(name);
         const played::SubmittedView& view = views[eye == Eye::right];
-        EXPECT_TRUE(matches_golden(view.picture, name, kTolerance));
+        EXPECT_TRUE(matches_golden(view.picture, name, tolerance_of(*context_)));
         EXPECT_EQ(view.picture.rgba, session_->outputs().headset_display()->read_eye(eye).rgba);
         const PinholeEye pinhole = oracle_of(view);
         expect_sphere(warm_part(view.picture), expected_part(pinhole, kPlacement, kOuterRadius),
@@ -295,7 +295,7 @@ TEST_F(HeadsetSession, TheMirrorCutsTheLeftEyeToTheWindow) {
     const Image window = session_->outputs().headset_display()->read_window();
     ASSERT_EQ(window.width, 128);
     ASSERT_EQ(window.height, 96);
-    EXPECT_TRUE(matches_golden(window, "headset_mirror", kTolerance));
+    EXPECT_TRUE(matches_golden(window, "headset_mirror", tolerance_of(*context_)));
     // All of the eye's width shows, so the sphere is as much smaller as the window is; the filter
     // widens its rim by less than half a pixel.
     const Coverage in_window = warm_part(window);

@@ -24,7 +24,7 @@ std::string read_text(const fs::path& path) {
 }
 
 struct ResultFiles {
-    fs::path index, render, artifacts, scale, agreement, out;
+    fs::path index, render, artifacts, scale, gpu, agreement, out;
 };
 
 void run_bench_results(const ResultFiles& files) {
@@ -32,6 +32,7 @@ void run_bench_results(const ResultFiles& files) {
                                          .render = files.render.string(),
                                          .artifacts = files.artifacts.string(),
                                          .scale = files.scale.string(),
+                                         .gpu = files.gpu.string(),
                                          .agreement = files.agreement.string()},
                                         read_text);
     if (files.out.empty())
@@ -54,6 +55,8 @@ void add_results(app::Command& program) {
     command.option("--artifacts", files->artifacts, "Results of `isochron-bench artifacts --json`")
         .type_name("FILE.json");
     command.option("--scale", files->scale, "What `isochron-bench scale` printed")
+        .type_name("FILE.txt");
+    command.option("--gpu", files->gpu, "What programs printed where a GPU drew")
         .type_name("FILE.txt");
     command
         .option("--agreement", files->agreement,

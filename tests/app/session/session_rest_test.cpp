@@ -33,6 +33,20 @@ class KnownTimes final : public FramesAlone {
     const std::atomic<bool>& stalls_;
 };
 
+/// Answers with at most so many cells, however many are asked for: that depends on what was measured.
+/// @param most_cells 0: all of level 0
+index::ExtractionPtr with_cells(const index::Extract& extract, std::uint64_t most_cells,
+                                const index::SurfacesQuery& query, std::stop_token stop) {
+    index::SurfacesQuery same = query;
+    same.detail = {most_cells, query.detail.at_rest, {}};
+    const index::ExtractionPtr set = extract(same, std::move(stop));
+    if (!set)
+        return nullptr;
+    auto asked = std::make_shared<index::Extraction>(*set);
+    asked->query = query;
+    return asked;
+}
+
 TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
     Config config = config_with(1e-6);
     config.still_budget_ms = 1e-6; // a piece in each frame
@@ -47,15 +61,9 @@ TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
                 std::this_thread::yield();
             if (!query.detail.at_rest)
                 return real(query, stop);
-            index::SurfacesQuery same = query; // whatever was measured
-            same.detail = {20'000, true, {}};
-            const index::ExtractionPtr set = real(same, stop);
-            if (!set)
-                return nullptr;
-            auto asked = std::make_shared<index::Extraction>(*set);
-            asked->query = query;
-            found = true;
-            return asked;
+            const index::ExtractionPtr set = with_cells(real, 20'000, query, stop);
+            found = set != nullptr || found;
+            return set;
         };
         Session session(config, large_, *context_, extract);
         FrameReport report = first_frame(session, false);
@@ -175,23 +183,25 @@ TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
 }
 
 TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpectedToFit) {
-    std::uint64_t far = 0; // such cells: sets for motion may come between
-    for (int i = 0; i < 20 && far == 0; ++i) {
-        Session session(config_with(20), large_, *context_);
-        session.share_frames(std::make_unique<KnownTimes>()); // of 14 ms for all
-        FrameReport report = first_frame(session, false);
-        std::uint64_t last = 0; // cells that were drawn
-        ASSERT_TRUE(test_support::eventually([&] {
-            report = frame(session, false);
-            if (report.redrawn && last > 0 && report.cells > 4 * last) {
-                EXPECT_EQ(report.reason, QualityReason::in_slices)
-                    << report.cells << " after " << last;
-                far = report.cells;
-            }
-            last = report.redrawn ? report.cells : last;
-            return report.final && report.cells > 0 && report.coarsest == 0;
-        }));
-    }
+    const render::Gl gl(context_->loader());
+    const index::Extract real =
+        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+        return with_cells(real, query.detail.at_rest ? 0 : DetailChoice::kFewest, query, stop);
+    };
+    Session session(config_with(20), large_, *context_, extract);
+    session.share_frames(std::make_unique<KnownTimes>()); // of 14 ms for all
+    FrameReport report = first_frame(session, false);
+    std::uint64_t last = 0, far = 0; // cells that were drawn
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        if (report.redrawn && last > 0 && report.cells > 4 * last) {
+            EXPECT_EQ(report.reason, QualityReason::in_slices) << report.cells << " after " << last;
+            far = report.cells;
+        }
+        last = report.redrawn ? report.cells : last;
+        return report.final && report.cells > 0 && report.coarsest == 0;
+    }));
     EXPECT_GT(far, 0u);
 }
 
